@@ -1,8 +1,77 @@
-"""engine3d: draws 3D scenes on the CPU, the same bytes on every machine."""
+"""engine3d: draw 3D scenes on the CPU, the same bytes on every machine.
+
+This module is the list of public names and nothing else: each is imported from its module when it
+is first used, so that ``import engine3d`` costs next to nothing. docs/conventions.md tells the
+spaces, units and colours that hold everywhere.
+"""
 
 if __name__ != "engine3d":
-    raise ImportError(f"this package is engine3d; it was imported as {__name__}")
+    raise ImportError(
+        f"this package is engine3d and was imported as {__name__!r}: install it (pip install .) "
+        "and import engine3d"
+    )
+
+from importlib import import_module
 
 from .version import __version__
 
-__all__ = ["__version__"]
+# public name -> module that defines it
+_PUBLIC = {
+    "BackendError": "errors",
+    "DisplayError": "errors",
+    "Engine3DError": "errors",
+    "Engine3DWarning": "errors",
+    "FileAccessError": "errors",
+    "FileFormatError": "errors",
+    "InvalidArgumentError": "errors",
+    "MissingOutputError": "errors",
+    "OutOfMemoryError": "errors",
+    "Mesh": "mesh",
+    "Material": "materials",
+    "Texture": "textures",
+    "InstancedMesh": "instances",
+    "box": "primitives",
+    "cylinder": "primitives",
+    "icosphere": "primitives",
+    "plane": "primitives",
+    "quad": "primitives",
+    "torus": "primitives",
+    "uv_sphere": "primitives",
+    "load_mesh": "loaders",
+    "load_texture": "loaders",
+    "load_scene": "scene_loading",
+    "look_at": "linalg",
+    "Camera": "cameras",
+    "IntrinsicsCamera": "cameras",
+    "OrthographicCamera": "cameras",
+    "PerspectiveCamera": "cameras",
+    "frame_bounds": "cameras",
+    "DirectionalLight": "lights",
+    "PointLight": "lights",
+    "Node": "scene",
+    "Scene": "scene",
+    "Frame": "frame",
+    "Renderer": "renderer",
+    "render": "renderer",
+    "Canvas": "canvas",
+    "RasterizeResult": "rasterize",
+}
+_MODULES = frozenset({"errors", "linalg", "loaders", "primitives"})
+
+__all__ = ["__version__"] + list(_PUBLIC) + list(_MODULES)
+
+
+def __getattr__(name):
+    """Import a public name from its module on first use (PEP 562)."""
+    if name in _PUBLIC:
+        value = getattr(import_module(f".{_PUBLIC[name]}", __name__), name)
+    elif name in _MODULES:
+        value = import_module(f".{name}", __name__)
+    else:
+        raise AttributeError(f"module 'engine3d' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

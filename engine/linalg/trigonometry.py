@@ -1,0 +1,127 @@
+"""Sine, cosine and tangent that give the same bits on every processor.
+
+In: angles in radians, scalars or arrays. Out: float64 within 1 ulp of the exact value or so.
+``libm`` and NumPy choose among variants at run time (with or without FMA, with vectors) that
+differ in the last bit, so geometry built on them differs between machines. Here there are only
+IEEE additions and multiplications in a fixed order.
+Method: Cody and Waite's argument reduction to [-pi/4, pi/4], then Taylor's series.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+
+# pi/2 as a sum of three doubles. The first two have at most 33 significant bits, so that their
+# products with a quadrant number below 2**20 are exact.
+_HALF_PI_HIGH = float.fromhex("0x1.921fb544p+0")
+_HALF_PI_MIDDLE = float.fromhex("0x1.0b4611a6p-34")
+_HALF_PI_LOW = float.fromhex("0x1.3198a2e037073p-69")
+_REDUCTION_LIMIT = 2.0**20
+
+# Coefficients of x**3, x**5, ... and of x**4, x**6, ...; the first term left out is below 2**-60.
+_SINE_TERMS = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9))
+_COSINE_TERMS = tuple((-1.0) ** k / math.factorial(2 * k) for k in range(2, 9))
+
+
+def _reduce(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Split angles into the quadrant number 0..3 and a remainder in [-pi/4, pi/4]."""
+    # A quadrant number beyond 2**20 would lose bits. Reducing by the double nearest to 2*pi then
+    # costs less than the angle's own rounding.
+    turned = np.where(np.abs(angle) < _REDUCTION_LIMIT, angle, np.fmod(angle, 2.0 * math.pi))
+    count = np.rint(turned * (2.0 / math.pi))
+    rest = turned - count * _HALF_PI_HIGH - count * _HALF_PI_MIDDLE - count * _HALF_PI_LOW
+    return np.mod(count, 4.0), rest
+
+
+def _horner(x: FloatArray, coefficients: tuple[float, ...]) -> FloatArray:
+    total = np.full_like(x, coefficients[-1])
+    for coefficient in reversed(coefficients[:-1]):
+        total = total * x + coefficient
+    return total
+
+
+def _sine_cosine(angle: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    angle = np.asarray(angle, np.float64)
+    with np.errstate(invalid="ignore"):  # infinite angles give NaN, as in NumPy
+        quadrant, x = _reduce(angle)
+        square = x * x
+        sine = x + x * square * _horner(square, _SINE_TERMS)
+        half = 0.5 * square
+        leading = 1.0 - half
+        # The second summand is what the subtraction above rounded away.
+        cosine = leading + (
+            ((1.0 - leading) - half) + square * square * _horner(square, _COSINE_TERMS)
+        )
+    swapped = (quadrant == 1.0) | (quadrant == 3.0)
+    sine, cosine = np.where(swapped, cosine, sine), np.where(swapped, sine, cosine)
+    sine = np.where(quadrant >= 2.0, -sine, sine)
+    cosine = np.where((quadrant == 1.0) | (quadrant == 2.0), -cosine, cosine)
+    return sine, cosine
+
+
+def _like(angle: npt.ArrayLike, value: FloatArray) -> FloatArray | float:
+    """Give a plain float for a scalar angle."""
+    return float(value) if np.ndim(angle) == 0 else value
+
+
+def sin(angle: npt.ArrayLike) -> FloatArray | float:
+    """Return the sine of angles in radians.
+
+    Parameters
+    ----------
+    angle : array_like
+        Angles of any shape.
+
+    Returns
+    -------
+    float or ndarray of float64
+        A float for a scalar, else an array of the shape of `angle`. NaN where the angle is NaN
+        or infinite.
+    """
+    return _like(angle, _sine_cosine(angle)[0])
+
+
+def cos(angle: npt.ArrayLike) -> FloatArray | float:
+    """Return the cosine of angles in radians; shapes as in `sin`."""
+    return _like(angle, _sine_cosine(angle)[1])
+
+
+def tan(angle: npt.ArrayLike) -> FloatArray | float:
+    """Return the tangent of angles in radians; shapes as in `sin`."""
+    sine, cosine = _sine_cosine(angle)
+    return _like(angle, sine / cosine)
+
+
+def unit_circle(count: int) -> tuple[FloatArray, FloatArray]:
+    """Return the points of a regular polygon on the unit circle, with exact symmetry.
+
+    Point ``k`` is at the angle ``2 * pi * k / count``. The coordinates at multiples of a quarter
+    turn are exactly 0 and +-1, and mirror images agree to the bit: each angle is folded, as a
+    fraction of integers, into the first octant before its sine and cosine are taken.
+
+    Parameters
+    ----------
+    count : int
+        Number of points, at least 1.
+
+    Returns
+    -------
+    x, y : ndarray of float64, shape (count,)
+        Cosines and sines.
+    """
+    eighths = 8 * np.arange(count)  # the angle in units of 1/count of an octant
+    octant, position = np.divmod(eighths, count)
+    folded = np.where(octant % 2 == 1, count - position, position)
+    sine, cosine = _sine_cosine(folded * (math.pi / 4.0) / count)
+    steep = np.isin(octant, (1, 2, 5, 6))  # nearer to the Y axis than to the X axis
+    x = np.where(steep, sine, cosine)
+    y = np.where(steep, cosine, sine)
+    # The end of an octant is 45 degrees, where the series gives two values one ulp apart.
+    diagonal = folded == count
+    x, y = (np.where(diagonal, math.sqrt(0.5), values) for values in (x, y))
+    return np.where(np.isin(octant, (2, 3, 4, 5)), -x, x) + 0.0, np.where(octant >= 4, -y, y) + 0.0

@@ -1,0 +1,138 @@
+"""Camera poses and projections to OpenGL's clip space.
+
+In: positions in world space, angles in radians, distances in world units. Out: 4x4 float64.
+Cameras look down -Z with +Y up; inside the frustum -w <= x, y, z <= w, and z grows with distance.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import InvalidArgumentError
+from .trigonometry import tan
+from .vectors import as_vectors, cross, length, normalize
+
+FloatArray = npt.NDArray[np.float64]
+
+# Below this sine of the angle between the line of sight and `up`, another `up` is taken.
+_PARALLEL = 1e-9
+
+
+def look_at(
+    eye: npt.ArrayLike, target: npt.ArrayLike, up: npt.ArrayLike = (0.0, 1.0, 0.0)
+) -> FloatArray:
+    """Return the pose (world-from-camera) of a camera at `eye` that looks at `target`.
+
+    Parameters
+    ----------
+    eye, target : array_like, shape (3,)
+        World positions.
+    up : array_like, shape (3,)
+        The direction that shall point up in the image. Where it is parallel to the line of sight
+        (looking straight down), the world axis most perpendicular to that line replaces it.
+
+    Returns
+    -------
+    ndarray of float64, shape (4, 4)
+
+    Raises
+    ------
+    InvalidArgumentError
+        If eye and target coincide, or a position isn't finite.
+    """
+    eye, target, up = as_vectors("eye", eye), as_vectors("target", target), as_vectors("up", up)
+    backward = normalize(eye - target)
+    if not np.any(backward) or not np.all(np.isfinite(backward)):
+        raise InvalidArgumentError("eye and target must be two finite, different positions")
+    right = cross(normalize(up), backward)
+    if not length(right) > _PARALLEL:
+        right = cross(np.eye(3)[np.argmin(np.abs(backward))], backward)
+    right = normalize(right)
+    pose = np.eye(4)
+    pose[:3, 0] = right
+    pose[:3, 1] = cross(backward, right)
+    pose[:3, 2] = backward
+    pose[:3, 3] = eye
+    return pose
+
+
+def perspective(yfov: float, aspect: float, znear: float, zfar: float | None = None) -> FloatArray:
+    """Return a perspective projection.
+
+    Parameters
+    ----------
+    yfov : float
+        Vertical field of view in radians, between 0 and pi.
+    aspect : float
+        Width over height of the image.
+    znear : float
+        Distance of the near plane, greater than 0.
+    zfar : float or None
+        Distance of the far plane, greater than `znear`; None or infinity for none at all.
+
+    Returns
+    -------
+    ndarray of float64, shape (4, 4)
+        clip_from_view.
+
+    Raises
+    ------
+    InvalidArgumentError
+        If an argument is out of its range.
+    """
+    if not 0.0 < yfov < math.pi:
+        raise InvalidArgumentError(f"yfov must be between 0 and pi radians, not {yfov}")
+    if not 0.0 < aspect < math.inf:
+        raise InvalidArgumentError(f"aspect must be greater than 0, not {aspect}")
+    if not 0.0 < znear < math.inf:
+        raise InvalidArgumentError(f"znear must be greater than 0, not {znear}")
+    zfar = math.inf if zfar is None else zfar
+    if not zfar > znear:
+        raise InvalidArgumentError(f"zfar must be greater than znear ({znear}), not {zfar}")
+    focal = 1.0 / tan(0.5 * yfov)
+    matrix = np.zeros((4, 4))
+    matrix[0, 0] = focal / aspect
+    matrix[1, 1] = focal
+    matrix[3, 2] = -1.0
+    if math.isinf(zfar):
+        matrix[2, 2], matrix[2, 3] = -1.0, -2.0 * znear
+    else:
+        matrix[2, 2] = (zfar + znear) / (znear - zfar)
+        matrix[2, 3] = 2.0 * zfar * znear / (znear - zfar)
+    return matrix
+
+
+def orthographic(xmag: float, ymag: float, znear: float, zfar: float) -> FloatArray:
+    """Return a parallel projection.
+
+    Parameters
+    ----------
+    xmag, ymag : float
+        Half the width and half the height of the visible box, greater than 0.
+    znear, zfar : float
+        Distances of the near and far plane along the line of sight; `zfar` is the greater one,
+        and a negative `znear` lies behind the camera.
+
+    Returns
+    -------
+    ndarray of float64, shape (4, 4)
+        clip_from_view.
+
+    Raises
+    ------
+    InvalidArgumentError
+        If an argument is out of its range.
+    """
+    if not (0.0 < xmag < math.inf and 0.0 < ymag < math.inf):
+        raise InvalidArgumentError(f"xmag and ymag must be greater than 0, not {xmag}, {ymag}")
+    if not -math.inf < znear < zfar < math.inf:
+        raise InvalidArgumentError(f"znear must be less than zfar, not {znear}, {zfar}")
+    matrix = np.eye(4)
+    matrix[0, 0] = 1.0 / xmag
+    matrix[1, 1] = 1.0 / ymag
+    matrix[2, 2] = 2.0 / (znear - zfar)
+    matrix[2, 3] = (zfar + znear) / (znear - zfar)
+    return matrix

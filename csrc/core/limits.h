@@ -1,0 +1,31 @@
+/* Every bound and tuning constant of the core, each with the budget that it keeps.
+ *
+ * Coverage (docs/exactness.md, R12): in a tile of T samples an edge that crosses it has
+ * |E / 256| <= (T - 1)(|a| + |b|). |a| and |b| are at most 256 * (clip region), so 32-bit lanes are
+ * exact while (T - 1) * 2 * 256 * region < 2^31: T = 64 allows regions up to 66,576 samples. The guard
+ * band is 65,536 wide; a line adds at most 512 on each side, which gives 66,560.
+ */
+#ifndef E3D_LIMITS_H
+#define E3D_LIMITS_H
+
+enum {
+    E3D_TILE = 64,               /* samples a side: depth and slot of a tile fill half an L1 cache */
+    E3D_TILE_SAMPLES = E3D_TILE * E3D_TILE,
+    E3D_SUBPIXEL = 256,          /* positions are snapped to 1/256 sample */
+    E3D_GUARD = 32768,           /* samples from the viewport's centre to the guard band */
+    E3D_MAX_LINE_SAMPLES = 1024, /* line width or point size: 256 pixels of 4 samples */
+    E3D_CLUSTER_TRIANGLES = 64,  /* a cluster's triangles and vertices: 8-bit local indices */
+    E3D_CLUSTER_VERTICES = 128,
+    E3D_MAX_THREADS = 256
+};
+
+_Static_assert((long long)(E3D_TILE - 1) * 2 * E3D_SUBPIXEL * (2 * E3D_GUARD + E3D_MAX_LINE_SAMPLES) <
+                   (1LL << 31),
+               "edge functions of a tile fit 32-bit lanes");
+
+#define E3D_W_MIN 0x1p-20f      /* behind this the eye is too near: clipped away */
+#define E3D_WIRE_PULL 0x1p-12f  /* z_ndc by which wireframe edges are pulled towards the viewer */
+#define E3D_UNORM16 0x1.0001p-16f /* 1 / 65535 */
+#define E3D_UNORM8 0x1.010102p-8f /* 1 / 255 */
+
+#endif

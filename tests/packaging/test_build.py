@@ -1,0 +1,94 @@
+"""The build's own promises, tried with the real setup.py on a tree of a few tiny C files."""
+
+import shutil
+import sys
+
+import pytest
+
+# The core is two numbers, one of them behind an .inl file.
+CORE = """
+#if defined(__FAST_MATH__) || defined(__AVX2__) || defined(__FMA__)
+#error "the baseline must be plain x86-64 with exact arithmetic"
+#endif
+#include "kernels/number.inl"
+int e3d_number(void);
+int e3d_number(void) { return NUMBER; }
+"""
+ISA_AVX2 = """
+#if !defined(__AVX2__) || defined(__FMA__) || defined(__AVX512F__) || defined(__FAST_MATH__)
+#error "AVX2 means -mavx2 alone"
+#endif
+"""
+GATEWAY = """
+cdef extern from *:
+    "int e3d_number(void);"
+    int e3d_number()
+
+def number():
+    return e3d_number()
+"""
+
+
+@pytest.fixture
+def tiny_tree(source_tree, tmp_path):
+    """A copy of setup.py and pyproject.toml with a core that compiles in a moment."""
+    files = {
+        "csrc/core/number.c": CORE,
+        "csrc/kernels/number.inl": "#define NUMBER 42\n",
+        "csrc/kernels/isa_avx2.c": ISA_AVX2,
+        "engine/__init__.py": "",
+        "engine/_native/__init__.py": "",
+        "engine/_native/number.pyx": GATEWAY,
+        "data/__init__.py": "",
+        "README.md": "",
+        "LICENSE": "",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text, "utf-8")
+    for name in ("setup.py", "pyproject.toml", "engine/version.py"):
+        shutil.copy(source_tree / name, tmp_path / name)
+    return tmp_path
+
+
+@pytest.fixture
+def build(run_python, tiny_tree):
+    """Call with variables to set: builds the tiny tree in place, returns the number it gives."""
+
+    def build_in_place(**environment):
+        run_python("setup.py", "-q", "build_ext", "--inplace", cwd=tiny_tree, **environment)
+        code = "import number; print(number.number())"
+        return int(run_python("-c", code, cwd=tiny_tree / "engine" / "_native"))
+
+    return build_in_place
+
+
+def test_edited_include_is_rebuilt(build, tiny_tree):
+    assert build() == 42
+    (tiny_tree / "csrc/kernels/number.inl").write_text("#define NUMBER 43\n", "utf-8")
+    assert build() == 43
+
+
+def test_unchanged_files_are_not_rebuilt(build, tiny_tree):
+    build()
+    made = {path: path.stat().st_mtime_ns for path in tiny_tree.glob("build/**/*.o")}
+    build()
+    assert made == {path: path.stat().st_mtime_ns for path in tiny_tree.glob("build/**/*.o")}
+
+
+@pytest.mark.parametrize("cflags", ["-Ofast -march=native -flto", "-ffast-math -O0"])
+def test_flags_of_the_user_cannot_change_results(build, cflags):
+    assert build(CFLAGS=cflags) == 42
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="sanitizers are set up for Linux only")
+def test_kinds_of_build_share_no_object(run_python, tiny_tree):
+    for kind in ("release", "asan"):
+        run_python("setup.py", "-q", "build_clib", cwd=tiny_tree, ENGINE3D_BUILD=kind)
+    objects = [path.relative_to(tiny_tree).parts[1] for path in tiny_tree.glob("build/**/number.o")]
+    assert sorted(objects) == ["asan", "release"]
+
+
+def test_unknown_kind_of_build_is_refused(run_python, tiny_tree):
+    with pytest.raises(AssertionError, match="expected one of release, debug"):
+        run_python("setup.py", "-q", "build_clib", cwd=tiny_tree, ENGINE3D_BUILD="fast")

@@ -1,0 +1,98 @@
+"""The source distribution is complete; the wheel built from it holds what it must, no more."""
+
+import tarfile
+import zipfile
+from pathlib import PurePosixPath
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+MAX_WHEEL_BYTES = 10_000_000
+SOURCE_FOLDERS = ["benchmarks", "csrc", "data", "docs", "engine", "tests"]
+SOURCE_FILES = ["CHANGELOG.md", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml", "setup.py"]
+BUILD_PRODUCTS = {".so", ".o", ".a", ".pyc"}
+
+
+@pytest.fixture(scope="module")
+def sdist(run_python, source_tree, tmp_path_factory):
+    """The path of the source distribution, built from the source tree."""
+    folder = tmp_path_factory.mktemp("sdist")
+    run_python("-m", "build", "-n", "--sdist", "-o", folder, source_tree, cwd=folder)
+    (archive,) = folder.glob("*.tar.gz")
+    return archive
+
+
+@pytest.fixture(scope="module")
+def unpacked(sdist):
+    """The folder that the source distribution unpacks to."""
+    with tarfile.open(sdist) as archive:
+        archive.extractall(sdist.parent, filter="data")
+    return sdist.parent / sdist.name.removesuffix(".tar.gz")
+
+
+@pytest.fixture(scope="module")
+def wheel(run_python, unpacked, tmp_path_factory):
+    """The path of the wheel, built from the unpacked source distribution alone."""
+    folder = tmp_path_factory.mktemp("wheel")
+    run_python("-m", "build", "-n", "--wheel", "-o", folder, unpacked, cwd=folder)
+    (path,) = folder.glob("*.whl")
+    return path
+
+
+def files_below(folder, names):
+    """The files of some folders of `folder`, as relative POSIX paths, build products aside."""
+    return {
+        path.relative_to(folder).as_posix()
+        for name in names
+        for path in (folder / name).rglob("*")
+        if path.is_file() and path.suffix not in BUILD_PRODUCTS
+    }
+
+
+def test_sdist_holds_every_source(unpacked, source_tree):
+    held = files_below(unpacked, SOURCE_FOLDERS)
+    assert files_below(source_tree, SOURCE_FOLDERS) <= held
+    assert all((unpacked / name).is_file() for name in SOURCE_FILES)
+
+
+def test_sdist_holds_no_build_product(sdist):
+    with tarfile.open(sdist) as archive:
+        names = [PurePosixPath(name) for name in archive.getnames()]
+    assert not [str(name) for name in names if name.suffix in BUILD_PRODUCTS]
+    assert not [str(name) for name in names if "build" in name.parts[1:2]]
+
+
+def test_wheel_is_small(wheel):
+    size = wheel.stat().st_size
+    print(f"{wheel.name}: {size / 1e6:.2f} MB")
+    assert size < MAX_WHEEL_BYTES
+
+
+def test_wheel_holds_every_module_stub_and_data_file(wheel, source_tree):
+    with zipfile.ZipFile(wheel) as archive:
+        held = set(archive.namelist())
+    engine = source_tree / "engine"
+    expected = {
+        f"engine3d/{path.relative_to(engine).as_posix()}"
+        for pattern in ("*.py", "*.pyi", "py.typed")
+        for path in engine.rglob(pattern)
+    }
+    data = source_tree / "data"
+    expected |= {
+        f"engine3d/data/{path.relative_to(data).as_posix()}"
+        for path in data.rglob("*")
+        if path.is_file() and not {"scripts", "__pycache__"} & set(path.relative_to(data).parts)
+    }
+    assert expected <= held
+    modules = {path.stem for path in engine.glob("_native/*.pyx")}
+    compiled = {PurePosixPath(name).name.split(".")[0] for name in held if name.endswith(".so")}
+    assert compiled == modules
+
+
+def test_wheel_holds_nothing_else(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+    roots = {name.split("/")[0].split("-")[0] for name in names}
+    assert roots == {"engine3d"}
+    assert not [name for name in names if name.endswith((".pyx", ".c", ".h", ".inl", ".a"))]

@@ -1,0 +1,57 @@
+"""`import engine3d` is light: NumPy and the core, and nothing that only some of its users need."""
+
+import json
+import sys
+
+# Prints the modules that engine3d adds to NumPy's own, and the seconds that they take.
+PROBE = """
+import json, sys, time
+import numpy
+before = set(sys.modules)
+start = time.perf_counter()
+import engine3d
+seconds = time.perf_counter() - start
+print(json.dumps([sorted(set(sys.modules) - before), seconds]))
+"""
+HEAVY = {
+    "argparse",
+    "asyncio",
+    "concurrent.futures",
+    "email",
+    "http",
+    "importlib.metadata",
+    "multiprocessing",
+    "socket",
+    "ssl",
+    "subprocess",
+    "unittest",
+    "urllib.request",
+}
+
+
+def test_import_loads_only_numpy_and_the_core(run_python, tmp_path):
+    added, seconds = json.loads(run_python("-c", PROBE, cwd=tmp_path))
+    print(f"import engine3d after NumPy: {1000 * seconds:.0f} ms, {len(added)} modules")
+    foreign = {
+        name
+        for name in added
+        if name.split(".")[0] not in {"engine3d", *sys.stdlib_module_names}
+        # Shared by everything that Cython compiled.
+        and not name.startswith(("_cython", "cython_runtime"))
+    }
+    # What an editable install's .pth file brings, before anything is imported by name.
+    foreign = {name for name in foreign if not name.startswith("__editable__")}
+    assert not foreign
+    assert not HEAVY.intersection(added)
+
+
+def test_package_refuses_another_name(run_python, source_tree, tmp_path):
+    code = f"""
+import sys
+sys.path.insert(0, {str(source_tree)!r})
+try:
+    import engine
+except ImportError as error:
+    print(error)
+"""
+    assert "engine3d" in run_python("-c", code, cwd=tmp_path)

@@ -1,0 +1,111 @@
+"""Colours as people write them, turned into the linear light that the core computes with.
+
+In: a colour of three numbers. Floats are linear light; 8-bit values (``uint8`` arrays, Python
+integers in 0..255) are sRGB. Out: three float32 in linear light. The sRGB curve is that of
+IEC 61966-2-1, as a table of 256 values: 8-bit colours need no other.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import numbers
+
+import numpy as np
+
+from .errors import InvalidArgumentError
+
+COLOR_SPACES = ("srgb", "linear")
+
+
+@functools.cache
+def srgb_to_linear_table() -> np.ndarray:
+    """Return the linear value of each 8-bit sRGB value: (256,) float32, read-only."""
+    table = np.empty(256, np.float64)
+    for value in range(256):
+        encoded = value / 255
+        if encoded <= 0.04045:
+            table[value] = encoded / 12.92
+        else:
+            table[value] = math.pow((encoded + 0.055) / 1.055, 2.4)
+    table = table.astype(np.float32)
+    table.setflags(write=False)
+    return table
+
+
+def check_color(value, what: str = "color"):
+    """Return ``value`` unchanged as a tuple, or raise if it is not a colour.
+
+    Parameters
+    ----------
+    value : sequence of 3 numbers
+        Finite and not negative; integers at most 255. Floats above 1 are allowed (bright lights).
+    what : str
+        The name used in the message.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    components = tuple(_scalar(component) for component in _sequence(value, what))
+    if len(components) != 3:
+        raise InvalidArgumentError(f"{what} needs 3 components, got {len(components)}")
+    for component in components:
+        if not isinstance(component, numbers.Real) or isinstance(component, bool):
+            raise InvalidArgumentError(f"{what} is not made of numbers: {value!r}")
+        if not math.isfinite(component) or component < 0:
+            raise InvalidArgumentError(f"{what} must be finite and not negative: {value!r}")
+    if is_8bit(components) and max(components) > 255:
+        raise InvalidArgumentError(f"{what} of integers must be in 0..255: {value!r}")
+    return components
+
+
+def linear_color(value, color_space: str = "srgb") -> np.ndarray:
+    """Return a colour in linear light.
+
+    Parameters
+    ----------
+    value : sequence of 3 numbers
+        Floats are linear and taken as they are. Integers are 8-bit sRGB, except that integers
+        which are all 0 or 1 mean the same as ``0.0`` and ``1.0``, so that ``(1, 1, 1)`` is white;
+        NumPy's ``uint8`` are 8-bit sRGB always. One float among integers makes all floats.
+    color_space : {"srgb", "linear"}
+        With ``"linear"`` an 8-bit value c means c/255, without the sRGB curve.
+
+    Returns
+    -------
+    color : (3,) float32
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    if color_space not in COLOR_SPACES:
+        raise InvalidArgumentError(f"color_space must be one of {COLOR_SPACES}: {color_space!r}")
+    components = check_color(value)
+    if not is_8bit(components):
+        return np.array(components, np.float32)
+    if color_space == "linear":
+        return (np.array(components, np.float64) / 255).astype(np.float32)
+    return srgb_to_linear_table()[list(components)]
+
+
+def is_8bit(components) -> bool:
+    """Tell whether a colour of Python or NumPy scalars is meant as 8-bit values."""
+    if not all(isinstance(c, numbers.Integral) for c in components):
+        return False
+    return max(components) > 1 or all(isinstance(c, np.uint8) for c in components)
+
+
+def _sequence(value, what: str) -> list:
+    try:
+        return list(value)
+    except TypeError:
+        raise InvalidArgumentError(f"{what} must be a sequence of 3 numbers: {value!r}") from None
+
+
+def _scalar(component):
+    """Python scalars for everything but uint8, whose type says that it is an 8-bit value."""
+    if isinstance(component, np.generic) and not isinstance(component, np.uint8):
+        return component.item()
+    return component

@@ -1,0 +1,108 @@
+"""The exceptions and the warning of engine3d.
+
+Every exception that the project raises on purpose is an `Engine3DError` and also inherits the
+built-in that fits, so that both ``except Engine3DError`` and ``except ValueError`` work. The text
+of a file error starts with ``FILE:LINE:`` and is one line, ready for the command line.
+"""
+
+from __future__ import annotations
+
+import os
+
+
+class Engine3DError(Exception):
+    """Root of every exception of engine3d's own."""
+
+
+class FileFormatError(Engine3DError, ValueError):
+    """The content of a file is not what its format allows.
+
+    Parameters
+    ----------
+    message : str
+        What is wrong, in one line.
+    path : str or path-like, optional
+        The file.
+    line : int, optional
+        Line number, counted from 1, for text formats.
+
+    Attributes
+    ----------
+    message : str
+    path : str or None
+    line : int or None
+    """
+
+    def __init__(
+        self, message: str, path: str | os.PathLike | None = None, line: int | None = None
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.path = None if path is None else os.fspath(path)
+        self.line = line
+
+    def __str__(self) -> str:
+        return located(self.message, self.path, self.line)
+
+    def __reduce__(self):
+        return type(self), (self.message, self.path, self.line)
+
+
+class FileAccessError(Engine3DError, OSError):
+    """A file cannot be opened, read or written.
+
+    Parameters
+    ----------
+    message : str
+        What is wrong, in one line.
+    path : str or path-like, optional
+        The file.
+
+    Attributes
+    ----------
+    message : str
+    path : str or None
+    """
+
+    def __init__(self, message: str, path: str | os.PathLike | None = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.path = None if path is None else os.fspath(path)
+
+    def __str__(self) -> str:
+        return located(self.message, self.path)
+
+    def __reduce__(self):
+        return type(self), (self.message, self.path)
+
+
+class InvalidArgumentError(Engine3DError, ValueError):
+    """An argument has a wrong type, shape or value."""
+
+
+class BackendError(Engine3DError, RuntimeError):
+    """A backend is unknown, or this machine cannot run it."""
+
+
+class OutOfMemoryError(Engine3DError, MemoryError):
+    """The core could not get the memory that a call needs."""
+
+
+class DisplayError(Engine3DError, RuntimeError):
+    """A window cannot be opened or used."""
+
+
+class MissingOutputError(Engine3DError, AttributeError):
+    """A frame was asked for an output that was not rendered."""
+
+
+class Engine3DWarning(UserWarning):
+    """Something was left out or replaced; the rest of the work went on."""
+
+
+def located(message: str, path: str | None, line: int | None = None) -> str:
+    """Return ``message`` with the place it speaks of in front: ``FILE:LINE: message``."""
+    if path is None:
+        return message
+    place = path if line is None else f"{path}:{line}"
+    return f"{place}: {message}"

@@ -1,0 +1,118 @@
+"""What a surface is made of: the numbers and the texture that shading reads.
+
+A `Material` is plain data. Colours are kept as they were given (floats are linear light, 8-bit
+integers sRGB; see `engine3d.colors`) and become linear when the renderer reads them. Whatever a
+file says beyond this (physically based parameters, further maps) is kept in ``extras``.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+
+from .colors import check_color
+from .errors import InvalidArgumentError
+from .textures import Texture
+
+
+class Material:
+    """Surface properties shared by the faces that name it.
+
+    Parameters
+    ----------
+    color : sequence of 3 numbers
+        Diffuse colour; multiplies the texture, the vertex colour and the instance colour.
+    texture : Texture, optional
+        Base colour texture.
+    specular : sequence of 3 numbers
+        Colour of the Blinn-Phong highlight; black means none.
+    shininess : float
+        Blinn-Phong exponent, not negative.
+    emissive : sequence of 3 numbers
+        Light that the surface gives off, added after lighting.
+    two_sided : bool
+        Draw and light the back of the faces as well, whatever is culled.
+    flat_shading : bool
+        Use one normal a polygon instead of the vertex normals.
+    name : str
+    extras : dict, optional
+        What else a file says about the material, by the file's own keys; not read by the renderer.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment to one of the above.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(
+        self,
+        *,
+        color=(1, 1, 1),
+        texture: Texture | None = None,
+        specular=(0, 0, 0),
+        shininess: float = 32.0,
+        emissive=(0, 0, 0),
+        two_sided: bool = False,
+        flat_shading: bool = False,
+        name: str = "",
+        extras: dict | None = None,
+    ) -> None:
+        self.version = 0
+        self.color = color
+        self.texture = texture
+        self.specular = specular
+        self.shininess = shininess
+        self.emissive = emissive
+        self.two_sided = two_sided
+        self.flat_shading = flat_shading
+        self.name = name
+        self.extras = {} if extras is None else extras
+
+    def __setattr__(self, attribute: str, value) -> None:
+        if attribute == "version":
+            object.__setattr__(self, attribute, value)
+            return
+        check = _CHECKS.get(attribute)
+        if check is None:
+            raise AttributeError(f"a Material has no attribute {attribute!r}")
+        object.__setattr__(self, attribute, check(value, attribute))
+        self.version += 1
+
+    def __repr__(self) -> str:
+        texture = "" if self.texture is None else f", texture={self.texture!r}"
+        return f"Material(name={self.name!r}, color={self.color}{texture})"
+
+
+def _check_texture(value, what):
+    if value is not None and not isinstance(value, Texture):
+        raise InvalidArgumentError(f"{what} must be a Texture or None: {type(value).__name__}")
+    return value
+
+
+def _check_exponent(value, what):
+    if not isinstance(value, numbers.Real) or not math.isfinite(value) or value < 0:
+        raise InvalidArgumentError(f"{what} must be a finite number >= 0: {value!r}")
+    return float(value)
+
+
+def _check_dict(value, what):
+    if not isinstance(value, dict):
+        raise InvalidArgumentError(f"{what} must be a dict: {type(value).__name__}")
+    return dict(value)
+
+
+_CHECKS = {
+    "color": check_color,
+    "texture": _check_texture,
+    "specular": check_color,
+    "shininess": _check_exponent,
+    "emissive": check_color,
+    "two_sided": lambda value, what: bool(value),
+    "flat_shading": lambda value, what: bool(value),
+    "name": lambda value, what: str(value),
+    "extras": _check_dict,
+}

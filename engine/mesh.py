@@ -1,0 +1,279 @@
+"""Geometry: vertices, triangles, lines and points, with the materials they are drawn with.
+
+A `Mesh` checks what it is given once, keeps it as read-only C-contiguous arrays of fixed types, and
+derives normals, edges and polygons on demand. Nothing ever holds an index out of range. Every
+assignment raises ``version``, which tells the renderer to renew what it made of the mesh.
+Conventions: object space, right-handed, counter-clockwise faces are seen from their front, texture
+coordinates have their origin at the bottom left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from . import normals as _normals
+from . import topology as _topology
+from .errors import InvalidArgumentError
+from .materials import Material
+from .mesh_arrays import (
+    ArrayAttribute,
+    check_colors,
+    check_flags3,
+    check_indices,
+    check_pairs,
+    check_triples,
+    check_vectors2,
+    check_vectors3,
+    require_range,
+)
+
+
+class Mesh:
+    """Triangles, lines and points over one list of vertices.
+
+    Parameters
+    ----------
+    positions : (V, 3) float
+        Vertices in object space. Not-finite ones are allowed; what uses them is not drawn.
+    faces : (F, 3) int, optional
+        Vertex indices of the triangles.
+    normals : (V, 3) float, optional
+        Vertex normals; without them they are computed.
+    uvs : (V, 2) float, optional
+        Texture coordinates, (0, 0) at the image's bottom left.
+    colors : (V, 3) or (V, 4) uint8 or float, optional
+        Vertex colours: ``uint8`` is sRGB, floats are linear light. Alpha is opaque if left out.
+    materials : list of Material, optional
+        One default material if left out.
+    material_ids : (F,) int, optional
+        The material of each face; all zero if left out.
+    lines : (L, 2) int, optional
+        Vertex indices of line segments.
+    points : (P,) int, optional
+        Vertex indices of points.
+    edge_visible : (F, 3) bool, optional
+        Whether the edge from vertex k to vertex (k + 1) % 3 of a face is one of the model's edges;
+        False for the diagonals of polygons. All are if left out.
+    position_ids : (V,) int, optional
+        Vertices with the same number are one point of the surface that was split for another
+        attribute, such as a texture seam. Computed normals and the edges respect it.
+    name : str
+
+    Attributes
+    ----------
+    positions, faces, normals, uvs, colors, material_ids, lines, points, edge_visible, position_ids
+        As above, read-only: float32, int32, uint8 or bool. Assigning replaces one; arrays that go
+        together must keep matching lengths.
+    materials : list of Material
+    groups : dict of str to (N,) int32
+        Face indices of named parts.
+    warnings : list of str
+        What the loader left out or replaced.
+    version : int
+
+    Raises
+    ------
+    InvalidArgumentError
+        A wrong shape or type, lengths that do not match, an index out of range.
+    """
+
+    positions = ArrayAttribute(check_vectors3)
+    faces = ArrayAttribute(check_triples)
+    uvs = ArrayAttribute(check_vectors2, optional=True)
+    colors = ArrayAttribute(check_colors, optional=True)
+    material_ids = ArrayAttribute(check_indices)
+    lines = ArrayAttribute(check_pairs)
+    points = ArrayAttribute(check_indices)
+    edge_visible = ArrayAttribute(check_flags3, optional=True)
+    position_ids = ArrayAttribute(check_indices, optional=True)
+    _given_normals = ArrayAttribute(check_vectors3, optional=True)
+
+    def __init__(
+        self,
+        positions,
+        faces=None,
+        *,
+        normals=None,
+        uvs=None,
+        colors=None,
+        materials: Iterable[Material] | None = None,
+        material_ids=None,
+        lines=None,
+        points=None,
+        edge_visible=None,
+        position_ids=None,
+        name: str = "",
+    ) -> None:
+        self.name = str(name)
+        self.version = 0
+        self.groups: dict[str, np.ndarray] = {}
+        self.warnings: list[str] = []
+        self._arrays: dict[str, np.ndarray | None] = {}
+        self._derived: dict[str, np.ndarray] = {}
+        self._materials = _check_materials(materials)
+        self.positions = positions
+        self.faces = () if faces is None else faces
+        self.lines = () if lines is None else lines
+        self.points = () if points is None else points
+        if material_ids is not None:
+            self.material_ids = material_ids
+        self._given_normals = normals
+        self.uvs = uvs
+        self.colors = colors
+        self.edge_visible = edge_visible
+        self.position_ids = position_ids
+
+    @property
+    def normals(self) -> np.ndarray:
+        """Vertex normals (V, 3) float32: the given ones, or angle-weighted ones, computed once."""
+        given = self._given_normals
+        if given is not None:
+            return given
+        return self._derive(
+            "normals",
+            lambda: _normals.vertex_normals(self.positions, self.faces, self.position_ids),
+        )
+
+    @normals.setter
+    def normals(self, value) -> None:
+        self._given_normals = value
+
+    @property
+    def has_normals(self) -> bool:
+        """Whether normals were given; False means that they are computed."""
+        return self._given_normals is not None
+
+    @property
+    def face_normals(self) -> np.ndarray:
+        """One unit normal a face, (F, 3) float32, the same for all triangles of a polygon."""
+        return self._derive(
+            "face_normals",
+            lambda: _normals.face_normals(self.positions, self.faces, self.polygons),
+        )
+
+    @property
+    def polygons(self) -> np.ndarray:
+        """The polygon that each face is part of, (F,) int32 from 0 on, never decreasing.
+
+        Triangles that stand one after the other and share an edge hidden in both are one polygon.
+        """
+        return self._derive(
+            "polygons",
+            lambda: _topology.polygon_ids(self.faces, self.edge_visible, self.position_ids),
+        )
+
+    def edges(self) -> np.ndarray:
+        """Return the visible edges of the faces, each once: (E, 2) int32 vertex indices.
+
+        An edge counts as visible if it is visible in any face. They stand in the order of their
+        first appearance; vertices with the same position id count as one.
+        """
+        return self._derive(
+            "edges",
+            lambda: _topology.visible_edges(self.faces, self.edge_visible, self.position_ids),
+        )
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Smallest and largest finite coordinates, (2, 3) float64; zeros if there are none."""
+        return self._derive("bounds", lambda: _bounds(self.positions))
+
+    @property
+    def materials(self) -> list[Material]:
+        """The materials that ``material_ids`` refer to; at least one."""
+        return self._materials
+
+    @materials.setter
+    def materials(self, value: Iterable[Material] | None) -> None:
+        materials = _check_materials(value)
+        require_range(self.material_ids, len(materials), "material_ids", "materials")
+        self._materials = materials
+        self.version += 1
+
+    @classmethod
+    def concatenate(cls, meshes: Sequence[Mesh], name: str = "") -> Mesh:
+        """Return one mesh that holds everything of several, in their order.
+
+        What only some of them have is filled in: computed normals, zero texture coordinates,
+        white vertex colours. Materials that are the same object are kept once.
+        """
+        from .mesh_concatenation import concatenate
+
+        return concatenate(cls, list(meshes), name)
+
+    def __repr__(self) -> str:
+        parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]
+        parts += [f"{len(self.lines)} lines"] if len(self.lines) else []
+        parts += [f"{len(self.points)} points"] if len(self.points) else []
+        return f"Mesh({', '.join(parts)}, name={self.name!r})"
+
+    def _derive(self, what: str, compute) -> np.ndarray:
+        array = self._derived.get(what)
+        if array is None:
+            array = compute()
+            array.setflags(write=False)
+            self._derived[what] = array
+        return array
+
+    def _replace(self, what: str, array: np.ndarray | None) -> None:
+        """Check an array against those that are there, and put it in its place."""
+        if what == "positions":
+            self._check_new_positions(array)
+        elif what == "faces":
+            require_range(array, len(self.positions), what, "vertices")
+            self._check_new_faces(array)
+        elif what in ("lines", "points"):
+            require_range(array, len(self.positions), what, "vertices")
+        elif what in ("material_ids", "edge_visible"):
+            _check_length(array, len(self.faces), what, "faces")
+        else:
+            _check_length(array, len(self.positions), what.removeprefix("_given_"), "vertices")
+        if what == "material_ids":
+            require_range(array, len(self._materials), what, "materials")
+        self._arrays[what] = array
+        self._derived.clear()
+        self.version += 1
+
+    def _check_new_positions(self, positions: np.ndarray) -> None:
+        count = len(positions)
+        for what in ("_given_normals", "uvs", "colors", "position_ids"):
+            other = self._arrays.get(what)
+            if other is not None and len(other) != count:
+                raise InvalidArgumentError(
+                    f"positions has {count} rows, but {what.removeprefix('_given_')} {len(other)}"
+                )
+        for what in ("faces", "lines", "points"):
+            other = self._arrays.get(what)
+            if other is not None:
+                require_range(other, count, what, "vertices")
+
+    def _check_new_faces(self, faces: np.ndarray) -> None:
+        """Flags must match; the material ids start again at zero when their number changes."""
+        _check_length(self._arrays.get("edge_visible"), len(faces), "edge_visible", "faces")
+        ids = self._arrays.get("material_ids")
+        if ids is None or len(ids) != len(faces):
+            self._arrays["material_ids"] = check_indices(np.zeros(len(faces), np.int32), "")
+
+
+def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:
+    if array is not None and len(array) != count:
+        raise InvalidArgumentError(f"{what} has {len(array)} rows for {count} {of_what}")
+
+
+def _check_materials(materials: Iterable[Material] | None) -> list[Material]:
+    materials = [] if materials is None else list(materials)
+    for material in materials:
+        if not isinstance(material, Material):
+            raise InvalidArgumentError(f"not a Material: {type(material).__name__}")
+    return materials or [Material()]
+
+
+def _bounds(positions: np.ndarray) -> np.ndarray:
+    finite = positions
+    if not np.isfinite(positions).all():
+        finite = positions[np.isfinite(positions).all(axis=1)]
+    if len(finite) == 0:
+        return np.zeros((2, 3), np.float64)
+    return np.stack([finite.min(axis=0), finite.max(axis=0)]).astype(np.float64)

@@ -1,0 +1,223 @@
+import numpy as np
+import pytest
+from engine3d.errors import InvalidArgumentError
+from engine3d.materials import Material
+from engine3d.mesh import Mesh
+
+SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+HALVES = [(0, 1, 2), (0, 2, 3)]
+DIAGONAL_HIDDEN = [(True, True, False), (False, True, True)]
+
+
+def square(**options) -> Mesh:
+    return Mesh(SQUARE, HALVES, **options)
+
+
+def test_arrays_have_fixed_types_and_are_read_only():
+    mesh = square(uvs=np.zeros((4, 2)), edge_visible=DIAGONAL_HIDDEN, lines=[(0, 1)], points=[3])
+    expected = {
+        "positions": np.float32,
+        "faces": np.int32,
+        "normals": np.float32,
+        "uvs": np.float32,
+        "material_ids": np.int32,
+        "lines": np.int32,
+        "points": np.int32,
+        "edge_visible": np.bool_,
+    }
+    for name, dtype in expected.items():
+        array = getattr(mesh, name)
+        assert array.dtype == dtype, name
+        assert array.flags.c_contiguous
+        assert not array.flags.writeable
+
+
+def test_a_mesh_does_not_share_writable_memory():
+    positions = np.array(SQUARE, np.float32)
+    mesh = Mesh(positions, HALVES)
+    positions[:] = 9
+    assert mesh.positions.max() == 1
+
+
+def test_an_empty_mesh_is_allowed():
+    mesh = Mesh([])
+    assert mesh.positions.shape == (0, 3)
+    assert mesh.faces.shape == (0, 3)
+    assert mesh.normals.shape == (0, 3)
+    assert mesh.edges().shape == (0, 2)
+    assert mesh.polygons.shape == (0,)
+    assert mesh.bounds.tolist() == [[0, 0, 0], [0, 0, 0]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"faces": [(0, 1, 4)]}, "index 4, but there are 4 vertices"),
+        ({"faces": [(0, 1, -1)]}, "index -1"),
+        ({"faces": [(0, 1)]}, "shape"),
+        ({"faces": [(0.0, 1.0, 2.0)]}, "integers"),
+        ({"faces": [(0, 1, 2**40)]}, "2\\^31"),
+        ({"lines": [(0, 4)]}, "lines"),
+        ({"points": [4]}, "points"),
+        ({"uvs": [(0, 0)]}, "uvs has 1 rows for 4 vertices"),
+        ({"normals": np.zeros((3, 3))}, "normals"),
+        ({"colors": np.zeros((4, 2), np.uint8)}, "colors"),
+        ({"colors": np.zeros((4, 3), np.int64)}, "uint8 or float"),
+        ({"faces": HALVES, "material_ids": [0, 1]}, "material_ids"),
+        ({"faces": HALVES, "edge_visible": [(True, True, True)]}, "edge_visible"),
+        ({"materials": ["red"]}, "Material"),
+    ],
+)
+def test_wrong_arguments_are_refused(arguments, message):
+    with pytest.raises(InvalidArgumentError, match=message):
+        Mesh(SQUARE, **arguments)
+
+
+def test_positions_must_be_an_array_of_points():
+    for value in ([(0, 0)], "abc", [(0, 0, 0), (1, 1)], None):
+        with pytest.raises(InvalidArgumentError):
+            Mesh(value)
+
+
+def test_colors_of_three_components_get_alpha():
+    mesh = square(colors=np.full((4, 3), 7, np.uint8))
+    assert mesh.colors[0].tolist() == [7, 7, 7, 255]
+    mesh = square(colors=np.full((4, 3), 0.5))
+    assert mesh.colors.dtype == np.float32
+    assert mesh.colors[0].tolist() == [0.5, 0.5, 0.5, 1]
+
+
+def test_assigning_replaces_derives_anew_and_raises_the_version():
+    mesh = square()
+    assert mesh.bounds.tolist() == [[0, 0, 0], [1, 1, 0]]
+    before = mesh.version
+    mesh.positions = np.array(SQUARE) * 2
+    assert mesh.version == before + 1
+    assert mesh.bounds[1].tolist() == [2, 2, 0]
+
+
+def test_assigning_checks_against_what_is_there():
+    mesh = square(uvs=np.zeros((4, 2)))
+    with pytest.raises(InvalidArgumentError, match="uvs"):
+        mesh.positions = np.zeros((5, 3))
+    with pytest.raises(InvalidArgumentError):
+        mesh.faces = [(0, 1, 4)]
+    mesh = square()
+    with pytest.raises(InvalidArgumentError, match="faces"):
+        mesh.positions = np.zeros((3, 3))
+    assert len(mesh.positions) == 4
+
+
+def test_material_ids_start_again_when_the_number_of_faces_changes():
+    mesh = square(materials=[Material(), Material()], material_ids=[0, 1])
+    mesh.faces = [(0, 1, 2)]
+    assert mesh.material_ids.tolist() == [0]
+    with pytest.raises(InvalidArgumentError):
+        mesh.material_ids = [2]
+    mesh.material_ids = [1]
+    with pytest.raises(InvalidArgumentError, match="material"):
+        mesh.materials = [Material()]
+
+
+def test_bounds_leave_out_what_is_not_finite():
+    mesh = Mesh([(0, 0, 0), (np.nan, 5, 5), (1, 2, np.inf), (1, 1, 1)])
+    assert mesh.bounds.tolist() == [[0, 0, 0], [1, 1, 1]]
+
+
+def test_given_normals_are_kept():
+    mesh = square(normals=[(1, 0, 0)] * 4)
+    assert mesh.has_normals
+    assert mesh.normals[0].tolist() == [1, 0, 0]
+    mesh.normals = None
+    assert not mesh.has_normals
+    assert mesh.normals[0].tolist() == [0, 0, 1]
+
+
+def test_each_edge_appears_once_in_order():
+    assert square().edges().tolist() == [[0, 1], [1, 2], [2, 0], [2, 3], [3, 0]]
+
+
+def test_hidden_edges_are_left_out():
+    mesh = square(edge_visible=DIAGONAL_HIDDEN)
+    assert mesh.edges().tolist() == [[0, 1], [1, 2], [2, 3], [3, 0]]
+
+
+def test_an_edge_visible_in_one_face_is_visible():
+    mesh = square(edge_visible=[(True, True, False), (True, True, True)])
+    assert [0, 2] in mesh.edges().tolist()
+
+
+def test_edges_across_a_seam_are_one():
+    positions = [*SQUARE, SQUARE[0], SQUARE[2]]
+    mesh = Mesh(positions, [(0, 1, 2), (4, 5, 3)], position_ids=[0, 1, 2, 3, 0, 2])
+    assert mesh.edges().tolist() == [[0, 1], [1, 2], [2, 0], [5, 3], [3, 4]]
+
+
+def test_degenerate_edges_are_left_out():
+    assert Mesh(SQUARE, [(0, 0, 1)]).edges().tolist() == [[0, 1]]
+
+
+def test_triangles_joined_by_hidden_edges_are_one_polygon():
+    assert square().polygons.tolist() == [0, 1]
+    assert square(edge_visible=DIAGONAL_HIDDEN).polygons.tolist() == [0, 0]
+
+
+def test_a_diagonal_hidden_on_one_side_joins_nothing():
+    mesh = square(edge_visible=[(True, True, False), (True, True, True)])
+    assert mesh.polygons.tolist() == [0, 1]
+
+
+def test_polygons_need_not_be_fans():
+    # An ear-clipped pentagon whose third triangle joins the two before it.
+    faces = [(0, 1, 2), (2, 3, 4), (0, 2, 4), (5, 6, 7)]
+    visible = [(1, 1, 0), (1, 1, 0), (0, 0, 1), (1, 1, 1)]
+    mesh = Mesh(np.random.default_rng(1).random((8, 3)), faces, edge_visible=np.array(visible) > 0)
+    assert mesh.polygons.tolist() == [0, 0, 0, 1]
+
+
+def test_faces_that_stand_apart_are_no_polygon():
+    faces = [(0, 1, 2), (4, 5, 6), (0, 2, 3)]
+    visible = [(1, 1, 0), (1, 1, 1), (0, 1, 1)]
+    mesh = Mesh(np.zeros((7, 3)), faces, edge_visible=np.array(visible) > 0)
+    assert mesh.polygons.tolist() == [0, 1, 2]
+
+
+def test_concatenation_moves_indices_and_fills_in():
+    red, blue = Material(name="red"), Material(name="blue")
+    first = square(materials=[red], uvs=np.ones((4, 2)), edge_visible=DIAGONAL_HIDDEN, points=[0])
+    first.groups["all"] = np.array([0, 1], np.int32)
+    second = Mesh(
+        np.array(SQUARE) + 1,
+        HALVES,
+        materials=[blue, red],
+        material_ids=[0, 1],
+        lines=[(0, 3)],
+        colors=np.zeros((4, 4), np.uint8),
+        position_ids=[0, 1, 2, 0],
+    )
+    second.groups["all"] = np.array([1], np.int32)
+    mesh = Mesh.concatenate([first, second], name="both")
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]
+    assert mesh.materials == [red, blue]
+    assert mesh.material_ids.tolist() == [0, 0, 1, 0]
+    assert mesh.lines.tolist() == [[4, 7]]
+    assert mesh.points.tolist() == [0]
+    assert mesh.uvs[0].tolist() == [1, 1]
+    assert mesh.uvs[4].tolist() == [0, 0]
+    assert mesh.colors[0].tolist() == [255] * 4
+    assert mesh.edge_visible[2].tolist() == [True] * 3
+    assert mesh.position_ids.tolist() == [0, 1, 2, 3, 4, 5, 6, 4]
+    assert mesh.groups["all"].tolist() == [0, 1, 3]
+    assert mesh.name == "both"
+
+
+def test_concatenating_bytes_and_floats_gives_linear_light():
+    first = square(colors=np.full((4, 4), 255, np.uint8))
+    second = square(colors=np.full((4, 3), 0.5, np.float32))
+    colors = Mesh.concatenate([first, second]).colors
+    assert colors.dtype == np.float32
+    assert colors[[0, 4]].tolist() == [[1, 1, 1, 1], [0.5, 0.5, 0.5, 1]]
+
+
+def test_concatenating_nothing_gives_an_empty_mesh():
+    assert len(Mesh.concatenate([]).positions) == 0

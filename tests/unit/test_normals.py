@@ -1,0 +1,85 @@
+import numpy as np
+from engine3d.mesh import Mesh
+from engine3d.normals import corner_angles, face_normals, vertex_normals
+
+CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float32)
+CUBE_QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+
+
+def halves(quads, other_diagonal=()):
+    faces = []
+    for number, (a, b, c, d) in enumerate(quads):
+        if number in other_diagonal:
+            faces += [(b, c, d), (b, d, a)]
+        else:
+            faces += [(a, b, c), (a, c, d)]
+    return np.array(faces, np.int32)
+
+
+def test_a_cubes_corners_point_along_its_diagonals_however_it_is_cut():
+    outward = np.sign(CUBE - 0.5) / np.sqrt(3)
+    for other_diagonal in ((), (0, 3), (0, 1, 2, 3, 4, 5)):
+        normals = vertex_normals(CUBE, halves(CUBE_QUADS, other_diagonal))
+        assert np.allclose(normals, outward, atol=1e-6)
+
+
+def test_corner_angles_are_exact_enough():
+    random = np.random.default_rng(3)
+    triangles = random.standard_normal((1000, 3, 3))
+    faces = np.arange(3000).reshape(1000, 3)
+    angles = corner_angles(triangles.reshape(-1, 3), faces)
+    assert np.allclose(angles.sum(axis=1), np.pi, atol=1e-7)
+    ab, ac = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    cosine = (ab * ac).sum(axis=1) / np.sqrt((ab * ab).sum(axis=1) * (ac * ac).sum(axis=1))
+    assert np.allclose(angles[:, 0], np.arccos(cosine), atol=1e-7)
+
+
+def test_unused_and_degenerate_vertices_get_zero_never_nan():
+    positions = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (5, 5, 5), (np.nan, 0, 0)], np.float32)
+    normals = vertex_normals(positions, np.array([(0, 1, 2), (0, 1, 4)]))
+    assert normals.tolist() == [[0, 0, 0]] * 5
+
+
+def test_infinite_vertices_do_not_spoil_their_neighbours():
+    positions = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (np.inf, 0, 0)], np.float32)
+    normals = vertex_normals(positions, np.array([(0, 1, 2), (0, 1, 3)]))
+    assert normals[0].tolist() == [0, 0, 1]
+
+
+def test_tiny_and_huge_triangles_have_unit_normals():
+    triangle = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], np.float32)
+    for scale in (1e-30, 1e30):
+        normals = vertex_normals(triangle * np.float32(scale), np.array([(0, 1, 2)]))
+        assert normals.tolist() == [[0, 0, 1]] * 3
+
+
+def test_vertices_of_one_point_share_their_normal():
+    positions = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 0), (0, 0, 1), (1, 0, 0)])
+    faces = np.array([(0, 1, 2), (3, 4, 5)])
+    normals = vertex_normals(positions, faces, np.array([0, 1, 2, 0, 3, 1]))
+    assert normals[0].tolist() == normals[3].tolist()
+    assert normals[1].tolist() == normals[5].tolist()
+    assert np.allclose(normals[0], np.array([0, 1, 1]) / np.sqrt(2))
+
+
+def test_a_polygon_has_one_face_normal():
+    bent = [(0, 0, 0), (1, 0, 0), (1, 1, 0.2), (0, 1, 0)]
+    visible = [(True, True, False), (False, True, True)]
+    mesh = Mesh(bent, [(0, 1, 2), (0, 2, 3)], edge_visible=visible)
+    assert mesh.face_normals[0].tolist() == mesh.face_normals[1].tolist()
+    apart = Mesh(bent, [(0, 1, 2), (0, 2, 3)]).face_normals
+    assert apart[0].tolist() != apart[1].tolist()
+
+
+def test_a_closed_patch_of_hidden_edges_keeps_its_own_normals():
+    faces = halves(CUBE_QUADS)
+    mesh = Mesh(CUBE, faces, edge_visible=np.zeros((12, 3), bool))
+    assert mesh.polygons.tolist() == [0] * 12
+    assert np.array_equal(mesh.face_normals, face_normals(CUBE, faces))
+
+
+def test_the_same_input_gives_the_same_bytes():
+    random = np.random.default_rng(7)
+    positions = random.random((500, 3)).astype(np.float32)
+    faces = random.integers(0, 500, (1000, 3))
+    assert vertex_normals(positions, faces).tobytes() == vertex_normals(positions, faces).tobytes()

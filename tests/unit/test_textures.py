@@ -1,0 +1,61 @@
+import numpy as np
+import pytest
+from engine3d.errors import InvalidArgumentError
+from engine3d.textures import Texture
+
+
+def image(*shape):
+    return np.arange(np.prod(shape), dtype=np.uint8).reshape(shape)
+
+
+def test_grey_is_widened():
+    pixels = Texture(image(2, 3)).pixels
+    assert pixels.shape == (2, 3, 4)
+    assert pixels[1, 2].tolist() == [5, 5, 5, 255]
+
+
+def test_grey_with_alpha_is_widened():
+    assert Texture(image(1, 2, 2)).pixels[0, 1].tolist() == [2, 2, 2, 3]
+
+
+def test_rgb_gets_an_opaque_alpha():
+    assert Texture(image(1, 2, 3)).pixels[0, 1].tolist() == [3, 4, 5, 255]
+
+
+def test_pixels_are_read_only_and_the_textures_own():
+    source = image(2, 2, 4)
+    texture = Texture(source)
+    source[:] = 0
+    assert texture.pixels[1, 1, 3] == 15
+    with pytest.raises(ValueError, match="read-only"):
+        texture.pixels[0, 0, 0] = 1
+
+
+def test_assigning_raises_the_version():
+    texture = Texture(image(2, 2, 4))
+    before = texture.version
+    texture.pixels = image(4, 4, 4)
+    texture.filter = "nearest"
+    assert texture.version == before + 2
+    assert (texture.width, texture.height) == (4, 4)
+
+
+@pytest.mark.parametrize(
+    "pixels",
+    [
+        np.zeros((2, 2, 4), np.float32),
+        np.zeros((0, 2, 4), np.uint8),
+        np.zeros((2, 2, 5), np.uint8),
+        np.zeros(4, np.uint8),
+        np.zeros((1, 32769), np.uint8),
+    ],
+)
+def test_what_is_no_image_is_refused(pixels):
+    with pytest.raises(InvalidArgumentError):
+        Texture(pixels)
+
+
+@pytest.mark.parametrize("option", ["color_space", "filter", "wrap"])
+def test_unknown_options_are_refused(option):
+    with pytest.raises(InvalidArgumentError, match=option):
+        Texture(image(1, 1), **{option: "unknown"})

@@ -32,11 +32,12 @@ from .quaternions import (
     quaternion_multiply,
     quaternion_to_matrix,
 )
-from .trigonometry import cos, sin, tan, unit_circle
+from .trigonometry import atan2, cos, sin, tan, unit_circle
 from .vectors import cross, dot, length, normalize
 from .viewing import look_at, orthographic, perspective
 
 __all__ = [
+    "atan2",
     "compose",
     "cos",
     "cross",

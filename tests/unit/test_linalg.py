@@ -62,6 +62,14 @@ def test_trigonometry_of_special_angles():
     assert abs(linalg.sin(1e15) - math.sin(1e15)) < 0.1  # an angle known to an eighth of a radian
 
 
+def test_arc_tangent_agrees_with_math_in_every_direction():
+    y, x = RNG.normal(size=(2, 20000))
+    np.testing.assert_allclose(linalg.atan2(y, x), np.arctan2(y, x), rtol=4e-16)
+    axes = [(0.0, 0.0), (0.0, 2.0), (2.0, 0.0), (0.0, -2.0), (-2.0, 0.0), (3.0, 3.0), (-3.0, -3.0)]
+    for y, x in axes:
+        assert linalg.atan2(y, x) == math.atan2(y, x)
+
+
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 7, 8, 12, 16, 24, 32, 48, 100, 1000])
 def test_unit_circle_is_symmetric_to_the_bit(count):
     x, y = linalg.unit_circle(count)

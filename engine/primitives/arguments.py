@@ -1,0 +1,57 @@
+"""Checks of what callers pass to the primitives.
+
+In: raw arguments. Out: floats and ints in range, or InvalidArgumentError that names the argument.
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+import numpy as np
+
+from ..errors import InvalidArgumentError
+
+# Keeps every index below 2**31, and a slip of the keyboard from eating the memory.
+MAX_SEGMENTS = 8192
+
+
+def positive(name: str, value: Any) -> float:
+    """Return a finite number greater than 0."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InvalidArgumentError(f"{name} must be a number, not {value!r}") from None
+    if not (0.0 < number < float("inf")):
+        raise InvalidArgumentError(f"{name} must be finite and greater than 0, not {value!r}")
+    return number
+
+
+def positives(name: str, values: Any, count: int) -> tuple[float, ...]:
+    """Return `count` positive numbers; one number stands for all."""
+    if np.ndim(values) == 0:
+        return (positive(name, values),) * count
+    if np.shape(values) != (count,):
+        raise InvalidArgumentError(f"{name} must be one number or {count}, not {values!r}")
+    return tuple(positive(name, value) for value in values)
+
+
+def integer(name: str, value: Any, least: int, most: int) -> int:
+    """Return an integer in [least, most]."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise InvalidArgumentError(f"{name} must be an integer, not {value!r}") from None
+    if not least <= number <= most:
+        raise InvalidArgumentError(f"{name} must be from {least} to {most}, not {number}")
+    return number
+
+
+def segment_pair(name: str, values: Any, least: tuple[int, int]) -> tuple[int, int]:
+    """Return two counts of segments, each at least its own minimum."""
+    if np.shape(values) != (2,):
+        raise InvalidArgumentError(f"{name} must be two integers, not {values!r}")
+    first, second = (
+        integer(name, value, low, MAX_SEGMENTS) for value, low in zip(values, least, strict=True)
+    )
+    return first, second

@@ -1,0 +1,235 @@
+/* Draws a scene with every backend and thread count, and checks that the bytes agree.
+ *
+ * The first run is the pattern; each later one is compared with it output by output, so that a
+ * difference is named with its backend, output and pixel.
+ */
+#include "driver/compare.h"
+
+#include <fenv.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+#include "driver/scenes.h"
+
+enum { OUTPUTS = 14 };
+
+typedef struct output {
+    const char *name;
+    int channels, is_float, bytes; /* bytes a channel */
+} output;
+
+static const output LAYOUT[OUTPUTS] = {
+    {"color", 4, 0, 1},       {"depth", 1, 1, 4},        {"ndc_depth", 1, 1, 4},
+    {"triangle_id", 1, 0, 4}, {"object_id", 1, 0, 4},    {"instance_id", 1, 0, 4},
+    {"material_id", 1, 0, 4}, {"albedo", 3, 1, 4},       {"normal", 3, 1, 4},
+    {"position", 3, 1, 4},    {"world_normal", 3, 1, 4}, {"world_position", 3, 1, 4},
+    {"uv", 2, 1, 4},          {"barycentric", 3, 1, 4},
+};
+
+/* One run's outputs; NULL where not asked for. */
+typedef struct picture {
+    void *arrays[OUTPUTS];
+    size_t pixels;
+    e3d_status status;
+} picture;
+
+static size_t output_size(const picture *p, int k)
+{
+    return p->pixels * (size_t)(LAYOUT[k].channels * LAYOUT[k].bytes);
+}
+
+/* Bit k of `mask` asks for output k. */
+static picture picture_create(size_t pixels, uint32_t mask, int poison)
+{
+    picture p = {.pixels = pixels};
+    for (int k = 0; k < OUTPUTS; k++) {
+        if (!(mask >> k & 1))
+            continue;
+        p.arrays[k] = malloc(output_size(&p, k));
+        if (p.arrays[k] == NULL)
+            abort();
+        memset(p.arrays[k], poison, output_size(&p, k));
+    }
+    return p;
+}
+
+static void picture_destroy(picture *p)
+{
+    for (int k = 0; k < OUTPUTS; k++)
+        free(p->arrays[k]);
+}
+
+static e3d_targets picture_targets(const picture *p)
+{
+    void *const *a = p->arrays;
+    return (e3d_targets){a[0], a[1], a[2], a[3],  a[4],  a[5],  a[6],
+                         a[7], a[8], a[9], a[10], a[11], a[12], a[13]};
+}
+
+static uint64_t picture_hash(const picture *p)
+{
+    uint64_t hash = 0xCBF29CE484222325u ^ (uint64_t)p->status;
+    for (int k = 0; k < OUTPUTS && p->status == E3D_OK; k++) {
+        const uint8_t *bytes = p->arrays[k];
+        for (size_t i = 0; bytes != NULL && i < output_size(p, k); i++)
+            hash = (hash ^ bytes[i]) * 0x100000001B3u;
+    }
+    return hash;
+}
+
+static int complain(const char *title, const char *run, const char *name, const char *what,
+                    size_t i)
+{
+    if (title != NULL)
+        fprintf(stderr, "%s: %s: %s %s at value %zu\n", title, run, name, what, i);
+    return 0;
+}
+
+static int has_no_nan(const picture *p, const char *title, const char *run)
+{
+    int fine = 1;
+    for (int k = 0; k < OUTPUTS && p->status == E3D_OK; k++) {
+        const float *values = p->arrays[k];
+        size_t count = p->pixels * (size_t)LAYOUT[k].channels;
+        for (size_t i = 0; LAYOUT[k].is_float && values != NULL && i < count; i++)
+            if (isnan(values[i])) {
+                fine = complain(title, run, LAYOUT[k].name, "is NaN", i);
+                break;
+            }
+    }
+    return fine;
+}
+
+static int same_picture(const picture *a, const picture *b, const char *title, const char *run)
+{
+    if (a->status != b->status)
+        return complain(title, run, "the status", e3d_status_text(b->status), 0);
+    int same = 1;
+    for (int k = 0; k < OUTPUTS && a->status == E3D_OK; k++) {
+        const uint8_t *left = a->arrays[k], *right = b->arrays[k];
+        if (left == NULL || memcmp(left, right, output_size(a, k)) == 0)
+            continue;
+        size_t i = 0;
+        while (left[i] == right[i])
+            i++;
+        same = complain(title, run, LAYOUT[k].name, "differs", i / (size_t)LAYOUT[k].bytes);
+    }
+    return same;
+}
+
+/* What other libraries in a process may have done: the core must neither notice nor undo it. */
+static void disturb_floating_point(int disturb)
+{
+    fesetround(disturb ? FE_UPWARD : FE_TONEAREST);
+#if defined(__x86_64__)
+    const unsigned flush = 0x8040; /* flush to zero, denormals are zero */
+    _mm_setcsr(disturb ? _mm_getcsr() | flush : _mm_getcsr() & ~flush);
+#elif defined(__aarch64__)
+    uint64_t flush = (uint64_t)1 << 24, control;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+    control = disturb ? control | flush : control & ~flush;
+    __asm__ volatile("msr fpcr, %0" : : "r"(control));
+#endif
+}
+
+typedef e3d_status draw_function(const void *data, e3d_backend backend, int32_t threads,
+                                 const e3d_targets *targets);
+
+static e3d_status draw_scene(const void *data, e3d_backend backend, int32_t threads,
+                             const e3d_targets *targets)
+{
+    const scene *s = data;
+    e3d_renderer *renderer = NULL;
+    e3d_status status = e3d_renderer_create(backend, threads, &renderer);
+    if (status != E3D_OK)
+        return status;
+    e3d_stats stats;
+    status = e3d_render(renderer, &s->frame, targets, &stats);
+    e3d_renderer_destroy(renderer);
+    return status;
+}
+
+static e3d_status draw_clip_triangles(const void *data, e3d_backend backend, int32_t threads,
+                                      const e3d_targets *targets)
+{
+    const clip_triangles *t = data;
+    return e3d_rasterize(t->clip, t->vertices, t->faces, t->faces_count, t->width, t->height,
+                         t->cull, backend, threads, targets->triangle_id, targets->ndc_depth,
+                         targets->barycentric);
+}
+
+/* What is drawn: a scene or clip-space triangles, and the outputs asked for. */
+typedef struct drawing {
+    draw_function *draw;
+    const void *data;
+    size_t pixels;
+    uint32_t mask;
+} drawing;
+
+static picture draw_once(const drawing *what, e3d_backend backend, int32_t threads, int run)
+{
+    picture p = picture_create(what->pixels, what->mask, 0xA5 + 7 * run);
+    e3d_targets targets = picture_targets(&p);
+    disturb_floating_point(run % 2);
+    p.status = what->draw(what->data, backend, threads, &targets);
+    disturb_floating_point(0);
+    return p;
+}
+
+static outcome compare(const drawing *what, const run_plan *plan, const char *title)
+{
+    outcome result = {.agrees = 1};
+    picture pattern = {0};
+    int run = 0;
+    for (e3d_backend backend = 0; backend < E3D_BACKEND_COUNT; backend++) {
+        /* The reference has one thread, whatever it is told. */
+        int32_t count = backend == E3D_BACKEND_SCALAR ? 1 : plan->thread_counts;
+        for (int32_t i = 0; i < count && plan->backends[backend]; i++) {
+            char label[64];
+            snprintf(label, sizeof label, "%s, %d threads", e3d_backend_name(backend),
+                     (int)plan->threads[i]);
+            picture p = draw_once(what, backend, plan->threads[i], run);
+            result.agrees &= has_no_nan(&p, title, label);
+            if (run++ == 0) {
+                pattern = p;
+                continue;
+            }
+            result.agrees &= same_picture(&pattern, &p, title, label);
+            picture_destroy(&p);
+        }
+    }
+    result.status = pattern.status;
+    result.hash = picture_hash(&pattern);
+    picture_destroy(&pattern);
+    return result;
+}
+
+outcome compare_scene(random_stream r, const run_plan *plan, const char *title)
+{
+    scene s;
+    /* Most scenes ask for everything; the others show that no output depends on another. */
+    uint32_t mask = random_once_in(&r, 3) ? (uint32_t)random_bits(&r) : 0xFFFFFFFFu;
+    outcome result = {.status = scene_create(&s, &r), .agrees = 1};
+    if (result.status == E3D_OK) {
+        drawing all = {draw_scene, &s, 0, mask};
+        all.pixels = (size_t)s.frame.width * (size_t)s.frame.height;
+        result = compare(&all, plan, title);
+    }
+    scene_destroy(&s);
+    return result;
+}
+
+outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title)
+{
+    clip_triangles t = clip_triangles_create(&r);
+    uint32_t mask = 1u << 2 | 1u << 3 | 1u << 13;
+    drawing all = {draw_clip_triangles, &t, (size_t)t.width * (size_t)t.height, mask};
+    outcome result = compare(&all, plan, title);
+    clip_triangles_destroy(&t);
+    return result;
+}

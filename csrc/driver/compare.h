@@ -1,0 +1,30 @@
+/* Draws a scene with every backend and thread count, and checks that the bytes agree.
+ *
+ * In:  a stream of random numbers that decides the scene.
+ * Out: the status and the hash of the pictures (FNV-1a, 64 bits).
+ * Always: outputs are poisoned differently before each run, so that a pixel left unwritten shows.
+ */
+#ifndef E3D_DRIVER_COMPARE_H
+#define E3D_DRIVER_COMPARE_H
+
+#include "driver/random.h"
+#include "e3d.h"
+
+typedef struct outcome {
+    uint64_t hash;
+    e3d_status status;
+    int agrees; /* every backend and thread count gave this hash, and no NaN */
+} outcome;
+
+/* Which backends and thread counts to try. */
+typedef struct run_plan {
+    int backends[E3D_BACKEND_COUNT];
+    int32_t threads[8];
+    int32_t thread_counts;
+} run_plan;
+
+/* `title` (or NULL for silence) begins the lines that tell standard error what differs. */
+outcome compare_scene(random_stream r, const run_plan *plan, const char *title);
+outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title);
+
+#endif

@@ -1,0 +1,362 @@
+/* Random and hostile scenes: every mode, mesh, texture, light and pose, in odd sizes.
+ *
+ * Hostile means: NaN, infinite, denormal and huge coordinates, triangles without area, through the
+ * eye or far outside the view, all materials and normals out of the usual range.
+ */
+#include "driver/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const int32_t SIZES[][2] = {
+    {1, 1}, {7, 3}, {64, 64}, {65, 63}, {129, 97}, {160, 120}, {1, 300}, {300, 1}, {31, 200},
+};
+static const float HOSTILE[] = {
+    0.0f, -0.0f, 1e-45f, -1e-39f, 1e-20f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN, 32768.0f, 0.5f,
+};
+
+enum { GRID = 9, SOUP_TRIANGLES = 80 };
+
+static void *scene_array(scene *s, size_t count, size_t size)
+{
+    void *array = calloc(count, size);
+    if (array == NULL || s->array_count == SCENE_MAX_ARRAYS)
+        abort();
+    s->arrays[s->array_count++] = array;
+    return array;
+}
+
+static float *random_floats(scene *s, random_stream *r, int32_t count, float low, float high)
+{
+    float *values = scene_array(s, (size_t)count, sizeof *values);
+    for (int32_t i = 0; i < count; i++)
+        values[i] = random_float(r, low, high);
+    return values;
+}
+
+static uint8_t *random_bytes(scene *s, random_stream *r, int32_t count)
+{
+    uint8_t *values = scene_array(s, (size_t)count, 1);
+    for (int32_t i = 0; i < count; i++)
+        values[i] = (uint8_t)random_bits(r);
+    return values;
+}
+
+static int32_t *random_indices(scene *s, random_stream *r, int32_t count, int32_t bound)
+{
+    int32_t *values = scene_array(s, (size_t)count, sizeof *values);
+    for (int32_t i = 0; i < count; i++)
+        values[i] = random_below(r, bound);
+    return values;
+}
+
+static void normalize(float *v)
+{
+    float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int k = 0; k < 3; k++)
+        v[k] = length > 0.0f ? v[k] / length : (k == 2);
+}
+
+static float *random_directions(scene *s, random_stream *r, int32_t count)
+{
+    float *values = random_floats(s, r, 3 * count, -1.0f, 1.0f);
+    for (int32_t i = 0; i < count; i++)
+        normalize(values + 3 * i);
+    return values;
+}
+
+/* Replaces about one value in `odds`. */
+static void poison(float *values, int32_t count, random_stream *r, int32_t odds)
+{
+    for (int32_t i = 0; i < count; i++)
+        if (random_once_in(r, odds))
+            values[i] = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+}
+
+/* A closed-looking wavy sheet: shared vertices, so that a crack would show as background. */
+static void grid_positions(float *positions, int32_t *faces, random_stream *r)
+{
+    for (int32_t i = 0; i < GRID * GRID; i++) {
+        positions[3 * i] = (float)(i % GRID) / (GRID - 1) * 2.0f - 1.0f;
+        positions[3 * i + 1] = (float)(i / GRID) / (GRID - 1) * 2.0f - 1.0f;
+        positions[3 * i + 2] = random_float(r, -0.2f, 0.2f);
+    }
+    for (int32_t y = 0; y < GRID - 1; y++)
+        for (int32_t x = 0; x < GRID - 1; x++, faces += 6) {
+            int32_t corner = y * GRID + x;
+            int32_t quad[6] = {corner,     corner + 1,        corner + GRID + 1,
+                               corner,     corner + GRID + 1, corner + GRID};
+            memcpy(faces, quad, sizeof quad);
+        }
+}
+
+static void describe_shape(scene *s, random_stream *r, e3d_mesh_desc *desc)
+{
+    desc->components = 3;
+    if (random_once_in(r, 2)) {
+        desc->vertices = GRID * GRID;
+        desc->faces_count = 2 * (GRID - 1) * (GRID - 1);
+        float *positions = random_floats(s, r, 3 * desc->vertices, 0.0f, 0.0f);
+        int32_t *faces = random_indices(s, r, 3 * desc->faces_count, 1);
+        grid_positions(positions, faces, r);
+        desc->positions = positions;
+        desc->faces = faces;
+        return;
+    }
+    float extent = random_once_in(r, 3) ? 2000.0f : 2.0f;
+    desc->vertices = 3 + random_below(r, SOUP_TRIANGLES);
+    desc->faces_count = random_below(r, SOUP_TRIANGLES);
+    float *positions = random_floats(s, r, 3 * desc->vertices, -extent, extent);
+    if (random_once_in(r, 2))
+        poison(positions, 3 * desc->vertices, r, 12);
+    desc->positions = positions;
+    desc->faces = random_indices(s, r, 3 * desc->faces_count, desc->vertices);
+}
+
+static e3d_status add_mesh(scene *s, random_stream *r, int32_t index)
+{
+    e3d_mesh_desc desc = {0};
+    describe_shape(s, r, &desc);
+    int32_t vertices = desc.vertices, faces = desc.faces_count;
+    float *normals = random_directions(s, r, vertices);
+    if (random_once_in(r, 8))
+        poison(normals, 3 * vertices, r, 10);
+    desc.normals = normals;
+    desc.face_normals = random_directions(s, r, faces);
+    if (!random_once_in(r, 4)) {
+        float *uvs = random_floats(s, r, 2 * vertices, -1.5f, 2.5f);
+        if (random_once_in(r, 8))
+            poison(uvs, 2 * vertices, r, 10);
+        desc.uvs = uvs;
+    }
+    int32_t colors = random_below(r, 3);
+    if (colors == 1)
+        desc.colors_u8 = random_bytes(s, r, 4 * vertices);
+    if (colors == 2)
+        desc.colors_f32 = random_floats(s, r, 4 * vertices, -0.2f, 1.3f);
+    desc.material_ids = random_indices(s, r, faces, SCENE_MAX_MATERIALS);
+    desc.lines_count = random_below(r, 12);
+    desc.lines = random_indices(s, r, 2 * desc.lines_count, vertices);
+    desc.points_count = random_below(r, 12);
+    desc.points = random_indices(s, r, desc.points_count, vertices);
+    desc.edges_count = random_below(r, 60);
+    desc.edges = random_indices(s, r, 2 * desc.edges_count, vertices);
+    return e3d_mesh_create(&desc, &s->meshes[index]);
+}
+
+/* A rotation from a random quaternion, a scale (negative now and then: a mirror) and an offset. */
+static void random_pose(double *m, random_stream *r)
+{
+    double q[4], norm = 0.0;
+    for (int k = 0; k < 4; k++) {
+        q[k] = random_float(r, -1.0f, 1.0f);
+        norm += q[k] * q[k];
+    }
+    double s = norm > 0.0 ? 2.0 / norm : 0.0;
+    double x = q[0], y = q[1], z = q[2], w = q[3];
+    double rotation[9] = {1 - s * (y * y + z * z), s * (x * y - z * w),     s * (x * z + y * w),
+                          s * (x * y + z * w),     1 - s * (x * x + z * z), s * (y * z - x * w),
+                          s * (x * z - y * w),     s * (y * z + x * w), 1 - s * (x * x + y * y)};
+    double mirror = random_once_in(r, 4) ? -1.0 : 1.0;
+    double scale = mirror * random_float(r, 0.3f, 1.5f);
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            m[4 * row + column] = rotation[3 * row + column] * scale;
+        m[4 * row + 3] = random_float(r, -1.0f, 1.0f);
+        m[12 + row] = 0.0;
+    }
+    m[15] = 1.0;
+}
+
+static void add_instances(scene *s, random_stream *r, e3d_draw *draw)
+{
+    draw->pose_kind = (e3d_pose_kind)random_below(r, 3);
+    draw->instances = 1;
+    if (draw->pose_kind == E3D_POSE_NONE)
+        return;
+    draw->instances = random_below(r, 6);
+    int32_t size = draw->pose_kind == E3D_POSE_MATRIX ? 16 : 4;
+    float *poses = random_floats(s, r, size * draw->instances, -1.0f, 1.0f);
+    for (int32_t i = 0; size == 16 && i < draw->instances; i++) {
+        double pose[16];
+        random_pose(pose, r);
+        for (int k = 0; k < 16; k++)
+            poses[16 * i + k] = (float)pose[k];
+    }
+    if (random_once_in(r, 6))
+        poison(poses, size * draw->instances, r, 30);
+    draw->poses = poses;
+    int32_t colors = random_below(r, 3);
+    if (colors == 1)
+        draw->instance_colors_u8 = random_bytes(s, r, 4 * draw->instances);
+    if (colors == 2)
+        draw->instance_colors_f32 = random_floats(s, r, 4 * draw->instances, 0.0f, 1.0f);
+}
+
+static e3d_status add_draws(scene *s, random_stream *r)
+{
+    e3d_status status = E3D_OK;
+    int32_t count = random_below(r, SCENE_MAX_MESHES + 1);
+    for (int32_t i = 0; i < count && status == E3D_OK; i++) {
+        e3d_draw *draw = &s->draws[i];
+        status = add_mesh(s, r, i);
+        draw->mesh = s->meshes[i];
+        random_pose(draw->world_from_node, r);
+        add_instances(s, r, draw);
+        draw->node_id = 10 * i;
+    }
+    s->frame.draws = s->draws;
+    s->frame.draw_count = count;
+    return status;
+}
+
+static e3d_status add_materials(scene *s, random_stream *r)
+{
+    for (int i = 0; i < SCENE_MAX_TEXTURES; i++) {
+        int32_t width = 1 + random_below(r, 33), height = 1 + random_below(r, 33);
+        uint8_t *pixels = random_bytes(s, r, 4 * width * height);
+        e3d_filter filter = (e3d_filter)random_below(r, 3);
+        e3d_wrap wrap = (e3d_wrap)random_below(r, 3);
+        e3d_status status = e3d_texture_create(pixels, width, height, random_below(r, 2), filter,
+                                               wrap, &s->textures[i]);
+        if (status != E3D_OK)
+            return status;
+    }
+    for (int i = 0; i < SCENE_MAX_MATERIALS; i++) {
+        e3d_material *material = &s->materials[i];
+        int shiny = random_once_in(r, 2), glowing = random_once_in(r, 4);
+        for (int k = 0; k < 3; k++) {
+            material->color[k] = random_float(r, 0.0f, 1.2f);
+            material->specular[k] = shiny ? random_float(r, 0.0f, 1.0f) : 0.0f;
+            material->emissive[k] = glowing ? random_float(r, 0.0f, 0.5f) : 0.0f;
+        }
+        material->shininess = random_float(r, 0.01f, 300.0f);
+        material->texture = i < SCENE_MAX_TEXTURES ? s->textures[i] : NULL;
+        material->id = 100 + i;
+        material->two_sided = random_once_in(r, 3);
+        material->flat = random_once_in(r, 3);
+    }
+    s->frame.materials = s->materials;
+    s->frame.material_count = SCENE_MAX_MATERIALS;
+    return E3D_OK;
+}
+
+static void add_lights(scene *s, random_stream *r)
+{
+    s->frame.lights = s->lights;
+    s->frame.light_count = random_below(r, SCENE_MAX_LIGHTS + 1);
+    for (int32_t i = 0; i < s->frame.light_count; i++) {
+        e3d_light *light = &s->lights[i];
+        light->kind = (e3d_light_kind)random_below(r, 2);
+        light->falloff = (e3d_falloff)random_below(r, 2);
+        int endless = light->falloff == E3D_FALLOFF_INVERSE_SQUARE && random_once_in(r, 2);
+        light->range = endless ? INFINITY : random_float(r, 0.1f, 8.0f);
+        for (int k = 0; k < 3; k++) {
+            light->color[k] = random_float(r, 0.0f, 2.0f);
+            light->to_light[k] = random_float(r, -1.0f, 1.0f);
+            light->position[k] = random_float(r, -3.0f, 3.0f);
+        }
+        normalize(light->to_light);
+    }
+}
+
+/* The eye is at (0, 0, distance) and looks down -Z; a small distance puts triangles behind it. */
+static void aim_camera(e3d_frame *frame, random_stream *r)
+{
+    double distance = random_once_in(r, 3) ? 0.5 : 4.0;
+    double near = 0.05, far = random_once_in(r, 4) ? 4.5 : 100.0;
+    double aspect = (double)frame->width / frame->height;
+    int orthographic = random_once_in(r, 4);
+    double *clip = frame->clip_from_world, *view = frame->view_from_world;
+    for (int k = 0; k < 4; k++)
+        view[5 * k] = 1.0;
+    view[11] = -distance;
+    clip[0] = (orthographic ? 0.5 : 1.5) / aspect;
+    clip[5] = orthographic ? 0.5 : 1.5;
+    clip[10] = orthographic ? -2.0 / (far - near) : -(far + near) / (far - near);
+    double offset = orthographic ? -(far + near) / (far - near) : -2.0 * far * near / (far - near);
+    clip[11] = offset - clip[10] * distance;
+    clip[14] = orthographic ? 0.0 : -1.0;
+    clip[15] = orthographic ? 1.0 : distance;
+    frame->eye[2] = orthographic ? 1.0f : (float)distance;
+    frame->eye[3] = orthographic ? 0.0f : 1.0f;
+    frame->depth_near = (float)near;
+    frame->depth_far = (float)far;
+}
+
+static void choose_look(e3d_frame *frame, random_stream *r)
+{
+    frame->samples_axis = random_once_in(r, 4) ? 2 << random_below(r, 2) : 1;
+    frame->mode = random_once_in(r, 2) ? E3D_MODE_LIT : (e3d_mode)random_below(r, 8);
+    frame->cull = (e3d_cull)random_below(r, 3);
+    frame->wireframe = random_once_in(r, 2) ? E3D_WIRE_NONE : (e3d_wireframe)random_below(r, 3);
+    frame->hidden = random_once_in(r, 3) ? (e3d_hidden)random_below(r, 3) : E3D_HIDDEN_ZBUFFER;
+    frame->shading = (e3d_shading)random_below(r, 2);
+    frame->normals = (e3d_normals)random_below(r, 3);
+    frame->remove_hidden_lines = random_below(r, 2);
+    frame->line_width = random_once_in(r, 3) ? random_float(r, 0.01f, 20.0f) : 1.0f;
+    frame->point_size = random_once_in(r, 3) ? random_float(r, 0.01f, 20.0f) : 1.0f;
+    frame->encode_srgb = random_below(r, 2);
+    frame->decode_srgb = random_below(r, 2);
+    for (int k = 0; k < 3; k++) {
+        frame->line_color[k] = random_float(r, 0.0f, 1.0f);
+        frame->background[k] = random_float(r, 0.0f, 1.0f);
+        frame->ambient[k] = random_float(r, 0.0f, 0.3f);
+    }
+    frame->background[3] = (float)random_below(r, 2);
+    int clamped = random_once_in(r, 3);
+    frame->light_clamp[0] = clamped ? 0.1f : 0.0f;
+    frame->light_clamp[1] = clamped ? 1.0f : INFINITY;
+}
+
+e3d_status scene_create(scene *s, random_stream *r)
+{
+    memset(s, 0, sizeof *s);
+    const int32_t *size = SIZES[random_below(r, sizeof SIZES / sizeof *SIZES)];
+    s->frame.width = size[0];
+    s->frame.height = size[1];
+    choose_look(&s->frame, r);
+    aim_camera(&s->frame, r);
+    add_lights(s, r);
+    e3d_status status = add_materials(s, r);
+    return status == E3D_OK ? add_draws(s, r) : status;
+}
+
+void scene_destroy(scene *s)
+{
+    for (int i = 0; i < SCENE_MAX_MESHES; i++)
+        if (s->meshes[i] != NULL)
+            e3d_mesh_destroy(s->meshes[i]);
+    for (int i = 0; i < SCENE_MAX_TEXTURES; i++)
+        if (s->textures[i] != NULL)
+            e3d_texture_destroy(s->textures[i]);
+    for (int32_t i = 0; i < s->array_count; i++)
+        free(s->arrays[i]);
+}
+
+clip_triangles clip_triangles_create(random_stream *r)
+{
+    const int32_t *size = SIZES[random_below(r, sizeof SIZES / sizeof *SIZES)];
+    clip_triangles t = {.width = size[0], .height = size[1]};
+    t.vertices = 3 + random_below(r, 200);
+    t.faces_count = random_below(r, 300);
+    t.cull = (e3d_cull)random_below(r, 3);
+    t.clip = calloc((size_t)t.vertices * 4, sizeof *t.clip);
+    t.faces = calloc((size_t)t.faces_count * 3 + 1, sizeof *t.faces);
+    if (t.clip == NULL || t.faces == NULL)
+        abort();
+    float extent = random_once_in(r, 3) ? 100.0f : 1.5f;
+    for (int32_t i = 0; i < 4 * t.vertices; i++)
+        t.clip[i] = random_float(r, -extent, extent);
+    if (random_once_in(r, 2))
+        poison(t.clip, 4 * t.vertices, r, 20);
+    for (int32_t i = 0; i < 3 * t.faces_count; i++)
+        t.faces[i] = random_below(r, t.vertices);
+    return t;
+}
+
+void clip_triangles_destroy(clip_triangles *t)
+{
+    free(t->clip);
+    free(t->faces);
+}

@@ -1,0 +1,94 @@
+/* What this machine can run: instruction sets of CPU and operating system, and usable CPUs.
+ *
+ * Thread count: the affinity mask, capped by the cgroup's CPU quota (v2 cpu.max, v1 cfs_quota_us),
+ * because a container's quota does not show in the mask.
+ */
+#define _GNU_SOURCE
+#include <sched.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "core/limits.h"
+#include "e3d.h"
+
+const char *e3d_backend_name(e3d_backend backend)
+{
+    static const char *const names[E3D_BACKEND_COUNT] = {"scalar", "portable", "sse41", "avx2",
+                                                         "avx512"};
+    return (unsigned)backend < E3D_BACKEND_COUNT ? names[backend] : "unknown";
+}
+
+int e3d_backend_available(e3d_backend backend)
+{
+    switch (backend) {
+    case E3D_BACKEND_SCALAR:
+    case E3D_BACKEND_PORTABLE: return 1;
+#ifdef E3D_HAVE_X86 /* __builtin_cpu_supports also asks whether the system saves the registers */
+    case E3D_BACKEND_SSE41: return __builtin_cpu_supports("sse4.1") != 0;
+    case E3D_BACKEND_AVX2: return __builtin_cpu_supports("avx2") != 0;
+    case E3D_BACKEND_AVX512:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl");
+#endif
+    default: return 0;
+    }
+}
+
+e3d_backend e3d_backend_best(void)
+{
+    for (int b = E3D_BACKEND_COUNT - 1; b > E3D_BACKEND_PORTABLE; b--)
+        if (e3d_backend_available((e3d_backend)b))
+            return (e3d_backend)b;
+    return E3D_BACKEND_PORTABLE;
+}
+
+static int affinity_count(void)
+{
+#ifdef __linux__
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0)
+        return CPU_COUNT(&set);
+#endif
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online > 0 ? (int)online : 1;
+}
+
+/* CPUs that the quota allows, rounded up; 0 where there is none. */
+static int quota_count(void)
+{
+    long long quota = 0, period = 0;
+    FILE *file = fopen("/sys/fs/cgroup/cpu.max", "r");
+    if (file) {
+        if (fscanf(file, "%lld %lld", &quota, &period) != 2)
+            quota = 0; /* "max" */
+        fclose(file);
+    } else {
+        file = fopen("/sys/fs/cgroup/cpu/cpu.cfs_quota_us", "r");
+        if (file) {
+            if (fscanf(file, "%lld", &quota) != 1)
+                quota = 0;
+            fclose(file);
+        }
+        file = fopen("/sys/fs/cgroup/cpu/cpu.cfs_period_us", "r");
+        if (file) {
+            if (fscanf(file, "%lld", &period) != 1)
+                period = 0;
+            fclose(file);
+        }
+    }
+    if (quota <= 0 || period <= 0)
+        return 0;
+    long long cpus = (quota + period - 1) / period;
+    return cpus < E3D_MAX_THREADS ? (int)cpus : E3D_MAX_THREADS;
+}
+
+int e3d_thread_count(void)
+{
+    int count = affinity_count(), quota = quota_count();
+    if (quota && quota < count)
+        count = quota;
+    if (count > E3D_MAX_THREADS)
+        count = E3D_MAX_THREADS;
+    return count > 0 ? count : 1;
+}

@@ -1,0 +1,38 @@
+/* Arrays that grow and are kept: room is doubled, never given back before the owner dies, so that a
+ * steady frame allocates nothing.
+ */
+#ifndef E3D_GROW_H
+#define E3D_GROW_H
+
+#include <stddef.h>
+#include <stdlib.h>
+
+typedef struct e3d_array {
+    void *data;
+    size_t count, room; /* elements */
+} e3d_array;
+
+/* Makes room for `wanted` elements; 0 when memory is out (the array stays as it was). */
+static inline int e3d_array_reserve(e3d_array *array, size_t wanted, size_t size)
+{
+    if (wanted <= array->room)
+        return 1;
+    size_t room = array->room ? array->room : 64;
+    while (room < wanted)
+        room *= 2;
+    void *data = realloc(array->data, room * size);
+    if (!data)
+        return 0;
+    array->data = data;
+    array->room = room;
+    return 1;
+}
+
+static inline void e3d_array_free(e3d_array *array)
+{
+    free(array->data);
+    array->data = NULL;
+    array->count = array->room = 0;
+}
+
+#endif

@@ -1,0 +1,29 @@
+/* A mesh as the core keeps it: the caller's arrays, and the clusters made from them. */
+#ifndef E3D_MESH_H
+#define E3D_MESH_H
+
+#include "core/limits.h"
+#include "e3d.h"
+
+/* Up to 64 consecutive triangles over up to 128 vertices, with their own copy of the positions. */
+typedef struct e3d_cluster {
+    int32_t first_face;
+    int32_t triangles, vertices;
+    int32_t stride;       /* vertices rounded up to 16: planes of positions are this far apart */
+    size_t positions;     /* offset of x[stride], y[stride], z[stride] (, w[stride]) */
+    size_t indices;       /* offset of three planes of E3D_CLUSTER_TRIANGLES local indices */
+    float lo[3], hi[3];   /* AABB, object space; finite vertices only */
+    int32_t any_finite;
+} e3d_cluster;
+
+struct e3d_mesh {
+    e3d_mesh_desc desc;
+    e3d_cluster *clusters;
+    int32_t cluster_count;
+    float *positions;  /* of all clusters */
+    uint8_t *indices;
+    float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */
+    int32_t any_finite;
+};
+
+#endif

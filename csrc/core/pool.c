@@ -1,0 +1,121 @@
+/* The process's one thread pool: made at the first frame, remade after a fork.
+ *
+ * Threads sleep on a condition between jobs. A second caller does not wait: it works alone, which
+ * cannot deadlock and gives the same picture.
+ */
+#include "core/pool.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <stdint.h>
+
+#include "core/fpenv.h"
+#include "core/limits.h"
+
+static struct {
+    pthread_mutex_t owner; /* held by the caller whose job runs */
+    pthread_mutex_t lock;  /* guards what follows */
+    pthread_cond_t start, done;
+    int threads;           /* made so far, without the caller */
+    int wanted, running;   /* helpers of the job that shall run, that still run */
+    unsigned long job;
+    void (*work)(void *, int);
+    void *argument;
+} pool = {.owner = PTHREAD_MUTEX_INITIALIZER,
+          .lock = PTHREAD_MUTEX_INITIALIZER,
+          .start = PTHREAD_COND_INITIALIZER,
+          .done = PTHREAD_COND_INITIALIZER};
+
+static pthread_once_t fork_guard = PTHREAD_ONCE_INIT;
+
+static void before_fork(void)
+{
+    pthread_mutex_lock(&pool.owner);
+    pthread_mutex_lock(&pool.lock);
+}
+
+static void in_parent(void)
+{
+    pthread_mutex_unlock(&pool.lock);
+    pthread_mutex_unlock(&pool.owner);
+}
+
+static void in_child(void) /* no thread came along */
+{
+    pthread_mutex_init(&pool.owner, NULL);
+    pthread_mutex_init(&pool.lock, NULL);
+    pthread_cond_init(&pool.start, NULL);
+    pthread_cond_init(&pool.done, NULL);
+    pool.threads = pool.wanted = pool.running = 0;
+}
+
+static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
+
+static void *helper(void *number)
+{
+    int worker = (int)(intptr_t)number;
+    unsigned long seen = 0;
+    pthread_mutex_lock(&pool.lock);
+    seen = pool.job - 1; /* made for the job that is about to start */
+    for (;;) {
+        while (pool.job == seen || worker > pool.wanted) {
+            seen = pool.job;
+            pthread_cond_wait(&pool.start, &pool.lock);
+        }
+        seen = pool.job;
+        void (*work)(void *, int) = pool.work;
+        void *argument = pool.argument;
+        pthread_mutex_unlock(&pool.lock);
+        e3d_fpenv saved = e3d_fpenv_enter();
+        work(argument, worker);
+        e3d_fpenv_leave(saved);
+        pthread_mutex_lock(&pool.lock);
+        if (--pool.running == 0)
+            pthread_cond_signal(&pool.done);
+    }
+    return NULL;
+}
+
+/* Helpers take no signals: those stay with the program's own threads. */
+static void make_helpers(int wanted)
+{
+    sigset_t all, saved;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &saved);
+    while (pool.threads < wanted) {
+        pthread_t thread;
+        if (pthread_create(&thread, NULL, helper, (void *)(intptr_t)(pool.threads + 1)))
+            break;
+        pthread_detach(thread);
+        pool.threads++;
+    }
+    pthread_sigmask(SIG_SETMASK, &saved, NULL);
+}
+
+void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
+{
+    pthread_once(&fork_guard, guard_fork);
+    if (threads > E3D_MAX_THREADS)
+        threads = E3D_MAX_THREADS;
+    if (threads <= 1 || pthread_mutex_trylock(&pool.owner)) {
+        work(argument, 0);
+        return;
+    }
+    pthread_mutex_lock(&pool.lock);
+    pool.job++;
+    make_helpers(threads - 1);
+    pool.wanted = threads - 1 < pool.threads ? threads - 1 : pool.threads;
+    pool.running = pool.wanted;
+    pool.work = work;
+    pool.argument = argument;
+    pthread_cond_broadcast(&pool.start);
+    pthread_mutex_unlock(&pool.lock);
+
+    work(argument, 0);
+
+    pthread_mutex_lock(&pool.lock);
+    while (pool.running)
+        pthread_cond_wait(&pool.done, &pool.lock);
+    pthread_mutex_unlock(&pool.lock);
+    pthread_mutex_unlock(&pool.owner);
+}

@@ -1,0 +1,74 @@
+/* The vector words, one lane wide: plain C for any processor (backend `portable`).
+ *
+ * Every word means the same in each vec_*.h: see docs/exactness.md for min, max and the conversions.
+ * v_min(a, b) = a < b ? a : b, v_max(a, b) = a > b ? a : b; v_rint is to nearest even, v_trunc
+ * towards zero; both take values that fit int32.
+ */
+#ifndef E3D_VEC_1_H
+#define E3D_VEC_1_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#define V_LANES 1
+
+typedef float vf32;
+typedef int32_t vi32;
+typedef uint32_t vmask; /* 0 or 1 */
+
+static inline vf32 v_setf(float a) { return a; }
+static inline vi32 v_seti(int32_t a) { return a; }
+static inline vi32 v_iota(void) { return 0; }
+static inline vf32 v_loadf(const float *p) { return *p; }
+static inline vi32 v_loadi(const void *p) { int32_t v; memcpy(&v, p, 4); return v; }
+static inline void v_storef(float *p, vf32 a) { *p = a; }
+static inline void v_storei(void *p, vi32 a) { memcpy(p, &a, 4); }
+static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
+static inline vi32 v_loadu16(const uint16_t *p) { return *p; }
+static inline vf32 v_gatherf(const float *base, vi32 i) { return base[i]; }
+static inline vi32 v_gatheri(const void *base, vi32 i) { return ((const int32_t *)base)[i]; }
+
+static inline vf32 v_add(vf32 a, vf32 b) { return a + b; }
+static inline vf32 v_sub(vf32 a, vf32 b) { return a - b; }
+static inline vf32 v_mul(vf32 a, vf32 b) { return a * b; }
+static inline vf32 v_div(vf32 a, vf32 b) { return a / b; }
+static inline vf32 v_sqrt(vf32 a) { return sqrtf(a); }
+static inline vf32 v_min(vf32 a, vf32 b) { return a < b ? a : b; }
+static inline vf32 v_max(vf32 a, vf32 b) { return a > b ? a : b; }
+static inline vmask v_lt(vf32 a, vf32 b) { return a < b; }
+static inline vmask v_gt(vf32 a, vf32 b) { return a > b; }
+static inline vmask v_ge(vf32 a, vf32 b) { return a >= b; }
+static inline vmask v_eq(vf32 a, vf32 b) { return a == b; }
+
+static inline vi32 v_addi(vi32 a, vi32 b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
+static inline vi32 v_subi(vi32 a, vi32 b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
+static inline vi32 v_muli(vi32 a, vi32 b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
+static inline vi32 v_andi(vi32 a, vi32 b) { return a & b; }
+static inline vi32 v_ori(vi32 a, vi32 b) { return a | b; }
+static inline vi32 v_xori(vi32 a, vi32 b) { return a ^ b; }
+static inline vi32 v_mini(vi32 a, vi32 b) { return a < b ? a : b; }
+static inline vi32 v_maxi(vi32 a, vi32 b) { return a > b ? a : b; }
+static inline vmask v_gti(vi32 a, vi32 b) { return a > b; }
+static inline vmask v_eqi(vi32 a, vi32 b) { return a == b; }
+static inline vmask v_negi(vi32 a) { return a < 0; }
+#define v_shl(a, n) ((int32_t)((uint32_t)(a) << (n)))
+#define v_shr(a, n) ((int32_t)((uint32_t)(a) >> (n)))
+#define v_sra(a, n) ((int32_t)(a) >> (n))
+
+static inline vf32 v_float(vi32 a) { return (float)a; }
+static inline vi32 v_rint(vf32 a) { return (int32_t)lrintf(a); }
+static inline vi32 v_trunc(vf32 a) { return (int32_t)a; }
+static inline vf32 v_asf(vi32 a) { float f; memcpy(&f, &a, 4); return f; }
+static inline vi32 v_asi(vf32 a) { int32_t i; memcpy(&i, &a, 4); return i; }
+
+static inline vf32 v_self(vmask m, vf32 a, vf32 b) { return m ? a : b; }
+static inline vi32 v_seli(vmask m, vi32 a, vi32 b) { return m ? a : b; }
+static inline vmask v_mand(vmask a, vmask b) { return a & b; }
+static inline vmask v_mor(vmask a, vmask b) { return a | b; }
+static inline vmask v_mandnot(vmask a, vmask b) { return a & (b ^ 1u); } /* a and not b */
+static inline vmask v_mnot(vmask a) { return a ^ 1u; }
+static inline uint32_t v_bits(vmask m) { return m; }
+static inline int v_any(vmask m) { return m != 0; }
+
+#endif

@@ -1,0 +1,78 @@
+/* The vector words for AVX2: eight lanes. vec_1.h says what each means. */
+#ifndef E3D_VEC_AVX2_H
+#define E3D_VEC_AVX2_H
+
+#include <immintrin.h>
+#include <stdint.h>
+
+#define V_LANES 8
+
+typedef __m256 vf32;
+typedef __m256i vi32;
+typedef __m256 vmask;
+
+static inline vf32 v_setf(float a) { return _mm256_set1_ps(a); }
+static inline vi32 v_seti(int32_t a) { return _mm256_set1_epi32(a); }
+static inline vi32 v_iota(void) { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
+static inline vf32 v_loadf(const float *p) { return _mm256_loadu_ps(p); }
+static inline vi32 v_loadi(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
+static inline void v_storef(float *p, vf32 a) { _mm256_storeu_ps(p, a); }
+static inline void v_storei(void *p, vi32 a) { _mm256_storeu_si256((__m256i *)p, a); }
+static inline vi32 v_loadu8(const uint8_t *p) {
+    return _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)p));
+}
+static inline vi32 v_loadu16(const uint16_t *p) {
+    return _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)p));
+}
+static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm256_i32gather_ps(base, i, 4); }
+static inline vi32 v_gatheri(const void *base, vi32 i) {
+    return _mm256_i32gather_epi32((const int *)base, i, 4);
+}
+
+static inline vf32 v_add(vf32 a, vf32 b) { return _mm256_add_ps(a, b); }
+static inline vf32 v_sub(vf32 a, vf32 b) { return _mm256_sub_ps(a, b); }
+static inline vf32 v_mul(vf32 a, vf32 b) { return _mm256_mul_ps(a, b); }
+static inline vf32 v_div(vf32 a, vf32 b) { return _mm256_div_ps(a, b); }
+static inline vf32 v_sqrt(vf32 a) { return _mm256_sqrt_ps(a); }
+static inline vf32 v_min(vf32 a, vf32 b) { return _mm256_min_ps(a, b); }
+static inline vf32 v_max(vf32 a, vf32 b) { return _mm256_max_ps(a, b); }
+static inline vmask v_lt(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
+static inline vmask v_gt(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_GT_OQ); }
+static inline vmask v_ge(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_GE_OQ); }
+static inline vmask v_eq(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_EQ_OQ); }
+
+static inline vi32 v_addi(vi32 a, vi32 b) { return _mm256_add_epi32(a, b); }
+static inline vi32 v_subi(vi32 a, vi32 b) { return _mm256_sub_epi32(a, b); }
+static inline vi32 v_muli(vi32 a, vi32 b) { return _mm256_mullo_epi32(a, b); }
+static inline vi32 v_andi(vi32 a, vi32 b) { return _mm256_and_si256(a, b); }
+static inline vi32 v_ori(vi32 a, vi32 b) { return _mm256_or_si256(a, b); }
+static inline vi32 v_xori(vi32 a, vi32 b) { return _mm256_xor_si256(a, b); }
+static inline vi32 v_mini(vi32 a, vi32 b) { return _mm256_min_epi32(a, b); }
+static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm256_max_epi32(a, b); }
+static inline vmask v_gti(vi32 a, vi32 b) { return _mm256_castsi256_ps(_mm256_cmpgt_epi32(a, b)); }
+static inline vmask v_eqi(vi32 a, vi32 b) { return _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b)); }
+static inline vmask v_negi(vi32 a) { return _mm256_castsi256_ps(_mm256_srai_epi32(a, 31)); }
+#define v_shl(a, n) _mm256_slli_epi32(a, n)
+#define v_shr(a, n) _mm256_srli_epi32(a, n)
+#define v_sra(a, n) _mm256_srai_epi32(a, n)
+
+static inline vf32 v_float(vi32 a) { return _mm256_cvtepi32_ps(a); }
+static inline vi32 v_rint(vf32 a) { return _mm256_cvtps_epi32(a); }
+static inline vi32 v_trunc(vf32 a) { return _mm256_cvttps_epi32(a); }
+static inline vf32 v_asf(vi32 a) { return _mm256_castsi256_ps(a); }
+static inline vi32 v_asi(vf32 a) { return _mm256_castps_si256(a); }
+
+static inline vf32 v_self(vmask m, vf32 a, vf32 b) { return _mm256_blendv_ps(b, a, m); }
+static inline vi32 v_seli(vmask m, vi32 a, vi32 b) {
+    return _mm256_blendv_epi8(b, a, _mm256_castps_si256(m));
+}
+static inline vmask v_mand(vmask a, vmask b) { return _mm256_and_ps(a, b); }
+static inline vmask v_mor(vmask a, vmask b) { return _mm256_or_ps(a, b); }
+static inline vmask v_mandnot(vmask a, vmask b) { return _mm256_andnot_ps(b, a); }
+static inline vmask v_mnot(vmask a) {
+    return _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1)));
+}
+static inline uint32_t v_bits(vmask m) { return (uint32_t)_mm256_movemask_ps(m); }
+static inline int v_any(vmask m) { return _mm256_movemask_ps(m) != 0; }
+
+#endif

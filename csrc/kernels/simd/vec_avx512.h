@@ -1,0 +1,76 @@
+/* The vector words for AVX-512 (F, CD, BW, DQ, VL): sixteen lanes. vec_1.h says what each means. */
+#ifndef E3D_VEC_AVX512_H
+#define E3D_VEC_AVX512_H
+
+#include <immintrin.h>
+#include <stdint.h>
+
+#define V_LANES 16
+
+typedef __m512 vf32;
+typedef __m512i vi32;
+typedef __mmask16 vmask;
+
+static inline vf32 v_setf(float a) { return _mm512_set1_ps(a); }
+static inline vi32 v_seti(int32_t a) { return _mm512_set1_epi32(a); }
+static inline vi32 v_iota(void) {
+    return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+static inline vf32 v_loadf(const float *p) { return _mm512_loadu_ps(p); }
+static inline vi32 v_loadi(const void *p) { return _mm512_loadu_si512(p); }
+static inline void v_storef(float *p, vf32 a) { _mm512_storeu_ps(p, a); }
+static inline void v_storei(void *p, vi32 a) { _mm512_storeu_si512(p, a); }
+static inline vi32 v_loadu8(const uint8_t *p) {
+    return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)p));
+}
+static inline vi32 v_loadu16(const uint16_t *p) {
+    return _mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)p));
+}
+static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm512_i32gather_ps(i, base, 4); }
+static inline vi32 v_gatheri(const void *base, vi32 i) {
+    return _mm512_i32gather_epi32(i, base, 4);
+}
+
+static inline vf32 v_add(vf32 a, vf32 b) { return _mm512_add_ps(a, b); }
+static inline vf32 v_sub(vf32 a, vf32 b) { return _mm512_sub_ps(a, b); }
+static inline vf32 v_mul(vf32 a, vf32 b) { return _mm512_mul_ps(a, b); }
+static inline vf32 v_div(vf32 a, vf32 b) { return _mm512_div_ps(a, b); }
+static inline vf32 v_sqrt(vf32 a) { return _mm512_sqrt_ps(a); }
+static inline vf32 v_min(vf32 a, vf32 b) { return _mm512_min_ps(a, b); }
+static inline vf32 v_max(vf32 a, vf32 b) { return _mm512_max_ps(a, b); }
+static inline vmask v_lt(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+static inline vmask v_gt(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
+static inline vmask v_ge(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ); }
+static inline vmask v_eq(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
+
+static inline vi32 v_addi(vi32 a, vi32 b) { return _mm512_add_epi32(a, b); }
+static inline vi32 v_subi(vi32 a, vi32 b) { return _mm512_sub_epi32(a, b); }
+static inline vi32 v_muli(vi32 a, vi32 b) { return _mm512_mullo_epi32(a, b); }
+static inline vi32 v_andi(vi32 a, vi32 b) { return _mm512_and_si512(a, b); }
+static inline vi32 v_ori(vi32 a, vi32 b) { return _mm512_or_si512(a, b); }
+static inline vi32 v_xori(vi32 a, vi32 b) { return _mm512_xor_si512(a, b); }
+static inline vi32 v_mini(vi32 a, vi32 b) { return _mm512_min_epi32(a, b); }
+static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm512_max_epi32(a, b); }
+static inline vmask v_gti(vi32 a, vi32 b) { return _mm512_cmpgt_epi32_mask(a, b); }
+static inline vmask v_eqi(vi32 a, vi32 b) { return _mm512_cmpeq_epi32_mask(a, b); }
+static inline vmask v_negi(vi32 a) { return _mm512_movepi32_mask(a); }
+#define v_shl(a, n) _mm512_slli_epi32(a, n)
+#define v_shr(a, n) _mm512_srli_epi32(a, n)
+#define v_sra(a, n) _mm512_srai_epi32(a, n)
+
+static inline vf32 v_float(vi32 a) { return _mm512_cvtepi32_ps(a); }
+static inline vi32 v_rint(vf32 a) { return _mm512_cvtps_epi32(a); }
+static inline vi32 v_trunc(vf32 a) { return _mm512_cvttps_epi32(a); }
+static inline vf32 v_asf(vi32 a) { return _mm512_castsi512_ps(a); }
+static inline vi32 v_asi(vf32 a) { return _mm512_castps_si512(a); }
+
+static inline vf32 v_self(vmask m, vf32 a, vf32 b) { return _mm512_mask_blend_ps(m, b, a); }
+static inline vi32 v_seli(vmask m, vi32 a, vi32 b) { return _mm512_mask_blend_epi32(m, b, a); }
+static inline vmask v_mand(vmask a, vmask b) { return (vmask)(a & b); }
+static inline vmask v_mor(vmask a, vmask b) { return (vmask)(a | b); }
+static inline vmask v_mandnot(vmask a, vmask b) { return (vmask)(a & ~b); }
+static inline vmask v_mnot(vmask a) { return (vmask)~a; }
+static inline uint32_t v_bits(vmask m) { return m; }
+static inline int v_any(vmask m) { return m != 0; }
+
+#endif

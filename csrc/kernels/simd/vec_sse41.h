@@ -1,0 +1,85 @@
+/* The vector words for SSE4.1: four lanes. vec_1.h says what each means. */
+#ifndef E3D_VEC_SSE41_H
+#define E3D_VEC_SSE41_H
+
+#include <smmintrin.h>
+#include <stdint.h>
+#include <string.h>
+
+#define V_LANES 4
+
+typedef __m128 vf32;
+typedef __m128i vi32;
+typedef __m128 vmask;
+
+static inline vf32 v_setf(float a) { return _mm_set1_ps(a); }
+static inline vi32 v_seti(int32_t a) { return _mm_set1_epi32(a); }
+static inline vi32 v_iota(void) { return _mm_setr_epi32(0, 1, 2, 3); }
+static inline vf32 v_loadf(const float *p) { return _mm_loadu_ps(p); }
+static inline vi32 v_loadi(const void *p) { return _mm_loadu_si128((const __m128i *)p); }
+static inline void v_storef(float *p, vf32 a) { _mm_storeu_ps(p, a); }
+static inline void v_storei(void *p, vi32 a) { _mm_storeu_si128((__m128i *)p, a); }
+static inline vi32 v_loadu8(const uint8_t *p) {
+    int32_t v;
+    memcpy(&v, p, 4);
+    return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(v));
+}
+static inline vi32 v_loadu16(const uint16_t *p) {
+    return _mm_cvtepu16_epi32(_mm_loadl_epi64((const __m128i *)p));
+}
+static inline vi32 v_gatheri(const void *base, vi32 i) {
+    const int32_t *b = (const int32_t *)base;
+    return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
+                          b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
+}
+static inline vf32 v_gatherf(const float *base, vi32 i) {
+    return _mm_castsi128_ps(v_gatheri(base, i));
+}
+
+static inline vf32 v_add(vf32 a, vf32 b) { return _mm_add_ps(a, b); }
+static inline vf32 v_sub(vf32 a, vf32 b) { return _mm_sub_ps(a, b); }
+static inline vf32 v_mul(vf32 a, vf32 b) { return _mm_mul_ps(a, b); }
+static inline vf32 v_div(vf32 a, vf32 b) { return _mm_div_ps(a, b); }
+static inline vf32 v_sqrt(vf32 a) { return _mm_sqrt_ps(a); }
+static inline vf32 v_min(vf32 a, vf32 b) { return _mm_min_ps(a, b); }
+static inline vf32 v_max(vf32 a, vf32 b) { return _mm_max_ps(a, b); }
+static inline vmask v_lt(vf32 a, vf32 b) { return _mm_cmplt_ps(a, b); }
+static inline vmask v_gt(vf32 a, vf32 b) { return _mm_cmpgt_ps(a, b); }
+static inline vmask v_ge(vf32 a, vf32 b) { return _mm_cmpge_ps(a, b); }
+static inline vmask v_eq(vf32 a, vf32 b) { return _mm_cmpeq_ps(a, b); }
+
+static inline vi32 v_addi(vi32 a, vi32 b) { return _mm_add_epi32(a, b); }
+static inline vi32 v_subi(vi32 a, vi32 b) { return _mm_sub_epi32(a, b); }
+static inline vi32 v_muli(vi32 a, vi32 b) { return _mm_mullo_epi32(a, b); }
+static inline vi32 v_andi(vi32 a, vi32 b) { return _mm_and_si128(a, b); }
+static inline vi32 v_ori(vi32 a, vi32 b) { return _mm_or_si128(a, b); }
+static inline vi32 v_xori(vi32 a, vi32 b) { return _mm_xor_si128(a, b); }
+static inline vi32 v_mini(vi32 a, vi32 b) { return _mm_min_epi32(a, b); }
+static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm_max_epi32(a, b); }
+static inline vmask v_gti(vi32 a, vi32 b) { return _mm_castsi128_ps(_mm_cmpgt_epi32(a, b)); }
+static inline vmask v_eqi(vi32 a, vi32 b) { return _mm_castsi128_ps(_mm_cmpeq_epi32(a, b)); }
+static inline vmask v_negi(vi32 a) { return _mm_castsi128_ps(_mm_srai_epi32(a, 31)); }
+#define v_shl(a, n) _mm_slli_epi32(a, n)
+#define v_shr(a, n) _mm_srli_epi32(a, n)
+#define v_sra(a, n) _mm_srai_epi32(a, n)
+
+static inline vf32 v_float(vi32 a) { return _mm_cvtepi32_ps(a); }
+static inline vi32 v_rint(vf32 a) { return _mm_cvtps_epi32(a); }
+static inline vi32 v_trunc(vf32 a) { return _mm_cvttps_epi32(a); }
+static inline vf32 v_asf(vi32 a) { return _mm_castsi128_ps(a); }
+static inline vi32 v_asi(vf32 a) { return _mm_castps_si128(a); }
+
+static inline vf32 v_self(vmask m, vf32 a, vf32 b) { return _mm_blendv_ps(b, a, m); }
+static inline vi32 v_seli(vmask m, vi32 a, vi32 b) {
+    return _mm_blendv_epi8(b, a, _mm_castps_si128(m));
+}
+static inline vmask v_mand(vmask a, vmask b) { return _mm_and_ps(a, b); }
+static inline vmask v_mor(vmask a, vmask b) { return _mm_or_ps(a, b); }
+static inline vmask v_mandnot(vmask a, vmask b) { return _mm_andnot_ps(b, a); }
+static inline vmask v_mnot(vmask a) {
+    return _mm_xor_ps(a, _mm_castsi128_ps(_mm_set1_epi32(-1)));
+}
+static inline uint32_t v_bits(vmask m) { return (uint32_t)_mm_movemask_ps(m); }
+static inline int v_any(vmask m) { return _mm_movemask_ps(m) != 0; }
+
+#endif

@@ -1,0 +1,93 @@
+/* The 2-D canvas: points, lines, triangles, rectangles and text on an RGBA8 framebuffer.
+ *
+ * In:  a framebuffer and positions in screen space: x right, y down, in pixels; pixel (i, j) is the
+ *      square [i, i+1) x [j, j+1), its centre is (i + 1/2, j + 1/2).
+ * Out: the pixels, overwritten by an opaque colour, blended with one whose alpha is below 255.
+ * Always: every position is legal. What is not finite draws nothing; a coordinate beyond +-2^31 is
+ *      moved there; what lies outside the framebuffer costs no time in proportion to its size.
+ *      Results are exact integers, so that they are the same on every machine. No allocation.
+ */
+#ifndef E3D_CANVAS_H
+#define E3D_CANVAS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The longest side of a framebuffer. The edge functions of triangle.c rely on it. */
+#define E3D_CANVAS_MAX_SIDE 262144
+
+/* The size of a character cell, in pixels, at scale 1. */
+#define E3D_FONT_WIDTH 8
+#define E3D_FONT_HEIGHT 14
+
+typedef struct e3d_canvas {
+    uint8_t *pixels; /* row 0 is the top row; four bytes a pixel: red, green, blue, alpha */
+    int32_t width;   /* 0 ... E3D_CANVAS_MAX_SIDE */
+    int32_t height;
+    ptrdiff_t stride; /* bytes from a row to the one below it; may be negative */
+} e3d_canvas;
+
+/* Straight (not premultiplied) alpha; 0 is transparent, 255 opaque. */
+typedef struct e3d_rgba {
+    uint8_t r, g, b, a;
+} e3d_rgba;
+
+typedef enum e3d_line_algorithm {
+    E3D_LINE_BRESENHAM = 0,
+    E3D_LINE_DDA = 1,
+} e3d_line_algorithm;
+
+typedef enum e3d_triangle_algorithm {
+    E3D_TRIANGLE_EDGE = 0,
+    E3D_TRIANGLE_SCANLINE = 1,
+} e3d_triangle_algorithm;
+
+/* Overwrites every pixel, alpha included. */
+void e3d_canvas_clear(const e3d_canvas *canvas, e3d_rgba color);
+
+/* The pixels whose centres lie in [x, x + width) x [y, y + height). */
+void e3d_canvas_rectangle(const e3d_canvas *canvas, double x, double y, double width, double height,
+                          e3d_rgba color);
+
+/* The outermost pixels, one deep, of the same rectangle. */
+void e3d_canvas_rectangle_outline(const e3d_canvas *canvas, double x, double y, double width,
+                                  double height, e3d_rgba color);
+
+/* In the functions below, primitive k takes the colour at colors + k * color_stride: a stride of 4
+ * reads one colour for each, a stride of 0 the same colour for all. */
+
+/* The pixels that hold the points (x, y). */
+void e3d_canvas_points(const e3d_canvas *canvas, const double *xy, size_t count,
+                       const uint8_t *colors, size_t color_stride);
+
+/* Lines (x0, y0, x1, y1) from the pixel that holds one end to the pixel that holds the other, both
+ * included, the same pixels from either end. Widths up to 1 use `algorithm`; wider lines are
+ * parallelograms along the centre line, `width` thick along the minor axis, filled by the triangles' rule. */
+void e3d_canvas_lines(const e3d_canvas *canvas, const double *xyxy, size_t count,
+                      const uint8_t *colors, size_t color_stride, double width,
+                      e3d_line_algorithm algorithm);
+
+/* Lines through `count` points, and back to the first one if `closed`. At widths up to 1 a vertex
+ * between two lines is drawn once, so that a translucent polyline shows no dots. A vertex that is not
+ * finite interrupts it. */
+void e3d_canvas_polyline(const e3d_canvas *canvas, const double *xy, size_t count, int closed,
+                         e3d_rgba color, double width, e3d_line_algorithm algorithm);
+
+/* Triangles (x0, y0, x1, y1, x2, y2), in either winding: the pixels whose centres lie inside the
+ * triangle of the vertices snapped to 1/256 pixel (nearest, ties to even); centres on an edge belong
+ * to it if it is a top or a left edge. Both algorithms give the same pixels. */
+void e3d_canvas_triangles(const e3d_canvas *canvas, const double *xyxyxy, size_t count,
+                          const uint8_t *colors, size_t color_stride,
+                          e3d_triangle_algorithm algorithm);
+
+/* Text in the built-in font, with the top left corner of its first cell in the pixel that holds
+ * (x, y). `codes` are ASCII; 10 starts a new line; what the font lacks shows as a hollow box. Each
+ * pixel of the font is a square of scale x scale pixels (scale >= 1). */
+void e3d_canvas_text(const e3d_canvas *canvas, double x, double y, const uint8_t *codes,
+                     size_t length, int32_t scale, e3d_rgba color);
+
+/* The size, in pixels, of the cells that a text takes: its longest line by its number of lines. */
+void e3d_text_size(const uint8_t *codes, size_t length, int32_t scale, int64_t *width,
+                   int64_t *height);
+
+#endif

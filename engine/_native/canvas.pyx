@@ -1,0 +1,147 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, initializedcheck=False
+"""The gateway to the 2-D canvas in C: checks shapes, releases the GIL, makes one call.
+
+In:  a framebuffer, positions as float64, colours as bytes (4, or 4 for each primitive).
+Out: pixels of the framebuffer. Names of algorithms and kinds of arguments are engine/canvas.py's affair.
+"""
+
+from e3d_canvas cimport *
+from libc.stdint cimport int64_t, uint8_t
+
+MAX_SIDE = E3D_CANVAS_MAX_SIDE
+FONT_CELL = (E3D_FONT_WIDTH, E3D_FONT_HEIGHT)
+LINE_ALGORITHMS = {"bresenham": E3D_LINE_BRESENHAM, "dda": E3D_LINE_DDA}
+TRIANGLE_ALGORITHMS = {"edge": E3D_TRIANGLE_EDGE, "scanline": E3D_TRIANGLE_SCANLINE}
+
+
+cdef e3d_rgba rgba(const uint8_t[::1] color) except *:
+    if color.shape[0] != 4:
+        raise ValueError(f"a colour is 4 bytes, not {color.shape[0]}")
+    return e3d_rgba(color[0], color[1], color[2], color[3])
+
+
+cdef size_t color_stride(const uint8_t[::1] colors, Py_ssize_t count) except? 1:
+    """0 for one colour for all primitives, 4 for one each."""
+    if colors.shape[0] == 4:
+        return 0
+    if colors.shape[0] != 4 * count:
+        raise ValueError(f"{count} primitives take 4 or {4 * count} bytes of colours, "
+                         f"not {colors.shape[0]}")
+    return 4
+
+
+cdef int check_columns(const double[:, ::1] positions, Py_ssize_t columns) except -1:
+    if positions.shape[1] != columns:
+        raise ValueError(f"positions have {columns} columns, not {positions.shape[1]}")
+    return 0
+
+
+cdef class Surface:
+    """A framebuffer to draw on; keeps its pixels alive."""
+
+    cdef uint8_t[:, :, :] pixels
+    cdef e3d_canvas canvas
+
+    def __cinit__(self, uint8_t[:, :, :] pixels not None):
+        if pixels.shape[2] != 4:
+            raise ValueError(f"a pixel has 4 bytes, not {pixels.shape[2]}")
+        if pixels.shape[0] > E3D_CANVAS_MAX_SIDE or pixels.shape[1] > E3D_CANVAS_MAX_SIDE:
+            raise ValueError(f"a side is longer than {E3D_CANVAS_MAX_SIDE} pixels")
+        if pixels.strides[2] != 1 or (pixels.strides[1] != 4 and pixels.shape[1] > 1):
+            raise ValueError("the pixels of a row are not contiguous")
+        self.pixels = pixels
+        self.canvas.height = <int>pixels.shape[0]
+        self.canvas.width = <int>pixels.shape[1]
+        self.canvas.stride = pixels.strides[0]
+        self.canvas.pixels = NULL
+        if pixels.shape[0] > 0 and pixels.shape[1] > 0:
+            self.canvas.pixels = &pixels[0, 0, 0]
+
+    def clear(self, const uint8_t[::1] color not None):
+        cdef e3d_rgba native_color = rgba(color)
+        with nogil:
+            e3d_canvas_clear(&self.canvas, native_color)
+
+    def rectangle(self, double x, double y, double width, double height,
+                  const uint8_t[::1] color not None, bint fill):
+        cdef e3d_rgba native_color = rgba(color)
+        with nogil:
+            if fill:
+                e3d_canvas_rectangle(&self.canvas, x, y, width, height, native_color)
+            else:
+                e3d_canvas_rectangle_outline(&self.canvas, x, y, width, height, native_color)
+
+    def point(self, double x, double y, const uint8_t[::1] color not None):
+        cdef double[2] xy = [x, y]
+        cdef size_t stride = color_stride(color, 1)
+        e3d_canvas_points(&self.canvas, xy, 1, &color[0], stride)
+
+    def points(self, const double[:, ::1] xy not None, const uint8_t[::1] colors not None):
+        check_columns(xy, 2)
+        cdef size_t count = xy.shape[0]
+        cdef size_t stride = color_stride(colors, xy.shape[0])
+        if count > 0:
+            with nogil:
+                e3d_canvas_points(&self.canvas, &xy[0, 0], count, &colors[0], stride)
+
+    def line(self, double x0, double y0, double x1, double y1, const uint8_t[::1] color not None,
+             double width, e3d_line_algorithm algorithm):
+        cdef double[4] xyxy = [x0, y0, x1, y1]
+        cdef size_t stride = color_stride(color, 1)
+        with nogil:
+            e3d_canvas_lines(&self.canvas, xyxy, 1, &color[0], stride, width, algorithm)
+
+    def lines(self, const double[:, ::1] xyxy not None, const uint8_t[::1] colors not None,
+              double width, e3d_line_algorithm algorithm):
+        check_columns(xyxy, 4)
+        cdef size_t count = xyxy.shape[0]
+        cdef size_t stride = color_stride(colors, xyxy.shape[0])
+        if count > 0:
+            with nogil:
+                e3d_canvas_lines(&self.canvas, &xyxy[0, 0], count, &colors[0], stride, width,
+                                 algorithm)
+
+    def polyline(self, const double[:, ::1] xy not None, bint closed,
+                 const uint8_t[::1] color not None, double width, e3d_line_algorithm algorithm):
+        check_columns(xy, 2)
+        cdef e3d_rgba native_color = rgba(color)
+        cdef size_t count = xy.shape[0]
+        if count > 0:
+            with nogil:
+                e3d_canvas_polyline(&self.canvas, &xy[0, 0], count, closed, native_color, width,
+                                    algorithm)
+
+    def triangle(self, double ax, double ay, double bx, double by, double cx, double cy,
+                 const uint8_t[::1] color not None, e3d_triangle_algorithm algorithm):
+        cdef double[6] xyxyxy = [ax, ay, bx, by, cx, cy]
+        cdef size_t stride = color_stride(color, 1)
+        with nogil:
+            e3d_canvas_triangles(&self.canvas, xyxyxy, 1, &color[0], stride, algorithm)
+
+    def triangles(self, const double[:, ::1] xyxyxy not None, const uint8_t[::1] colors not None,
+                  e3d_triangle_algorithm algorithm):
+        check_columns(xyxyxy, 6)
+        cdef size_t count = xyxyxy.shape[0]
+        cdef size_t stride = color_stride(colors, xyxyxy.shape[0])
+        if count > 0:
+            with nogil:
+                e3d_canvas_triangles(&self.canvas, &xyxyxy[0, 0], count, &colors[0], stride,
+                                     algorithm)
+
+    def text(self, double x, double y, const uint8_t[::1] codes not None, int scale,
+             const uint8_t[::1] color not None):
+        cdef e3d_rgba native_color = rgba(color)
+        cdef size_t length = codes.shape[0]
+        if scale < 1:
+            raise ValueError(f"scale is at least 1, not {scale}")
+        if length > 0:
+            with nogil:
+                e3d_canvas_text(&self.canvas, x, y, &codes[0], length, scale, native_color)
+
+
+def text_size(const uint8_t[::1] codes not None, int scale):
+    """The (width, height) in pixels of the cells of a text."""
+    cdef int64_t width = 0, height = 0
+    cdef size_t length = codes.shape[0]
+    e3d_text_size(&codes[0] if length > 0 else NULL, length, scale, &width, &height)
+    return width, height

@@ -3,6 +3,7 @@
 import ast
 import importlib
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -29,9 +30,8 @@ def defined_names(module):
         name
         for name, value in vars(module).items()
         if not name.startswith("_")
+        and not isinstance(value, ModuleType)
         and getattr(value, "__module__", module.__name__) == module.__name__
-        # A module has no __module__, but a spec.
-        and not hasattr(value, "__spec__")
     }
 
 

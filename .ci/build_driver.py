@@ -30,8 +30,8 @@ def rules_for(compiler):
 def compile_all(compiler, rules, extra, folder):
     """Compile the core and the driver; return the objects."""
     fuzz = "-fsanitize=fuzzer-no-link" in extra
-    program = "csrc/driver/fuzz.c" if fuzz else "csrc/driver/driver.c"
-    driver = [program, "csrc/driver/compare.c", "csrc/driver/scenes.c"]
+    other = "driver.c" if fuzz else "fuzz.c"
+    driver = [str(path) for path in Path("csrc/driver").glob("*.c") if path.name != other]
     jobs = [(source, [*rules["WARNINGS"], *rules["common_flags"]()], []) for source in driver]
     for _, info in rules["static_libraries"]():
         macros = [f"-D{name}={value}" for name, value in info["macros"]]

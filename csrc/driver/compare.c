@@ -73,12 +73,10 @@ static e3d_targets picture_targets(const picture *p)
 
 static uint64_t picture_hash(const picture *p)
 {
-    uint64_t hash = 0xCBF29CE484222325u ^ (uint64_t)p->status;
-    for (int k = 0; k < OUTPUTS && p->status == E3D_OK; k++) {
-        const uint8_t *bytes = p->arrays[k];
-        for (size_t i = 0; bytes != NULL && i < output_size(p, k); i++)
-            hash = (hash ^ bytes[i]) * 0x100000001B3u;
-    }
+    uint64_t hash = HASH_START ^ (uint64_t)p->status;
+    for (int k = 0; k < OUTPUTS && p->status == E3D_OK; k++)
+        if (p->arrays[k] != NULL)
+            hash = hash_bytes(hash, p->arrays[k], output_size(p, k));
     return hash;
 }
 

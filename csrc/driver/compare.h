@@ -16,6 +16,15 @@ typedef struct outcome {
     int agrees; /* every backend and thread count gave this hash, and no NaN */
 } outcome;
 
+/* FNV-1a: the hash of some bytes after those that gave `hash`. */
+static const uint64_t HASH_START = 0xCBF29CE484222325u;
+static inline uint64_t hash_bytes(uint64_t hash, const uint8_t *bytes, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        hash = (hash ^ bytes[i]) * 0x100000001B3u;
+    return hash;
+}
+
 /* Which backends and thread counts to try. */
 typedef struct run_plan {
     int backends[E3D_BACKEND_COUNT];

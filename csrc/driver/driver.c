@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "driver/canvas_scene.h"
 #include "driver/compare.h"
 
 typedef struct options {
@@ -76,6 +77,8 @@ int main(int count, char **arguments)
         failures += report("scene", i, compare_scene(r, &o.plan, title));
         snprintf(title, sizeof title, "rasterize %04ld", i);
         failures += report("rasterize", i, compare_rasterize(r, &o.plan, title));
+        snprintf(title, sizeof title, "canvas %04ld", i);
+        failures += report("canvas", i, compare_canvas(r, title));
     }
     if (failures > 0)
         fprintf(stderr, "driver: %d scenes differ between runs\n", failures);

@@ -1,6 +1,7 @@
 /* libFuzzer's entry: its bytes decide the scene; a crash or a disagreement is a finding. */
 #include <stdlib.h>
 
+#include "driver/canvas_scene.h"
 #include "driver/compare.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
@@ -13,6 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     random_stream r = {.bytes = bytes, .byte_count = count};
     int fine = compare_scene(r, &plan, "scene").agrees;
     fine &= compare_rasterize(r, &plan, "rasterize").agrees;
+    fine &= compare_canvas(r, "canvas").agrees;
     if (!fine)
         abort();
     return 0;

@@ -1,0 +1,14 @@
+/* Random and hostile 2-D drawing for the driver and the fuzzer.
+ *
+ * In:  a stream of random numbers.
+ * Out: the hash of the framebuffer; whether both triangle fills gave it, and no byte beside a row
+ *      was touched.
+ */
+#ifndef E3D_DRIVER_CANVAS_SCENE_H
+#define E3D_DRIVER_CANVAS_SCENE_H
+
+#include "driver/compare.h"
+
+outcome compare_canvas(random_stream r, const char *title);
+
+#endif

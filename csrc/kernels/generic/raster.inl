@@ -1,0 +1,182 @@
+/* raster: the samples of a tile that a piece covers, and its depth there (R12, R14-R17).
+ *
+ * Four uses of one loop: depth test, overwrite, count, mark. Narrow pieces take one unaligned vector a
+ * row; wider ones go block by block, and a block inside all edges skips them. `wide` z is R14
+ * as written, so that the block's and the sample's depth agree.
+ */
+
+enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
+enum { RASTER_BLOCK = 8, RASTER_COLUMNS = V_LANES > 8 ? V_LANES : 8 };
+
+typedef struct raster_constants {
+    vf32 z0, gx, gy, zmin, zmax;
+    vi32 slot;
+} raster_constants;
+
+static inline vf32 raster_z(const raster_constants *c, vf32 dx, vf32 dy)
+{
+    vf32 z = v_add(v_add(c->z0, v_mul(dx, c->gx)), v_mul(dy, c->gy));
+    return v_min(v_max(z, c->zmin), c->zmax);
+}
+
+/* Lanes of equal depth where this piece comes first. */
+static inline uint32_t raster_ties(uint32_t equal, const int32_t *slot, const e3d_piece *piece,
+                                   const e3d_tile_buffers *tile)
+{
+    uint32_t won = 0;
+    for (; equal; equal &= equal - 1) {
+        int lane = __builtin_ctz(equal);
+        if (slot[lane] >= 0 && piece->order < tile->orders[slot[lane]])
+            won |= 1u << lane;
+    }
+    return won;
+}
+
+static inline void raster_take_ties(uint32_t won, int32_t *slot, const e3d_piece *piece)
+{
+    for (; won; won &= won - 1) /* the depth is already the same */
+        slot[__builtin_ctz(won)] = (int32_t)piece->slot;
+}
+
+/* One vector of samples: `inside` of them are covered. */
+static inline void raster_write(int use, vmask inside, vf32 z, int at, const raster_constants *c,
+                                const e3d_piece *piece, const e3d_tile_buffers *tile)
+{
+    float *depth = tile->z + at;
+    int32_t *slot = tile->slot + at;
+    vf32 old = v_loadf(depth);
+    vmask pass = v_mand(inside, v_lt(z, old));
+    vi32 before = v_loadi(slot);
+    if (use == RASTER_COUNT) {
+        v_storei(slot, v_seli(pass, v_addi(before, v_seti(1)), before));
+    } else if (use == RASTER_DEPTH) {
+        uint32_t equal = v_bits(v_mand(inside, v_eq(z, old)));
+        v_storef(depth, v_self(pass, z, old));
+        v_storei(slot, v_seli(pass, c->slot, before));
+        if (equal)
+            raster_take_ties(raster_ties(equal, slot, piece, tile), slot, piece);
+    } else { /* the depth buffer only bounds z */
+        v_storei(slot, v_seli(pass, c->slot, before));
+    }
+}
+
+static inline vi32 raster_step(int32_t per_sample)
+{
+    return v_muli(v_iota(), v_seti(per_sample));
+}
+
+static inline vf32 raster_offset(int32_t from) { return v_float(v_addi(v_iota(), v_seti(from))); }
+
+/* A box at most one vector wide. */
+static inline void raster_narrow(int use, const e3d_piece *p, const raster_constants *c,
+                                 const e3d_tile_buffers *tile)
+{
+    int x = p->x0 < E3D_TILE - V_LANES ? p->x0 : E3D_TILE - V_LANES;
+    vi32 e[3];
+    for (int k = 0; k < 3; k++)
+        e[k] = v_addi(v_seti(p->e[k] + p->a[k] * x + p->b[k] * p->y0), raster_step(p->a[k]));
+    vf32 dx = raster_offset(x - p->base_x);
+    for (int y = p->y0; y <= p->y1; y++) {
+        vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
+        if (v_any(inside)) {
+            vf32 z = raster_z(c, dx, v_setf((float)(y - p->base_y)));
+            raster_write(use, inside, z, y * E3D_TILE + x, c, p, tile);
+        }
+        for (int k = 0; k < 3; k++)
+            e[k] = v_addi(e[k], v_seti(p->b[k]));
+    }
+}
+
+/* Edge function at the block's corner where it is greatest (least). */
+static inline int32_t raster_most(int32_t e, int32_t a, int32_t b)
+{
+    return e + (a > 0 ? a * (RASTER_COLUMNS - 1) : 0) + (b > 0 ? b * (RASTER_BLOCK - 1) : 0);
+}
+
+static inline int32_t raster_least(int32_t e, int32_t a, int32_t b)
+{
+    return e + (a < 0 ? a * (RASTER_COLUMNS - 1) : 0) + (b < 0 ? b * (RASTER_BLOCK - 1) : 0);
+}
+
+static inline void raster_full_block(int use, const e3d_piece *p, int x, int y0, int y1,
+                                     const raster_constants *c, const e3d_tile_buffers *tile)
+{
+    vmask all = v_eqi(c->slot, c->slot);
+    for (int y = y0; y <= y1; y++) {
+        vf32 dy = v_setf((float)(y - p->base_y));
+        for (int i = 0; i < RASTER_COLUMNS; i += V_LANES)
+            raster_write(use, all, raster_z(c, raster_offset(x + i - p->base_x), dy),
+                         y * E3D_TILE + x + i, c, p, tile);
+    }
+}
+
+static inline void raster_edge_block(int use, const e3d_piece *p, const int32_t corner[3], int x, int y0,
+                                     int y1, int top, const raster_constants *c,
+                                     const e3d_tile_buffers *tile)
+{
+    for (int i = 0; i < RASTER_COLUMNS; i += V_LANES) {
+        vf32 dx = raster_offset(x + i - p->base_x);
+        vi32 e[3];
+        for (int k = 0; k < 3; k++)
+            e[k] = v_addi(v_seti(corner[k] + p->a[k] * i + p->b[k] * (y0 - top)),
+                          raster_step(p->a[k]));
+        for (int y = y0; y <= y1; y++) {
+            vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
+            if (v_any(inside)) {
+                vf32 z = raster_z(c, dx, v_setf((float)(y - p->base_y)));
+                raster_write(use, inside, z, y * E3D_TILE + x + i, c, p, tile);
+            }
+            for (int k = 0; k < 3; k++)
+                e[k] = v_addi(e[k], v_seti(p->b[k]));
+        }
+    }
+}
+
+static inline void raster_block(int use, const e3d_piece *p, int x, int top, const raster_constants *c,
+                                const e3d_tile_buffers *tile)
+{
+    int32_t corner[3];
+    int full = 1;
+    for (int k = 0; k < 3; k++) {
+        corner[k] = p->e[k] + p->a[k] * x + p->b[k] * top;
+        if (raster_most(corner[k], p->a[k], p->b[k]) < 0)
+            return;
+        full &= raster_least(corner[k], p->a[k], p->b[k]) >= 0;
+    }
+    int y0 = p->y0 > top ? p->y0 : top;
+    int y1 = p->y1 < top + RASTER_BLOCK - 1 ? p->y1 : top + RASTER_BLOCK - 1;
+    if (full)
+        raster_full_block(use, p, x, y0, y1, c, tile);
+    else
+        raster_edge_block(use, p, corner, x, y0, y1, top, c, tile);
+}
+
+static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buffers *tile)
+{
+    raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
+                          v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
+    if (p->x1 - p->x0 < V_LANES && p->x1 - p->x0 < RASTER_BLOCK) {
+        raster_narrow(use, p, &c, tile);
+        return;
+    }
+    for (int top = p->y0 & ~(RASTER_BLOCK - 1); top <= p->y1; top += RASTER_BLOCK)
+        for (int x = p->x0 & ~(RASTER_COLUMNS - 1); x <= p->x1; x += RASTER_COLUMNS)
+            raster_block(use, p, x, top, &c, tile);
+}
+
+static void kernel_raster_depth(const e3d_piece *piece, const e3d_tile_buffers *tile)
+{
+    raster_piece(RASTER_DEPTH, piece, tile);
+}
+static void kernel_raster_overwrite(const e3d_piece *piece, const e3d_tile_buffers *tile)
+{
+    raster_piece(RASTER_OVERWRITE, piece, tile);
+}
+static void kernel_raster_count(const e3d_piece *piece, const e3d_tile_buffers *tile)
+{
+    raster_piece(RASTER_COUNT, piece, tile);
+}
+static void kernel_raster_mark(const e3d_piece *piece, const e3d_tile_buffers *tile)
+{
+    raster_piece(RASTER_MARK, piece, tile);
+}

@@ -1,0 +1,30 @@
+/* All kernels of one instruction set, and their table E3D_TABLE. */
+#include <stddef.h>
+
+#include "core/fpenv.h"
+#include "core/encode_tables.h"
+#include "kernels/kernels.h"
+
+#include "kernels/generic/transform.inl"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/raster.inl"
+#include "kernels/generic/interpolate.inl"
+#include "kernels/generic/texture.inl"
+#include "kernels/generic/light.inl"
+#include "kernels/generic/encode.inl"
+
+const e3d_kernels E3D_TABLE = {
+    .transform = kernel_transform,
+    .take_clip = kernel_take_clip,
+    .setup = kernel_setup,
+    .raster_depth = kernel_raster_depth,
+    .raster_overwrite = kernel_raster_overwrite,
+    .raster_count = kernel_raster_count,
+    .raster_mark = kernel_raster_mark,
+    .interpolate = kernel_interpolate,
+    .select_level = kernel_select_level,
+    .texture = kernel_texture,
+    .light = kernel_light,
+    .combine = kernel_combine,
+    .encode = kernel_encode,
+};

@@ -1,0 +1,82 @@
+/* transform: object space to clip space to the snapped screen (R3, R5, R8), a vector of vertices at a time.
+ *
+ * Coordinates that only a clipped triangle would use may be far outside: they are clamped before the
+ * conversion to integers, which changes none that is used.
+ */
+
+static inline vi32 transform_flag(vmask m, int32_t bit)
+{
+    return v_seli(m, v_seti(bit), v_seti(0));
+}
+
+static inline vi32 transform_code(vf32 x, vf32 y, vf32 z, vf32 w, const e3d_viewport *viewport)
+{
+    vf32 zero = v_setf(0.0f), negative_w = v_sub(zero, w);
+    vf32 gx = v_mul(v_setf(viewport->guard_x), w), gy = v_mul(v_setf(viewport->guard_y), w);
+    vmask guard = v_mor(v_mor(v_gt(x, gx), v_lt(x, v_sub(zero, gx))),
+                        v_mor(v_gt(y, gy), v_lt(y, v_sub(zero, gy))));
+    /* v - v is 0 for finite v, NaN for the others. */
+    vf32 none = v_add(v_add(v_sub(x, x), v_sub(y, y)), v_add(v_sub(z, z), v_sub(w, w)));
+    vi32 code = transform_flag(v_lt(z, negative_w), E3D_NEAR);
+    code = v_ori(code, transform_flag(v_gt(z, w), E3D_FAR));
+    code = v_ori(code, transform_flag(v_lt(x, negative_w), E3D_LEFT));
+    code = v_ori(code, transform_flag(v_gt(x, w), E3D_RIGHT));
+    code = v_ori(code, transform_flag(v_lt(y, negative_w), E3D_BOTTOM));
+    code = v_ori(code, transform_flag(v_gt(y, w), E3D_TOP));
+    code = v_ori(code, transform_flag(v_lt(w, v_setf(E3D_W_MIN)), E3D_BEHIND));
+    code = v_ori(code, transform_flag(guard, E3D_BEYOND_GUARD));
+    return v_ori(code, transform_flag(v_mnot(v_eq(none, zero)), E3D_NONFINITE));
+}
+
+static inline vi32 transform_snap(vf32 v)
+{
+    const float most = 0x1p26f; /* beyond every snapped coordinate */
+    vf32 low = v_max(v, v_setf(-most));
+    return v_rint(v_min(low, v_setf(most)));
+}
+
+/* Screen coordinates and outcodes of the clip coordinates of one vector. */
+static inline void transform_finish(vf32 x, vf32 y, vf32 z, vf32 w, const e3d_viewport *viewport,
+                                    e3d_vertices *out, int i)
+{
+    vf32 scale_x = v_setf(viewport->scale_x), scale_y = v_setf(viewport->scale_y);
+    vf32 iw = v_div(v_setf(1.0f), w), zn = v_mul(z, iw);
+    vi32 code = transform_code(x, y, z, w, viewport);
+    vmask finite = v_eq(v_sub(zn, zn), v_setf(0.0f));
+    v_storef(out->x + i, x);
+    v_storef(out->y + i, y);
+    v_storef(out->z + i, z);
+    v_storef(out->w + i, w);
+    v_storef(out->iw + i, iw);
+    v_storef(out->zn + i, zn);
+    v_storei(out->sx + i, transform_snap(v_add(v_mul(v_mul(x, iw), scale_x), scale_x)));
+    v_storei(out->sy + i, transform_snap(v_sub(scale_y, v_mul(v_mul(y, iw), scale_y))));
+    v_storei(out->code + i, v_ori(code, transform_flag(v_mnot(finite), E3D_BAD_SCREEN)));
+}
+
+static inline vf32 transform_row(const float *m, vf32 x, vf32 y, vf32 z)
+{
+    vf32 sum = v_add(v_mul(v_setf(m[0]), x), v_mul(v_setf(m[1]), y));
+    return v_add(v_add(sum, v_mul(v_setf(m[2]), z)), v_setf(m[3]));
+}
+
+static void kernel_transform(const float *positions, int stride, int count, const float matrix[16],
+                             const e3d_viewport *viewport, e3d_vertices *out)
+{
+    for (int i = 0; i < count; i += V_LANES) {
+        vf32 x = v_loadf(positions + i), y = v_loadf(positions + stride + i),
+             z = v_loadf(positions + 2 * stride + i);
+        transform_finish(transform_row(matrix, x, y, z), transform_row(matrix + 4, x, y, z),
+                         transform_row(matrix + 8, x, y, z), transform_row(matrix + 12, x, y, z),
+                         viewport, out, i);
+    }
+}
+
+static void kernel_take_clip(const float *positions, int stride, int count,
+                             const e3d_viewport *viewport, e3d_vertices *out)
+{
+    for (int i = 0; i < count; i += V_LANES)
+        transform_finish(v_loadf(positions + i), v_loadf(positions + stride + i),
+                         v_loadf(positions + 2 * stride + i), v_loadf(positions + 3 * stride + i),
+                         viewport, out, i);
+}

@@ -1,0 +1,165 @@
+/* The kernels: one table of functions per instruction set, and the plain structs they work on.
+ *
+ * Every kernel gives the bytes of docs/exactness.md; what a table adds is speed. Arrays that a kernel reads
+ * or writes vector by vector have room for E3D_PAD elements past the end; what it leaves there means nothing.
+ */
+#ifndef E3D_KERNELS_H
+#define E3D_KERNELS_H
+
+#include "core/limits.h"
+#include "e3d.h"
+
+enum { E3D_PAD = 16 };
+
+/* ---- transform ---- */
+
+/* Outcodes (R5), and what only the screen tells (R4, R8). */
+enum {
+    E3D_NEAR = 1,
+    E3D_FAR = 2,
+    E3D_LEFT = 4,
+    E3D_RIGHT = 8,
+    E3D_BOTTOM = 16,
+    E3D_TOP = 32,
+    E3D_OUTSIDE = 63,
+    E3D_BEHIND = 64, /* WMIN */
+    E3D_BEYOND_GUARD = 128,
+    E3D_CLIP = E3D_NEAR | E3D_BEHIND | E3D_BEYOND_GUARD,
+    E3D_NONFINITE = 256,   /* a clip coordinate is */
+    E3D_BAD_SCREEN = 512   /* z/w is not finite */
+};
+
+/* The viewport in samples, and its guard factors (section 2 of the rules). */
+typedef struct e3d_viewport {
+    int32_t width, height;   /* samples */
+    float scale_x, scale_y;  /* 128 * width, 128 * height */
+    float guard_x, guard_y;
+} e3d_viewport;
+
+/* A cluster's vertices in clip space and on the screen. */
+typedef struct e3d_vertices {
+    float x[E3D_CLUSTER_VERTICES], y[E3D_CLUSTER_VERTICES], z[E3D_CLUSTER_VERTICES],
+        w[E3D_CLUSTER_VERTICES];
+    float iw[E3D_CLUSTER_VERTICES], zn[E3D_CLUSTER_VERTICES];
+    int32_t sx[E3D_CLUSTER_VERTICES], sy[E3D_CLUSTER_VERTICES]; /* snapped, 1/256 sample */
+    int32_t code[E3D_CLUSTER_VERTICES];
+} e3d_vertices;
+
+/* ---- setup ---- */
+
+/* Triangles of a cluster that may show: `draw` go to the record as they are, `clip` need clipping first. */
+typedef struct e3d_survivors {
+    uint8_t draw[E3D_CLUSTER_TRIANGLES], clip[E3D_CLUSTER_TRIANGLES];
+    int draws, clips;
+} e3d_survivors;
+
+/* ---- raster ---- */
+
+/* A piece in one tile: edge functions at the tile's first sample, floor(E / 256) with the top-left rule
+ * inside; an edge that the whole tile satisfies is all zero. */
+typedef struct e3d_piece {
+    int32_t e[3], a[3], b[3];
+    int32_t x0, y0, x1, y1;  /* box in the tile, inclusive */
+    float z0, gx, gy, zmin, zmax;
+    int32_t base_x, base_y;  /* of the depth plane, relative to the tile's first sample */
+    uint32_t slot, order;
+} e3d_piece;
+
+enum { E3D_NO_SLOT = -1 };
+
+typedef struct e3d_tile_buffers {
+    float *z;               /* E3D_TILE_SAMPLES, 64-byte aligned */
+    int32_t *slot;          /* or counts, or marks */
+    const uint32_t *orders; /* order of each slot: ties of depth */
+} e3d_tile_buffers;
+
+/* ---- shade ---- */
+
+enum { E3D_BATCH = 256 };
+
+/* What a visible piece brings to shading: 64 words. */
+typedef struct e3d_surface {
+    float p[3], px[3], py[3];      /* barycentric planes, R18 */
+    int32_t base_x, base_y;        /* relative to the tile's first sample */
+    float position[3][3];          /* [component][vertex], world */
+    float normal[3][3];            /* [component][vertex], world, facing the viewer */
+    float uv[2][3];
+    float color[3][3];             /* vertex colours; ones where there are none */
+    float instance_color[3];
+    int32_t local, face, node, instance, material;
+    int32_t key;
+    int32_t spare[11];
+} e3d_surface;
+
+_Static_assert(sizeof(e3d_surface) == 64 * 4, "gathers step by whole surfaces");
+
+typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
+
+/* Samples of one material on their way to a colour. */
+typedef struct e3d_batch {
+    int count;
+    int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */
+    int32_t surface[E3D_BATCH + E3D_PAD]; /* index of its e3d_surface */
+    e3d_lane_array b[3], r;
+    e3d_lane_array position[3], normal[3], uv[2], color[3];
+    int32_t lod[E3D_BATCH + E3D_PAD];
+    e3d_lane_array energy[3], shine[3];
+} e3d_batch;
+
+/* What interpolation fills beyond the barycentrics. */
+enum {
+    E3D_WANT_POSITION = 1,
+    E3D_WANT_NORMAL = 2,
+    E3D_WANT_UV = 4,
+    E3D_WANT_LOD = 8,
+    E3D_WANT_ALBEDO = 16 /* color = material * vertex * instance; the texture is multiplied in between */
+};
+
+/* Factors of the albedo that exist (R24 leaves out the others; a factor of 1 changes nothing). */
+typedef struct e3d_lighting {
+    const e3d_light *lights;
+    int light_count;
+    float ambient[3], clamp[2], eye[4];
+} e3d_lighting;
+
+/* ---- the table ---- */
+
+typedef struct e3d_kernels {
+    /* positions: planes `stride` apart, 3 or 4 of them; count vertices. */
+    void (*transform)(const float *positions, int stride, int count, const float matrix[16],
+                      const e3d_viewport *viewport, e3d_vertices *out);
+    void (*take_clip)(const float *positions, int stride, int count, const e3d_viewport *viewport,
+                      e3d_vertices *out);
+    /* indices: three planes of E3D_CLUSTER_TRIANGLES. cull: sign of the area (screen, Y down) to drop: -1, +1, 0 = neither. */
+    void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
+                  const e3d_viewport *viewport, e3d_survivors *out);
+    void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile);
+    void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
+    void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);
+    void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile);
+    void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted);
+    /* lod of R26, for trilinear textures of this size. */
+    void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,
+                         const e3d_texture_view *texture);
+    /* color *= texture */
+    void (*texture)(e3d_batch *batch, const e3d_texture_view *texture);
+    /* energy, and shine where shininess > 0 */
+    void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
+    /* color = (color * energy + specular * shine) + emissive; specular may be NULL */
+    void (*combine)(e3d_batch *batch, const float specular[3], const float emissive[3]);
+    /* Planes of colours, already clamped to [0, 1], to RGBA8 with alpha 255. */
+    void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
+                   uint32_t *rgba);
+} e3d_kernels;
+
+/* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */
+const e3d_kernels *e3d_kernels_for(e3d_backend backend);
+
+extern const e3d_kernels e3d_kernels_portable;
+#ifdef E3D_HAVE_X86
+extern const e3d_kernels e3d_kernels_sse41;
+extern const e3d_kernels e3d_kernels_avx2;
+extern const e3d_kernels e3d_kernels_avx512;
+#endif
+
+#endif

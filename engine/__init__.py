@@ -1,8 +1,8 @@
 """engine3d: draw 3D scenes on the CPU, the same bytes on every machine.
 
 This module is the list of public names and nothing else: each is imported from its module when it
-is first used, so that ``import engine3d`` costs next to nothing. docs/conventions.md tells the
-spaces, units and colours that hold everywhere.
+is first used, so that ``import engine3d`` costs next to nothing. `__init__.pyi` says the same to
+type checkers. docs/conventions.md tells the spaces, units and colours that hold everywhere.
 """
 
 if __name__ != "engine3d":
@@ -54,7 +54,9 @@ _PUBLIC = {
     "Renderer": "renderer",
     "render": "renderer",
     "Canvas": "canvas",
-    "RasterizeResult": "rasterize",
+    "RasterizeResult": "rasterization",
+    "rasterize": "rasterization",
+    "backends": "backend_selection",
 }
 _MODULES = frozenset({"errors", "linalg", "loaders", "primitives"})
 

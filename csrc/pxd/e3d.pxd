@@ -1,0 +1,226 @@
+# The Cython mirror of csrc/include/e3d.h, and nothing else. The header explains every name.
+
+from libc.stdint cimport int32_t, int64_t, uint8_t
+
+
+cdef extern from "e3d.h" nogil:
+    ctypedef enum e3d_status:
+        E3D_OK
+        E3D_OUT_OF_MEMORY
+        E3D_INVALID_ARGUMENT
+        E3D_UNSUPPORTED_BACKEND
+        E3D_TOO_MANY_PRIMITIVES
+        E3D_CANCELLED
+
+    ctypedef enum e3d_backend:
+        E3D_BACKEND_SCALAR
+        E3D_BACKEND_COUNT
+
+    const char *e3d_status_text(e3d_status status)
+    const char *e3d_backend_name(e3d_backend backend)
+    int e3d_backend_available(e3d_backend backend)
+    e3d_backend e3d_backend_best()
+    int e3d_thread_count()
+
+    ctypedef struct e3d_mesh:
+        pass
+
+    ctypedef struct e3d_mesh_desc:
+        const float *positions
+        int32_t components
+        int32_t vertices
+        const int32_t *faces
+        int32_t faces_count
+        const float *normals
+        const float *face_normals
+        const float *uvs
+        const uint8_t *colors_u8
+        const float *colors_f32
+        const int32_t *material_ids
+        const int32_t *lines
+        int32_t lines_count
+        const int32_t *points
+        int32_t points_count
+        const int32_t *edges
+        int32_t edges_count
+
+    e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out)
+    void e3d_mesh_destroy(e3d_mesh *mesh)
+    void e3d_mesh_set_normals(e3d_mesh *mesh, const float *normals)
+    void e3d_mesh_set_face_normals(e3d_mesh *mesh, const float *face_normals)
+    e3d_status e3d_mesh_set_edges(e3d_mesh *mesh, const int32_t *edges, int32_t count)
+
+    ctypedef struct e3d_texture:
+        pass
+
+    ctypedef enum e3d_filter:
+        E3D_NEAREST
+        E3D_BILINEAR
+        E3D_TRILINEAR
+
+    ctypedef enum e3d_wrap:
+        E3D_REPEAT
+        E3D_CLAMP
+        E3D_MIRROR
+
+    e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height,
+                                  int decode_srgb, e3d_filter filter, e3d_wrap wrap,
+                                  e3d_texture **out)
+    void e3d_texture_destroy(e3d_texture *texture)
+
+    ctypedef struct e3d_material:
+        float color[3]
+        float specular[3]
+        float shininess
+        float emissive[3]
+        const e3d_texture *texture
+        int32_t id
+        int32_t two_sided
+        int32_t flat
+
+    ctypedef enum e3d_light_kind:
+        E3D_LIGHT_DIRECTIONAL
+        E3D_LIGHT_POINT
+
+    ctypedef enum e3d_falloff:
+        E3D_FALLOFF_INVERSE_SQUARE
+        E3D_FALLOFF_WINDOW
+
+    ctypedef struct e3d_light:
+        e3d_light_kind kind
+        e3d_falloff falloff
+        float color[3]
+        float to_light[3]
+        float position[3]
+        float range
+
+    ctypedef enum e3d_pose_kind:
+        E3D_POSE_NONE
+        E3D_POSE_MATRIX
+        E3D_POSE_OFFSET_SCALE
+
+    ctypedef struct e3d_draw:
+        const e3d_mesh *mesh
+        double world_from_node[16]
+        e3d_pose_kind pose_kind
+        const float *poses
+        int32_t instances
+        const uint8_t *instance_colors_u8
+        const float *instance_colors_f32
+        int32_t node_id
+        int32_t material_base
+
+    ctypedef enum e3d_mode:
+        E3D_MODE_LIT
+        E3D_MODE_UNLIT
+        E3D_MODE_RANDOM
+        E3D_MODE_DEPTH
+        E3D_MODE_NORMAL
+        E3D_MODE_TRIANGLE_ID
+        E3D_MODE_OBJECT_ID
+        E3D_MODE_OVERDRAW
+
+    ctypedef enum e3d_cull:
+        E3D_CULL_NONE
+        E3D_CULL_BACK
+        E3D_CULL_FRONT
+
+    ctypedef enum e3d_wireframe:
+        E3D_WIRE_NONE
+        E3D_WIRE_OVERLAY
+        E3D_WIRE_ONLY
+
+    ctypedef enum e3d_hidden:
+        E3D_HIDDEN_ZBUFFER
+        E3D_HIDDEN_PAINTER
+        E3D_HIDDEN_NONE
+
+    ctypedef enum e3d_shading:
+        E3D_SHADING_DEFERRED
+        E3D_SHADING_FORWARD
+
+    ctypedef enum e3d_normals:
+        E3D_NORMALS_AUTO
+        E3D_NORMALS_SMOOTH
+        E3D_NORMALS_FLAT
+
+    ctypedef struct e3d_frame:
+        int32_t width
+        int32_t height
+        int32_t samples_axis
+        double clip_from_world[16]
+        double view_from_world[16]
+        float eye[4]
+        e3d_mode mode
+        e3d_cull cull
+        e3d_wireframe wireframe
+        e3d_hidden hidden
+        e3d_shading shading
+        e3d_normals normals
+        int32_t remove_hidden_lines
+        float line_width
+        float point_size
+        float line_color[3]
+        float background[4]
+        int32_t encode_srgb
+        int32_t decode_srgb
+        float depth_near
+        float depth_far
+        float ambient[3]
+        float light_clamp[2]
+        const e3d_material *materials
+        int32_t material_count
+        const e3d_light *lights
+        int32_t light_count
+        const e3d_draw *draws
+        int32_t draw_count
+
+    ctypedef struct e3d_targets:
+        uint8_t *color
+        float *depth
+        float *ndc_depth
+        int32_t *triangle_id
+        int32_t *object_id
+        int32_t *instance_id
+        int32_t *material_id
+        float *albedo
+        float *normal
+        float *position
+        float *world_normal
+        float *world_position
+        float *uv
+        float *barycentric
+
+    ctypedef struct e3d_stats:
+        int64_t draws
+        int64_t instances
+        int64_t clusters
+        int64_t clusters_culled
+        int64_t triangles
+        int64_t triangles_culled
+        int64_t triangles_clipped
+        int64_t triangles_setup
+        int64_t bin_entries
+        int64_t pixels_shaded
+        double ms_geometry
+        double ms_raster
+        double ms_shade
+        double ms_resolve
+        double ms_total
+        int32_t threads
+        int32_t tiles
+        e3d_backend backend
+
+    ctypedef struct e3d_renderer:
+        pass
+
+    e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_renderer **out)
+    void e3d_renderer_destroy(e3d_renderer *renderer)
+    void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *) noexcept nogil, void *user)
+    e3d_status e3d_render(e3d_renderer *renderer, const e3d_frame *frame,
+                          const e3d_targets *targets, e3d_stats *stats)
+
+    e3d_status e3d_rasterize(const float *clip, int32_t vertices, const int32_t *faces,
+                             int32_t faces_count, int32_t width, int32_t height, e3d_cull cull,
+                             e3d_backend backend, int32_t threads, int32_t *triangle_id,
+                             float *depth, float *barycentric)

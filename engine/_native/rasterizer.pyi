@@ -1,0 +1,132 @@
+"""Types of the gateway to the rendering core; the docstrings are in rasterizer.pyx."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+_Bytes = npt.NDArray[np.uint8]
+_Floats = npt.NDArray[np.float32]
+_Doubles = npt.NDArray[np.float64]
+_Integers = npt.NDArray[np.int32]
+
+FILTERS: dict[str, int]
+WRAPS: dict[str, int]
+FALLOFFS: dict[str, int]
+MODES: dict[str, int]
+CULLS: dict[str, int]
+WIREFRAMES: dict[str | None, int]
+HIDDEN_SURFACES: dict[str, int]
+SHADINGS: dict[str, int]
+NORMALS: dict[str, int]
+BACKENDS: dict[str, int]
+
+def backend_available(backend: int) -> bool: ...
+def best_backend() -> int: ...
+def thread_count() -> int: ...
+
+class NativeMesh:
+    has_normals: bool
+    has_face_normals: bool
+    has_edges: bool
+    def __init__(
+        self,
+        positions: _Floats,
+        faces: _Integers,
+        *,
+        uvs: _Floats | None = None,
+        colors_u8: _Bytes | None = None,
+        colors_f32: _Floats | None = None,
+        material_ids: _Integers | None = None,
+        lines: _Integers | None = None,
+        points: _Integers | None = None,
+    ) -> None: ...
+    def set_normals(self, normals: _Floats) -> None: ...
+    def set_face_normals(self, normals: _Floats) -> None: ...
+    def set_edges(self, edges: _Integers) -> None: ...
+
+class NativeTexture:
+    def __init__(self, pixels: _Bytes, decode_srgb: bool, filter: int, wrap: int) -> None: ...
+
+class NativeDrawList:
+    draw_count: int
+    material_count: int
+    light_count: int
+    def __init__(self) -> None: ...
+    def clear(self) -> None: ...
+    def clear_lights(self) -> None: ...
+    def add_draw(
+        self, mesh: NativeMesh, world_from_node: _Doubles, node_id: int, material_base: int
+    ) -> int: ...
+    def set_pose(self, index: int, world_from_node: _Doubles) -> None: ...
+    def set_instances(
+        self,
+        index: int,
+        poses: _Floats,
+        colors_u8: _Bytes | None = None,
+        colors_f32: _Floats | None = None,
+    ) -> None: ...
+    def add_material(
+        self,
+        color: Sequence[float] | _Floats,
+        specular: Sequence[float] | _Floats,
+        shininess: float,
+        emissive: Sequence[float] | _Floats,
+        texture: NativeTexture | None,
+        id: int,
+        two_sided: bool,
+        flat: bool,
+    ) -> None: ...
+    def add_directional_light(
+        self, color: Sequence[float], to_light: Sequence[float] | _Doubles
+    ) -> None: ...
+    def add_point_light(
+        self,
+        color: Sequence[float],
+        position: Sequence[float] | _Doubles,
+        range: float,
+        falloff: int,
+    ) -> None: ...
+
+class NativeRenderer:
+    def __init__(self, backend: int, threads: int) -> None: ...
+    def render(
+        self,
+        draw_list: NativeDrawList,
+        targets: dict[str, np.ndarray],
+        *,
+        width: int,
+        height: int,
+        samples_axis: int,
+        clip_from_world: _Doubles,
+        view_from_world: _Doubles,
+        eye: Sequence[float],
+        mode: int,
+        cull: int,
+        wireframe: int,
+        hidden: int,
+        shading: int,
+        normals: int,
+        remove_hidden_lines: bool,
+        line_width: float,
+        point_size: float,
+        line_color: Sequence[float],
+        background: Sequence[float],
+        encode_srgb: bool,
+        decode_srgb: bool,
+        depth_near: float,
+        depth_far: float,
+        ambient: Sequence[float],
+        light_clamp: Sequence[float],
+    ) -> dict[str, int | float | str]: ...
+
+def rasterize(
+    clip: _Floats,
+    faces: _Integers,
+    cull: int,
+    backend: int,
+    threads: int,
+    triangle_id: _Integers,
+    depth: _Floats,
+    barycentric: _Floats,
+) -> None: ...

@@ -1,0 +1,571 @@
+# cython: boundscheck=False, wraparound=False, initializedcheck=False
+"""The gateway to the rendering core: csrc/include/e3d.h, one thin class for each handle.
+
+In:  C-contiguous arrays of fixed types (checked here: shape and dtype, by the memoryviews), plain
+     numbers, and the enumerators of the tables below.
+Out: the caller's arrays, filled; every C status becomes an exception in `check`, and only there.
+Always: a handle holds the arrays that the core borrows; the GIL is released for the C calls that
+     take long; there is no algorithm here.
+"""
+
+from cpython.exc cimport PyErr_CheckSignals
+from libc.math cimport INFINITY
+from libc.stdint cimport int32_t, uint8_t
+from libc.stdlib cimport free, realloc
+from libc.string cimport memcpy, memset
+from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
+
+from e3d cimport *
+
+from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError
+
+FILTERS = {"nearest": E3D_NEAREST, "bilinear": E3D_BILINEAR, "trilinear": E3D_TRILINEAR}
+WRAPS = {"repeat": E3D_REPEAT, "clamp": E3D_CLAMP, "mirror": E3D_MIRROR}
+FALLOFFS = {"inverse_square": E3D_FALLOFF_INVERSE_SQUARE, "window": E3D_FALLOFF_WINDOW}
+MODES = {
+    "lit": E3D_MODE_LIT,
+    "unlit": E3D_MODE_UNLIT,
+    "random": E3D_MODE_RANDOM,
+    "depth": E3D_MODE_DEPTH,
+    "normal": E3D_MODE_NORMAL,
+    "triangle_id": E3D_MODE_TRIANGLE_ID,
+    "object_id": E3D_MODE_OBJECT_ID,
+    "overdraw": E3D_MODE_OVERDRAW,
+}
+CULLS = {"none": E3D_CULL_NONE, "back": E3D_CULL_BACK, "front": E3D_CULL_FRONT}
+WIREFRAMES = {None: E3D_WIRE_NONE, "overlay": E3D_WIRE_OVERLAY, "only": E3D_WIRE_ONLY}
+HIDDEN_SURFACES = {
+    "zbuffer": E3D_HIDDEN_ZBUFFER,
+    "painter": E3D_HIDDEN_PAINTER,
+    "none": E3D_HIDDEN_NONE,
+}
+SHADINGS = {"deferred": E3D_SHADING_DEFERRED, "forward": E3D_SHADING_FORWARD}
+NORMALS = {"auto": E3D_NORMALS_AUTO, "smooth": E3D_NORMALS_SMOOTH, "flat": E3D_NORMALS_FLAT}
+# Every backend that the interface knows, whether this machine can run it or not.
+BACKENDS = {
+    e3d_backend_name(<e3d_backend>index).decode(): index for index in range(E3D_BACKEND_COUNT)
+}
+
+# Seconds of a frame between two looks at the pending signals: Ctrl-C feels immediate, and a busy
+# interpreter in another thread is not asked for the GIL more often than that.
+cdef double SIGNAL_INTERVAL = 0.05
+
+
+cdef int check(e3d_status status) except -1:
+    """The one place where the core's status becomes an exception."""
+    if status == E3D_OK:
+        return 0
+    text = e3d_status_text(status).decode()
+    if status == E3D_OUT_OF_MEMORY:
+        raise OutOfMemoryError(text)
+    if status == E3D_UNSUPPORTED_BACKEND:
+        raise BackendError(text)
+    if status == E3D_INVALID_ARGUMENT or status == E3D_TOO_MANY_PRIMITIVES:
+        raise InvalidArgumentError(text)
+    raise Engine3DError(text)
+
+
+cdef int require(bint condition, str message) except -1:
+    if not condition:
+        raise InvalidArgumentError(message)
+    return 0
+
+
+def backend_available(int backend):
+    """Whether this build has the backend and this machine can run it."""
+    return bool(e3d_backend_available(<e3d_backend>backend))
+
+
+def best_backend():
+    """The fastest backend of this machine, never the scalar reference."""
+    return <int>e3d_backend_best()
+
+
+def thread_count():
+    """How many threads the core takes when asked for 0."""
+    return e3d_thread_count()
+
+
+cdef class NativeMesh:
+    """A mesh of the core. It borrows the arrays given, which must never change."""
+
+    cdef e3d_mesh *handle
+    cdef list borrowed
+    cdef readonly bint has_normals, has_face_normals, has_edges
+    cdef int32_t vertices, faces_count
+
+    def __cinit__(
+        self,
+        const float[:, ::1] positions not None,
+        const int32_t[:, ::1] faces not None,
+        *,
+        const float[:, ::1] uvs=None,
+        const uint8_t[:, ::1] colors_u8=None,
+        const float[:, ::1] colors_f32=None,
+        const int32_t[::1] material_ids=None,
+        const int32_t[:, ::1] lines=None,
+        const int32_t[::1] points=None,
+    ):
+        cdef e3d_mesh_desc desc
+        memset(&desc, 0, sizeof(desc))
+        cdef int32_t count = <int32_t>positions.shape[0]
+        require(positions.shape[1] in (3, 4), "positions must have 3 or 4 columns")
+        require(faces.shape[1] == 3, "faces must have 3 columns")
+        self.borrowed = [positions, faces, uvs, colors_u8, colors_f32, material_ids, lines, points]
+        self.vertices = desc.vertices = count
+        desc.components = <int32_t>positions.shape[1]
+        self.faces_count = desc.faces_count = <int32_t>faces.shape[0]
+        if count:
+            desc.positions = &positions[0, 0]
+        if desc.faces_count:
+            desc.faces = &faces[0, 0]
+        if uvs is not None and count:
+            require(uvs.shape[0] == count and uvs.shape[1] == 2, "uvs must be (vertices, 2)")
+            desc.uvs = &uvs[0, 0]
+        if colors_u8 is not None and count:
+            require(colors_u8.shape[0] == count and colors_u8.shape[1] == 4, "colors: (vertices, 4)")
+            desc.colors_u8 = &colors_u8[0, 0]
+        elif colors_f32 is not None and count:
+            require(colors_f32.shape[0] == count and colors_f32.shape[1] == 4, "colors: (vertices, 4)")
+            desc.colors_f32 = &colors_f32[0, 0]
+        if material_ids is not None and desc.faces_count:
+            require(material_ids.shape[0] == desc.faces_count, "material_ids must be (faces,)")
+            desc.material_ids = &material_ids[0]
+        if lines is not None and lines.shape[0]:
+            require(lines.shape[1] == 2, "lines must have 2 columns")
+            desc.lines_count = <int32_t>lines.shape[0]
+            desc.lines = &lines[0, 0]
+        if points is not None and points.shape[0]:
+            desc.points_count = <int32_t>points.shape[0]
+            desc.points = &points[0]
+        cdef e3d_status status
+        with nogil:
+            status = e3d_mesh_create(&desc, &self.handle)
+        check(status)
+
+    def __dealloc__(self):
+        if self.handle != NULL:
+            e3d_mesh_destroy(self.handle)
+
+    def set_normals(self, const float[:, ::1] normals not None):
+        require(normals.shape[0] == self.vertices and normals.shape[1] == 3, "normals: (vertices, 3)")
+        if self.vertices:
+            e3d_mesh_set_normals(self.handle, &normals[0, 0])
+        self.borrowed.append(normals)
+        self.has_normals = True
+
+    def set_face_normals(self, const float[:, ::1] normals not None):
+        require(
+            normals.shape[0] == self.faces_count and normals.shape[1] == 3, "face_normals: (faces, 3)"
+        )
+        if self.faces_count:
+            e3d_mesh_set_face_normals(self.handle, &normals[0, 0])
+        self.borrowed.append(normals)
+        self.has_face_normals = True
+
+    def set_edges(self, const int32_t[:, ::1] edges not None):
+        require(edges.shape[1] == 2, "edges must have 2 columns")
+        if edges.shape[0]:
+            check(e3d_mesh_set_edges(self.handle, &edges[0, 0], <int32_t>edges.shape[0]))
+        self.borrowed.append(edges)
+        self.has_edges = True
+
+
+cdef class NativeTexture:
+    """A texture of the core, with its mip levels; the pixels are copied."""
+
+    cdef e3d_texture *handle
+
+    def __cinit__(self, const uint8_t[:, :, ::1] pixels not None, bint decode_srgb, int filter, int wrap):
+        require(pixels.shape[2] == 4, "pixels must have 4 channels")
+        require(0 < pixels.shape[0] <= 32768 and 0 < pixels.shape[1] <= 32768, "pixels: wrong size")
+        cdef e3d_status status
+        with nogil:
+            status = e3d_texture_create(
+                &pixels[0, 0, 0], <int32_t>pixels.shape[1], <int32_t>pixels.shape[0], decode_srgb,
+                <e3d_filter>filter, <e3d_wrap>wrap, &self.handle,
+            )
+        check(status)
+
+    def __dealloc__(self):
+        if self.handle != NULL:
+            e3d_texture_destroy(self.handle)
+
+
+cdef int copy_vector(float *to, value, int count) except -1:
+    for k in range(count):
+        to[k] = value[k]
+    return 0
+
+
+cdef void *grown(void *items, int count, int *capacity, size_t size) except NULL:
+    """Room for one more item."""
+    if count < capacity[0]:
+        return items
+    cdef int wanted = capacity[0] * 2 if capacity[0] else 16
+    cdef void *moved = realloc(items, wanted * size)
+    if moved == NULL:
+        raise OutOfMemoryError("no memory for the list of what to draw")
+    capacity[0] = wanted
+    return moved
+
+
+cdef class NativeDrawList:
+    """What a frame draws: meshes at their poses, materials and lights, kept from frame to frame."""
+
+    cdef e3d_draw *draws
+    cdef e3d_material *materials
+    cdef e3d_light *lights
+    cdef readonly int draw_count, material_count, light_count
+    cdef int draw_capacity, material_capacity, light_capacity
+    cdef list borrowed
+
+    def __cinit__(self):
+        self.borrowed = []
+
+    def __dealloc__(self):
+        free(self.draws)
+        free(self.materials)
+        free(self.lights)
+
+    def clear(self):
+        """Forget draws, materials and lights, and let go of their arrays."""
+        self.draw_count = self.material_count = self.light_count = 0
+        self.borrowed = []
+
+    def clear_lights(self):
+        self.light_count = 0
+
+    def add_draw(
+        self,
+        NativeMesh mesh not None,
+        const double[:, ::1] world_from_node not None,
+        int32_t node_id,
+        int32_t material_base,
+    ):
+        """Append a mesh at one pose; return its index."""
+        self.draws = <e3d_draw *>grown(
+            self.draws, self.draw_count, &self.draw_capacity, sizeof(e3d_draw)
+        )
+        cdef e3d_draw *draw = &self.draws[self.draw_count]
+        memset(draw, 0, sizeof(e3d_draw))
+        draw.mesh = mesh.handle
+        draw.instances = 1
+        draw.node_id = node_id
+        draw.material_base = material_base
+        self.borrowed.append(mesh)
+        self.draw_count += 1
+        self.set_pose(self.draw_count - 1, world_from_node)
+        return self.draw_count - 1
+
+    def set_pose(self, int index, const double[:, ::1] world_from_node not None):
+        require(0 <= index < self.draw_count, "no such draw")
+        require(world_from_node.shape[0] == 4 and world_from_node.shape[1] == 4, "a pose is 4x4")
+        memcpy(self.draws[index].world_from_node, &world_from_node[0, 0], 16 * sizeof(double))
+
+    def set_instances(
+        self,
+        int index,
+        const float[:, ::1] poses not None,
+        const uint8_t[:, ::1] colors_u8=None,
+        const float[:, ::1] colors_f32=None,
+    ):
+        """Draw the mesh once for each row of `poses`: (N, 16) matrices or (N, 4) offset and scale."""
+        require(0 <= index < self.draw_count, "no such draw")
+        cdef e3d_draw *draw = &self.draws[index]
+        require(poses.shape[1] in (4, 16), "poses must be (N, 16) or (N, 4)")
+        draw.pose_kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
+        draw.instances = <int32_t>poses.shape[0]
+        draw.poses = &poses[0, 0] if poses.shape[0] else NULL
+        draw.instance_colors_u8 = NULL
+        draw.instance_colors_f32 = NULL
+        if colors_u8 is not None and poses.shape[0]:
+            require(colors_u8.shape[0] == poses.shape[0] and colors_u8.shape[1] == 4, "colors: (N, 4)")
+            draw.instance_colors_u8 = &colors_u8[0, 0]
+        elif colors_f32 is not None and poses.shape[0]:
+            require(colors_f32.shape[0] == poses.shape[0] and colors_f32.shape[1] == 4, "colors: (N, 4)")
+            draw.instance_colors_f32 = &colors_f32[0, 0]
+        self.borrowed.append((poses, colors_u8, colors_f32))
+
+    def add_material(
+        self, color, specular, float shininess, emissive, NativeTexture texture, int32_t id,
+        bint two_sided, bint flat,
+    ):
+        self.materials = <e3d_material *>grown(
+            self.materials, self.material_count, &self.material_capacity, sizeof(e3d_material)
+        )
+        cdef e3d_material *material = &self.materials[self.material_count]
+        memset(material, 0, sizeof(e3d_material))
+        copy_vector(material.color, color, 3)
+        copy_vector(material.specular, specular, 3)
+        copy_vector(material.emissive, emissive, 3)
+        material.shininess = shininess
+        if texture is not None:
+            material.texture = texture.handle
+            self.borrowed.append(texture)
+        material.id = id
+        material.two_sided = two_sided
+        material.flat = flat
+        self.material_count += 1
+
+    def add_directional_light(self, color, to_light):
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_DIRECTIONAL, color)
+        copy_vector(light.to_light, to_light, 3)
+
+    def add_point_light(self, color, position, float range, int falloff):
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_POINT, color)
+        copy_vector(light.position, position, 3)
+        light.range = range
+        light.falloff = <e3d_falloff>falloff
+
+    cdef e3d_light *new_light(self, e3d_light_kind kind, color) except NULL:
+        self.lights = <e3d_light *>grown(
+            self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light)
+        )
+        cdef e3d_light *light = &self.lights[self.light_count]
+        memset(light, 0, sizeof(e3d_light))
+        light.kind = kind
+        light.range = INFINITY
+        copy_vector(light.color, color, 3)
+        self.light_count += 1
+        return light
+
+
+cdef struct SignalPoll:
+    double due
+    void *renderer
+
+
+cdef double monotonic_seconds() noexcept nogil:
+    cdef timespec now
+    clock_gettime(CLOCK_MONOTONIC, &now)
+    return <double>now.tv_sec + 1e-9 * <double>now.tv_nsec
+
+
+cdef int poll_signals(void *user) noexcept nogil:
+    """What the core calls between tiles: non-zero when a signal handler raised."""
+    cdef SignalPoll *poll = <SignalPoll *>user
+    cdef double now = monotonic_seconds()
+    if now < poll.due:
+        return 0
+    poll.due = now + SIGNAL_INTERVAL
+    return run_signal_handlers(poll.renderer)
+
+
+cdef int run_signal_handlers(void *renderer) noexcept with gil:
+    try:
+        PyErr_CheckSignals()
+    except BaseException as error:
+        (<NativeRenderer>renderer).interruption = error
+        return 1
+    return 0
+
+
+cdef class NativeRenderer:
+    """A renderer of the core: one backend, a number of threads. One thread's at a time."""
+
+    cdef e3d_renderer *handle
+    cdef SignalPoll poll
+    cdef object interruption
+
+    def __cinit__(self, int backend, int threads):
+        check(e3d_renderer_create(<e3d_backend>backend, threads, &self.handle))
+        self.poll.renderer = <void *>self
+        e3d_renderer_set_poll(self.handle, poll_signals, &self.poll)
+
+    def __dealloc__(self):
+        if self.handle != NULL:
+            e3d_renderer_destroy(self.handle)
+
+    def render(
+        self,
+        NativeDrawList draw_list not None,
+        dict targets not None,
+        *,
+        int width,
+        int height,
+        int samples_axis,
+        const double[:, ::1] clip_from_world not None,
+        const double[:, ::1] view_from_world not None,
+        eye,
+        int mode,
+        int cull,
+        int wireframe,
+        int hidden,
+        int shading,
+        int normals,
+        bint remove_hidden_lines,
+        float line_width,
+        float point_size,
+        line_color,
+        background,
+        bint encode_srgb,
+        bint decode_srgb,
+        float depth_near,
+        float depth_far,
+        ambient,
+        light_clamp,
+    ):
+        """Draw one frame into the arrays of `targets`; return its statistics.
+
+        If a signal handler raises meanwhile, its exception is raised here and the targets are
+        partly written.
+        """
+        cdef e3d_frame frame
+        cdef e3d_targets outputs
+        cdef e3d_stats stats
+        cdef e3d_status status
+        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+        require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
+        memset(&frame, 0, sizeof(frame))
+        memset(&stats, 0, sizeof(stats))
+        frame.width = width
+        frame.height = height
+        frame.samples_axis = samples_axis
+        memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+        memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+        copy_vector(frame.eye, eye, 4)
+        frame.mode = <e3d_mode>mode
+        frame.cull = <e3d_cull>cull
+        frame.wireframe = <e3d_wireframe>wireframe
+        frame.hidden = <e3d_hidden>hidden
+        frame.shading = <e3d_shading>shading
+        frame.normals = <e3d_normals>normals
+        frame.remove_hidden_lines = remove_hidden_lines
+        frame.line_width = line_width
+        frame.point_size = point_size
+        copy_vector(frame.line_color, line_color, 3)
+        copy_vector(frame.background, background, 4)
+        frame.encode_srgb = encode_srgb
+        frame.decode_srgb = decode_srgb
+        frame.depth_near = depth_near
+        frame.depth_far = depth_far
+        copy_vector(frame.ambient, ambient, 3)
+        copy_vector(frame.light_clamp, light_clamp, 2)
+        frame.materials = draw_list.materials
+        frame.material_count = draw_list.material_count
+        frame.lights = draw_list.lights
+        frame.light_count = draw_list.light_count
+        frame.draws = draw_list.draws
+        frame.draw_count = draw_list.draw_count
+        fill_targets(&outputs, targets, width, height)
+        self.interruption = None
+        self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL
+        with nogil:
+            status = e3d_render(self.handle, &frame, &outputs, &stats)
+        if self.interruption is not None:
+            error, self.interruption = self.interruption, None
+            raise error
+        check(status)
+        return stats_as_dict(&stats)
+
+
+cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height) except -1:
+    """Point the core at the arrays, whose shape and dtype are checked on the way."""
+    memset(outputs, 0, sizeof(e3d_targets))
+    for name, array in targets.items():
+        if name == "color":
+            outputs.color = bytes_of(array, width, height)
+        elif name == "depth":
+            outputs.depth = floats_of(array, width, height)
+        elif name == "ndc_depth":
+            outputs.ndc_depth = floats_of(array, width, height)
+        elif name == "triangle_id":
+            outputs.triangle_id = integers_of(array, width, height)
+        elif name == "object_id":
+            outputs.object_id = integers_of(array, width, height)
+        elif name == "instance_id":
+            outputs.instance_id = integers_of(array, width, height)
+        elif name == "material_id":
+            outputs.material_id = integers_of(array, width, height)
+        elif name == "albedo":
+            outputs.albedo = vectors_of(array, width, height, 3)
+        elif name == "normal":
+            outputs.normal = vectors_of(array, width, height, 3)
+        elif name == "position":
+            outputs.position = vectors_of(array, width, height, 3)
+        elif name == "world_normal":
+            outputs.world_normal = vectors_of(array, width, height, 3)
+        elif name == "world_position":
+            outputs.world_position = vectors_of(array, width, height, 3)
+        elif name == "uv":
+            outputs.uv = vectors_of(array, width, height, 2)
+        elif name == "barycentric":
+            outputs.barycentric = vectors_of(array, width, height, 3)
+        else:
+            raise InvalidArgumentError(f"no such output: {name!r}")
+    return 0
+
+
+cdef uint8_t *bytes_of(uint8_t[:, :, ::1] array, int width, int height) except NULL:
+    require(array.shape[0] == height and array.shape[1] == width and array.shape[2] == 4,
+            "color must be (height, width, 4)")
+    return &array[0, 0, 0]
+
+
+cdef float *floats_of(float[:, ::1] array, int width, int height) except NULL:
+    require(array.shape[0] == height and array.shape[1] == width, "depth must be (height, width)")
+    return &array[0, 0]
+
+
+cdef int32_t *integers_of(int32_t[:, ::1] array, int width, int height) except NULL:
+    require(array.shape[0] == height and array.shape[1] == width, "ids must be (height, width)")
+    return &array[0, 0]
+
+
+cdef float *vectors_of(float[:, :, ::1] array, int width, int height, int channels) except NULL:
+    require(array.shape[0] == height and array.shape[1] == width and array.shape[2] == channels,
+            "an output must be (height, width, channels)")
+    return &array[0, 0, 0]
+
+
+cdef dict stats_as_dict(const e3d_stats *stats):
+    return {
+        "draws": stats.draws,
+        "instances": stats.instances,
+        "clusters": stats.clusters,
+        "clusters_culled": stats.clusters_culled,
+        "triangles": stats.triangles,
+        "triangles_culled": stats.triangles_culled,
+        "triangles_clipped": stats.triangles_clipped,
+        "triangles_setup": stats.triangles_setup,
+        "bin_entries": stats.bin_entries,
+        "pixels_shaded": stats.pixels_shaded,
+        "ms_geometry": stats.ms_geometry,
+        "ms_raster": stats.ms_raster,
+        "ms_shade": stats.ms_shade,
+        "ms_resolve": stats.ms_resolve,
+        "ms_total": stats.ms_total,
+        "threads": stats.threads,
+        "tiles": stats.tiles,
+        "backend": e3d_backend_name(stats.backend).decode(),
+    }
+
+
+def rasterize(
+    const float[:, ::1] clip not None,
+    const int32_t[:, ::1] faces not None,
+    int cull,
+    int backend,
+    int threads,
+    int32_t[:, ::1] triangle_id not None,
+    float[:, ::1] depth not None,
+    float[:, :, ::1] barycentric not None,
+):
+    """Draw clip-space triangles; the size is that of the output arrays."""
+    cdef int32_t height = <int32_t>triangle_id.shape[0], width = <int32_t>triangle_id.shape[1]
+    require(clip.shape[1] == 4, "clip must be (vertices, 4)")
+    require(faces.shape[1] == 3, "faces must be (faces, 3)")
+    require(width > 0 and height > 0, "an image has at least one pixel")
+    floats_of(depth, width, height)
+    vectors_of(barycentric, width, height, 3)
+    cdef const float *positions = &clip[0, 0] if clip.shape[0] else NULL
+    cdef const int32_t *indices = &faces[0, 0] if faces.shape[0] else NULL
+    cdef e3d_status status
+    with nogil:
+        status = e3d_rasterize(
+            positions, <int32_t>clip.shape[0], indices, <int32_t>faces.shape[0], width, height,
+            <e3d_cull>cull, <e3d_backend>backend, threads, &triangle_id[0, 0], &depth[0, 0],
+            &barycentric[0, 0, 0],
+        )
+    check(status)

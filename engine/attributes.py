@@ -1,0 +1,110 @@
+"""Attributes that check what is assigned to them and count the assignments.
+
+In: whatever a caller assigns. Out: the checked value; the owner's ``version`` grows, which tells
+the renderer to renew what it made of the owner. Used by cameras, lights and instances.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+from collections.abc import Callable
+
+import numpy as np
+
+from .errors import InvalidArgumentError
+
+
+class CheckedAttribute:
+    """A data descriptor: ``check(value, name)`` returns what to keep, or raises.
+
+    Parameters
+    ----------
+    check : callable
+    doc : str
+        What ``help`` shows.
+    """
+
+    def __init__(self, check: Callable, doc: str = "") -> None:
+        self._check = check
+        self.__doc__ = doc
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, owner, owner_type=None):
+        return self if owner is None else owner.__dict__[self._name]
+
+    def __set__(self, owner, value) -> None:
+        owner.__dict__[self._name] = self._check(value, self._name)
+        owner.__dict__["version"] = owner.__dict__.get("version", 0) + 1
+
+
+def one_of(allowed) -> Callable:
+    """Return a check that a value is one of a few."""
+
+    def check(value, what: str):
+        return choose(value, allowed, what)
+
+    return check
+
+
+def choose(value, allowed, what: str):
+    """Return ``value`` if it is one of ``allowed``; the message lists what is allowed."""
+    try:
+        if value in allowed:
+            return value
+    except TypeError:  # not hashable
+        pass
+    choices = ", ".join(repr(choice) for choice in allowed)
+    raise InvalidArgumentError(f"{what} must be one of {choices}, not {value!r}")
+
+
+def finite(value, what: str) -> float:
+    """Check a finite number."""
+    if not isinstance(value, numbers.Real) or not math.isfinite(value):
+        raise InvalidArgumentError(f"{what} must be a finite number, not {value!r}")
+    return float(value)
+
+
+def positive(value, what: str) -> float:
+    """Check a finite number greater than 0."""
+    if not isinstance(value, numbers.Real) or not 0 < value < math.inf:
+        raise InvalidArgumentError(f"{what} must be a finite number greater than 0, not {value!r}")
+    return float(value)
+
+
+def optional_positive(value, what: str) -> float | None:
+    """Check a finite number greater than 0, or None."""
+    return None if value is None else positive(value, what)
+
+
+def not_negative(value, what: str) -> float:
+    """Check a finite number that is 0 or greater."""
+    if not isinstance(value, numbers.Real) or not 0 <= value < math.inf:
+        raise InvalidArgumentError(f"{what} must be a finite number, 0 or greater, not {value!r}")
+    return float(value)
+
+
+def vector3(value, what: str) -> np.ndarray:
+    """Check three finite numbers; return them as a read-only float64 array."""
+    return frozen_floats(value, what, (3,))
+
+
+def matrix4(value, what: str) -> np.ndarray:
+    """Check a 4x4 matrix of finite numbers; return it as a read-only float64 array."""
+    return frozen_floats(value, what, (4, 4))
+
+
+def frozen_floats(value, what: str, shape: tuple[int, ...]) -> np.ndarray:
+    """Return a read-only float64 copy of ``value``, of one shape and finite."""
+    try:
+        array = np.array(value, np.float64, order="C")
+    except (TypeError, ValueError) as error:
+        raise InvalidArgumentError(f"{what} must be numbers: {error}") from None
+    if array.shape != shape:
+        raise InvalidArgumentError(f"{what} must have shape {shape}, not {array.shape}")
+    if not np.isfinite(array).all():
+        raise InvalidArgumentError(f"{what} must be finite: {array.tolist()}")
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,313 @@
+"""Cameras: how view space becomes clip space, and a camera that shows a whole model.
+
+In: fields of view, sizes, distances. Out: 4x4 float64 projection matrices (clip_from_view) with
+OpenGL's clip volume. A camera has no place of its own: its pose (world-from-camera) is its node's;
+it looks along its -Z with +Y up. Everything here is float64 arithmetic of single operations, so
+that a matrix has the same bits on every machine.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+
+import numpy as np
+
+from . import linalg
+from .attributes import CheckedAttribute, finite, matrix4, optional_positive, positive
+from .errors import InvalidArgumentError
+
+
+def _angle(value, what: str) -> float:
+    if not isinstance(value, numbers.Real) or not 0.0 < value < math.pi:
+        raise InvalidArgumentError(f"{what} must be between 0 and pi radians, not {value!r}")
+    return float(value)
+
+
+def _far(value, what: str) -> float:
+    """A far plane: a positive number, or infinity or None for none."""
+    if value is None:
+        return math.inf
+    if not isinstance(value, numbers.Real) or not value > 0:
+        raise InvalidArgumentError(f"{what} must be greater than 0, not {value!r}")
+    return float(value)
+
+
+def _check_range(camera) -> None:
+    if not camera.znear < camera.zfar:
+        raise InvalidArgumentError(
+            f"znear must be less than zfar: {camera.znear:g} and {camera.zfar:g}"
+        )
+
+
+class Camera:
+    """A camera given by its projection matrix.
+
+    Parameters
+    ----------
+    projection : (4, 4) float
+        clip_from_view, with OpenGL's clip volume ``-w <= z <= w``.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    matrix = CheckedAttribute(matrix4, "clip_from_view, (4, 4) float64, read-only.")
+    znear: float | None = None
+    zfar: float | None = None
+
+    def __init__(self, projection) -> None:
+        self.matrix = projection
+
+    def projection(self, width: int, height: int) -> np.ndarray:
+        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
+        return self.matrix
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._parameters()})"
+
+    def _parameters(self) -> str:
+        return repr(self.matrix.tolist())
+
+
+class PerspectiveCamera(Camera):
+    """A pinhole camera given by its vertical field of view.
+
+    Parameters
+    ----------
+    yfov : float
+        Vertical field of view in radians, between 0 and pi.
+    znear, zfar : float
+        Distances of the near and far planes, ``0 < znear < zfar``; ``zfar`` may be infinite.
+    aspect : float, optional
+        Width over height; the image's own if left out.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(
+        self,
+        yfov: float = 0.9,
+        *,
+        znear: float = 0.05,
+        zfar: float = 100.0,
+        aspect: float | None = None,
+    ) -> None:
+        self.yfov = yfov
+        self.znear, self.zfar = znear, zfar
+        self.aspect = aspect
+        _check_range(self)
+
+    yfov = CheckedAttribute(_angle)
+    znear = CheckedAttribute(positive)
+    zfar = CheckedAttribute(_far)
+    aspect = CheckedAttribute(optional_positive)
+
+    def projection(self, width: int, height: int) -> np.ndarray:
+        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
+        _check_range(self)
+        aspect = width / height if self.aspect is None else self.aspect
+        return linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
+
+    def _parameters(self) -> str:
+        return f"yfov={self.yfov:g}, znear={self.znear:g}, zfar={self.zfar:g}"
+
+
+class OrthographicCamera(Camera):
+    """A camera without perspective.
+
+    Parameters
+    ----------
+    ymag : float
+        Half the height of what is seen, in world units.
+    xmag : float, optional
+        Half the width; from ``ymag`` and the image's aspect if left out.
+    znear, zfar : float
+        Distances of the near and far planes, ``znear < zfar``; they may be 0 or negative.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(
+        self,
+        ymag: float,
+        *,
+        xmag: float | None = None,
+        znear: float = 0.05,
+        zfar: float = 100.0,
+    ) -> None:
+        self.ymag = ymag
+        self.xmag = xmag
+        self.znear, self.zfar = znear, zfar
+        _check_range(self)
+
+    ymag = CheckedAttribute(positive)
+    xmag = CheckedAttribute(optional_positive)
+    znear = CheckedAttribute(finite)
+    zfar = CheckedAttribute(finite)
+
+    def projection(self, width: int, height: int) -> np.ndarray:
+        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
+        _check_range(self)
+        xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
+        return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
+
+    def _parameters(self) -> str:
+        return f"ymag={self.ymag:g}, znear={self.znear:g}, zfar={self.zfar:g}"
+
+
+class IntrinsicsCamera(Camera):
+    """A pinhole camera given in pixels, as calibration gives it.
+
+    Parameters
+    ----------
+    fx, fy : float
+        Focal lengths in pixels.
+    cx, cy : float
+        Principal point in pixels from the image's left and top edges. The centre of the top left
+        pixel is (0.5, 0.5): add 0.5 to numbers that put it at (0, 0), as OpenCV's do.
+    znear, zfar : float
+        As for `PerspectiveCamera`.
+
+    Notes
+    -----
+    The camera still looks along -Z with +Y up. A pose from software whose cameras look along +Z
+    with +Y down (OpenCV, COLMAP) becomes one of ours by negating its second and third columns.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(
+        self,
+        fx: float,
+        fy: float,
+        cx: float,
+        cy: float,
+        *,
+        znear: float = 0.05,
+        zfar: float = 100.0,
+    ) -> None:
+        self.fx, self.fy = fx, fy
+        self.cx, self.cy = cx, cy
+        self.znear, self.zfar = znear, zfar
+        _check_range(self)
+
+    fx = CheckedAttribute(positive)
+    fy = CheckedAttribute(positive)
+    cx = CheckedAttribute(finite)
+    cy = CheckedAttribute(finite)
+    znear = CheckedAttribute(positive)
+    zfar = CheckedAttribute(_far)
+
+    def projection(self, width: int, height: int) -> np.ndarray:
+        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
+        _check_range(self)
+        # The depth rows are those of any perspective; only the pixel grid differs.
+        matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)
+        matrix[0, 0] = 2.0 * self.fx / width
+        matrix[1, 1] = 2.0 * self.fy / height
+        matrix[0, 2] = 1.0 - 2.0 * self.cx / width
+        matrix[1, 2] = 2.0 * self.cy / height - 1.0
+        return matrix
+
+    def _parameters(self) -> str:
+        return f"fx={self.fx:g}, fy={self.fy:g}, cx={self.cx:g}, cy={self.cy:g}"
+
+
+def frame_bounds(
+    bounds,
+    *,
+    aspect: float = 1.0,
+    yfov: float = 0.9,
+    direction=(-0.35, -0.25, -1.0),
+    up=(0.0, 1.0, 0.0),
+    margin: float = 1.05,
+) -> tuple[PerspectiveCamera, np.ndarray]:
+    """Return a camera and its pose that show a whole box, as large as possible.
+
+    Parameters
+    ----------
+    bounds : (2, 3) float
+        Smallest and largest corner in world space, such as ``mesh.bounds`` or ``scene.bounds``.
+    aspect : float
+        Width over height of the image.
+    yfov : float
+        Vertical field of view in radians.
+    direction : (3,) float
+        The way the camera looks; by default from the front, a little from the right and above.
+    up : (3,) float
+        The direction that points up in the image.
+    margin : float
+        How much more than the box is shown; 1 is a tight fit.
+
+    Returns
+    -------
+    camera : PerspectiveCamera
+        Its near and far planes enclose the box tightly, which keeps depth precise.
+    pose : (4, 4) float64
+        world-from-camera.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    smallest, largest = _corners(bounds)
+    positive(aspect, "aspect")
+    positive(margin, "margin")
+    backward = -linalg.normalize(_direction(direction))
+    center = (smallest + largest) * 0.5
+    half = (largest - smallest) * 0.5
+    if not half.any():
+        half = np.ones(3)
+    pose = linalg.look_at(center + backward, center, up)
+    across, upward, depth = _corner_coordinates(pose, half * margin)
+    y_slope = float(linalg.tan(0.5 * _angle(yfov, "yfov")))
+    x_slope = y_slope * aspect
+    distance = max(
+        float((depth + np.abs(across) / x_slope).max()),
+        float((depth + np.abs(upward) / y_slope).max()),
+    )
+    pose[:3, 3] = center + backward * distance
+    reach = float(depth.max())
+    zfar = distance + reach
+    znear = max(distance - reach, zfar * 1e-3)
+    return PerspectiveCamera(yfov, znear=znear, zfar=zfar), pose
+
+
+def _corner_coordinates(pose, half) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Coordinates of a box's 8 corners along a camera's axes, the box's centre being the origin."""
+    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float64)
+    corners = signs * half
+    x, y, z = (linalg.dot(corners, pose[:3, axis]) for axis in range(3))
+    return x, y, z
+
+
+def _corners(bounds) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        array = np.array(bounds, np.float64)
+    except (TypeError, ValueError):
+        raise InvalidArgumentError("bounds must be two corners of numbers, (2, 3)") from None
+    if array.shape != (2, 3) or not np.isfinite(array).all():
+        raise InvalidArgumentError("bounds must be two finite corners, (2, 3)")
+    if (array[0] > array[1]).any():
+        raise InvalidArgumentError("bounds: the first corner must be the smaller one")
+    return array[0], array[1]
+
+
+def _direction(value) -> np.ndarray:
+    array = np.array(value, np.float64)
+    if array.shape != (3,) or not np.isfinite(array).all() or not array.any():
+        raise InvalidArgumentError(f"direction must be a vector of 3 numbers, not {value!r}")
+    return array

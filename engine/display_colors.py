@@ -1,0 +1,46 @@
+"""Colours as the screen shows them, for modes whose colours do not go through the sRGB encoder.
+
+In: a colour as people write it. Out: display values, 8-bit codes over 255, so that a background or
+a line has the same bytes in every mode.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+from .colors import linear_color
+
+
+def shading_color(value: tuple, color_space: str) -> tuple[float, float, float]:
+    """Return a colour in the space that lighting computes in."""
+    return _shading_color(value, tuple(map(type, value)), color_space)
+
+
+def display_color(value: tuple, color_space: str) -> tuple[float, float, float]:
+    """Return the display values that the colour has after a lit frame's encoder."""
+    return _display_color(value, tuple(map(type, value)), color_space)
+
+
+# The types are part of the key: 255 is an sRGB code, 255.0 a very bright light, and both are equal.
+@functools.lru_cache(maxsize=256)
+def _shading_color(value, types, color_space):
+    return tuple(linear_color(value, color_space).tolist())
+
+
+@functools.lru_cache(maxsize=256)
+def _display_color(value, types, color_space):
+    linear = _shading_color(value, types, color_space)
+    if color_space == "linear":
+        return linear
+    return tuple(encode_srgb(component) / 255 for component in linear)
+
+
+def encode_srgb(value: float) -> int:
+    """Return the 8-bit sRGB code of a linear value, clamped (IEC 61966-2-1)."""
+    value = min(max(value, 0.0), 1.0)
+    if value <= 0.0031308:
+        encoded = 12.92 * value
+    else:
+        encoded = 1.055 * math.pow(value, 1 / 2.4) - 0.055
+    return int(255 * encoded + 0.5)

@@ -1,0 +1,181 @@
+"""A rendered frame: its outputs as arrays, and ways to show and save it.
+
+In: what `Renderer.render` drew. Out: one read-and-write array an output, top row first. Reading an
+output that was not asked for raises and names the argument that asks for it. Files appear whole or
+not at all.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+
+import numpy as np
+
+from .atomic_write import atomic_write
+from .errors import InvalidArgumentError, MissingOutputError
+
+# Every output: dtype and number of channels (0: no third axis).
+OUTPUTS: dict[str, tuple[type, int]] = {
+    "color": (np.uint8, 4),
+    "depth": (np.float32, 0),
+    "ndc_depth": (np.float32, 0),
+    "triangle_id": (np.int32, 0),
+    "object_id": (np.int32, 0),
+    "instance_id": (np.int32, 0),
+    "material_id": (np.int32, 0),
+    "albedo": (np.float32, 3),
+    "normal": (np.float32, 3),
+    "position": (np.float32, 3),
+    "world_normal": (np.float32, 3),
+    "world_position": (np.float32, 3),
+    "uv": (np.float32, 2),
+    "barycentric": (np.float32, 3),
+}
+
+# File name suffix -> (Pillow's format, what it is saved with).
+_FORMATS = {
+    "png": ("PNG", {"compress_level": 6}),
+    "jpg": ("JPEG", {"quality": 95, "subsampling": 0}),
+    "jpeg": ("JPEG", {"quality": 95, "subsampling": 0}),
+    "tga": ("TGA", {"compression": "tga_rle"}),
+    "webp": ("WEBP", {"lossless": True}),
+}
+
+
+class _Output:
+    """A property that reads one output."""
+
+    def __init__(self, doc: str) -> None:
+        self.__doc__ = doc
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, frame, owner=None) -> np.ndarray:
+        if frame is None:
+            return self
+        try:
+            return frame._outputs[self._name]
+        except KeyError:
+            raise MissingOutputError(
+                f"this frame has no {self._name}: ask for it with "
+                f'render(..., outputs=("{self._name}",))'
+            ) from None
+
+
+class Frame:
+    """What a renderer drew.
+
+    The arrays belong to the caller: they stay as they are for as long as they are held, unless the
+    frame is given to ``render(out=...)``. ``np.asarray(frame)`` is ``frame.color``.
+
+    Attributes
+    ----------
+    width, height : int
+    outputs : tuple of str
+        The outputs that it holds.
+    stats : dict
+        Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), the
+        number of threads and tiles, and the backend.
+    """
+
+    color = _Output("(H, W, 4) uint8 RGBA; alpha is 255, and 0 where a background of None shows.")
+    depth = _Output("(H, W) float32: metric distance along the view axis, 0 = background.")
+    ndc_depth = _Output("(H, W) float32: z_ndc, smaller is nearer, +inf = background.")
+    triangle_id = _Output("(H, W) int32: index into mesh.faces as given, -1 = none.")
+    object_id = _Output("(H, W) int32: node.id, -1 = background.")
+    instance_id = _Output(
+        "(H, W) int32: row of the instances, 0 for a plain mesh, -1 = background."
+    )
+    material_id = _Output("(H, W) int32: index into mesh.materials, -1 = background.")
+    albedo = _Output("(H, W, 3) float32: surface colour before light, linear; 0 = background.")
+    normal = _Output("(H, W, 3) float32: unit normal in view space; 0 = background.")
+    position = _Output("(H, W, 3) float32: position in view space; 0 = background.")
+    world_normal = _Output("(H, W, 3) float32: unit normal in world space; 0 = background.")
+    world_position = _Output("(H, W, 3) float32: position in world space; 0 = background.")
+    uv = _Output("(H, W, 2) float32: texture coordinates, origin bottom left; 0 = background.")
+    barycentric = _Output("(H, W, 3) float32: perspective-correct weights; 0 = background.")
+
+    def __init__(self, width: int, height: int, outputs: dict[str, np.ndarray]) -> None:
+        self.width = width
+        self.height = height
+        self.stats: dict = {}
+        self._outputs = outputs
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        return tuple(self._outputs)
+
+    def __array__(self, dtype=None, copy=None) -> np.ndarray:
+        if copy is False and dtype is not None and np.dtype(dtype) != np.uint8:
+            raise ValueError("a frame's colour is uint8: another dtype needs a copy")
+        if copy:
+            return np.array(self.color, dtype)
+        return np.asarray(self.color, dtype)
+
+    def image(self):
+        """Return the colour as an image of Pillow (``PIL.Image.Image``, RGBA), a copy."""
+        from PIL import Image
+
+        return Image.frombytes("RGBA", (self.width, self.height), self.color.tobytes())
+
+    def canvas(self):
+        """Return an `engine3d.Canvas` that draws into this frame's colour."""
+        from .canvas import Canvas
+
+        return Canvas(self.color)
+
+    def save(self, path: str | os.PathLike, **options) -> None:
+        """Write the colour to an image file, whole or not at all.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The suffix decides the format: .png, .jpg, .jpeg (no alpha), .tga or .webp (lossless).
+        **options
+            Passed to Pillow's writer, such as ``quality=80``.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The suffix is none of those.
+        FileAccessError
+            The file cannot be written.
+        """
+        suffix = os.path.splitext(os.fspath(path))[1].lstrip(".").lower()
+        data = self.encode(suffix, **options)
+        with atomic_write(path) as file:
+            file.write(data)
+
+    def encode(self, format: str = "png", **options) -> bytes:
+        """Return the colour as the bytes of an image file.
+
+        Parameters
+        ----------
+        format : {"png", "jpg", "jpeg", "tga", "webp"}
+        **options
+            Passed to Pillow's writer.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The format is none of those.
+        """
+        if format not in _FORMATS:
+            raise InvalidArgumentError(
+                f"an image format is one of {', '.join(_FORMATS)}, not {format!r}"
+            )
+        name, defaults = _FORMATS[format]
+        image = self.image()
+        if name == "JPEG":
+            image = image.convert("RGB")
+        buffer = io.BytesIO()
+        image.save(buffer, name, **{**defaults, **options})
+        return buffer.getvalue()
+
+    def _repr_png_(self) -> bytes | None:
+        return self.encode("png") if "color" in self._outputs else None
+
+    def __repr__(self) -> str:
+        return f"<Frame {self.width}x{self.height}: {', '.join(self._outputs)}>"

@@ -1,0 +1,122 @@
+"""Lights: plain data that a scene's nodes place in the world.
+
+A light has a colour (floats are linear light, 8-bit integers sRGB) times an intensity. Directional
+lights shine along their node's rotated ``direction``; point lights from their node's origin.
+docs/exactness.md, section 9, has the formulas.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+
+import numpy as np
+
+from .attributes import CheckedAttribute, not_negative, one_of, vector3
+from .colors import check_color
+from .errors import InvalidArgumentError
+
+FALLOFFS = ("inverse_square", "window")
+
+
+def _direction(value, what: str) -> np.ndarray:
+    direction = vector3(value, what)
+    if not direction.any():
+        raise InvalidArgumentError(f"{what} must not be the zero vector")
+    return direction
+
+
+def _range(value, what: str) -> float:
+    if not isinstance(value, numbers.Real) or not value > 0:
+        raise InvalidArgumentError(f"{what} must be greater than 0, not {value!r}")
+    return float(value)
+
+
+class DirectionalLight:
+    """A light infinitely far away, such as the sun.
+
+    Parameters
+    ----------
+    direction : (3,) float
+        The way the light travels, in the space of its node; of any length but zero.
+    color : sequence of 3 numbers
+    intensity : float
+        Multiplies the colour; a white surface that faces the light gets ``color * intensity``.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    direction = CheckedAttribute(_direction)
+    color = CheckedAttribute(check_color)
+    intensity = CheckedAttribute(not_negative)
+
+    def __init__(self, direction=(0, 0, -1), color=(1, 1, 1), intensity: float = 1.0) -> None:
+        self.direction = direction
+        self.color = color
+        self.intensity = intensity
+
+    def __repr__(self) -> str:
+        direction = tuple(self.direction.tolist())
+        return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"
+
+
+class PointLight:
+    """A light that shines from one point in all directions.
+
+    Parameters
+    ----------
+    color : sequence of 3 numbers
+    intensity : float
+        Multiplies the colour; at distance 1 with ``"inverse_square"`` a white surface that faces
+        the light gets ``color * intensity``.
+    range : float
+        World units; the light adds exactly nothing from this distance on. May be infinite with
+        ``"inverse_square"``.
+    falloff : {"inverse_square", "window"}
+        Attenuation at distance d: ``1 / d**2``, or ``(1 - d**2 / range**2)**2``.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    color = CheckedAttribute(check_color)
+    intensity = CheckedAttribute(not_negative)
+    range = CheckedAttribute(_range)
+    falloff = CheckedAttribute(one_of(FALLOFFS))
+
+    def __init__(
+        self,
+        color=(1, 1, 1),
+        intensity: float = 1.0,
+        range: float = math.inf,
+        falloff: str = "inverse_square",
+    ) -> None:
+        self.color = color
+        self.intensity = intensity
+        self.range = range
+        self.falloff = falloff
+        self.check()
+
+    def check(self) -> None:
+        """Raise unless ``range`` and ``falloff`` go together."""
+        if self.falloff == "window" and math.isinf(self.range):
+            raise InvalidArgumentError("falloff 'window' needs a finite range")
+
+    def __repr__(self) -> str:
+        return (
+            f"PointLight(color={self.color}, intensity={self.intensity:g}, range={self.range:g}, "
+            f"falloff={self.falloff!r})"
+        )

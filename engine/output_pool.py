@@ -1,0 +1,51 @@
+"""Memory for a frame's outputs, used again and again.
+
+In: shapes and dtypes. Out: arrays that are the caller's own for as long as any array on their
+memory lives; only then does the memory come back. So a loop that lets go of its frames allocates
+nothing (fresh memory would cost a page fault every 4 KiB), and a frame that is kept is never drawn
+over.
+"""
+
+from __future__ import annotations
+
+import weakref
+
+import numpy as np
+
+_MAX_FREE = 4  # blocks kept for each size: a steady loop needs one or two for each output
+
+
+class OutputPool:
+    """Blocks of memory by their size in bytes."""
+
+    def __init__(self) -> None:
+        self._free: dict[int, list[np.ndarray]] = {}
+        self._lent: dict[int, tuple[weakref.ref, np.ndarray]] = {}
+
+    def take(self, shape: tuple[int, ...], dtype) -> np.ndarray:
+        """Return an array with arbitrary contents."""
+        dtype = np.dtype(dtype)
+        size = dtype.itemsize
+        for side in shape:
+            size *= side
+        try:
+            block = self._free[size].pop()
+        except (KeyError, IndexError):
+            block = np.empty(size, np.uint8)
+        # The base of an array made from a memoryview is not an array, so NumPy does not look
+        # through it: every view of a view holds on to `owner`, whose end is the end of them all.
+        owner = np.frombuffer(memoryview(block), np.uint8)
+        reference = weakref.ref(owner, self._take_back)
+        self._lent[id(reference)] = (reference, block)
+        return owner.view(dtype).reshape(shape)
+
+    def forget(self) -> None:
+        """Free what is not in use; sizes that come back later are not kept for long."""
+        self._free.clear()
+
+    def _take_back(self, reference: weakref.ref) -> None:
+        # Runs in whatever thread dropped the last array; each step is one atomic operation.
+        _, block = self._lent.pop(id(reference))
+        blocks = self._free.setdefault(block.nbytes, [])
+        if len(blocks) < _MAX_FREE:
+            blocks.append(block)

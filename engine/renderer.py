@@ -1,0 +1,344 @@
+"""The renderer: draws scenes into frames on the CPU.
+
+In: a `Scene`, a camera and the options of a picture. Out: a `Frame` with the outputs asked for;
+what isn't asked for isn't computed. One call of the core a frame, without the GIL. The same scene
+gives the same bytes on every backend and every number of threads.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+import threading
+from collections.abc import Iterable
+
+from ._native import rasterizer as _native
+from .attributes import choose
+from .backend_selection import resolve_backend, resolve_threads
+from .colors import COLOR_SPACES, check_color
+from .display_colors import display_color, shading_color
+from .draw_list import DrawList
+from .errors import InvalidArgumentError
+from .frame import OUTPUTS, Frame
+from .native_handles import MeshNeeds
+from .output_pool import OutputPool
+from .rasterization import check_size
+from .scene import Scene
+from .view import View, find_camera
+
+_SAMPLES = {1: 1, 4: 2, 16: 4}  # samples a pixel -> samples along an axis
+_MAX_LINE = 256.0
+_NO_CLAMP = (0.0, math.inf)
+# Modes whose colours go through the sRGB encoder; the others give display values.
+_ENCODED_MODES = ("lit", "unlit")
+
+
+class Renderer:
+    """Draws frames of one size.
+
+    Several renderers may draw in several threads at once; one renderer used from several threads
+    draws one frame after the other.
+
+    Parameters
+    ----------
+    width, height : int
+        Pixels, 1 to 16384.
+    backend : str
+        One of `engine3d.backends`, or ``"auto"``: what the environment variable
+        ``ENGINE3D_BACKEND`` says, else the fastest.
+    threads : int
+        0: what ``ENGINE3D_THREADS`` says, else all CPUs that this process may use.
+    color_space : {"srgb", "linear"}
+        ``"srgb"``: 8-bit colours and textures are decoded to linear light, the result is encoded.
+        ``"linear"``: 8-bit values are taken as they are, and written so.
+    samples : {1, 4, 16}
+        Samples a pixel; more smooth the edges.
+
+    Attributes
+    ----------
+    width, height : int
+        `resize` changes them.
+    backend : str
+        The backend that draws.
+    color_space : str
+    samples : int
+
+    Raises
+    ------
+    InvalidArgumentError, BackendError, OutOfMemoryError
+    """
+
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        *,
+        backend: str = "auto",
+        threads: int = 0,
+        color_space: str = "srgb",
+        samples: int = 1,
+    ) -> None:
+        self._width, self._height = check_size(width, "width"), check_size(height, "height")
+        self._color_space = choose(color_space, COLOR_SPACES, "color_space")
+        self._samples = choose(samples, _SAMPLES, "samples")
+        number = resolve_backend(backend)
+        self._backend = list(_native.BACKENDS)[number]
+        self._native = _native.NativeRenderer(number, resolve_threads(threads))
+        self._draw_list = DrawList(self._color_space)
+        self._pool = OutputPool()
+        self._view: View | None = None
+        self._lock = threading.Lock()
+
+    @property
+    def width(self) -> int:
+        return self._width
+
+    @property
+    def height(self) -> int:
+        return self._height
+
+    @property
+    def backend(self) -> str:
+        return self._backend
+
+    @property
+    def color_space(self) -> str:
+        return self._color_space
+
+    @property
+    def samples(self) -> int:
+        return self._samples
+
+    def resize(self, width: int, height: int) -> None:
+        """Change the size of the frames to come."""
+        width, height = check_size(width, "width"), check_size(height, "height")
+        with self._lock:
+            self._width, self._height = width, height
+            self._pool.forget()
+
+    def close(self) -> None:
+        """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
+        with self._lock:
+            self._native = self._draw_list = None
+            self._pool.forget()
+
+    def __enter__(self) -> Renderer:
+        return self
+
+    def __exit__(self, *exception) -> None:
+        self.close()
+
+    def render(
+        self,
+        scene: Scene,
+        camera=None,
+        *,
+        mode: str = "lit",
+        wireframe: str | None = None,
+        cull: str = "back",
+        shading: str = "deferred",
+        outputs: Iterable[str] = ("color",),
+        out: Frame | None = None,
+        normals: str = "auto",
+        hidden_surfaces: str = "zbuffer",
+        line_width: float = 1.0,
+        line_color=(1.0, 1.0, 1.0),
+        hidden_lines: bool = False,
+        point_size: float = 1.0,
+    ) -> Frame:
+        """Draw a frame.
+
+        Parameters
+        ----------
+        scene : Scene
+        camera : None, Node or (Camera, pose)
+            None is the scene's first visible camera; a scene without one is framed automatically.
+        mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
+            What the colour shows: light, plain surface colour, a random colour a triangle,
+            nearness, view-space normals, identities as colours, or how often each pixel was
+            covered.
+        wireframe : {None, "overlay", "only"}
+            Draw the visible edges over the picture, or instead of its faces.
+        cull : {"back", "front", "none"}
+            Which faces are left out, by the side that they show.
+        shading : {"deferred", "forward"}
+            When pixels are shaded: once each, or as they are drawn. Both give the same bytes.
+        outputs : iterable of str
+            Which arrays the frame holds: ``color``, ``depth``, ``ndc_depth``, ``triangle_id``,
+            ``object_id``, ``instance_id``, ``material_id``, ``albedo``, ``normal``, ``position``,
+            ``world_normal``, ``world_position``, ``uv``, ``barycentric``.
+        out : Frame, optional
+            An earlier frame of the same size to draw into; its outputs are drawn, and it is
+            returned.
+        normals : {"auto", "smooth", "flat"}
+            Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``.
+        hidden_surfaces : {"zbuffer", "painter", "none"}
+            How what is hidden is left out: by depth, by drawing from far to near, or not at all.
+        line_width, point_size : float
+            Pixels, more than 0 and up to 256.
+        line_color : sequence of 3 numbers
+            Colour of the wireframe.
+        hidden_lines : bool
+            With ``wireframe="only"``: show the edges that faces hide as well.
+
+        Returns
+        -------
+        frame : Frame
+
+        Raises
+        ------
+        InvalidArgumentError, OutOfMemoryError
+        KeyboardInterrupt
+            Ctrl-C stops a frame between its tiles.
+        """
+        if not isinstance(scene, Scene):
+            raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
+        choices = {
+            "mode": _native.MODES[choose(mode, _native.MODES, "mode")],
+            "wireframe": _native.WIREFRAMES[choose(wireframe, _native.WIREFRAMES, "wireframe")],
+            "cull": _native.CULLS[choose(cull, _native.CULLS, "cull")],
+            "shading": _native.SHADINGS[choose(shading, _native.SHADINGS, "shading")],
+            "normals": _native.NORMALS[choose(normals, _native.NORMALS, "normals")],
+            "hidden": _native.HIDDEN_SURFACES[
+                choose(hidden_surfaces, _native.HIDDEN_SURFACES, "hidden_surfaces")
+            ],
+            "remove_hidden_lines": not hidden_lines,
+            "line_width": _line_size(line_width, "line_width"),
+            "point_size": _line_size(point_size, "point_size"),
+        }
+        line_color = check_color(line_color, "line_color")
+        with self._lock:
+            if self._native is None:
+                raise InvalidArgumentError("the renderer is closed")
+            frame = self._new_frame(outputs) if out is None else self._check_out(out)
+            self._look(scene, camera)
+            self._list_draws(scene, mode, normals, wireframe, frame)
+            frame.stats = self._native.render(
+                self._draw_list.native,
+                frame._outputs,
+                width=self._width,
+                height=self._height,
+                samples_axis=_SAMPLES[self._samples],
+                clip_from_world=self._view.clip_from_world,
+                view_from_world=self._view.view_from_world,
+                eye=self._view.eye,
+                **choices,
+                **self._colors(scene, mode, line_color),
+                **self._depth_range(scene, mode),
+            )
+        return frame
+
+    def _new_frame(self, outputs: Iterable[str]) -> Frame:
+        if isinstance(outputs, str):
+            raise InvalidArgumentError(f"outputs must be a tuple of names: ({outputs!r},)")
+        arrays = {}
+        for name in outputs:
+            dtype, channels = OUTPUTS[choose(name, OUTPUTS, "outputs")]
+            shape = (self._height, self._width, channels)
+            arrays[name] = self._pool.take(shape if channels else shape[:2], dtype)
+        if not arrays:
+            raise InvalidArgumentError('outputs must name at least one output, such as "color"')
+        return Frame(self._width, self._height, arrays)
+
+    def _check_out(self, out: Frame) -> Frame:
+        if not isinstance(out, Frame):
+            raise InvalidArgumentError(f"out must be a Frame, not {type(out).__name__}")
+        if (out.width, out.height) != (self._width, self._height):
+            raise InvalidArgumentError(
+                f"out must be {self._width}x{self._height}, not {out.width}x{out.height}"
+            )
+        return out
+
+    def _look(self, scene: Scene, camera) -> None:
+        """Find the camera; a view that has not changed is used again."""
+        camera, pose = find_camera(scene, camera, self._width, self._height)
+        if self._view is None or not self._view.is_of(camera, pose, self._width, self._height):
+            self._view = View(camera, pose, self._width, self._height)
+
+    def _list_draws(self, scene: Scene, mode: str, normals: str, wireframe, frame: Frame) -> None:
+        outputs = frame._outputs
+        shaded = "color" in outputs
+        reads_normals = "normal" in outputs or "world_normal" in outputs
+        reads_normals = reads_normals or (shaded and mode in ("lit", "normal"))
+        needs = MeshNeeds(
+            vertex_normals=reads_normals and normals != "flat",
+            face_normals=reads_normals and normals != "smooth",
+            edges=shaded and wireframe is not None,
+        )
+        self._draw_list.update(scene, needs, normals, self._headlight(scene))
+
+    def _headlight(self, scene: Scene):
+        """A light at the camera for scenes without lights; with the ambient it adds up to white."""
+        ambient = shading_color(scene.ambient, self._color_space)
+        return [max(0.0, 1.0 - component) for component in ambient], self._view.towards_viewer
+
+    def _colors(self, scene: Scene, mode: str, line_color) -> dict:
+        encoded = mode in _ENCODED_MODES and self._color_space == "srgb"
+        convert = shading_color if encoded else display_color
+        if scene.background is None:
+            background = (0.0, 0.0, 0.0, 0.0)
+        else:
+            background = (*convert(scene.background, self._color_space), 1.0)
+        return {
+            "line_color": convert(line_color, self._color_space),
+            "background": background,
+            "encode_srgb": encoded,
+            "decode_srgb": self._color_space == "srgb",
+            "ambient": shading_color(scene.ambient, self._color_space),
+            "light_clamp": scene.light_clamp or _NO_CLAMP,
+        }
+
+    def _depth_range(self, scene: Scene, mode: str) -> dict:
+        near, far = self._view.depth_range(scene.bounds) if mode == "depth" else (0.0, 1.0)
+        return {"depth_near": near, "depth_far": far}
+
+    def __repr__(self) -> str:
+        return f"<Renderer {self._width}x{self._height}, {self._backend}>"
+
+
+def render(
+    scene: Scene,
+    camera=None,
+    *,
+    size: tuple[int, int] = (1280, 720),
+    backend: str = "auto",
+    threads: int = 0,
+    color_space: str = "srgb",
+    samples: int = 1,
+    **options,
+) -> Frame:
+    """Draw one frame of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : None, Node or (Camera, pose)
+    size : (int, int)
+        Width and height in pixels.
+    backend, threads, color_space, samples
+        As for `Renderer`.
+    **options
+        As for `Renderer.render`: ``mode``, ``wireframe``, ``outputs`` and so on.
+
+    Returns
+    -------
+    frame : Frame
+
+    Raises
+    ------
+    InvalidArgumentError, BackendError, OutOfMemoryError
+    """
+    try:
+        width, height = size
+    except (TypeError, ValueError):
+        raise InvalidArgumentError(f"size must be (width, height), not {size!r}") from None
+    settings = {"backend": backend, "threads": threads}
+    settings.update(color_space=color_space, samples=samples)
+    with Renderer(width, height, **settings) as renderer:
+        return renderer.render(scene, camera, **options)
+
+
+def _line_size(value, what: str) -> float:
+    if not isinstance(value, numbers.Real) or not 0 < value <= _MAX_LINE:
+        raise InvalidArgumentError(f"{what} must be more than 0 and at most 256, not {value!r}")
+    return float(value)

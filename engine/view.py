@@ -1,0 +1,104 @@
+"""From where a frame looks: the matrices that the core gets, and depths along the view axis.
+
+In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. Matrices are float64
+products in a fixed order of operations, so that they have the same bits on every machine.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import linalg
+from .attributes import matrix4
+from .cameras import Camera, frame_bounds
+from .errors import InvalidArgumentError
+from .scene import Node, Scene
+
+
+class View:
+    """The matrices of one camera at one pose.
+
+    Attributes
+    ----------
+    camera : Camera
+    pose : (4, 4) float64
+        world-from-camera.
+    clip_from_world, view_from_world : (4, 4) float64
+    eye : tuple of 4 float
+        The camera's world position and 1; without perspective the direction to the viewer and 0.
+    """
+
+    def __init__(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> None:
+        projection = camera.projection(width, height)
+        self.camera = camera
+        self.pose = pose
+        self.view_from_world = linalg.inverse(pose)
+        self.clip_from_world = linalg.multiply(projection, self.view_from_world)
+        self.towards_viewer = tuple(linalg.normalize(pose[:3, 2]).tolist())
+        if projection[3, 0] == projection[3, 1] == projection[3, 2] == 0:
+            self.eye = (*self.towards_viewer, 0.0)
+        else:
+            self.eye = (*pose[:3, 3].tolist(), 1.0)
+        self._key = (camera, camera.version, pose, width, height)
+
+    def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
+        """Whether the view is still that of this camera, pose and image."""
+        seen, version, at, *size = self._key
+        return (
+            seen is camera
+            and version == camera.version
+            and size == [width, height]
+            and (at is pose or np.array_equal(at, pose))
+        )
+
+    def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
+        """Return the metric depths between which a world box lies, within the camera's range."""
+        center = (bounds[0] + bounds[1]) * 0.5
+        half = (bounds[1] - bounds[0]) * 0.5
+        row = self.view_from_world[2]
+        middle = -(float(linalg.dot(row[:3], center)) + float(row[3]))
+        reach = float(linalg.dot(np.abs(row[:3]), half))
+        near, far = middle - reach, middle + reach
+        if self.camera.znear is not None:
+            near, far = max(near, self.camera.znear), min(far, self.camera.zfar)
+        if not near < far or np.float32(near) == np.float32(far):
+            near, far = middle - 0.5, middle + 0.5  # flat, or outside: any range shows as much
+        return near, far
+
+
+def find_camera(scene: Scene, camera, width: int, height: int) -> tuple[Camera, np.ndarray]:
+    """Return the camera to draw with, and its pose.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : None, Node or (Camera, pose)
+        None is the scene's first visible camera; if it has none, one that shows the whole scene.
+    width, height : int
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    if camera is None:
+        for node in scene.nodes:
+            if isinstance(node.object, Camera) and node.shown:
+                return node.object, node.world_pose
+        return frame_bounds(scene.bounds, aspect=width / height)
+    if isinstance(camera, Node):
+        if not isinstance(camera.object, Camera):
+            raise InvalidArgumentError(f"camera must be a node that holds a camera, not {camera!r}")
+        return camera.object, camera.world_pose
+    if isinstance(camera, Camera):
+        raise InvalidArgumentError(
+            "camera must be a node or a pair (camera, pose): a camera alone has no place"
+        )
+    try:
+        what, pose = camera
+    except (TypeError, ValueError):
+        what = None
+    if not isinstance(what, Camera):
+        raise InvalidArgumentError(
+            f"camera must be None, a node or a pair (camera, pose), not {camera!r}"
+        )
+    return what, matrix4(pose, "camera pose")

@@ -87,7 +87,7 @@ class Canvas:
         """Return a copy of the pixels as a Pillow image in mode RGBA."""
         from PIL import Image
 
-        return Image.fromarray(np.ascontiguousarray(self._pixels), "RGBA")
+        return Image.fromarray(self._pixels.copy())
 
     def clear(self, color: Color = (0, 0, 0, 255)) -> None:
         """Overwrite every pixel, alpha included.

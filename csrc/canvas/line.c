@@ -117,10 +117,9 @@ static void draw_dda(const e3d_canvas *canvas, const line_walk *walk, e3d_rgba c
     const int64_t size = walk->steep ? canvas->width : canvas->height;
     const double rise = (double)(walk->direction * walk->rise);
     const double slope = walk->run > 0 ? rise / (double)walk->run : 0.0;
-    const double start = (double)walk->minor - 0.5;
     for (int64_t k = walk->first; k <= walk->last; k++) {
         const int64_t major = walk->major + k;
-        const int64_t minor = (int64_t)ceil(start + (double)k * slope);
+        const int64_t minor = walk->minor + (int64_t)ceil((double)k * slope - 0.5);
         if (minor >= 0 && minor < size) {
             draw_pixel(walk->steep ? pixel_address(canvas, minor, major)
                                    : pixel_address(canvas, major, minor),

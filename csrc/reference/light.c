@@ -1,0 +1,80 @@
+/* Light: the Blinn-Phong sum over the lights, in their order.
+ *
+ * In:  a surface, the frame's lights.
+ * Out: its linear colour, not yet clamped.
+ * Rules: R31, and the attenuations there. A light that is out of range adds nothing at all.
+ */
+#include "reference/arithmetic.h"
+#include "reference/stages.h"
+
+/* Unit vector towards the light and attenuation; returns 0 where the light is out of range. */
+static int reach(const e3d_light *light, const float p[3], float l[3], float *attenuation)
+{
+    if (light->kind == E3D_LIGHT_DIRECTIONAL) {
+        for (int c = 0; c < 3; c++)
+            l[c] = light->to_light[c];
+        *attenuation = 1.0f;
+        return 1;
+    }
+    float range2 = light->range * light->range;
+    float d[3] = {light->position[0] - p[0], light->position[1] - p[1], light->position[2] - p[2]};
+    float d2 = ref_dot3(d, d);
+    if (d2 >= range2)
+        return 0;
+    d2 = ref_max(d2, 0x1p-40f);
+    float i = 1.0f / sqrtf(d2);
+    for (int c = 0; c < 3; c++)
+        l[c] = d[c] * i;
+    float t = 1.0f - d2 * (1.0f / range2);
+    *attenuation = light->falloff == E3D_FALLOFF_WINDOW ? t * t : 1.0f / d2;
+    return 1;
+}
+
+static void direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    int perspective = frame->eye[3] == 1.0f;
+    for (int c = 0; c < 3; c++)
+        out[c] = perspective ? frame->eye[c] - surface->world_position[c] : frame->eye[c];
+    if (perspective)
+        ref_normalize(out);
+}
+
+/* Highlight: the cosine between the normal and the half vector, to the power of the shininess. */
+static float highlight(const e3d_frame *frame, const ref_surface *surface, const float l[3], float shininess)
+{
+    float h[3];
+    direction_to_eye(frame, surface, h);
+    for (int c = 0; c < 3; c++)
+        h[c] = l[c] + h[c];
+    ref_normalize(h);
+    float k = ref_dot3(surface->world_normal, h);
+    return ref_pow(k > 0.0f ? k : 0.0f, shininess);
+}
+
+void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    const e3d_material *material = surface->piece->primitive.material;
+    const float *specular = material->specular;
+    int shiny = specular[0] != 0.0f || specular[1] != 0.0f || specular[2] != 0.0f;
+    float diffuse_sum[3] = {frame->ambient[0], frame->ambient[1], frame->ambient[2]};
+    float specular_sum[3] = {0.0f, 0.0f, 0.0f};
+    for (int32_t n = 0; n < frame->light_count; n++) {
+        const e3d_light *light = &frame->lights[n];
+        float l[3], attenuation;
+        if (!reach(light, surface->world_position, l, &attenuation))
+            continue;
+        float cosine = ref_dot3(surface->world_normal, l);
+        cosine = cosine > 0.0f ? cosine : 0.0f;
+        float e = attenuation * cosine;
+        float k = shiny && cosine > 0.0f ? highlight(frame, surface, l, material->shininess) : 0.0f;
+        for (int c = 0; c < 3; c++) {
+            diffuse_sum[c] = diffuse_sum[c] + light->color[c] * e;
+            specular_sum[c] = specular_sum[c] + light->color[c] * (attenuation * k);
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        float lit = surface->albedo[c] * ref_clamp(diffuse_sum[c], frame->light_clamp[0], frame->light_clamp[1]);
+        out[c] = shiny ? (lit + specular[c] * specular_sum[c]) + material->emissive[c]
+                       : lit + material->emissive[c];
+    }
+}

@@ -1,0 +1,15 @@
+/* The scalar reference: the whole renderer again, one sample at a time, from docs/exactness.md alone.
+ *
+ * It is the oracle that every kernel is compared with, byte for byte, and the page to read first:
+ * start at reference.c, which reads as the way of a frame. It shares no code with the kernels.
+ */
+#ifndef E3D_REFERENCE_H
+#define E3D_REFERENCE_H
+
+#include "e3d.h"
+
+/* Draws a frame into the targets. `stats` may be NULL. Nothing is written unless E3D_OK is returned.
+ * `frame->shading` is ignored: deferred and forward give the same bytes. */
+e3d_status e3d_reference_render(const e3d_frame *frame, const e3d_targets *targets, e3d_stats *stats);
+
+#endif

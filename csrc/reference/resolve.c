@@ -1,0 +1,181 @@
+/* Resolve: from the samples of a band to the caller's arrays.
+ *
+ * In:  what raster left at each sample.
+ * Out: one row of pixels after another: colour averaged over a pixel's samples and encoded; every
+ *      other output from the one sample of R35.
+ * Rules: R32 (overdraw), R33 (average), R34 (encoding), R35 (outputs), R36 (what wireframe shows).
+ */
+#include <math.h>
+
+#include "reference/arithmetic.h"
+#include "core/srgb_tables.h"
+#include "reference/stages.h"
+
+/* R34: the number of thresholds that are <= v; they ascend. */
+static uint8_t encode_srgb(float v)
+{
+    int low = 0, high = 255;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (SRGB_THRESHOLDS[middle] <= v)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (uint8_t)low;
+}
+
+static uint8_t encode(const e3d_frame *frame, float v)
+{
+    if (frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT))
+        return encode_srgb(v);
+    return (uint8_t)(255.0f * v + 0.5f);
+}
+
+static void clamp_color(const float color[3], float out[3])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = ref_clamp(color[c], 0.0f, 1.0f);
+}
+
+static void overdraw_color(uint8_t layers, float out[3])
+{
+    const uint8_t *color = E3D_OVERDRAW_RAMP[layers < 15 ? layers : 15];
+    for (int c = 0; c < 3; c++)
+        out[c] = (float)color[c] * E3D_UNORM8;
+}
+
+/* The colour of a sample, clamped; returns 0, and the background's colour, where nothing shows. */
+static int sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
+{
+    const e3d_frame *frame = scene->frame;
+    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    int64_t number = band->piece[sample];
+    const ref_piece *piece = number < 0 ? NULL : &scene->pieces.items[number];
+    int only_edges = frame->wireframe == E3D_WIRE_ONLY;
+    int overdraw = frame->mode == E3D_MODE_OVERDRAW;
+    if (band->edge[sample]) {
+        clamp_color(frame->line_color, out);
+        return 1;
+    }
+    if (overdraw && !only_edges && band->layers[sample] > 0) {
+        overdraw_color(band->layers[sample], out);
+        return 1;
+    }
+    if (overdraw || !piece || (only_edges && piece->primitive.kind == REF_FACE)) {
+        clamp_color(frame->background, out);
+        return 0;
+    }
+    ref_surface surface;
+    float color[3];
+    ref_surface_at(scene, piece, x, y, &surface);
+    ref_shade(frame, &surface, color);
+    clamp_color(color, out);
+    scene->stats.pixels_shaded++;
+    return 1;
+}
+
+/* R33 and R34 of the pixel whose first sample is (x, y). */
+static void resolve_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, uint8_t out[4])
+{
+    const e3d_frame *frame = scene->frame;
+    int32_t n = frame->samples_axis;
+    int opaque_background = frame->background[3] != 0.0f;
+    int32_t count = 0; /* samples of alpha 1: exactly those that the sum holds */
+    float sum[3] = {0.0f, 0.0f, 0.0f}, color[3];
+    for (int32_t j = 0; j < n; j++)
+        for (int32_t i = 0; i < n; i++) {
+            if (!sample_color(scene, band, x + i, y + j, color) && !opaque_background)
+                continue;
+            count++;
+            for (int c = 0; c < 3; c++)
+                sum[c] = sum[c] + color[c];
+        }
+    if (count == 0)
+        clamp_color(frame->background, sum);
+    float scale = count == 0 ? 1.0f : 1.0f / (float)count;
+    for (int c = 0; c < 3; c++)
+        out[c] = encode(frame, sum[c] * scale);
+    out[3] = (uint8_t)(255.0f * ((float)count / (float)(n * n)) + 0.5f);
+}
+
+static void write_floats(float *target, size_t pixel, const float *values, int components)
+{
+    for (int c = 0; target && c < components; c++)
+        target[pixel * (size_t)components + (size_t)c] = isfinite(values[c]) ? values[c] : 0.0f;
+}
+
+static void write_id(int32_t *target, size_t pixel, int32_t id)
+{
+    if (target)
+        target[pixel] = id;
+}
+
+static void write_background(const e3d_targets *targets, size_t pixel)
+{
+    static const float zero[3] = {0.0f, 0.0f, 0.0f};
+    if (targets->ndc_depth)
+        targets->ndc_depth[pixel] = INFINITY;
+    write_id(targets->triangle_id, pixel, -1);
+    write_id(targets->object_id, pixel, -1);
+    write_id(targets->instance_id, pixel, -1);
+    write_id(targets->material_id, pixel, -1);
+    write_floats(targets->depth, pixel, zero, 1);
+    write_floats(targets->albedo, pixel, zero, 3);
+    write_floats(targets->normal, pixel, zero, 3);
+    write_floats(targets->position, pixel, zero, 3);
+    write_floats(targets->world_normal, pixel, zero, 3);
+    write_floats(targets->world_position, pixel, zero, 3);
+    write_floats(targets->uv, pixel, zero, 2);
+    write_floats(targets->barycentric, pixel, zero, 3);
+}
+
+static void write_surface(const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
+{
+    const ref_primitive *primitive = &surface->piece->primitive;
+    write_id(targets->triangle_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
+    write_id(targets->object_id, pixel, surface->instance->draw->node_id);
+    write_id(targets->instance_id, pixel, surface->instance->number);
+    write_id(targets->material_id, pixel, primitive->material->id);
+    write_floats(targets->ndc_depth, pixel, &ndc_depth, 1);
+    write_floats(targets->depth, pixel, &surface->metric_depth, 1);
+    write_floats(targets->albedo, pixel, surface->albedo, 3);
+    write_floats(targets->normal, pixel, surface->view_normal, 3);
+    write_floats(targets->position, pixel, surface->view_position, 3);
+    write_floats(targets->world_normal, pixel, surface->world_normal, 3);
+    write_floats(targets->world_position, pixel, surface->world_position, 3);
+    write_floats(targets->uv, pixel, surface->uv, 2);
+    write_floats(targets->barycentric, pixel, surface->barycentric, 3);
+}
+
+/* R35 */
+static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_t x, int32_t y,
+                            const e3d_targets *targets, size_t pixel)
+{
+    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    if (band->piece[sample] < 0) {
+        write_background(targets, pixel);
+        return;
+    }
+    ref_surface surface;
+    ref_surface_at(scene, &scene->pieces.items[band->piece[sample]], x, y, &surface);
+    write_surface(targets, pixel, &surface, band->depth[sample]);
+}
+
+void ref_resolve_band(ref_scene *scene, const ref_band *band, const e3d_targets *targets)
+{
+    int32_t n = scene->frame->samples_axis, width = scene->frame->width;
+    e3d_targets data = *targets;
+    data.color = NULL;
+    int has_data = data.depth || data.ndc_depth || data.triangle_id || data.object_id || data.instance_id ||
+                   data.material_id || data.albedo || data.normal || data.position || data.world_normal ||
+                   data.world_position || data.uv || data.barycentric;
+    for (int32_t y = band->first_row; y < band->first_row + band->rows; y += n)
+        for (int32_t column = 0; column < width; column++) {
+            size_t pixel = (size_t)(y / n) * (size_t)width + (size_t)column;
+            if (targets->color)
+                resolve_color(scene, band, column * n, y, targets->color + 4 * pixel);
+            if (has_data)
+                resolve_outputs(scene, band, column * n + n / 2, y + n / 2, targets, pixel);
+        }
+}

@@ -1,0 +1,72 @@
+/* Shade: the colour of a surface in the frame's mode, not yet clamped or encoded.
+ *
+ * In:  a surface, the frame's mode. Out: three floats. Overdraw is not about surfaces: resolve.c.
+ * Rules: R31 through light.c, R32.
+ */
+#include "reference/arithmetic.h"
+#include "reference/stages.h"
+
+static void color_from_bytes(uint32_t r, uint32_t g, uint32_t b, float out[3])
+{
+    out[0] = (float)(int32_t)r * E3D_UNORM8;
+    out[1] = (float)(int32_t)g * E3D_UNORM8;
+    out[2] = (float)(int32_t)b * E3D_UNORM8;
+}
+
+/* Source of the mixer: Chris Wellons, "Prospecting for hash functions", 2018 (lowbias32). */
+static void random_color(uint32_t number, float out[3])
+{
+    uint32_t h = number;
+    h ^= h >> 16;
+    h *= 0x7FEB352Du;
+    h ^= h >> 15;
+    h *= 0x846CA68Bu;
+    h ^= h >> 16;
+    color_from_bytes(64 + (h & 255) * 3 / 4, 64 + ((h >> 8) & 255) * 3 / 4, 64 + ((h >> 16) & 255) * 3 / 4,
+                     out);
+}
+
+/* A bijection of 24 bits, so that different numbers below 2^24 have different colours. */
+static void id_color(uint32_t id, float out[3])
+{
+    uint32_t h = (id + 1u) * 0x9E3779B1u & 0xFFFFFFu;
+    color_from_bytes(h & 255, (h >> 8) & 255, (h >> 16) & 255, out);
+}
+
+static void depth_color(const e3d_frame *frame, float metric_depth, float out[3])
+{
+    float scale = 1.0f / (frame->depth_far - frame->depth_near);
+    float grey = 1.0f - ref_clamp((metric_depth - frame->depth_near) * scale, 0.0f, 1.0f);
+    out[0] = out[1] = out[2] = grey;
+}
+
+void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    const ref_primitive *primitive = &surface->piece->primitive;
+    switch (frame->mode) {
+    case E3D_MODE_RANDOM:
+        random_color(primitive->local, out);
+        return;
+    case E3D_MODE_TRIANGLE_ID:
+        id_color(primitive->local, out);
+        return;
+    case E3D_MODE_OBJECT_ID:
+        id_color((uint32_t)surface->instance->draw->node_id, out);
+        return;
+    case E3D_MODE_DEPTH:
+        depth_color(frame, surface->metric_depth, out);
+        return;
+    case E3D_MODE_NORMAL:
+        for (int c = 0; c < 3; c++)
+            out[c] = surface->view_normal[c] * 0.5f + 0.5f;
+        return;
+    default:
+        break;
+    }
+    if (frame->mode == E3D_MODE_LIT && primitive->kind == REF_FACE) {
+        ref_light(frame, surface, out);
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        out[c] = surface->albedo[c];
+}

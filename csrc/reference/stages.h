@@ -1,0 +1,143 @@
+/* What flows from stage to stage of the reference, and the stages in their order.
+ *
+ *     transform → clip → setup → raster → surface, texture, light, shade → resolve
+ *
+ * Geometry runs once: every triangle, line and point becomes *pieces* (triangles on the screen, R7,
+ * R11), kept in the order of R16. Then the picture is made in horizontal bands of samples, so that
+ * memory does not grow with its height.
+ */
+#ifndef E3D_REFERENCE_STAGES_H
+#define E3D_REFERENCE_STAGES_H
+
+#include "core/limits.h"
+#include "e3d.h"
+
+typedef enum ref_kind { REF_FACE, REF_LINE, REF_POINT, REF_EDGE } ref_kind;
+
+/* One instance of a draw: the f32 matrices of R1 and R2. */
+typedef struct ref_instance {
+    const e3d_draw *draw;
+    const e3d_mesh_desc *mesh;
+    int32_t number; /* in its draw */
+    int mirrored;
+    float clip_from_object[4][4];
+    float world_from_object[3][4];
+    float normal_matrix[3][3];
+} ref_instance;
+
+/* Where a piece comes from. */
+typedef struct ref_primitive {
+    ref_kind kind;
+    int64_t instance;            /* index into ref_scene.instances */
+    int32_t index;               /* in the mesh's faces, lines, points or edges */
+    uint32_t local;              /* number in its instance: faces, lines, points counted on */
+    int32_t vertices[3];         /* -1 where a line or a point has none */
+    const e3d_material *material; /* NULL for a wireframe edge */
+} ref_primitive;
+
+/* A corner in clip space, with its barycentrics in the original primitive. */
+typedef struct ref_corner {
+    float position[4];
+    float barycentric[3];
+} ref_corner;
+
+/* A triangle on the screen: vertices in 1/256 sample, Y down, positive area. */
+typedef struct ref_piece {
+    ref_primitive primitive;
+    int front;                   /* front-facing */
+    int64_t order;               /* position in the order of R16 */
+    float painter_key;           /* R16 */
+    int32_t x[3], y[3];
+    int64_t a[3], b[3];          /* edge functions, R12 */
+    int32_t left, top, right, bottom; /* sample box, inclusive; (left, top) is the base */
+    float z0, z_dx, z_dy, z_min, z_max;                     /* depth plane, R13 and R14 */
+    float bary0[3], bary_dx[3], bary_dy[3];                 /* barycentric planes, R18 */
+} ref_piece;
+
+typedef struct ref_piece_list {
+    ref_piece *items;
+    int64_t count, capacity;
+} ref_piece_list;
+
+/* Everything that geometry makes and the bands read. */
+typedef struct ref_scene {
+    const e3d_frame *frame;
+    int32_t width, height;       /* of the viewport, in samples */
+    float guard_x, guard_y;      /* guard factors, powers of two */
+    float view_from_world[3][4];
+    ref_instance *instances;
+    int64_t instance_count, instance_capacity;
+    ref_piece_list pieces;       /* faces, lines and points */
+    ref_piece_list edges;        /* of the wireframe */
+    e3d_stats stats;
+} ref_scene;
+
+/* One band of samples: full rows of the viewport. */
+typedef struct ref_band {
+    int32_t first_row, rows, width;
+    float *depth;                /* z_ndc that R16 kept, +inf where nothing is */
+    int64_t *piece;              /* index of the visible piece, -1 where nothing is */
+    uint8_t *layers;             /* overdraw, R17: saturates at 255 */
+    uint8_t *edge;               /* 1 where a wireframe edge shows, R36 */
+} ref_band;
+
+/* What is seen at one sample. */
+typedef struct ref_surface {
+    const ref_piece *piece;
+    const ref_instance *instance;
+    float barycentric[3];
+    float world_position[3], view_position[3];
+    float metric_depth;
+    float world_normal[3], view_normal[3];
+    float uv[2], uv_dx[2], uv_dy[2];
+    float albedo[3];
+} ref_surface;
+
+/* transform.c */
+void ref_instance_init(ref_instance *out, const e3d_frame *frame, const e3d_draw *draw, int32_t number);
+void ref_round_rows(float out[][4], const double *matrix, int rows);
+void ref_transform_clip(const ref_instance *instance, int32_t vertex, float out[4]);
+void ref_transform_point(const float rows[3][4], const float point[3], float out[3]);
+void ref_transform_normal(const ref_instance *instance, const float normal[3], float out[3]);
+
+/* clip.c */
+enum { REF_MAX_CORNERS = 32 }; /* R7: 3 corners grow to 28 at the very most */
+typedef enum ref_verdict { REF_REJECTED, REF_ACCEPTED, REF_NEEDS_CLIPPING } ref_verdict;
+float ref_guard_factor(int32_t samples);
+ref_verdict ref_test_primitive(const ref_scene *scene, ref_kind kind, const ref_corner *corners);
+int ref_clip_triangle(const ref_scene *scene, const ref_corner in[3], ref_corner out[REF_MAX_CORNERS]);
+int ref_clip_line(const ref_scene *scene, const ref_corner in[2], ref_corner out[2]);
+
+/* setup.c */
+e3d_status ref_setup_triangle(ref_scene *scene, const ref_primitive *primitive, const ref_corner corners[3],
+                              int clipped);
+e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, const ref_corner ends[2],
+                          int clipped);
+e3d_status ref_setup_point(ref_scene *scene, const ref_primitive *primitive, const ref_corner *corner);
+
+/* geometry.c */
+e3d_status ref_build_geometry(ref_scene *scene, int with_edges);
+
+/* raster.c */
+void ref_sort_for_painter(ref_piece_list *pieces);
+void ref_raster_band(const ref_scene *scene, ref_band *band);
+float ref_depth_at(const ref_piece *piece, int32_t x, int32_t y);
+
+/* surface.c */
+void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, ref_surface *out);
+void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[3]);
+
+/* texture.c */
+void ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
+                        const float uv_dy[2], float out[3]);
+
+/* light.c */
+void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+
+/* shade.c */
+void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+
+/* resolve.c */
+void ref_resolve_band(ref_scene *scene, const ref_band *band, const e3d_targets *targets);
+
+#endif

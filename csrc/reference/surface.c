@@ -1,0 +1,181 @@
+/* Surface: what is seen at one sample: place, normal, texture coordinates, albedo.
+ *
+ * In:  a piece and a sample that it covers; everything is computed again from the mesh.
+ * Out: ref_surface, in world and view space.
+ * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv).
+ */
+#include <float.h>
+
+#include "reference/arithmetic.h"
+#include "core/srgb_tables.h"
+#include "reference/stages.h"
+
+/* R19. Returns the reciprocal of the sum, which the derivatives need too. */
+static float barycentrics_at(const ref_piece *piece, int32_t x, int32_t y, float out[3])
+{
+    float dx = (float)(x - piece->left), dy = (float)(y - piece->top);
+    float p[3];
+    for (int k = 0; k < 3; k++) {
+        float v = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
+        p[k] = v > 0.0f ? v : 0.0f;
+    }
+    float sum = (p[0] + p[1]) + p[2];
+    if (!(sum >= FLT_MIN)) {
+        out[0] = 1.0f;
+        out[1] = out[2] = 0.0f;
+        return 0.0f;
+    }
+    float r = 1.0f / sum;
+    for (int k = 0; k < 3; k++)
+        out[k] = ref_min(p[k] * r, 1.0f);
+    return r;
+}
+
+/* R20: one component of a vertex attribute; a vertex that the primitive lacks counts as 0. */
+static float interpolate(const ref_surface *s, const float *values, int components, int c)
+{
+    float v[3];
+    for (int k = 0; k < 3; k++) {
+        int32_t vertex = s->piece->primitive.vertices[k];
+        v[k] = vertex < 0 ? 0.0f : values[(size_t)vertex * (size_t)components + (size_t)c];
+    }
+    return ref_dot3(s->barycentric, v);
+}
+
+/* R21 */
+static void find_position(const ref_scene *scene, ref_surface *s)
+{
+    const e3d_mesh_desc *mesh = s->instance->mesh;
+    float corners[3][3] = {{0}};
+    for (int k = 0; k < 3; k++) {
+        int32_t vertex = s->piece->primitive.vertices[k];
+        if (vertex >= 0 && mesh->components == 3)
+            ref_transform_point(s->instance->world_from_object, mesh->positions + 3 * (size_t)vertex,
+                                corners[k]);
+    }
+    for (int c = 0; c < 3; c++) {
+        float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
+        s->world_position[c] = ref_dot3(s->barycentric, v);
+    }
+    ref_transform_point(scene->view_from_world, s->world_position, s->view_position);
+    s->metric_depth = 0.0f - s->view_position[2];
+}
+
+static void interpolate_normal(ref_surface *s)
+{
+    const float *normals = s->instance->mesh->normals;
+    float corners[3][3];
+    for (int k = 0; k < 3; k++)
+        ref_transform_normal(s->instance, normals + 3 * (size_t)s->piece->primitive.vertices[k], corners[k]);
+    for (int c = 0; c < 3; c++) {
+        float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
+        s->world_normal[c] = ref_dot3(s->barycentric, v);
+    }
+}
+
+/* R22 */
+static void find_normal(const ref_scene *scene, ref_surface *s)
+{
+    const e3d_mesh_desc *mesh = s->instance->mesh;
+    const ref_primitive *primitive = &s->piece->primitive;
+    e3d_normals wanted = scene->frame->normals;
+    int flat = wanted == E3D_NORMALS_FLAT || (wanted == E3D_NORMALS_AUTO && primitive->material->flat);
+    float *n = s->world_normal;
+    n[0] = n[1] = n[2] = 0.0f;
+    if (primitive->kind == REF_FACE && flat && mesh->face_normals)
+        ref_transform_normal(s->instance, mesh->face_normals + 3 * (size_t)primitive->index, n);
+    else if (primitive->kind == REF_FACE && mesh->normals)
+        interpolate_normal(s);
+    if (!s->piece->front)
+        for (int c = 0; c < 3; c++)
+            n[c] = 0.0f - n[c];
+    ref_normalize(n);
+    for (int r = 0; r < 3; r++)
+        s->view_normal[r] = ref_dot3(scene->view_from_world[r], n);
+}
+
+/* R25: uv, and its derivatives along the rows and columns of samples. */
+static void find_uv(ref_surface *s, float r)
+{
+    const e3d_mesh_desc *mesh = s->instance->mesh;
+    const ref_piece *piece = s->piece;
+    float sum_dx = (piece->bary_dx[0] + piece->bary_dx[1]) + piece->bary_dx[2];
+    float sum_dy = (piece->bary_dy[0] + piece->bary_dy[1]) + piece->bary_dy[2];
+    for (size_t c = 0; c < 2; c++) {
+        float v[3] = {0.0f, 0.0f, 0.0f};
+        for (int k = 0; k < 3; k++)
+            if (mesh->uvs && piece->primitive.vertices[k] >= 0)
+                v[k] = mesh->uvs[2 * (size_t)piece->primitive.vertices[k] + c];
+        s->uv[c] = ref_dot3(s->barycentric, v);
+        s->uv_dx[c] = (ref_dot3(piece->bary_dx, v) - s->uv[c] * sum_dx) * r;
+        s->uv_dy[c] = (ref_dot3(piece->bary_dy, v) - s->uv[c] * sum_dy) * r;
+    }
+}
+
+/* R23 */
+void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[3])
+{
+    for (int c = 0; c < 3; c++) {
+        int32_t linear = frame->decode_srgb ? SRGB_TO_LINEAR16[color[c]] : color[c] * 257;
+        out[c] = (float)linear * E3D_UNORM16;
+    }
+}
+
+static void vertex_color(const ref_scene *scene, const ref_surface *s, float out[3])
+{
+    const e3d_mesh_desc *mesh = s->instance->mesh;
+    float corners[3][3] = {{0}};
+    for (int k = 0; k < 3; k++) {
+        int32_t vertex = s->piece->primitive.vertices[k];
+        if (vertex >= 0 && mesh->colors_u8)
+            ref_decode_color(scene->frame, mesh->colors_u8 + 4 * (size_t)vertex, corners[k]);
+    }
+    for (int c = 0; c < 3; c++) {
+        float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
+        out[c] = mesh->colors_f32 ? interpolate(s, mesh->colors_f32, 4, c) : ref_dot3(s->barycentric, v);
+    }
+}
+
+static void multiply_color(float color[3], const float factor[3])
+{
+    for (int c = 0; c < 3; c++)
+        color[c] = color[c] * factor[c];
+}
+
+/* R24: material, texture, vertex, instance, in this order. */
+static void find_albedo(const ref_scene *scene, ref_surface *s)
+{
+    const ref_primitive *primitive = &s->piece->primitive;
+    const e3d_draw *draw = s->instance->draw;
+    const e3d_mesh_desc *mesh = s->instance->mesh;
+    size_t number = (size_t)s->instance->number;
+    float factor[3];
+    for (int c = 0; c < 3; c++)
+        s->albedo[c] = primitive->material->color[c];
+    if (primitive->kind == REF_FACE && primitive->material->texture) {
+        const e3d_texture_view *texture = e3d_texture_get_view(primitive->material->texture);
+        ref_texture_sample(texture, s->uv, s->uv_dx, s->uv_dy, factor);
+        multiply_color(s->albedo, factor);
+    }
+    if (mesh->colors_u8 || mesh->colors_f32) {
+        vertex_color(scene, s, factor);
+        multiply_color(s->albedo, factor);
+    }
+    if (draw->instance_colors_u8) {
+        ref_decode_color(scene->frame, draw->instance_colors_u8 + 4 * number, factor);
+        multiply_color(s->albedo, factor);
+    } else if (draw->instance_colors_f32) {
+        multiply_color(s->albedo, draw->instance_colors_f32 + 4 * number);
+    }
+}
+
+void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, ref_surface *out)
+{
+    out->piece = piece;
+    out->instance = &scene->instances[piece->primitive.instance];
+    float r = barycentrics_at(piece, x, y, out->barycentric);
+    find_position(scene, out);
+    find_normal(scene, out);
+    find_uv(out, r);
+    find_albedo(scene, out);
+}

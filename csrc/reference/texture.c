@@ -1,0 +1,111 @@
+/* Texture: filtered texels at a place, in 8-bit fixed-point weights.
+ *
+ * In:  a texture's levels (16-bit linear RGBA, top row first), uv and its derivatives.
+ * Out: the red, green and blue of the texture there, 0 .. 1.
+ * Rules: R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
+ */
+#include "reference/arithmetic.h"
+#include "reference/stages.h"
+
+enum { CHANNELS = 3 };
+
+/* R26, in 1/256 level. */
+static int32_t level_of_detail(const e3d_texture_view *texture, const float uv_dx[2], const float uv_dy[2])
+{
+    float width = (float)texture->levels[0].width, height = (float)texture->levels[0].height;
+    float ax = uv_dx[0] * width, ay = uv_dx[1] * height;
+    float bx = uv_dy[0] * width, by = uv_dy[1] * height;
+    float q = ref_max(ax * ax + ay * ay, bx * bx + by * by);
+    if (!(q > 1.0f))
+        return 0;
+    int32_t lod = ref_rint(ref_log2(ref_min(q, 0x1p100f)) * 128.0f);
+    int32_t coarsest = (texture->level_count - 1) * 256;
+    return lod < coarsest ? lod : coarsest;
+}
+
+/* R29: into [0, 1]. */
+static float wrap_coordinate(float s, e3d_wrap wrap)
+{
+    s = ref_clamp(s, -0x1p22f, 0x1p22f);
+    if (wrap == E3D_REPEAT)
+        return s - ref_floor(s);
+    if (wrap == E3D_CLAMP)
+        return ref_clamp(s, 0.0f, 1.0f);
+    float half = s * 0.5f;
+    float m = (half - ref_floor(half)) * 2.0f;
+    return m > 1.0f ? 2.0f - m : m;
+}
+
+static const uint16_t *texel(const e3d_level *level, int32_t column, int32_t row)
+{
+    return level->texels + 4 * ((size_t)row * (size_t)level->width + (size_t)column);
+}
+
+static void sample_nearest(const e3d_level *level, float s, float t, uint32_t out[CHANNELS])
+{
+    int32_t column = (int32_t)(s * (float)level->width), row = (int32_t)(t * (float)level->height);
+    column = column < level->width ? column : level->width - 1;
+    row = row < level->height ? row : level->height - 1;
+    for (int c = 0; c < CHANNELS; c++)
+        out[c] = texel(level, column, row)[c];
+}
+
+/* The two neighbours along one axis and the weight, of 256, of the second. */
+typedef struct neighbours {
+    int32_t first, second;
+    uint32_t weight;
+} neighbours;
+
+static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
+{
+    int32_t p = ref_rint(s * (float)(256 * size)) - 128;
+    int32_t first = ref_floor_256(p), second = first + 1;
+    uint32_t weight = (uint32_t)(p - 256 * first);
+    if (wrap == E3D_REPEAT) {
+        first = first < 0 ? first + size : first;
+        second = second >= size ? second - size : second;
+    } else {
+        first = first < 0 ? 0 : first;
+        second = second >= size ? size - 1 : second;
+    }
+    return (neighbours){first, second, weight};
+}
+
+static void sample_bilinear(const e3d_level *level, e3d_wrap wrap, float s, float t, uint32_t out[CHANNELS])
+{
+    neighbours x = find_neighbours(s, level->width, wrap), y = find_neighbours(t, level->height, wrap);
+    for (int c = 0; c < CHANNELS; c++) {
+        uint32_t t00 = texel(level, x.first, y.first)[c], t10 = texel(level, x.second, y.first)[c];
+        uint32_t t01 = texel(level, x.first, y.second)[c], t11 = texel(level, x.second, y.second)[c];
+        uint32_t h0 = t00 * (256 - x.weight) + t10 * x.weight;
+        uint32_t h1 = t01 * (256 - x.weight) + t11 * x.weight;
+        out[c] = (h0 * (256 - y.weight) + h1 * y.weight + 32768) >> 16;
+    }
+}
+
+static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float s, float t,
+                             uint32_t out[CHANNELS])
+{
+    int32_t fine = lod / 256, coarse = fine + 1 < texture->level_count ? fine + 1 : fine;
+    uint32_t f = (uint32_t)(lod % 256), a[CHANNELS], b[CHANNELS];
+    sample_bilinear(&texture->levels[fine], texture->wrap, s, t, a);
+    sample_bilinear(&texture->levels[coarse], texture->wrap, s, t, b);
+    for (int c = 0; c < CHANNELS; c++)
+        out[c] = (a[c] * (256 - f) + b[c] * f + 128) >> 8;
+}
+
+void ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
+                        const float uv_dy[2], float out[3])
+{
+    float s = wrap_coordinate(uv[0], texture->wrap);
+    float t = wrap_coordinate(1.0f - uv[1], texture->wrap);
+    uint32_t value[CHANNELS];
+    if (texture->filter == E3D_NEAREST)
+        sample_nearest(&texture->levels[0], s, t, value);
+    else if (texture->filter == E3D_BILINEAR)
+        sample_bilinear(&texture->levels[0], texture->wrap, s, t, value);
+    else
+        sample_trilinear(texture, level_of_detail(texture, uv_dx, uv_dy), s, t, value);
+    for (int c = 0; c < CHANNELS; c++)
+        out[c] = (float)(int32_t)value[c] * E3D_UNORM16;
+}

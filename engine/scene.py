@@ -214,6 +214,8 @@ class Scene:
     ----------
     background, ambient, light_clamp
         As above; assign at any time.
+    warnings : list of str
+        What was left out or replaced where the scene was made from a file.
 
     Raises
     ------
@@ -227,6 +229,7 @@ class Scene:
         self._numbers = itertools.count()
         self._structure_version = 0
         self._pose_version = 0
+        self.warnings: list[str] = []
         self.background = background
         self.ambient = ambient
         self.light_clamp = light_clamp

@@ -1,0 +1,95 @@
+"""The pool gives arrays that stay the caller's own, and gets their memory back afterwards."""
+
+import gc
+
+import numpy as np
+import pytest
+
+from engine3d.output_pool import OutputPool
+
+
+@pytest.fixture
+def pool():
+    return OutputPool()
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+def test_shape_dtype_and_writable(pool):
+    array = pool.take((4, 5, 3), np.float32)
+    assert array.shape == (4, 5, 3)
+    assert array.dtype == np.float32
+    assert array.flags.c_contiguous
+    array[...] = 1
+
+
+def test_memory_comes_back_when_the_array_dies(pool):
+    array = pool.take((8, 8), np.int32)
+    place = address(array)
+    del array
+    assert address(pool.take((8, 8), np.int32)) == place
+
+
+def test_same_size_of_another_type_uses_the_same_memory(pool):
+    array = pool.take((8, 8), np.int32)
+    place = address(array)
+    del array
+    assert address(pool.take((8, 8, 4), np.uint8)) == place
+
+
+@pytest.mark.parametrize(
+    "view",
+    [
+        lambda array: array[2:5, ::2],
+        lambda array: array.T,
+        lambda array: array.reshape(-1).view(np.uint8)[3:7],
+        lambda array: memoryview(array),
+        lambda array: np.asarray(memoryview(array))[1:],
+        lambda array: array.ravel()[5:].reshape(-1, 1).view(),
+        lambda array: np.ma.asarray(array),
+    ],
+)
+def test_any_view_keeps_the_memory(pool, view):
+    array = pool.take((8, 8), np.int32)
+    place = address(array)
+    seen = view(array)
+    del array
+    gc.collect()
+    assert address(pool.take((8, 8), np.int32)) != place
+    del seen
+    gc.collect()
+
+
+def test_a_steady_loop_allocates_nothing(pool):
+    places = set()
+    frame = None
+    for _ in range(10):
+        frame = pool.take((64, 64, 4), np.uint8)
+        places.add(address(frame))
+    assert len(places) == 2
+
+
+def test_few_free_blocks_are_kept(pool):
+    arrays = [pool.take((16, 16), np.uint8) for _ in range(20)]
+    del arrays
+    assert sum(map(len, pool._free.values())) <= 4
+    assert not pool._lent
+
+
+def test_arrays_outlive_the_pool():
+    pool = OutputPool()
+    array = pool.take((16,), np.uint8)
+    array[:] = 7
+    del pool
+    gc.collect()
+    assert (array == 7).all()
+
+
+def test_forget(pool):
+    kept = pool.take((4,), np.uint8)
+    pool.take((4,), np.uint8)
+    pool.forget()
+    assert not pool._free
+    kept[:] = 1

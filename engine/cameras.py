@@ -272,18 +272,27 @@ def frame_bounds(
     if not half.any():
         half = np.ones(3)
     pose = linalg.look_at(center + backward, center, up)
-    across, upward, depth = _corner_coordinates(pose, half * margin)
+    across, upward, near = _corner_coordinates(pose, half * margin)
     y_slope = float(linalg.tan(0.5 * _angle(yfov, "yfov")))
-    x_slope = y_slope * aspect
-    distance = max(
-        float((depth + np.abs(across) / x_slope).max()),
-        float((depth + np.abs(upward) / y_slope).max()),
-    )
-    pose[:3, 3] = center + backward * distance
-    reach = float(depth.max())
+    x, x_distance = _fit(across, near, y_slope * aspect)
+    y, y_distance = _fit(upward, near, y_slope)
+    distance = max(x_distance, y_distance)
+    pose[:3, 3] = center + pose[:3, 0] * x + pose[:3, 1] * y + backward * distance
+    reach = float(near.max())
     zfar = distance + reach
     znear = max(distance - reach, zfar * 1e-3)
     return PerspectiveCamera(yfov, znear=znear, zfar=zfar), pose
+
+
+def _fit(across: np.ndarray, near: np.ndarray, slope: float) -> tuple[float, float]:
+    """Return the place and the distance from which points just fit between two planes of a frustum.
+
+    A camera at (x, distance) sees a point at (across, near), planes opening by ``slope``,
+    if ``|across - x| <= slope * (distance - near)``: two bounds, both met where they cross.
+    """
+    right = float((across + near * slope).max())
+    left = float((near * slope - across).max())
+    return 0.5 * (right - left), 0.5 * (right + left) / slope
 
 
 def _corner_coordinates(pose, half) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

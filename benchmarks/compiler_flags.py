@@ -1,0 +1,160 @@
+"""What -O0 to -O3, -march=native and the intrinsics each bring to the kernels.
+
+In:  the C files of this checkout, a compiler, this CPU; setuptools, since setup.py has the flags.
+Out: two tables, or with --json one object: nanoseconds for each kernel and way to build it, and how
+     many times as fast each is as the plain C of -O3 (backend portable).
+
+The timer (kernel_timer.c) is always built alike: only the file that holds the kernels of an
+instruction set takes the flags of its row. The hash of all outputs tells whether the bytes are those
+of the first row: they are, unless the compiler may fuse a * b + c, as the last row lets it.
+"""
+
+import argparse
+import json
+import os
+import platform
+import runpy
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SETUP = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")
+BACKENDS = ["portable", *(SETUP["ISA_FLAGS"] if SETUP["IS_X86_64"] else {})]
+LEVELS = ["-O0", "-O1", "-O2", "-O3"]
+BASELINE = ("portable", "-O3")
+# The name of an instruction set for __builtin_cpu_supports.
+CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
+CPU_LACKS_IT = 3  # exit status of the timer
+TIMER_SOURCES = ["benchmarks/kernel_timer.c", "csrc/core/encode_tables.c"]
+# Kernel -> its heading, and the element that a time is given for.
+KERNELS = {
+    "transform": ("transform", "vertex"),
+    "raster_large": ("raster", "sample"),
+    "raster_small": ("raster", "small tri"),
+    "texture": ("texture", "sample"),
+    "light": ("light", "sample"),
+    "encode": ("encode", "pixel"),
+}
+
+
+def builds(backends, levels):
+    """Yield (backend, name of the row, flags), the slowest first."""
+    native = ["-O3", "-march=native"]
+    for backend in backends:
+        for level in levels:
+            yield backend, level, [level]
+        if backend == "portable":
+            yield backend, " ".join(native), native
+    if "portable" in backends:
+        yield "portable", "... and fused a*b + c", [*native, "-ffp-contract=fast"]
+
+
+def build_timer(compiler, backend, flags, folder):
+    """Compile the kernels with `flags`, link them with the timer, return the program's path."""
+    exact = [*SETUP["EXACT"], *SETUP["HYGIENE"], "-w"]
+    isa = SETUP["ISA_FLAGS"].get(backend, [])
+    common = [f"-I{ROOT / path}" for path in SETUP["INCLUDE_DIRS"]]
+    baseline = ["-march=x86-64", "-mtune=generic"] if SETUP["IS_X86_64"] else []
+    kernels = Path(folder) / "kernels.o"
+    source = ROOT / "csrc" / "kernels" / f"isa_{backend}.c"
+    command = [compiler, *common, *baseline, *exact, *isa, *flags, "-c", source, "-o", kernels]
+    subprocess.run(command, check=True)
+
+    program = Path(folder) / "timer"
+    macros = [f"-DE3D_TABLE=e3d_kernels_{backend}"]
+    if SETUP["IS_X86_64"]:
+        macros.append("-DE3D_HAVE_X86=1")
+    if backend in CPU_FEATURES:
+        macros.append(f'-DCPU_FEATURE="{CPU_FEATURES[backend]}"')
+    sources = [ROOT / path for path in TIMER_SOURCES]
+    command = [compiler, *common, *baseline, *exact, "-O2", *macros, *sources, kernels]
+    subprocess.run([*command, "-lm", "-o", program], check=True)
+    return program
+
+
+def run_timer(program):
+    """Return ({kernel: nanoseconds an element}, hash of all outputs), or None without the ISA."""
+    done = subprocess.run([program], capture_output=True, text=True)
+    if done.returncode == CPU_LACKS_IT:
+        return None
+    done.check_returncode()
+    fields = [line.split() for line in done.stdout.splitlines()]
+    times = {name: 1e9 * float(took) / int(count) for name, count, took, _ in fields}
+    return times, "-".join(output_hash for *_, output_hash in fields)
+
+
+def measure(compiler, backends, levels):
+    """Build everything, two at a time; then run one after the other. Yield a row for each."""
+    rows = list(builds(backends, levels))
+    with (
+        tempfile.TemporaryDirectory() as top,
+        ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool,
+    ):
+        folders = [Path(top) / str(k) for k in range(len(rows))]
+        for folder in folders:
+            folder.mkdir()
+        jobs = [
+            pool.submit(build_timer, compiler, backend, flags, folder)
+            for (backend, _, flags), folder in zip(rows, folders, strict=True)
+        ]
+        programs = [job.result() for job in jobs]
+        first_hash = None
+        for (backend, name, _), program in zip(rows, programs, strict=True):
+            outcome = run_timer(program)
+            if outcome is None:
+                print(f"this CPU lacks {backend}", file=sys.stderr)
+                continue
+            times, output_hash = outcome
+            first_hash = first_hash or output_hash
+            same = output_hash == first_hash
+            yield {"backend": backend, "flags": name, "nanoseconds": times, "same_bytes": same}
+
+
+def print_table(rows, title, cell):
+    """Print one line a row: `cell(row, kernel)` for each kernel, whether the bytes are equal."""
+    print(f"\n{title}")
+    for part, last in [(0, ""), (1, "bytes")]:
+        headings = "".join(f"{heading[part]:>11}" for heading in KERNELS.values())
+        print(f"{'':<9}{'':<22}{headings}  {last}")
+    for row in rows:
+        cells = "".join(f"{cell(row, kernel):>11}" for kernel in KERNELS)
+        same = "same" if row["same_bytes"] else "other"
+        print(f"{row['backend']:<9}{row['flags']:<22}{cells}  {same}")
+
+
+def print_tables(rows):
+    print_table(rows, "Nanoseconds", lambda row, kernel: f"{row['nanoseconds'][kernel]:.2f}")
+    chosen = [row for row in rows if (row["backend"], row["flags"]) == BASELINE]
+    if chosen:
+        base = chosen[0]["nanoseconds"]
+        print_table(
+            rows,
+            "Times as fast as " + " ".join(BASELINE),
+            lambda row, kernel: f"{base[kernel] / row['nanoseconds'][kernel]:.2f}",
+        )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--compiler", default=os.environ.get("CC", "cc"))
+    parser.add_argument("--backend", action="append", choices=BACKENDS, help="only these")
+    parser.add_argument("--level", action="append", choices=[level[1:] for level in LEVELS])
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    arguments = parser.parse_args()
+    levels = [f"-{level}" for level in arguments.level] if arguments.level else LEVELS
+    rows = list(measure(arguments.compiler, arguments.backend or BACKENDS, levels))
+    version = subprocess.run([arguments.compiler, "--version"], capture_output=True, text=True)
+    compiler = version.stdout.splitlines()[0]
+    if arguments.json:
+        json.dump({"compiler": compiler, "machine": platform.machine(), "rows": rows}, sys.stdout)
+        print()
+    else:
+        print(compiler)
+        print_tables(rows)
+
+
+if __name__ == "__main__":
+    main()

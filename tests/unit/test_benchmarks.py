@@ -1,0 +1,36 @@
+"""The benchmarks run and report what they say; how fast anything is is not tested."""
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+
+
+def report(name, *arguments):
+    """The JSON object that a benchmark prints."""
+    command = [sys.executable, str(BENCHMARKS / name), "--json", *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_lines():
+    rows = report("lines.py", "--repeats", "1")["rows"]
+    assert len(rows) == 25
+    for row in rows:
+        assert row["dda_ns_per_line"] > 0 and row["bresenham_ns_per_line"] > 0
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
+def test_compiler_flags():
+    pytest.importorskip("setuptools")
+    arguments = ["--backend", "portable", "--level", "O0", "--compiler", "cc"]
+    rows = report("compiler_flags.py", *arguments)["rows"]
+    assert [row["flags"] for row in rows][:2] == ["-O0", "-O3 -march=native"]
+    assert rows[1]["same_bytes"]
+    assert all(nanoseconds > 0 for row in rows for nanoseconds in row["nanoseconds"].values())

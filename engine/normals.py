@@ -91,7 +91,7 @@ def corner_vectors(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
     vectors : (F, 3, 3) float64
         The unit normal of the face times the angle at the corner; zero for faces without area.
     """
-    normals = _unit(face_area_vectors(positions, faces))
+    normals = unit_vectors(face_area_vectors(positions, faces))
     return corner_angles(positions, faces)[:, :, np.newaxis] * normals[:, np.newaxis, :]
 
 
@@ -116,7 +116,7 @@ def vertex_normals(
     corners = faces if position_ids is None else position_ids[faces]
     points = count if position_ids is None else int(position_ids.max(initial=-1)) + 1
     sums = group_sums(corner_vectors(positions, faces).reshape(-1, 3), corners.ravel(), points)
-    normals = _unit(sums).astype(np.float32)
+    normals = unit_vectors(sums).astype(np.float32)
     return normals if position_ids is None else normals[position_ids]
 
 
@@ -161,13 +161,13 @@ def face_normals(
     """
     own = face_area_vectors(positions, faces)
     if polygon_ids is None or len(faces) == 0:
-        return _unit(own).astype(np.float32)
+        return unit_vectors(own).astype(np.float32)
     count = int(polygon_ids.max()) + 1
     sums = group_sums(own, polygon_ids, count)
     total = np.bincount(polygon_ids, weights=_lengths(own), minlength=count)
     planar = _lengths(sums) >= _PLANARITY * total
     chosen = np.where(planar[polygon_ids, np.newaxis], sums[polygon_ids], own)
-    return _unit(chosen).astype(np.float32)
+    return unit_vectors(chosen).astype(np.float32)
 
 
 def _lengths(vectors: np.ndarray) -> np.ndarray:
@@ -175,7 +175,7 @@ def _lengths(vectors: np.ndarray) -> np.ndarray:
     return np.sqrt(x * x + y * y + z * z)
 
 
-def _unit(vectors: np.ndarray) -> np.ndarray:
+def unit_vectors(vectors: np.ndarray) -> np.ndarray:
     """Scale (N, 3) vectors to length one; zero stays zero."""
     length = _lengths(vectors)
     length[length == 0] = 1

@@ -5,7 +5,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
 from engine3d import linalg
 from engine3d.errors import InvalidArgumentError
 

@@ -1,0 +1,280 @@
+"""Wavefront MTL: the material libraries that OBJ files name.
+
+In: the bytes of a library. Out: materials by name. Colours are linear light, as the numbers are
+floats. What a `Material` has no place for (Ka, d, illum, the physically based parameters, all
+maps with their options) is kept in its ``extras`` under the file's own keys. A line that makes no
+sense is a warning; a library never fails as a whole unless it is no text.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+
+from ..errors import Engine3DError
+from ..materials import Material
+from ..textures import Texture
+from .linked_files import LinkedFileError, find_linked_file
+from .sources import Source
+from .text import decoded, shown, text_lines
+from .warning_list import WarningList
+
+_COLORS = {"Ka", "Kd", "Ks", "Ke", "Tf"}
+_SCALARS = {"Ns", "Ni", "d", "Tr", "illum", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr"}
+_SCALARS |= {"aniso", "anisor", "Pcor"}
+_MAPS = {"bump", "disp", "decal", "refl", "norm"}
+# The words that follow each option of a map; the last three of -s, -o and -t may be left out.
+_OPTIONS = {
+    "-blendu": 1,
+    "-blendv": 1,
+    "-boost": 1,
+    "-bm": 1,
+    "-cc": 1,
+    "-clamp": 1,
+    "-colorspace": 1,
+    "-imfchan": 1,
+    "-mm": 2,
+    "-o": 3,
+    "-s": 3,
+    "-t": 3,
+    "-texres": 1,
+    "-type": 1,
+}
+
+
+class TextureCache:
+    """Textures of one model, each image loaded once.
+
+    Parameters
+    ----------
+    load : callable
+        ``load(path, wrap=…) -> Texture``.
+    """
+
+    def __init__(self, load: Callable[..., Texture]) -> None:
+        self._load = load
+        self._textures: dict[tuple[str, str], Texture] = {}
+
+    def get(self, path: str, wrap: str) -> Texture:
+        key = (os.path.realpath(path), wrap)
+        if key not in self._textures:
+            self._textures[key] = self._load(path, wrap=wrap)
+        return self._textures[key]
+
+
+def read_mtl(
+    source: Source, root: str, textures: TextureCache, warnings: WarningList
+) -> dict[str, Material]:
+    """Read a material library.
+
+    Parameters
+    ----------
+    source : Source
+        The library; images are looked for beside it, then in ``root``.
+    root : str
+        The model's folder, which no path may leave.
+    textures : TextureCache
+    warnings : WarningList
+
+    Returns
+    -------
+    materials : dict of str to Material
+        The first definition of a name counts. ``extras["maps"]`` holds each map's ``name`` and
+        options by its keyword.
+
+    Raises
+    ------
+    FileFormatError
+        The library is not text.
+    """
+    materials: dict[str, Material] = {}
+    current: dict | None = None
+    for number, line in enumerate(text_lines(source).split(b"\n"), 1):
+        keyword, _, rest = line.strip().partition(b" ")
+        if b"\t" in keyword:
+            keyword, _, rest = line.strip().partition(b"\t")
+        if not keyword or keyword.startswith(b"#"):
+            continue
+        rest = _without_comment(rest)
+        if keyword == b"newmtl":
+            _finish(current, materials, root, textures, warnings, source)
+            current = {"name": decoded(rest), "line": number, "maps": {}, "values": {}}
+        elif current is None:
+            warnings.add(f"{shown(keyword)} before any newmtl", number, source.path)
+        else:
+            _read_statement(current, decoded(keyword), rest, number, warnings, source.path)
+    _finish(current, materials, root, textures, warnings, source)
+    return materials
+
+
+def _without_comment(rest: bytes) -> bytes:
+    for mark in (b" #", b"\t#"):
+        rest = rest.partition(mark)[0]
+    return b"" if rest.startswith(b"#") else rest.strip()
+
+
+def _read_statement(current, keyword, rest, line, warnings, path) -> None:
+    if keyword in _COLORS or keyword in _SCALARS:
+        value = _color(rest) if keyword in _COLORS else _scalar(rest)
+        if value is None:
+            warnings.add(f"{keyword} {shown(rest)} is left out", line, path)
+        else:
+            current["values"][keyword] = value
+    elif keyword.startswith("map_") or keyword in _MAPS:
+        entry = parse_map(decoded(rest))
+        if entry["name"]:
+            entry["line"] = line
+            current["maps"][keyword] = entry
+        else:
+            warnings.add(f"{keyword} without a file name", line, path)
+    else:
+        current["values"].setdefault(keyword, decoded(rest))
+
+
+def _color(rest: bytes) -> tuple[float, float, float] | None:
+    """Three numbers, or one for all channels; None for anything else (``spectral``, ``xyz``)."""
+    numbers = _numbers(rest.split()[:3])
+    if numbers is None or len(numbers) not in (1, 3):
+        return None
+    numbers = numbers * 3 if len(numbers) == 1 else numbers
+    return tuple(max(0.0, number) for number in numbers)
+
+
+def _scalar(rest: bytes) -> float | None:
+    words = [word for word in rest.split() if word != b"-halo"]
+    numbers = _numbers(words[:1])
+    return numbers[0] if numbers else None
+
+
+def _numbers(words: list[bytes]) -> list[float] | None:
+    """Finite floats that float32 can hold, or None."""
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        return None
+    return numbers if all(math.isfinite(n) and abs(n) < 3e38 for n in numbers) else None
+
+
+def parse_map(text: str) -> dict:
+    """Take the arguments of a map statement apart.
+
+    Returns
+    -------
+    entry : dict
+        ``name`` (the file's, which may hold blanks; "" if there is none), and each option without
+        its dash: a list of words.
+    """
+    entry: dict = {"name": ""}
+    words = text.split()
+    position = 0
+    while position < len(words) and words[position] in _OPTIONS:
+        option = words[position]
+        position += 1
+        values = []
+        while len(values) < _OPTIONS[option] and position < len(words):
+            if option in ("-s", "-o", "-t", "-mm") and not _is_number(words[position]):
+                break
+            values.append(words[position])
+            position += 1
+        entry[option[1:]] = values
+    if position < len(words):
+        # The rest as it was written: blanks in a name count.
+        entry["name"] = text.split(None, position)[-1].strip()
+    return entry
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _finish(current, materials, root, textures, warnings, source) -> None:
+    """Turn what was gathered of one material into a `Material`."""
+    if current is None or current["name"] in materials:
+        return
+    values, maps = current["values"], current["maps"]
+    texture = _texture(maps.get("map_Kd"), root, textures, warnings, source)
+    color = values.get("Kd", (1.0, 1.0, 1.0))
+    if texture is not None and not any(color):
+        # Exporters that know nothing but the image write Kd 0 0 0 beside it.
+        color = (1.0, 1.0, 1.0)
+    extras = {key: value for key, value in values.items() if key not in ("Kd", "Ks", "Ke", "Ns")}
+    if "d" in values or "Tr" in values:
+        opacity = values.get("d", 1.0 - values.get("Tr", 0.0))
+        extras["opacity"] = min(max(opacity, 0.0), 1.0)
+    if maps:
+        extras["maps"] = {
+            key: {k: v for k, v in entry.items() if k != "line"} for key, entry in maps.items()
+        }
+    materials[current["name"]] = Material(
+        name=current["name"],
+        color=color,
+        texture=texture,
+        specular=_specular(values),
+        shininess=max(values.get("Ns", 32.0), 0.0),
+        emissive=values.get("Ke", (0.0, 0.0, 0.0)),
+        extras=extras,
+    )
+
+
+def _specular(values: dict) -> tuple[float, float, float]:
+    """Ks, unless the illumination model has no highlight or the exponent would light all."""
+    has_highlight = values.get("illum", 2.0) >= 2 and values.get("Ns", 32.0) > 0
+    return values.get("Ks", (0.0, 0.0, 0.0)) if has_highlight else (0.0, 0.0, 0.0)
+
+
+def _texture(entry: dict | None, root: str, textures, warnings, source) -> Texture | None:
+    if entry is None:
+        return None
+    name, line = entry["name"], entry["line"]
+    wrap = "clamp" if entry.get("clamp", ["off"])[:1] == ["on"] else "repeat"
+    try:
+        path, note = _find_image(name, source.folder, root)
+        if note:
+            warnings.add(f"texture {shown(name)}: {note}", line, source.path)
+        return textures.get(path, wrap)
+    except (LinkedFileError, Engine3DError) as error:
+        warnings.add(f"texture {shown(name)}: {error}", line, source.path)
+    return None
+
+
+def _find_image(name: str, folder: str, root: str) -> tuple[str, str]:
+    """The path of an image beside the library or in the model's folder, and what to say of it.
+
+    Materials made elsewhere name images by paths of another machine; an image of the same name
+    beside the model is taken for the one that was meant.
+    """
+    try:
+        return find_linked_file(name, folder, root), ""
+    except LinkedFileError as error:
+        first_reason = str(error)
+    bare = name.replace("\\", "/").rpartition("/")[2]
+    for candidate, place in ((name, root), (bare, folder), (bare, root)):
+        try:
+            path = find_linked_file(candidate, place, root)
+        except LinkedFileError:
+            continue
+        return path, f"{first_reason}; {path} is used" if candidate != name else ""
+    raise LinkedFileError(first_reason)
+
+
+def uv_transform(material: Material) -> tuple[float, float, float, float] | None:
+    """Return scale u, scale v, offset u, offset v of a material's ``map_Kd``, None if neutral."""
+    entry = material.extras.get("maps", {}).get("map_Kd")
+    if entry is None:
+        return None
+    scale = _pair(entry.get("s", []), 1.0)
+    offset = _pair(entry.get("o", []), 0.0)
+    transform = (*scale, *offset)
+    if transform == (1.0, 1.0, 0.0, 0.0) or not all(map(math.isfinite, transform)):
+        return None
+    return transform
+
+
+def _pair(words: list[str], default: float) -> tuple[float, float]:
+    numbers = [float(word) for word in words[:2]]
+    return tuple([*numbers, default, default][:2])

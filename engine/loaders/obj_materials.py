@@ -1,0 +1,116 @@
+"""The materials that an OBJ file uses, from its libraries or from an image beside it.
+
+In: the names in ``usemtl`` and ``mtllib`` with their lines. Out: `Material` objects. A library or
+an image that is missing, damaged or out of bounds is a warning; its materials are plain then.
+"""
+
+from __future__ import annotations
+
+from ..errors import Engine3DError
+from ..materials import Material
+from ..textures import Texture
+from .companions import companion_texture
+from .linked_files import LinkedFileError, find_linked_file
+from .mtl import TextureCache, read_mtl
+from .sources import Source, read_source
+from .text import shown
+from .warning_list import WarningList
+
+
+def read_library(
+    source: Source, statements: list[tuple[str, int]], warnings: WarningList
+) -> dict[str, Material]:
+    """Read all material libraries of a model.
+
+    Parameters
+    ----------
+    source : Source
+        The model.
+    statements : list of (str, int)
+        What follows each ``mtllib``, and its line.
+    warnings : WarningList
+
+    Returns
+    -------
+    library : dict of str to Material
+        Of materials with the same name, the first.
+    """
+    library: dict[str, Material] = {}
+    textures = TextureCache(_load_texture)
+    seen = set()
+    for names, line in statements:
+        for path in _library_paths(names, source.folder, line, warnings):
+            if path in seen:
+                continue
+            seen.add(path)
+            try:
+                found = read_mtl(read_source(path), source.folder, textures, warnings)
+            except Engine3DError as error:
+                warnings.add(f"material library left out: {error}", line)
+                continue
+            for name, material in found.items():
+                library.setdefault(name, material)
+    return library
+
+
+def used_materials(
+    uses: list[tuple[str, int]], library: dict[str, Material], warnings: WarningList
+) -> tuple[list[Material], list[int]]:
+    """Return the materials that ``usemtl`` names, and the number of each use's material.
+
+    Parameters
+    ----------
+    uses : list of (str, int)
+        The name in each ``usemtl``, and its line.
+    """
+    materials: list[Material] = []
+    number: dict[str, int] = {}
+    for name, line in uses:
+        if name in number:
+            continue
+        number[name] = len(materials)
+        materials.append(library.get(name) or Material(name=name))
+        if library and name not in library:
+            warnings.add(f"material {shown(name)} is in no library", line)
+    return materials, [number[name] for name, _ in uses]
+
+
+def give_companion_texture(
+    source: Source, materials: list[Material], warnings: WarningList
+) -> None:
+    """Paint materials with the image that bears the model's name, if there is one."""
+    path = companion_texture(source.path)
+    if path is None:
+        return
+    try:
+        texture = _load_texture(path, wrap="repeat")
+    except Engine3DError as error:
+        warnings.add(f"texture beside the model left out: {error}")
+        return
+    for material in materials:
+        material.texture = texture
+
+
+def _library_paths(names: str, folder: str, line: int, warnings: WarningList) -> list[str]:
+    """``mtllib`` names one file, whose name may hold blanks, or several files."""
+    try:
+        return [find_linked_file(names, folder)]
+    except LinkedFileError as error:
+        reason = str(error)
+    words = names.split()
+    if len(words) < 2:
+        warnings.add(f"material library {shown(names)}: {reason}", line)
+        return []
+    paths = []
+    for word in words:
+        try:
+            paths.append(find_linked_file(word, folder))
+        except LinkedFileError as error:
+            warnings.add(f"material library {shown(word)}: {error}", line)
+    return paths
+
+
+def _load_texture(path: str, wrap: str) -> Texture:
+    from .api import load_texture
+
+    return load_texture(path, wrap=wrap)

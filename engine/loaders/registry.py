@@ -1,0 +1,109 @@
+"""The one list of readers, and the choice among them.
+
+A format is a module of this package with a tuple ``READERS``; adding the file registers it. The
+choice goes by the first bytes where a format has a signature, then by the extension, then by a look
+at the text of a file whose extension says nothing.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import os
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from ..errors import FileFormatError
+from .sources import Source
+
+SNIFFED_BYTES = 4096
+
+
+@dataclass(frozen=True)
+class Reader:
+    """One format that can be read.
+
+    Attributes
+    ----------
+    name : str
+        Short name, such as ``"obj"``.
+    description : str
+    kind : {"mesh", "image"}
+    extensions : tuple of str
+        Lower case, with the dot.
+    read : callable
+        ``read(source, split=False) -> Document`` for meshes: with ``split`` every object of the
+        file becomes one of the document. ``read(source) -> (H, W, 4) uint8`` for images.
+    signature : callable, optional
+        ``signature(head) -> bool``: whether the first bytes can be of this format only.
+    resembles : callable, optional
+        ``resembles(head) -> bool``: whether the first bytes look like this format.
+    """
+
+    name: str
+    description: str
+    kind: str
+    extensions: tuple[str, ...]
+    read: Callable
+    signature: Callable[[bytes], bool] | None = None
+    resembles: Callable[[bytes], bool] | None = None
+
+
+class Format(NamedTuple):
+    """A readable format, as listings show it."""
+
+    name: str
+    description: str
+    kind: str
+    extensions: tuple[str, ...]
+
+
+@functools.cache
+def readers() -> tuple[Reader, ...]:
+    """Return all readers of this package, sorted by name."""
+    package = importlib.import_module(__package__)
+    found: list[Reader] = []
+    for module in pkgutil.iter_modules(package.__path__, __package__ + "."):
+        found += getattr(importlib.import_module(module.name), "READERS", ())
+    return tuple(sorted(found, key=lambda reader: reader.name))
+
+
+def formats(kind: str | None = None) -> list[Format]:
+    """Return the formats that can be read.
+
+    Parameters
+    ----------
+    kind : {"mesh", "image"}, optional
+        Only those of one kind.
+    """
+    return [
+        Format(reader.name, reader.description, reader.kind, reader.extensions)
+        for reader in readers()
+        if kind in (None, reader.kind)
+    ]
+
+
+def find_reader(source: Source, kind: str) -> Reader:
+    """Return the reader for a file.
+
+    Raises
+    ------
+    FileFormatError
+        No format of this kind fits.
+    """
+    head = source.data[:SNIFFED_BYTES]
+    extension = os.path.splitext(source.path)[1].lower()
+    candidates = [reader for reader in readers() if reader.kind == kind]
+    for reader in candidates:
+        if reader.signature is not None and reader.signature(head):
+            return reader
+    for reader in candidates:
+        if extension in reader.extensions:
+            return reader
+    for reader in candidates:
+        if reader.resembles is not None and reader.resembles(head):
+            return reader
+    known = ", ".join(sorted(e for reader in candidates for e in reader.extensions))
+    raise FileFormatError(f"unknown {kind} format {extension!r} (known: {known})", source.path)

@@ -1,0 +1,130 @@
+"""Polygons cut into triangles, all polygons of a file at once.
+
+In: the number of corners of each polygon, and the positions of all corners. Out: triangles as
+corner numbers, in the order of the polygons, each polygon wound as it was; and which of their edges
+are the polygon's own. Convex polygons become fans; a concave quad is cut from its reflex corner;
+other concave polygons have their ears clipped.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..normals import face_area_vectors
+from .ear_clipping import WorkBudget, clip_ears
+
+# A corner counts as reflex if it turns back by more than this share of the polygon's area: flat
+# corners, and those bent by rounding, are left to the fan.
+_FLAT = 1e-9
+
+
+class Triangulation(NamedTuple):
+    """Triangles of polygons.
+
+    Attributes
+    ----------
+    corners : (T, 3) int64
+        Corner numbers, counted over all polygons.
+    polygons : (T,) int64
+        The polygon that each triangle is part of.
+    edge_visible : (T, 3) bool or None
+        Which edges are the polygon's; None if all are.
+    is_complete : bool
+        False if some concave polygons were cut as fans because the file holds too many.
+    """
+
+    corners: np.ndarray
+    polygons: np.ndarray
+    edge_visible: np.ndarray | None
+    is_complete: bool
+
+
+def triangulate(sizes: np.ndarray, positions: np.ndarray) -> Triangulation:
+    """Cut polygons into triangles.
+
+    Parameters
+    ----------
+    sizes : (P,) int
+        Corners of each polygon; those of fewer than three give no triangle.
+    positions : (C, 3) float64
+        The corners' positions, polygon after polygon; C is the sum of ``sizes``.
+
+    Returns
+    -------
+    triangulation : Triangulation
+        n - 2 triangles for a polygon of n corners, degenerate ones included.
+    """
+    if len(sizes) and sizes.min() == 3 == sizes.max():
+        corners = np.arange(3 * len(sizes), dtype=np.int64).reshape(-1, 3)
+        return Triangulation(corners, np.arange(len(sizes)), None, True)
+    counts = np.maximum(sizes - 2, 0)
+    first_triangle = np.cumsum(counts) - counts
+    first_corner = np.cumsum(sizes) - sizes
+    # Corner numbers within the polygon first, then within the file.
+    corners = np.empty((int(counts.sum()), 3), np.int64)
+    polygons = np.repeat(np.arange(len(sizes)), counts)
+    budget = WorkBudget()
+    for size in np.unique(sizes[sizes >= 3]).tolist():
+        members = np.flatnonzero(sizes == size)
+        rows = first_triangle[members, np.newaxis] + np.arange(size - 2)
+        corners[rows] = _cut_polygons(size, positions, first_corner[members], budget)
+    step = corners[:, [1, 2, 0]] - corners
+    last = sizes[polygons][:, np.newaxis] - 1
+    edge_visible = (step == 1) | (step == -last)
+    corners += first_corner[polygons][:, np.newaxis]
+    visible = None if edge_visible.all() else edge_visible
+    return Triangulation(corners, polygons, visible, not budget.is_spent)
+
+
+def _cut_polygons(size, positions, first_corner, budget) -> np.ndarray:
+    """Cut polygons of one size: (P, size - 2, 3) corner numbers within each polygon."""
+    spokes = np.arange(1, size - 1)
+    fan = np.stack([np.zeros_like(spokes), spokes, spokes + 1], axis=1)
+    cut = np.repeat(fan[np.newaxis], len(first_corner), axis=0)
+    if size == 3:
+        return cut
+    outlines = positions[first_corner[:, np.newaxis] + np.arange(size)]
+    area = _area_vectors(outlines)
+    reflex = _reflex_corners(outlines, area)
+    concave = np.flatnonzero(reflex.any(axis=1))
+    if size == 4:
+        start = reflex[concave].argmax(axis=1)
+        cut[concave] = (cut[concave] + start[:, np.newaxis, np.newaxis]) % 4
+        return cut
+    for polygon in concave.tolist():
+        if budget.is_spent:
+            break
+        cut[polygon] = clip_ears(_projected(outlines[polygon], area[polygon]), budget)
+    return cut
+
+
+def _area_vectors(outlines: np.ndarray) -> np.ndarray:
+    """Newell's area vector, twice the area long, of polygons (P, n, 3): (P, 3)."""
+    count, size, _ = outlines.shape
+    base = np.arange(count)[:, np.newaxis] * size
+    spokes = np.arange(1, size - 1)
+    faces = np.stack(
+        [np.broadcast_to(base, (count, size - 2)), base + spokes, base + spokes + 1], axis=2
+    )
+    triangles = face_area_vectors(outlines.reshape(-1, 3), faces.reshape(-1, 3))
+    return triangles.reshape(count, size - 2, 3).sum(axis=1)
+
+
+def _reflex_corners(outlines: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """Which corners (P, n) turn against their polygon; none where a corner is not finite."""
+    with np.errstate(all="ignore"):
+        arriving = outlines - np.roll(outlines, 1, axis=1)
+        leaving = np.roll(outlines, -1, axis=1) - outlines
+        turn = np.cross(arriving, leaving)
+        along = (turn * area[:, np.newaxis]).sum(axis=2)
+        size = (area * area).sum(axis=1)
+        finite = np.isfinite(outlines).all(axis=(1, 2))
+        return (along < -_FLAT * size[:, np.newaxis]) & (finite & (size > 0))[:, np.newaxis]
+
+
+def _projected(outline: np.ndarray, area: np.ndarray) -> list[tuple[float, float]]:
+    """The outline along the axis that its area vector follows most."""
+    kept = np.delete(np.arange(3), np.abs(area).argmax())
+    return list(map(tuple, outline[:, kept].tolist()))

@@ -11,7 +11,7 @@ import argparse
 import importlib
 from pathlib import Path
 
-MODELS = ("teapot",)
+MODELS = ("teapot", "island")
 
 
 def main():

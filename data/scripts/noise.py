@@ -10,11 +10,13 @@ import numpy as np
 
 def hash01(x, y, z, seed=0):
     """Hash integer lattice points to float64 in [0, 1)."""
-    h = np.full(np.shape(x), seed, np.uint32) * np.uint32(0x9E3779B1)
-    for coordinate in (x, y, z):
-        h = (h ^ np.asarray(coordinate).astype(np.int64).astype(np.uint32)) * np.uint32(0x85EBCA6B)
-        h = (h ^ (h >> np.uint32(13))) * np.uint32(0xC2B2AE35)
-        h = h ^ (h >> np.uint32(16))
+    with np.errstate(over="ignore"):  # products wrap round, as they shall
+        h = np.full(np.shape(x), seed, np.uint32) * np.uint32(0x9E3779B1)
+        for coordinate in (x, y, z):
+            lattice = np.asarray(coordinate).astype(np.int64).astype(np.uint32)
+            h = (h ^ lattice) * np.uint32(0x85EBCA6B)
+            h = (h ^ (h >> np.uint32(13))) * np.uint32(0xC2B2AE35)
+            h = h ^ (h >> np.uint32(16))
     return h / 2.0**32
 
 

@@ -5,7 +5,9 @@ texture coordinates, counter-clockwise seen from outside. A grid's columns run t
 rows upwards as seen from outside.
 """
 
-from dataclasses import dataclass, field
+import itertools
+import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,7 +24,6 @@ class Surface:
     normals: np.ndarray = None
     material: str = ""
     name: str = ""
-    extras: dict = field(default_factory=dict)
 
     def __post_init__(self):
         self.positions = np.asarray(self.positions, np.float64)
@@ -55,6 +56,38 @@ class Surface:
         """Return the same surface with other texture coordinates."""
         return Surface(self.positions, uvs, self.polygons, self.normals, self.material, self.name)
 
+    def without(self, vertices):
+        """Return the surface without the polygons all of whose corners are in a mask."""
+        kept = [p for p in self.polygons if not all(vertices[k] for k in p)]
+        return _compact(self.positions, self.uvs, kept, self.normals)
+
+    def creased(self):
+        """Return the surface with normals that are smooth along rows only, for turned profiles.
+
+        Each row of quads gets its own vertices, so that the edges of the profile show.
+        """
+        rows = {}
+        for polygon in self.polygons:
+            heights = tuple(
+                sorted({tuple(np.round(_level(self.positions[k]), 5)) for k in polygon})
+            )
+            rows.setdefault(heights, []).append(polygon)
+        positions, uvs, polygons, normals = [], [], [], []
+        for row in rows.values():
+            part = _compact(self.positions, self.uvs, row, None)
+            polygons += [tuple(k + len(positions) for k in polygon) for polygon in part.polygons]
+            positions.extend(part.positions)
+            uvs.extend(part.uvs)
+            normals.extend(part.normals)
+        return Surface(
+            np.array(positions),
+            np.array(uvs),
+            polygons,
+            np.array(normals),
+            self.material,
+            self.name,
+        )
+
     def flat(self):
         """Return the surface with one normal a polygon."""
         positions, uvs, normals, polygons = [], [], [], []
@@ -73,6 +106,12 @@ class Surface:
             self.material,
             self.name,
         )
+
+
+def _level(point):
+    """Radius and height of a point about the Y axis, rounded."""
+    radius = math.sqrt(point[0] * point[0] + point[2] * point[2])
+    return round(radius, 5), round(float(point[1]), 5)
 
 
 def _square(matrix):
@@ -171,11 +210,8 @@ def lathe(profile, columns, uv_box=(0.0, 0.0, 1.0, 1.0)):
 def arc_parameters(points):
     """Return the running length along a polyline, from 0 to 1."""
     steps = points[1:] - points[:-1]
-    lengths = [
-        float(np.sqrt((step * step).tolist()[0] + sum((step * step).tolist()[1:])))
-        for step in steps
-    ]
-    running = np.array([0.0, *np.cumsum(lengths)])
+    lengths = [math.sqrt(sum(x * x for x in step)) for step in steps.tolist()]
+    running = np.array([0.0, *itertools.accumulate(lengths)])
     return running / running[-1]
 
 

@@ -5,8 +5,8 @@ Out: two tables, or with --json one object: nanoseconds for each kernel and way 
      many times as fast each is as the plain C of -O3 (backend portable).
 
 The timer (kernel_timer.c) is always built alike: only the file that holds the kernels of an
-instruction set takes the flags of its row. The hash of all outputs tells whether the bytes are those
-of the first row: they are, unless the compiler may fuse a * b + c, as the last row lets it.
+instruction set takes the flags of its row. The hash of all outputs tells whether the bytes are
+those of the first row: they are, unless the compiler may fuse a * b + c, as the last row lets it.
 """
 
 import argparse

@@ -67,6 +67,9 @@ typedef struct e3d_piece {
 
 enum { E3D_NO_SLOT = -1 };
 
+/* What an empty sample's depth is: z < this exactly when z <= 1 (R15). */
+#define E3D_BEYOND_FAR 0x1.000002p0f
+
 typedef struct e3d_tile_buffers {
     float *z;               /* E3D_TILE_SAMPLES, 64-byte aligned */
     int32_t *slot;          /* or counts, or marks */
@@ -82,12 +85,13 @@ typedef struct e3d_surface {
     float p[3], px[3], py[3];      /* barycentric planes, R18 */
     int32_t base_x, base_y;        /* relative to the tile's first sample */
     float position[3][3];          /* [component][vertex], world */
-    float normal[3][3];            /* [component][vertex], world, facing the viewer */
+    float normal[3][3];            /* [component][vertex], world; flat: vertex 0 has the face's */
     float uv[2][3];
-    float color[3][3];             /* vertex colours; ones where there are none */
+    float color[3][3];             /* [component][vertex] */
     float instance_color[3];
-    int32_t local, face, node, instance, material;
-    int32_t key;
+    int32_t back;                  /* the face looks away: normals are negated */
+    int32_t local, face, node, instance; /* number in the instance, face or -1, IDs */
+    int32_t group;                 /* samples of one group are shaded together */
     int32_t spare[11];
 } e3d_surface;
 
@@ -111,11 +115,9 @@ enum {
     E3D_WANT_POSITION = 1,
     E3D_WANT_NORMAL = 2,
     E3D_WANT_UV = 4,
-    E3D_WANT_LOD = 8,
-    E3D_WANT_ALBEDO = 16 /* color = material * vertex * instance; the texture is multiplied in between */
+    E3D_WANT_FLAT = 8 /* with E3D_WANT_NORMAL: of the face */
 };
 
-/* Factors of the albedo that exist (R24 leaves out the others; a factor of 1 changes nothing). */
 typedef struct e3d_lighting {
     const e3d_light *lights;
     int light_count;
@@ -143,6 +145,8 @@ typedef struct e3d_kernels {
                          const e3d_texture_view *texture);
     /* color *= texture */
     void (*texture)(e3d_batch *batch, const e3d_texture_view *texture);
+    /* color *= vertex colour, color *= instance colour */
+    void (*tint)(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance);
     /* energy, and shine where shininess > 0 */
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
     /* color = (color * energy + specular * shine) + emissive; specular may be NULL */

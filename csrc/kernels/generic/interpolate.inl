@@ -59,30 +59,35 @@ static inline vf32 interpolate_barycentric(const surface_lanes *s, vi32 sample, 
         p[k] = v_max(v_add(v_add(surface_float(s, SURFACE_WORD(p) + k), along), down), zero);
     }
     vf32 sum = v_add(v_add(p[0], p[1]), p[2]);
-    vmask some = v_gt(sum, zero);
+    vmask some = v_ge(sum, v_setf(0x1p-126f));
     vf32 r = v_self(some, v_div(one, sum), zero);
     for (int k = 0; k < 3; k++)
         b[k] = v_self(some, v_min(v_mul(p[k], r), one), k ? zero : one);
     return r;
 }
 
-/* R22: a zero vector stays zero. */
+/* R22: what has no usable length becomes zero. */
 static inline void unit_length(vf32 *x, vf32 *y, vf32 *z)
 {
     vf32 zero = v_setf(0.0f);
     vf32 length2 = v_add(v_add(v_mul(*x, *x), v_mul(*y, *y)), v_mul(*z, *z));
-    vmask some = v_gt(length2, zero);
+    vmask some = v_mand(v_gt(length2, zero), v_lt(length2, v_setf(INFINITY)));
     vf32 inverse = v_div(v_setf(1.0f), v_sqrt(length2));
     *x = v_self(some, v_mul(*x, inverse), zero);
     *y = v_self(some, v_mul(*y, inverse), zero);
     *z = v_self(some, v_mul(*z, inverse), zero);
 }
 
-static inline void interpolate_normal(e3d_batch *batch, int i, const surface_lanes *s, const vf32 b[3])
+static inline void interpolate_normal(e3d_batch *batch, int i, const surface_lanes *s, const vf32 b[3],
+                                      int flat)
 {
-    vf32 n[3];
-    for (int k = 0; k < 3; k++)
-        n[k] = interpolate_word(s, b, SURFACE_WORD(normal) + 3 * k);
+    vf32 n[3], zero = v_setf(0.0f);
+    vmask front = v_eqi(surface_int(s, SURFACE_WORD(back)), v_seti(0));
+    for (int k = 0; k < 3; k++) {
+        int word = SURFACE_WORD(normal) + 3 * k;
+        n[k] = flat ? surface_float(s, word) : interpolate_word(s, b, word);
+        n[k] = v_self(front, n[k], v_sub(zero, n[k]));
+    }
     unit_length(&n[0], &n[1], &n[2]);
     for (int k = 0; k < 3; k++)
         v_storef(batch->normal[k] + i, n[k]);
@@ -102,10 +107,28 @@ static void kernel_interpolate(e3d_batch *batch, const e3d_surface *surfaces, in
                 v_storef(batch->position[k] + i,
                          interpolate_word(&s, b, SURFACE_WORD(position) + 3 * k));
         if (wanted & E3D_WANT_NORMAL)
-            interpolate_normal(batch, i, &s, b);
+            interpolate_normal(batch, i, &s, b, wanted & E3D_WANT_FLAT);
         if (wanted & E3D_WANT_UV)
             for (int k = 0; k < 2; k++)
                 v_storef(batch->uv[k] + i, interpolate_word(&s, b, SURFACE_WORD(uv) + 3 * k));
+    }
+}
+
+static void kernel_tint(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance)
+{
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        surface_lanes s = surface_of(surfaces, batch->surface + i);
+        vf32 b[3];
+        for (int k = 0; k < 3; k++)
+            b[k] = v_loadf(batch->b[k] + i);
+        for (int k = 0; k < 3; k++) {
+            vf32 c = v_loadf(batch->color[k] + i);
+            if (by_vertex)
+                c = v_mul(c, interpolate_word(&s, b, SURFACE_WORD(color) + 3 * k));
+            if (by_instance)
+                c = v_mul(c, surface_float(&s, SURFACE_WORD(instance_color) + k));
+            v_storef(batch->color[k] + i, c);
+        }
     }
 }
 

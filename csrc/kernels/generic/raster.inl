@@ -1,8 +1,7 @@
 /* raster: the samples of a tile that a piece covers, and its depth there (R12, R14-R17).
  *
  * Four uses of one loop: depth test, overwrite, count, mark. Narrow pieces take one unaligned vector a
- * row; wider ones go block by block, and a block inside all edges skips them. `wide` z is R14
- * as written, so that the block's and the sample's depth agree.
+ * row; wider ones go block by block, and a block inside all edges skips them.
  */
 
 enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
@@ -45,7 +44,8 @@ static inline void raster_write(int use, vmask inside, vf32 z, int at, const ras
     float *depth = tile->z + at;
     int32_t *slot = tile->slot + at;
     vf32 old = v_loadf(depth);
-    vmask pass = v_mand(inside, v_lt(z, old));
+    vf32 limit = use == RASTER_OVERWRITE ? v_setf(E3D_BEYOND_FAR) : old;
+    vmask pass = v_mand(inside, v_lt(z, limit));
     vi32 before = v_loadi(slot);
     if (use == RASTER_COUNT) {
         v_storei(slot, v_seli(pass, v_addi(before, v_seti(1)), before));
@@ -55,7 +55,9 @@ static inline void raster_write(int use, vmask inside, vf32 z, int at, const ras
         v_storei(slot, v_seli(pass, c->slot, before));
         if (equal)
             raster_take_ties(raster_ties(equal, slot, piece, tile), slot, piece);
-    } else { /* the depth buffer only bounds z */
+    } else {
+        if (use == RASTER_OVERWRITE)
+            v_storef(depth, v_self(pass, z, old));
         v_storei(slot, v_seli(pass, c->slot, before));
     }
 }

@@ -1,4 +1,5 @@
 /* All kernels of one instruction set, and their table E3D_TABLE. */
+#include <math.h>
 #include <stddef.h>
 
 #include "core/fpenv.h"
@@ -24,6 +25,7 @@ const e3d_kernels E3D_TABLE = {
     .interpolate = kernel_interpolate,
     .select_level = kernel_select_level,
     .texture = kernel_texture,
+    .tint = kernel_tint,
     .light = kernel_light,
     .combine = kernel_combine,
     .encode = kernel_encode,

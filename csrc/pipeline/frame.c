@@ -1,0 +1,226 @@
+/* A frame: prepare -> geometry (cull, transform, clip, setup, bin) -> tiles (raster, shade, resolve). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "core/fpenv.h"
+#include "pipeline/frame.h"
+#include "reference/reference.h"
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+/* ---- renderers ---- */
+
+static e3d_worker *create_worker(void)
+{
+    void *memory = NULL;
+    e3d_worker *worker = calloc(1, sizeof *worker);
+    if (!worker || posix_memalign(&memory, 64, sizeof(e3d_tile_memory))) {
+        free(worker);
+        return NULL;
+    }
+    worker->tile = memory;
+    memset(worker->tile, 0, sizeof *worker->tile); /* padding is read, never used */
+    for (int i = 0; i < E3D_TILE_SAMPLES + E3D_PAD; i++)
+        worker->tile->bound[i] = E3D_BEYOND_FAR;
+    return worker;
+}
+
+static void destroy_worker(e3d_worker *worker)
+{
+    if (!worker)
+        return;
+    for (int p = 0; p < E3D_PASSES; p++) {
+        e3d_record_set *set = &worker->pass[p];
+        e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins};
+        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+            e3d_array_free(arrays[i]);
+    }
+    e3d_array_free(&worker->slots);
+    e3d_array_free(&worker->orders);
+    e3d_array_free(&worker->surfaces);
+    e3d_array_free(&worker->groups);
+    free(worker->tile);
+    free(worker);
+}
+
+e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_renderer **out)
+{
+    *out = NULL;
+    if (threads < 0 || threads > E3D_MAX_THREADS)
+        return E3D_INVALID_ARGUMENT;
+    if (!e3d_backend_available(backend))
+        return E3D_UNSUPPORTED_BACKEND;
+    e3d_renderer *renderer = calloc(1, sizeof *renderer);
+    if (!renderer)
+        return E3D_OUT_OF_MEMORY;
+    renderer->backend = backend;
+    renderer->kernels = e3d_kernels_for(backend);
+    renderer->threads = backend == E3D_BACKEND_SCALAR ? 1 : threads ? threads : e3d_thread_count();
+    renderer->workers = calloc((size_t)renderer->threads, sizeof *renderer->workers);
+    int made = renderer->workers != NULL;
+    for (int32_t w = 0; made && w < renderer->threads && backend != E3D_BACKEND_SCALAR; w++)
+        made = (renderer->workers[w] = create_worker()) != NULL;
+    if (!made) {
+        e3d_renderer_destroy(renderer);
+        return E3D_OUT_OF_MEMORY;
+    }
+    *out = renderer;
+    return E3D_OK;
+}
+
+void e3d_renderer_destroy(e3d_renderer *renderer)
+{
+    if (!renderer)
+        return;
+    for (int32_t w = 0; renderer->workers && w < renderer->threads; w++)
+        destroy_worker(renderer->workers[w]);
+    free(renderer->workers);
+    e3d_array_free(&renderer->draws);
+    e3d_array_free(&renderer->instances);
+    free(renderer);
+}
+
+void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *user)
+{
+    renderer->poll = poll;
+    renderer->poll_user = user;
+}
+
+/* ---- arguments ---- */
+
+static int material_range_is_valid(const e3d_frame *frame, const e3d_draw *draw)
+{
+    const e3d_mesh_desc *desc = e3d_mesh_view(draw->mesh);
+    int32_t most = 0;
+    for (int32_t f = 0; desc->material_ids && f < desc->faces_count; f++) {
+        if (desc->material_ids[f] < 0)
+            return 0;
+        most = desc->material_ids[f] > most ? desc->material_ids[f] : most;
+    }
+    return draw->material_base >= 0 && (int64_t)draw->material_base + most < frame->material_count;
+}
+
+static int frame_is_valid(const e3d_frame *f)
+{
+    if (f->width < 1 || f->height < 1 || f->width > E3D_MAX_SIZE || f->height > E3D_MAX_SIZE ||
+        (f->samples_axis != 1 && f->samples_axis != 2 && f->samples_axis != 4))
+        return 0;
+    if (!(f->line_width > 0 && f->line_width <= 256) || !(f->point_size > 0 && f->point_size <= 256))
+        return 0;
+    if (f->draw_count < 0 || f->material_count < 0 || f->light_count < 0)
+        return 0;
+    for (int32_t d = 0; d < f->draw_count; d++) {
+        const e3d_draw *draw = &f->draws[d];
+        if (!draw->mesh || draw->instances < 0 ||
+            (draw->pose_kind == E3D_POSE_NONE ? draw->instances != 1
+                                              : draw->instances && !draw->poses) ||
+            !material_range_is_valid(f, draw))
+            return 0;
+    }
+    return 1;
+}
+
+/* ---- a frame ---- */
+
+static int reset_workers(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    for (int32_t w = 0; w < renderer->threads; w++) {
+        e3d_worker *worker = renderer->workers[w];
+        memset(&worker->counters, 0, sizeof worker->counters);
+        worker->failed = 0;
+        for (int p = 0; p < E3D_PASSES; p++)
+            if (!e3d_bins_reset(&worker->pass[p], (int32_t)e3d_tile_count(context)))
+                return 0;
+    }
+    return 1;
+}
+
+static int any_failed(const e3d_renderer *renderer)
+{
+    for (int32_t w = 0; w < renderer->threads; w++)
+        if (renderer->workers[w]->failed)
+            return 1;
+    return 0;
+}
+
+static void count_submitted(const e3d_context *context, e3d_stats *stats)
+{
+    stats->draws = context->frame->draw_count;
+    stats->instances = context->instance_count;
+    for (int32_t d = 0; d < context->frame->draw_count; d++) {
+        const e3d_draw_state *s = &context->draws[d];
+        stats->clusters += (int64_t)s->mesh->cluster_count * s->draw->instances;
+        stats->triangles += (int64_t)s->mesh->desc.faces_count * s->draw->instances;
+    }
+}
+
+static void add_counters(const e3d_context *context, e3d_stats *stats)
+{
+    int32_t threads = context->renderer->threads;
+    for (int32_t w = 0; w < threads; w++) {
+        const e3d_counters *c = &context->renderer->workers[w]->counters;
+        stats->clusters_culled += c->clusters_culled;
+        stats->triangles_culled += c->triangles_culled;
+        stats->triangles_clipped += c->triangles_clipped;
+        stats->triangles_setup += c->records;
+        stats->bin_entries += c->bin_entries;
+        stats->pixels_shaded += c->shaded;
+        stats->ms_raster += (double)c->ns_raster * 1e-6 / threads;
+        stats->ms_shade += (double)c->ns_shade * 1e-6 / threads;
+        stats->ms_resolve += (double)c->ns_resolve * 1e-6 / threads;
+    }
+    stats->threads = threads;
+    stats->tiles = (int32_t)e3d_tile_count(context);
+    stats->backend = context->renderer->backend;
+}
+
+static e3d_status run(e3d_context *context, e3d_stats *stats)
+{
+    double start = now_ms();
+    e3d_status status = e3d_prepare(context);
+    if (status != E3D_OK)
+        return status;
+    if (!reset_workers(context))
+        return E3D_OUT_OF_MEMORY;
+    e3d_geometry(context);
+    if (any_failed(context->renderer) || (context->sorted && !e3d_sort_records(context)))
+        return E3D_OUT_OF_MEMORY;
+    double binned = now_ms();
+    e3d_tiles(context);
+    if (any_failed(context->renderer))
+        return E3D_OUT_OF_MEMORY;
+    count_submitted(context, stats);
+    add_counters(context, stats);
+    stats->ms_geometry = binned - start;
+    stats->ms_total = now_ms() - start;
+    return context->cancelled ? E3D_CANCELLED : E3D_OK;
+}
+
+e3d_status e3d_render(e3d_renderer *renderer, const e3d_frame *frame, const e3d_targets *targets,
+                      e3d_stats *stats)
+{
+    e3d_stats unused;
+    if (!stats)
+        stats = &unused;
+    memset(stats, 0, sizeof *stats);
+    if (!frame_is_valid(frame))
+        return E3D_INVALID_ARGUMENT;
+    if (renderer->backend == E3D_BACKEND_SCALAR)
+        return e3d_reference_render(frame, targets, stats);
+    e3d_context context = {.renderer = renderer,
+                           .kernels = renderer->kernels,
+                           .frame = frame,
+                           .targets = targets};
+    e3d_fpenv saved = e3d_fpenv_enter();
+    e3d_status status = run(&context, stats);
+    e3d_fpenv_leave(saved);
+    return status;
+}

@@ -1,0 +1,249 @@
+/* prepare: a frame's tables (draws, units of work, instance matrices R1-R2) and constants. */
+#include <math.h>
+#include <string.h>
+
+#include "core/pool.h"
+#include "pipeline/frame.h"
+
+enum { LINES_A_UNIT = 256 };
+
+static void multiply(const double a[16], const double b[16], double out[16])
+{
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            out[4 * r + c] = ((a[4 * r] * b[c] + a[4 * r + 1] * b[4 + c]) + a[4 * r + 2] * b[8 + c]) +
+                             a[4 * r + 3] * b[12 + c];
+}
+
+static void pose_matrix(const e3d_draw *draw, int32_t instance, double out[16])
+{
+    if (draw->pose_kind == E3D_POSE_MATRIX) {
+        for (int k = 0; k < 16; k++)
+            out[k] = draw->poses[16 * (size_t)instance + k];
+        return;
+    }
+    const float *p = draw->poses + 4 * (size_t)instance;
+    const double matrix[16] = {p[3], 0, 0, p[0], 0, p[3], 0, p[1], 0, 0, p[3], p[2], 0, 0, 0, 1};
+    memcpy(out, matrix, sizeof matrix);
+}
+
+/* R2 */
+static void normal_matrix(const double m[16], e3d_instance *out)
+{
+    double cofactor[9], big = 0;
+    int finite = 1;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            double v = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
+            cofactor[3 * r + c] = v;
+            big = fabs(v) > big ? fabs(v) : big;
+            finite = finite && isfinite(v);
+        }
+    double det = (m[0] * cofactor[0] + m[1] * cofactor[1]) + m[2] * cofactor[2];
+    out->mirrored = det < 0;
+    double scale = 1.0 / big;
+    finite = finite && isfinite(scale);
+    for (int k = 0; k < 9; k++)
+        out->normal[k] = finite ? (float)(cofactor[k] * (det < 0 ? -scale : scale)) : 0.0f;
+}
+
+static void prepare_instance(const e3d_frame *frame, const e3d_draw *draw, int32_t instance,
+                             e3d_instance *out)
+{
+    double pose[16], world[16];
+    if (draw->pose_kind == E3D_POSE_NONE) {
+        memcpy(world, draw->world_from_node, sizeof world);
+    } else {
+        pose_matrix(draw, instance, pose);
+        multiply(draw->world_from_node, pose, world);
+    }
+    multiply(frame->clip_from_world, world, out->clip_exact);
+    for (int k = 0; k < 16; k++)
+        out->clip[k] = (float)out->clip_exact[k];
+    for (int k = 0; k < 12; k++)
+        out->world[k] = (float)world[k];
+    normal_matrix(world, out);
+}
+
+enum { INSTANCES_A_TASK = 256 };
+
+static void instances_work(void *argument, int worker)
+{
+    e3d_context *context = argument;
+    (void)worker;
+    for (;;) {
+        int64_t first = atomic_fetch_add(&context->next, INSTANCES_A_TASK), draw = 0;
+        if (first >= context->instance_count)
+            return;
+        while (draw + 1 < context->frame->draw_count &&
+               context->draws[draw + 1].instance_base <= first)
+            draw++;
+        for (int64_t i = first; i < first + INSTANCES_A_TASK && i < context->instance_count; i++) {
+            while (draw + 1 < context->frame->draw_count &&
+                   context->draws[draw + 1].instance_base <= i)
+                draw++;
+            const e3d_draw_state *state = &context->draws[draw];
+            prepare_instance(context->frame, state->draw, (int32_t)(i - state->instance_base),
+                             &context->instances[i]);
+        }
+    }
+}
+
+static int32_t units_of(int32_t count) { return (count + LINES_A_UNIT - 1) / LINES_A_UNIT; }
+
+static int has_two_sided(const e3d_frame *frame)
+{
+    for (int32_t m = 0; m < frame->material_count; m++)
+        if (frame->materials[m].two_sided)
+            return 1;
+    return 0;
+}
+
+static e3d_status prepare_draws(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    int64_t orders = 0, instances = 0, units = 0;
+    int two_sided = has_two_sided(frame);
+    for (int32_t d = 0; d < frame->draw_count; d++) {
+        const e3d_draw *draw = &frame->draws[d];
+        const e3d_mesh_desc *desc = &draw->mesh->desc;
+        int edges = frame->wireframe != E3D_WIRE_NONE && context->targets->color != NULL;
+        e3d_draw_state *s = &context->draws[d];
+        *s = (e3d_draw_state){.draw = draw, .mesh = draw->mesh, .order_base = orders,
+                              .unit_base = units, .instance_base = (int32_t)instances,
+                              .any_two_sided = two_sided};
+        s->primitives = desc->faces_count + desc->lines_count + desc->points_count;
+        s->cluster_units = context->draw_faces ? draw->mesh->cluster_count : 0;
+        s->line_units = units_of(desc->lines_count);
+        s->point_units = units_of(desc->points_count);
+        s->edge_units = edges ? units_of(desc->edges_count) : 0;
+        s->units = s->cluster_units + s->line_units + s->point_units + s->edge_units;
+        int64_t all = (int64_t)desc->faces_count + desc->lines_count + desc->points_count;
+        if (all > INT32_MAX || orders + all * draw->instances > INT32_MAX ||
+            instances + draw->instances > INT32_MAX)
+            return E3D_TOO_MANY_PRIMITIVES;
+        orders += all * draw->instances;
+        instances += draw->instances;
+        units += (int64_t)s->units * draw->instances;
+    }
+    context->instance_count = (int32_t)instances;
+    context->units = units;
+    return E3D_OK;
+}
+
+static float guard_factor(double half)
+{
+    double factor = 1;
+    while (factor * 2 <= E3D_GUARD / half)
+        factor *= 2;
+    return (float)factor;
+}
+
+static void prepare_viewport(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    e3d_viewport *v = &context->viewport;
+    v->width = frame->width * frame->samples_axis;
+    v->height = frame->height * frame->samples_axis;
+    v->scale_x = 128.0f * (float)v->width;
+    v->scale_y = 128.0f * (float)v->height;
+    v->guard_x = guard_factor(v->width / 2.0);
+    v->guard_y = guard_factor(v->height / 2.0);
+    context->tiles_x = (v->width + E3D_TILE - 1) / E3D_TILE;
+    context->tiles_y = (v->height + E3D_TILE - 1) / E3D_TILE;
+}
+
+static uint32_t encode_one(const e3d_context *context, const float color[3], float alpha)
+{
+    float planes[3][1 + E3D_PAD] = {{0}};
+    uint32_t rgba[1 + E3D_PAD];
+    for (int k = 0; k < 3; k++) {
+        float v = color[k] > 0.0f ? color[k] : 0.0f;
+        planes[k][0] = v < 1.0f ? v : 1.0f;
+    }
+    context->kernels->encode(planes[0], planes[1], planes[2], 1, context->srgb, rgba);
+    return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
+}
+
+/* What shading must find out about each visible sample. */
+static int wants_of(const e3d_frame *frame, const e3d_targets *t)
+{
+    int wants = 0;
+    if (t->color && frame->mode != E3D_MODE_OVERDRAW)
+        wants |= E3D_NEED_COLOR;
+    if (wants && frame->mode == E3D_MODE_LIT)
+        wants |= E3D_WANT_POSITION | E3D_WANT_NORMAL;
+    if (wants && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT))
+        wants |= E3D_NEED_ALBEDO;
+    if (wants && frame->mode == E3D_MODE_DEPTH)
+        wants |= E3D_WANT_POSITION;
+    if (wants && frame->mode == E3D_MODE_NORMAL)
+        wants |= E3D_WANT_NORMAL;
+    if (t->depth || t->position || t->world_position)
+        wants |= E3D_WANT_POSITION | E3D_NEED_OUTPUTS;
+    if (t->normal || t->world_normal)
+        wants |= E3D_WANT_NORMAL | E3D_NEED_OUTPUTS;
+    if (t->uv)
+        wants |= E3D_WANT_UV | E3D_NEED_OUTPUTS;
+    if (t->albedo)
+        wants |= E3D_NEED_ALBEDO | E3D_NEED_OUTPUTS;
+    if (t->triangle_id || t->object_id || t->instance_id || t->material_id || t->barycentric)
+        wants |= E3D_NEED_OUTPUTS;
+    return wants;
+}
+
+static void prepare_constants(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    for (int k = 0; k < 12; k++)
+        context->view[k] = (float)frame->view_from_world[k];
+    context->lighting.lights = frame->lights;
+    context->lighting.light_count = frame->light_count;
+    memcpy(context->lighting.ambient, frame->ambient, sizeof frame->ambient);
+    memcpy(context->lighting.clamp, frame->light_clamp, sizeof frame->light_clamp);
+    memcpy(context->lighting.eye, frame->eye, sizeof frame->eye);
+    float axis = (float)frame->samples_axis;
+    int32_t line = (int32_t)lrintf(frame->line_width * axis * 128.0f);
+    int32_t point = (int32_t)lrintf(frame->point_size * axis * 128.0f);
+    context->line_half = line > 1 ? line : 1;
+    context->point_half = point > 1 ? point : 1;
+    context->wants = wants_of(frame, context->targets);
+    context->srgb = frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
+    context->sorted = frame->hidden != E3D_HIDDEN_ZBUFFER;
+    context->background_rgba = encode_one(context, frame->background, frame->background[3]);
+    context->line_rgba = encode_one(context, frame->line_color, 1.0f);
+}
+
+/* Whether any output needs faces: not a plain wireframe. */
+static int needs_faces(const e3d_context *context)
+{
+    e3d_targets others = *context->targets;
+    others.color = NULL;
+    const e3d_targets none = {0};
+    return context->frame->wireframe != E3D_WIRE_ONLY || context->frame->remove_hidden_lines ||
+           memcmp(&others, &none, sizeof none) != 0;
+}
+
+e3d_status e3d_prepare(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    const e3d_frame *frame = context->frame;
+    if (!e3d_array_reserve(&renderer->draws, (size_t)frame->draw_count + 1, sizeof(e3d_draw_state)))
+        return E3D_OUT_OF_MEMORY;
+    context->draws = renderer->draws.data;
+    context->draw_faces = needs_faces(context);
+    prepare_viewport(context);
+    e3d_status status = prepare_draws(context);
+    if (status != E3D_OK)
+        return status;
+    if (!e3d_array_reserve(&renderer->instances, (size_t)context->instance_count + 1,
+                           sizeof(e3d_instance)))
+        return E3D_OUT_OF_MEMORY;
+    context->instances = renderer->instances.data;
+    prepare_constants(context);
+    atomic_store(&context->next, 0);
+    e3d_pool_run(context->instance_count > 2 * INSTANCES_A_TASK ? renderer->threads : 1,
+                 instances_work, context);
+    return E3D_OK;
+}

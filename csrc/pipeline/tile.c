@@ -1,0 +1,298 @@
+/* raster, shade and resolve: one tile after another, each by one thread from first to last. */
+#include <math.h>
+#include <time.h>
+
+#include "core/pool.h"
+#include "pipeline/frame.h"
+
+static int64_t now_ns(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
+}
+
+/* ---- a record in a tile ---- */
+
+static int32_t clamp_to_tile(int32_t v)
+{
+    return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1 : v;
+}
+
+/* 0 if an edge rejects the whole tile. Edges that the tile satisfies are left out, so that the others fit 32 bits. */
+static int prepare_edges(const e3d_record *record, const e3d_tile *tile, e3d_piece *piece)
+{
+    const int64_t span = E3D_TILE - 1;
+    for (int k = 0; k < 3; k++) {
+        e3d_edge edge = e3d_edge_at(record, k, tile->x, tile->y);
+        int64_t a = edge.a * span, b = edge.b * span;
+        if (edge.e + (a > 0 ? a : 0) + (b > 0 ? b : 0) < 0)
+            return 0;
+        int crosses = edge.e + (a < 0 ? a : 0) + (b < 0 ? b : 0) < 0;
+        piece->e[k] = crosses ? (int32_t)edge.e : 0;
+        piece->a[k] = crosses ? edge.a : 0;
+        piece->b[k] = crosses ? edge.b : 0;
+    }
+    return 1;
+}
+
+static int prepare_piece(const e3d_context *context, const e3d_record *record, const e3d_tile *tile,
+                         uint32_t slot, e3d_piece *piece)
+{
+    if (!prepare_edges(record, tile, piece))
+        return 0;
+    e3d_box box = e3d_sample_box(record->x, record->y, &context->viewport);
+    piece->base_x = box.x0 - tile->x;
+    piece->base_y = box.y0 - tile->y;
+    piece->x0 = clamp_to_tile(box.x0 - tile->x);
+    piece->y0 = clamp_to_tile(box.y0 - tile->y);
+    piece->x1 = clamp_to_tile(box.x1 - tile->x);
+    piece->y1 = clamp_to_tile(box.y1 - tile->y);
+    piece->z0 = record->z0;
+    piece->gx = record->gx;
+    piece->gy = record->gy;
+    piece->zmin = record->zmin;
+    piece->zmax = record->zmax;
+    piece->slot = slot;
+    piece->order = record->order;
+    return 1;
+}
+
+/* ---- what is done with each piece of a tile ---- */
+
+typedef struct tile_job {
+    e3d_context *context;
+    e3d_worker *worker;
+    e3d_tile tile;
+    int64_t number;
+} tile_job;
+
+typedef int (*piece_action)(tile_job *job, const e3d_piece *piece);
+
+static int add_slot(e3d_worker *worker, const e3d_record *record, const float *corners)
+{
+    size_t n = worker->slots.count;
+    if (!e3d_array_reserve(&worker->slots, n + 1, sizeof(e3d_slot)) ||
+        !e3d_array_reserve(&worker->orders, n + 1, sizeof(uint32_t)))
+        return 0;
+    ((e3d_slot *)worker->slots.data)[n] = (e3d_slot){record, corners, -1};
+    ((uint32_t *)worker->orders.data)[n] = record->order;
+    worker->slots.count++;
+    return 1;
+}
+
+static int run_block(tile_job *job, const e3d_record_set *set, const e3d_bin_block *block,
+                     piece_action action)
+{
+    e3d_worker *worker = job->worker;
+    for (uint32_t i = 0; i < block->count; i++) {
+        const e3d_record *record = (const e3d_record *)set->records.data + block->record[i];
+        e3d_piece piece;
+        if (!prepare_piece(job->context, record, &job->tile, (uint32_t)worker->slots.count, &piece))
+            continue;
+        const float *corners = record->meta & E3D_RECORD_CUT
+                                   ? (const float *)set->corners.data + 9 * (size_t)(record->meta >> 4)
+                                   : NULL;
+        if (!add_slot(worker, record, corners) || !action(job, &piece))
+            return 0;
+    }
+    return 1;
+}
+
+static int run_bins(tile_job *job, int pass, piece_action action)
+{
+    e3d_renderer *renderer = job->context->renderer;
+    job->worker->slots.count = 0;
+    for (int32_t w = 0; w < renderer->threads; w++) {
+        const e3d_record_set *set = &renderer->workers[w]->pass[pass];
+        const e3d_bin_block *blocks = set->blocks.data;
+        uint32_t next = ((const e3d_bin *)set->bins.data)[job->number].first;
+        for (; next != E3D_NO_BLOCK; next = blocks[next].next)
+            if (!run_block(job, set, &blocks[next], action))
+                return 0;
+    }
+    return 1;
+}
+
+static e3d_tile_buffers buffers_of(const tile_job *job, float *z, int32_t *slot)
+{
+    return (e3d_tile_buffers){z, slot, job->worker->orders.data};
+}
+
+static int act_visible(tile_job *job, const e3d_piece *piece)
+{
+    e3d_tile_memory *memory = job->worker->tile;
+    e3d_tile_buffers buffers = buffers_of(job, memory->z, memory->slot);
+    if (job->context->sorted)
+        job->context->kernels->raster_overwrite(piece, &buffers);
+    else
+        job->context->kernels->raster_depth(piece, &buffers);
+    return 1;
+}
+
+static int act_count(tile_job *job, const e3d_piece *piece)
+{
+    const e3d_record *record = ((e3d_slot *)job->worker->slots.data)[piece->slot].record;
+    e3d_tile_memory *memory = job->worker->tile;
+    e3d_tile_buffers buffers = buffers_of(job, memory->bound, memory->mark);
+    if (record->meta & E3D_RECORD_FACE)
+        job->context->kernels->raster_count(piece, &buffers);
+    return 1;
+}
+
+static int act_mark(tile_job *job, const e3d_piece *piece)
+{
+    const e3d_frame *frame = job->context->frame;
+    e3d_tile_memory *memory = job->worker->tile;
+    int tested = frame->hidden == E3D_HIDDEN_ZBUFFER &&
+                 (frame->wireframe == E3D_WIRE_OVERLAY || frame->remove_hidden_lines);
+    e3d_tile_buffers buffers = buffers_of(job, tested ? memory->z : memory->bound, memory->mark);
+    e3d_piece marked = *piece;
+    marked.slot = 1;
+    job->context->kernels->raster_mark(&marked, &buffers);
+    return 1;
+}
+
+/* Forward shading: whatever the piece just won is shaded at once. */
+static int act_forward(tile_job *job, const e3d_piece *piece)
+{
+    e3d_tile_memory *memory = job->worker->tile;
+    act_visible(job, piece);
+    int32_t count = 0, x1 = piece->x1 < job->tile.width - 1 ? piece->x1 : job->tile.width - 1,
+            y1 = piece->y1 < job->tile.height - 1 ? piece->y1 : job->tile.height - 1;
+    for (int32_t y = piece->y0; y <= y1; y++)
+        for (int32_t x = piece->x0; x <= x1; x++)
+            if (memory->slot[y * E3D_TILE + x] == (int32_t)piece->slot)
+                memory->visible[count++] = y * E3D_TILE + x;
+    return !count || e3d_shade_samples(job->context, job->worker, &job->tile, count);
+}
+
+/* ---- stages of a tile ---- */
+
+static void clear_visibility(e3d_tile_memory *memory)
+{
+    for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
+        memory->z[i] = E3D_BEYOND_FAR;
+        memory->slot[i] = E3D_NO_SLOT;
+    }
+}
+
+static void clear_marks(e3d_tile_memory *memory)
+{
+    for (int i = 0; i < E3D_TILE_SAMPLES; i++)
+        memory->mark[i] = 0;
+}
+
+static int32_t list_visible(e3d_tile_memory *memory, const e3d_tile *tile)
+{
+    int32_t count = 0;
+    for (int32_t y = 0; y < tile->height; y++)
+        for (int32_t x = 0; x < tile->width; x++) {
+            memory->visible[count] = y * E3D_TILE + x;
+            count += memory->slot[y * E3D_TILE + x] >= 0;
+        }
+    return count;
+}
+
+static int draw_scene(tile_job *job)
+{
+    e3d_context *context = job->context;
+    e3d_tile_memory *memory = job->worker->tile;
+    int surfaces = context->wants;
+    int forward = surfaces && context->frame->shading == E3D_SHADING_FORWARD;
+    int64_t start = now_ns();
+    job->worker->surfaces.count = job->worker->groups.count = 0;
+    clear_visibility(memory);
+    if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
+        return 0;
+    int64_t rastered = now_ns();
+    job->worker->counters.ns_raster += rastered - start;
+    if (surfaces && !forward) {
+        int32_t count = list_visible(memory, &job->tile);
+        if (count && !e3d_shade_samples(context, job->worker, &job->tile, count))
+            return 0;
+    }
+    job->worker->counters.ns_shade += now_ns() - rastered;
+    return 1;
+}
+
+/* What is drawn beside the visible surfaces: overdraw counts, or wireframe edges. */
+static int draw_marks(tile_job *job)
+{
+    const e3d_frame *frame = job->context->frame;
+    if (!job->context->targets->color)
+        return 1;
+    if (frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE)
+        return 1;
+    int64_t start = now_ns();
+    if (frame->mode == E3D_MODE_OVERDRAW) {
+        clear_marks(job->worker->tile);
+        if (!run_bins(job, E3D_PASS_SCENE, act_count))
+            return 0;
+        e3d_resolve_overdraw(job->context, job->worker, &job->tile);
+    }
+    if (frame->wireframe != E3D_WIRE_NONE) {
+        clear_marks(job->worker->tile);
+        if (!run_bins(job, E3D_PASS_WIRE, act_mark))
+            return 0;
+        e3d_resolve_wire(job->context, job->worker, &job->tile);
+    }
+    job->worker->counters.ns_raster += now_ns() - start;
+    return 1;
+}
+
+static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
+{
+    tile_job job = {.context = context, .worker = worker, .number = number};
+    job.tile.x = (int32_t)(number % context->tiles_x) * E3D_TILE;
+    job.tile.y = (int32_t)(number / context->tiles_x) * E3D_TILE;
+    int32_t width = context->viewport.width - job.tile.x, height = context->viewport.height - job.tile.y;
+    job.tile.width = width < E3D_TILE ? width : E3D_TILE;
+    job.tile.height = height < E3D_TILE ? height : E3D_TILE;
+    e3d_resolve_begin(context, worker, &job.tile);
+    if (!draw_scene(&job) || !draw_marks(&job))
+        return 0;
+    int64_t start = now_ns();
+    e3d_resolve(context, worker, &job.tile);
+    worker->counters.ns_resolve += now_ns() - start;
+    return 1;
+}
+
+/* The calling thread asks at most every 20 ms. */
+static void poll(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    if (!renderer->poll)
+        return;
+    int64_t now = now_ns();
+    if (now - context->last_poll < 20000000)
+        return;
+    context->last_poll = now;
+    if (renderer->poll(renderer->poll_user)) {
+        context->cancelled = 1;
+        atomic_store(&context->stop, 1);
+    }
+}
+
+static void tiles_work(void *argument, int number)
+{
+    e3d_context *context = argument;
+    e3d_worker *worker = context->renderer->workers[number];
+    while (!atomic_load(&context->stop)) {
+        int64_t tile = atomic_fetch_add(&context->next, 1);
+        if (tile >= e3d_tile_count(context))
+            return;
+        if (!draw_tile(context, worker, tile)) {
+            worker->failed = 1;
+            atomic_store(&context->stop, 1);
+        }
+        if (number == 0)
+            poll(context);
+    }
+}
+
+void e3d_tiles(e3d_context *context)
+{
+    atomic_store(&context->next, 0);
+    e3d_pool_run(e3d_tile_count(context) > 2 ? context->renderer->threads : 1, tiles_work, context);
+}

@@ -34,3 +34,12 @@ def test_compiler_flags():
     assert [row["flags"] for row in rows][:2] == ["-O0", "-O3 -march=native"]
     assert rows[1]["same_bytes"]
     assert all(nanoseconds > 0 for row in rows for nanoseconds in row["nanoseconds"].values())
+
+
+def test_profile():
+    small = ["--frames", "1", "--resolution", "64x36", "--functions", "none"]
+    rows = report("profile.py", *small, "--workload", "lights", "--workload", "texture")["stages"]
+    assert [row["workload"] for row in rows] == ["lights", "texture"]
+    for row in rows:
+        assert abs(sum(row["milliseconds"].values()) - row["wall"]) < 0.5 * row["wall"]
+        assert row["pixels_shaded"] > 0

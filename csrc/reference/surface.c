@@ -152,7 +152,7 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     float factor[3];
     for (int c = 0; c < 3; c++)
         s->albedo[c] = primitive->material->color[c];
-    if (primitive->kind == REF_FACE && primitive->material->texture) {
+    if (primitive->kind == REF_FACE && primitive->material->texture && mesh->uvs) {
         const e3d_texture_view *texture = e3d_texture_get_view(primitive->material->texture);
         ref_texture_sample(texture, s->uv, s->uv_dx, s->uv_dy, factor);
         multiply_color(s->albedo, factor);

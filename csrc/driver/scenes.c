@@ -9,13 +9,20 @@
 #include <stdlib.h>
 
 static const int32_t SIZES[][2] = {
-    {1, 1}, {7, 3}, {64, 64}, {65, 63}, {129, 97}, {160, 120}, {1, 300}, {300, 1}, {31, 200},
+    {64, 64}, {65, 63}, {129, 97}, {160, 120}, {31, 200}, {7, 3}, {1, 1}, {1, 300}, {300, 1},
 };
 static const float HOSTILE[] = {
     0.0f, -0.0f, 1e-45f, -1e-39f, 1e-20f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN, 32768.0f, 0.5f,
 };
 
 enum { GRID = 9, SOUP_TRIANGLES = 80 };
+
+/* Mostly one of the larger ones. */
+static const int32_t *random_size(random_stream *r)
+{
+    int32_t count = random_once_in(r, 4) ? (int32_t)(sizeof SIZES / sizeof *SIZES) : 5;
+    return SIZES[random_below(r, count)];
+}
 
 static void *scene_array(scene *s, size_t count, size_t size)
 {
@@ -196,7 +203,7 @@ static void add_instances(scene *s, random_stream *r, e3d_draw *draw)
 static e3d_status add_draws(scene *s, random_stream *r)
 {
     e3d_status status = E3D_OK;
-    int32_t count = random_below(r, SCENE_MAX_MESHES + 1);
+    int32_t count = random_once_in(r, 12) ? 0 : 1 + random_below(r, SCENE_MAX_MESHES);
     for (int32_t i = 0; i < count && status == E3D_OK; i++) {
         e3d_draw *draw = &s->draws[i];
         status = add_mesh(s, r, i);
@@ -312,7 +319,7 @@ static void choose_look(e3d_frame *frame, random_stream *r)
 e3d_status scene_create(scene *s, random_stream *r)
 {
     memset(s, 0, sizeof *s);
-    const int32_t *size = SIZES[random_below(r, sizeof SIZES / sizeof *SIZES)];
+    const int32_t *size = random_size(r);
     s->frame.width = size[0];
     s->frame.height = size[1];
     choose_look(&s->frame, r);
@@ -336,7 +343,7 @@ void scene_destroy(scene *s)
 
 clip_triangles clip_triangles_create(random_stream *r)
 {
-    const int32_t *size = SIZES[random_below(r, sizeof SIZES / sizeof *SIZES)];
+    const int32_t *size = random_size(r);
     clip_triangles t = {.width = size[0], .height = size[1]};
     t.vertices = 3 + random_below(r, 200);
     t.faces_count = random_below(r, 300);

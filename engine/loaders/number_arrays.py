@@ -65,11 +65,12 @@ def parse_floats(words: list[bytes]) -> np.ndarray:
     except ValueError:
         pass
     values = np.empty(len(words), np.float64)
-    for index, word in enumerate(words):
-        try:
+    index = 0
+    try:
+        for index, word in enumerate(words):
             values[index] = parse_float(word)
-        except ValueError:
-            raise ValueError("not a number", index) from None
+    except ValueError:
+        raise ValueError("not a number", index) from None
     return values
 
 

@@ -12,13 +12,13 @@ import numpy as np
 from ..errors import FileFormatError
 from ..materials import Material
 from ..mesh import Mesh
+from .corner_mesh import Triangles, Vertices, build_mesh
 from .documents import Document, DocumentObject
-from .obj_elements import Elements, Vertices, read_elements, read_vertices
+from .obj_elements import Elements, read_elements, read_vertices
 from .obj_materials import give_companion_texture, read_library, used_materials
-from .obj_mesh import Triangles, build_mesh
-from .obj_normals import UNGROUPED, fill_normals
 from .obj_statements import Statements, keyword_code
 from .registry import Reader
+from .smoothing import FLAT, fill_normals
 from .sources import Source
 from .text import decoded, shown, text_lines
 from .triangulation import triangulate
@@ -27,7 +27,6 @@ from .warning_list import WarningList
 _GEOMETRY = ("v", "vt", "vn", "f", "fo", "l", "p", "g", "o", "s")
 # Statements that change nothing that is drawn here.
 _IGNORED = (b"lod", b"shadow_obj", b"trace_obj", b"bevel", b"c_interp", b"d_interp", b"vp", b"mg")
-_NO_GROUP = 0
 _MAX_GROUP = 2**31 - 1
 
 
@@ -117,14 +116,14 @@ class _States:
         """Smoothing group of each element: all one group if the file sets none at all."""
         setters = self._statements.of("s")
         if len(setters) == 0:
-            return np.full(len(elements), UNGROUPED, np.int64)
+            return np.full(len(elements), 1, np.int64)
         values = np.array([self._smoothing_group(s) for s in setters.tolist()], np.int64)
-        return np.concatenate([[_NO_GROUP], values])[last_before(setters, elements) + 1]
+        return np.concatenate([[FLAT], values])[last_before(setters, elements) + 1]
 
     def _smoothing_group(self, statement: int) -> int:
         word = (self._statements.words(statement) or [b"off"])[0]
         if word == b"off":
-            return _NO_GROUP
+            return FLAT
         if word == b"on":
             return 1
         try:
@@ -133,7 +132,7 @@ class _States:
             self._warnings.add(
                 f"smoothing group {shown(word)} counts as off", self._statements.line(statement)
             )
-            return _NO_GROUP
+            return FLAT
 
 
 def last_before(setters, elements: np.ndarray) -> np.ndarray:

@@ -12,30 +12,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import FileFormatError
+from .corner_mesh import Vertices
 from .number_arrays import parse_floats, parse_integers
 from .obj_statements import Statements, keyword_code
 from .text import shown
 from .warning_list import WarningList
 
 _SLASH = ord("/")
-
-
-class Vertices(NamedTuple):
-    """The vertex lists of a file.
-
-    Attributes
-    ----------
-    positions : (V, 3) float64
-    colors : (V, 4) uint8 or None
-        sRGB; white for vertices without a colour.
-    uvs : (T, 2) float64
-    normals : (N, 3) float64
-    """
-
-    positions: np.ndarray
-    colors: np.ndarray | None
-    uvs: np.ndarray
-    normals: np.ndarray
 
 
 class Elements(NamedTuple):

@@ -101,13 +101,16 @@ def _library_paths(names: str, folder: str, line: int, warnings: WarningList) ->
     if len(words) < 2:
         warnings.add(f"material library {shown(names)}: {reason}", line)
         return []
-    paths = []
-    for word in words:
-        try:
-            paths.append(find_linked_file(word, folder))
-        except LinkedFileError as error:
-            warnings.add(f"material library {shown(word)}: {error}", line)
-    return paths
+    found = [_library_path(word, folder, line, warnings) for word in words]
+    return [path for path in found if path is not None]
+
+
+def _library_path(name: str, folder: str, line: int, warnings: WarningList) -> str | None:
+    try:
+        return find_linked_file(name, folder)
+    except LinkedFileError as error:
+        warnings.add(f"material library {shown(name)}: {error}", line)
+        return None
 
 
 def _load_texture(path: str, wrap: str) -> Texture:

@@ -3,9 +3,10 @@
 import hashlib
 
 import pytest
+from shared_corpus import CONFORMANCE, cases_of, needs_conformance
+
 from engine3d.errors import FileFormatError
 from engine3d.loaders import load_texture
-from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 
 pytestmark = needs_conformance
 

@@ -2,6 +2,7 @@ import os
 import stat
 
 import pytest
+
 from engine3d.atomic_write import atomic_write
 from engine3d.errors import FileAccessError
 

@@ -2,6 +2,7 @@ from decimal import Decimal, getcontext
 
 import numpy as np
 import pytest
+
 from engine3d.colors import linear_color, srgb_to_linear_table
 from engine3d.errors import Engine3DError
 

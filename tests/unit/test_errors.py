@@ -1,6 +1,7 @@
 import pickle
 
 import pytest
+
 from engine3d import errors
 
 

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from engine3d.errors import InvalidArgumentError
 from engine3d.materials import Material
 from engine3d.mesh import Mesh

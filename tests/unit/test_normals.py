@@ -1,4 +1,5 @@
 import numpy as np
+
 from engine3d.mesh import Mesh
 from engine3d.normals import corner_angles, face_normals, vertex_normals
 

@@ -1,8 +1,9 @@
-"""The normals that an OBJ file leaves out, by its smoothing groups.
+"""The normals that a file leaves out, by its smoothing groups.
 
-In: triangles with indices of positions and normals, -1 where there is none, and the smoothing group
-of each. Out: the same with every corner's normal filled in. Corners of one position and one group
-share an angle-weighted normal; group 0 is flat: each polygon has its own normal.
+In: triangles with indices of positions and normals, -1 where there is none, and the smoothing
+groups of each. Out: the same with every corner's normal filled in. Corners of one position in one
+group share an angle-weighted normal; a triangle without a group is flat: all corners of its polygon
+have the same.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ import numpy as np
 
 from ..normals import corner_vectors, face_normals, group_sums, unit_vectors
 
-# Group of all faces of a file without any smoothing statement.
-UNGROUPED = 1
+FLAT = 0
+_MAX_MASKS = 64
 
 
 def fill_normals(
@@ -22,6 +23,8 @@ def fill_normals(
     normals: np.ndarray,
     groups: np.ndarray,
     polygons: np.ndarray,
+    *,
+    are_masks: bool = False,
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Give every corner a normal.
 
@@ -38,6 +41,8 @@ def fill_normals(
         Smoothing group of each triangle, 0 for flat.
     polygons : (T,) int64
         The polygon that each triangle is part of.
+    are_masks : bool
+        Each bit of ``groups`` is a group, and a triangle may be in several.
 
     Returns
     -------
@@ -48,25 +53,24 @@ def fill_normals(
     missing = normal_indices < 0
     if not missing.any():
         return normal_indices, normals
-    is_flat = groups == 0
+    is_flat = groups == FLAT
     if missing.all() and not is_flat.any() and (groups == groups[0]).all():
         return None
     filled = normal_indices.copy()
-    smooth = missing & ~is_flat[:, np.newaxis]
-    flat = missing & is_flat[:, np.newaxis]
     tables = [np.asarray(normals, np.float32).reshape(-1, 3)]
-    if smooth.any():
-        table, indices = _smooth_normals(positions, corners, groups)
-        filled[smooth] = indices[smooth] + sum(map(len, tables))
-        tables.append(table)
-    if flat.any():
-        table, indices = _flat_normals(positions, corners, polygons)
-        filled[flat] = indices[flat] + sum(map(len, tables))
-        tables.append(table)
+    for chosen, compute in (
+        (missing & ~is_flat[:, np.newaxis], _masked_normals if are_masks else _grouped_normals),
+        (missing & is_flat[:, np.newaxis], _flat_normals),
+    ):
+        if chosen.any():
+            by = polygons if compute is _flat_normals else groups
+            table, indices = compute(positions, corners, by)
+            filled[chosen] = indices[chosen] + sum(map(len, tables))
+            tables.append(table)
     return filled, np.concatenate(tables)
 
 
-def _smooth_normals(positions, corners, groups):
+def _grouped_normals(positions, corners, groups):
     """One normal for each position in each group, and the one of every corner."""
     _, group = np.unique(groups, return_inverse=True)
     keys = corners * (int(group.max()) + 1) + group.reshape(-1, 1)
@@ -77,8 +81,24 @@ def _smooth_normals(positions, corners, groups):
     return unit_vectors(sums).astype(np.float32), shared.reshape(corners.shape)
 
 
+def _masked_normals(positions, corners, masks):
+    """One normal for each position and mask, from all triangles there that share a group."""
+    distinct, mask = np.unique(masks, return_inverse=True)
+    if len(distinct) > _MAX_MASKS:
+        # Nobody models like this; the lowest group alone keeps the work in bounds.
+        return _grouped_normals(positions, corners, masks & -masks)
+    count = len(positions)
+    vectors = corner_vectors(positions, corners)
+    tables = []
+    for value in distinct:
+        near = (masks & value) != 0
+        sums = group_sums(vectors[near].reshape(-1, 3), corners[near].reshape(-1), count)
+        tables.append(unit_vectors(sums).astype(np.float32))
+    return np.concatenate(tables), corners + mask.reshape(-1, 1) * count
+
+
 def _flat_normals(positions, corners, polygons):
     """One normal for each polygon, and the one of every corner."""
-    numbers, first, polygon = np.unique(polygons, return_index=True, return_inverse=True)
+    _, first, polygon = np.unique(polygons, return_index=True, return_inverse=True)
     table = face_normals(positions, corners, polygon.reshape(-1))[first]
     return table, np.repeat(polygon.reshape(-1, 1), 3, axis=1)

@@ -1,25 +1,42 @@
-"""A mesh from the lists of an OBJ file.
+"""A mesh from corners that name a position, a texture coordinate and a normal each.
 
-In: vertex lists and triangles whose corners name a position, a texture coordinate and a normal
-each. Out: a `Mesh` with one vertex for each combination that occurs; triangles keep their order.
-Positions that nothing uses are left out.
+In: the lists of a file, and triangles of indices into them. Out: a `Mesh` with one vertex for each
+combination that occurs; triangles keep their order. Positions that nothing uses are left out.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ..materials import Material
 from ..mesh import Mesh
 from .mtl import uv_transform
-from .obj_elements import Vertices
+
+
+class Vertices(NamedTuple):
+    """The vertex lists of a file.
+
+    Attributes
+    ----------
+    positions : (V, 3) float64
+    colors : (V, 4) uint8 or None
+        sRGB; white for vertices without a colour.
+    uvs : (T, 2) float64
+    normals : (N, 3) float64
+    """
+
+    positions: np.ndarray
+    colors: np.ndarray | None
+    uvs: np.ndarray
+    normals: np.ndarray
 
 
 @dataclass
 class Triangles:
-    """Triangles of an OBJ file.
+    """Triangles of a file.
 
     Attributes
     ----------
@@ -27,7 +44,7 @@ class Triangles:
         Indices of the corners; -1 for none.
     materials : (T,) int32
     polygons : (T,) int64
-        The face that each triangle was cut from.
+        The polygon that each triangle was cut from.
     edge_visible : (T, 3) bool or None
     """
 

@@ -1,0 +1,388 @@
+"""3D Studio ASCII (.asc): objects, lights and cameras as 3D Studio wrote them for the printer.
+
+In: the bytes of a file. Out: a `Document` with one object for each tri-mesh. Page marks and empty
+lines may stand anywhere, also inside the lists; a control-Z ends the file. Edge flags (AB, BC, CA)
+become visible edges, smoothing groups become normals: faces without one are flat. Coordinates stay
+those of the file, in which +Z is up. There are no material definitions: a name such as
+``r255g128b0a0`` is a colour, others are plain.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import FileFormatError
+from ..materials import Material
+from ..mesh import Mesh
+from ..topology import polygon_ids
+from .corner_mesh import Triangles, Vertices, build_mesh
+from .documents import CameraRecord, Document, DocumentObject, LightRecord
+from .number_arrays import parse_float
+from .obj_materials import give_companion_texture
+from .registry import Reader
+from .smoothing import FLAT, fill_normals
+from .sources import Source
+from .text import decoded, shown, text_lines
+from .warning_list import WarningList
+
+_END_OF_FILE = b"\x1a"
+_NUMBER = r"\s*(\S+)"
+_POINT = rf"X:{_NUMBER}\s+Y:{_NUMBER}\s+Z:{_NUMBER}"
+_COLOR = rf"Red={_NUMBER}\s+Green={_NUMBER}\s+Blue={_NUMBER}"
+_VERTEX = re.compile(rf"Vertex\s+(\d+)\s*:\s*{_POINT}(?:\s+U:{_NUMBER}\s+V:{_NUMBER})?\s*$")
+_CORNERS = rf"A:{_NUMBER}\s+B:{_NUMBER}\s+C:{_NUMBER}"
+_FLAGS = rf"AB:{_NUMBER}\s+BC:{_NUMBER}\s+CA:{_NUMBER}"
+_FACE = re.compile(rf"Face\s+(\d+)\s*:\s*{_CORNERS}(?:\s+{_FLAGS})?\s*$")
+_TRI_MESH = re.compile(r"Tri-mesh,\s*Vertices:\s*(\S+)\s+Faces:\s*(\S+)\s*$")
+_PAGE = re.compile(r"Page\s+\d+$")
+_CAMERA = re.compile(r"Camera\s*\(\s*([^\s)]+)\s*mm\s*\)")
+_COLOR_NAME = re.compile(r"r(\d{1,3})g(\d{1,3})b(\d{1,3})a(\d{1,3})", re.IGNORECASE)
+
+# 3D Studio's lens table (15 mm: 115 degrees ... 50 mm: 46 degrees) is that of the diagonal of
+# 35 mm film, 43.27 mm, and was used for the width of its pictures, which were 4:3.
+_FILM = 43.27
+_ASPECT = 4 / 3
+_UP = (0.0, 0.0, 1.0)
+
+
+@dataclass
+class _MeshRecord:
+    """A tri-mesh as it stands in the file."""
+
+    name: str
+    line: int
+    vertex_count: int
+    face_count: int
+    is_mapped: bool = False
+    positions: list = field(default_factory=list)
+    uvs: list = field(default_factory=list)
+    corners: list = field(default_factory=list)
+    edge_visible: list = field(default_factory=list)
+    materials: list = field(default_factory=list)
+    smoothing: list = field(default_factory=list)
+
+
+def read_asc(source: Source, split: bool = False) -> Document:
+    """Read a 3D Studio ASCII file.
+
+    Parameters
+    ----------
+    source : Source
+    split : bool
+        Every tri-mesh is an object of its own in any case.
+
+    Raises
+    ------
+    FileFormatError
+        A list does not hold what its count announces, an index is out of range, a line is cut.
+    """
+    parser = _Parser(source)
+    parser.parse()
+    materials = {name: _material(name) for name in parser.material_names}
+    warnings = parser.warnings
+    meshes = [_mesh(record, materials) for record in parser.meshes]
+    if any(mesh.uvs is not None for mesh in meshes):
+        painted = {id(m): m for mesh in meshes for m in mesh.materials}.values()
+        give_companion_texture(source, list(painted), warnings)
+    return Document(
+        "asc",
+        [DocumentObject(mesh.name, mesh, None) for mesh in meshes],
+        parser.lights,
+        parser.cameras,
+        _counts(parser),
+        warnings.messages(),
+    )
+
+
+class _Parser:
+    """Goes through the lines once; each line belongs to the object named last."""
+
+    def __init__(self, source: Source) -> None:
+        if _END_OF_FILE in source.data:
+            source = Source(source.path, source.data.partition(_END_OF_FILE)[0])
+        self._lines = decoded(text_lines(source)).split("\n")
+        self._path = source.path
+        self._number = 0
+        self._name = ""
+        self._mesh: _MeshRecord | None = None
+        self._item: LightRecord | CameraRecord | None = None
+        self.warnings = WarningList(source.path)
+        self.meshes: list[_MeshRecord] = []
+        self.lights: list[LightRecord] = []
+        self.cameras: list[CameraRecord] = []
+        self.material_names: dict[str, None] = {}
+
+    def parse(self) -> None:
+        for number, text in enumerate(self._lines, 1):
+            self._number, line = number, text.strip()
+            if line.startswith("Vertex "):
+                self._read_vertex(line)
+            elif line.startswith("Face "):
+                self._read_face(line)
+            elif line and not self._read_other(line) and not _PAGE.match(line):
+                self.warnings.add(f"{shown(line)} is not understood", self._number)
+        self._finish_mesh()
+        if not self.meshes:
+            raise FileFormatError("no tri-mesh in it: not a 3D Studio ASCII model", self._path)
+
+    def _read_vertex(self, line: str) -> None:
+        if line.startswith("Vertex list"):
+            return
+        mesh, match = self._open_mesh(line), _VERTEX.match(line)
+        if match is None:
+            self._fail(f"not a whole vertex: {shown(line)}")
+        self._check_number(match[1], len(mesh.positions), mesh.vertex_count, "vertex", "vertices")
+        mesh.positions.append([self._float(match[k]) for k in (2, 3, 4)])
+        uv = [self._float(match[k]) for k in (5, 6)] if match[5] else [0.0, 0.0]
+        mesh.is_mapped |= match[5] is not None
+        mesh.uvs.append(uv)
+
+    def _read_face(self, line: str) -> None:
+        mesh = self._open_mesh(line)
+        if line.startswith("Face list"):
+            return
+        match = _FACE.match(line)
+        if match is None:
+            self._fail(f"not a whole face: {shown(line)}")
+        self._check_number(match[1], len(mesh.corners), mesh.face_count, "face", "faces")
+        mesh.corners.append([self._index(match[k], len(mesh.positions)) for k in (2, 3, 4)])
+        mesh.edge_visible.append([match[k] != "0" for k in (5, 6, 7)])
+        mesh.materials.append("")
+        mesh.smoothing.append(FLAT)
+
+    def _read_other(self, line: str) -> bool:
+        """Read a line that is no vertex and no face; False if it says nothing that is known."""
+        keyword, _, rest = line.partition(":")
+        rest = rest.strip()
+        if keyword == "Named object":
+            self._finish_mesh()
+            self._item = None
+            self._name = rest.strip('"')
+        elif keyword == "Material":
+            self._read_material(rest.strip('"'))
+        elif keyword == "Smoothing":
+            self._read_smoothing(rest)
+        elif keyword.startswith("Tri-mesh"):
+            self._start_mesh(line)
+        elif line == "Mapped":
+            self._open_mesh(line).is_mapped = True
+        else:
+            return self._read_light_or_camera(line, keyword, rest)
+        return True
+
+    def _start_mesh(self, line: str) -> None:
+        self._finish_mesh()
+        match = _TRI_MESH.match(line)
+        if match is None:
+            self._fail(f"not a whole tri-mesh line: {shown(line)}")
+        counts = [self._count(match[k]) for k in (1, 2)]
+        self._mesh = _MeshRecord(self._name, self._number, *counts)
+
+    def _finish_mesh(self) -> None:
+        mesh, self._mesh = self._mesh, None
+        if mesh is None:
+            return
+        for found, announced, what in (
+            (len(mesh.positions), mesh.vertex_count, "vertices"),
+            (len(mesh.corners), mesh.face_count, "faces"),
+        ):
+            if found != announced:
+                raise FileFormatError(
+                    f"{announced} {what} announced for {shown(mesh.name)}, {found} are there",
+                    self._path,
+                    mesh.line,
+                )
+        self.meshes.append(mesh)
+
+    def _read_material(self, name: str) -> None:
+        mesh = self._open_mesh("Material")
+        self.material_names[name] = None
+        if mesh.materials:
+            mesh.materials[-1] = name
+
+    def _read_smoothing(self, rest: str) -> None:
+        mesh = self._open_mesh("Smoothing")
+        for word in rest.replace(",", " ").split():
+            if not word.isascii() or not word.isdigit() or not 1 <= int(word[:9]) <= 32:
+                self.warnings.add(f"smoothing group {shown(word)} is left out", self._number)
+            elif mesh.smoothing:
+                mesh.smoothing[-1] |= 1 << (int(word) - 1)
+
+    def _read_light_or_camera(self, line: str, keyword: str, rest: str) -> bool:
+        camera = _CAMERA.match(line)
+        if line in ("Direct light", "Spotlight"):
+            self._item = LightRecord("point", name=self._name)
+            self.lights.append(self._item)
+        elif camera is not None:
+            fov = self._field_of_view(camera[1])
+            self._item = CameraRecord((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), fov, _UP, 0.0, self._name)
+            self.cameras.append(self._item)
+        elif keyword == "Ambient light color":
+            color = self._color(rest)
+            if any(color):
+                self.lights.append(LightRecord("ambient", color=color, name="ambient"))
+        elif self._item is None:
+            return False
+        elif keyword == "Position":
+            self._item.position = self._point(rest)
+        elif isinstance(self._item, CameraRecord):
+            return self._read_camera(self._item, keyword, rest)
+        else:
+            return self._read_light(self._item, keyword, rest)
+        return True
+
+    def _read_camera(self, camera: CameraRecord, keyword: str, rest: str) -> bool:
+        if keyword == "Target":
+            camera.target = self._point(rest)
+        elif keyword == "Bank angle":
+            camera.roll = math.radians(self._first_float(rest))
+        else:
+            return False
+        return True
+
+    def _read_light(self, light: LightRecord, keyword: str, rest: str) -> bool:
+        if keyword == "Light color":
+            light.color = self._color(rest)
+        elif keyword == "Spotlight to":
+            light.kind = "spot"
+            light.target = self._point(rest)
+        elif keyword == "Falloff size":
+            light.angle = math.radians(self._first_float(rest))
+        else:
+            return keyword == "Hotspot size"
+        return True
+
+    def _open_mesh(self, line: str) -> _MeshRecord:
+        if self._mesh is None:
+            self._fail(f"{shown(line)} outside a tri-mesh")
+        return self._mesh
+
+    def _check_number(self, word: str, expected: int, announced: int, one: str, many: str) -> None:
+        if expected >= announced:
+            self._fail(f"more {many} than the {announced} announced")
+        if word.lstrip("0") != str(expected).lstrip("0"):
+            self._fail(f"{one} {shown(word)} where {one} {expected} is due")
+
+    def _count(self, word: str) -> int:
+        if not (word.isascii() and word.isdigit() and len(word) < 12):
+            self._fail(f"not a count: {shown(word)}")
+        return int(word)
+
+    def _index(self, word: str, count: int) -> int:
+        if not (word.isascii() and word.isdigit()):
+            self._fail(f"not a vertex index: {shown(word)}")
+        if len(word) > 10 or int(word) >= count:
+            self._fail(f"vertex index out of range, there are {count}: {shown(word)}")
+        return int(word)
+
+    def _float(self, word: str) -> float:
+        try:
+            return parse_float(word.encode())
+        except ValueError:
+            self._fail(f"not a number: {shown(word)}")
+
+    def _first_float(self, rest: str) -> float:
+        value = self._float((rest.split() or [""])[0])
+        return value if math.isfinite(value) else 0.0
+
+    def _point(self, rest: str) -> tuple[float, float, float]:
+        return self._three(re.match(_POINT, rest), rest)
+
+    def _color(self, rest: str) -> tuple[float, float, float]:
+        return tuple(max(0.0, c) for c in self._three(re.match(_COLOR, rest), rest))
+
+    def _three(self, match: re.Match | None, rest: str) -> tuple[float, float, float]:
+        if match is None:
+            self._fail(f"three numbers are missing: {shown(rest)}")
+        values = tuple(self._float(match[k]) for k in (1, 2, 3))
+        if not all(map(math.isfinite, values)):
+            self._fail(f"not a finite number: {shown(rest)}")
+        return values
+
+    def _field_of_view(self, word: str) -> float:
+        """Vertical field of view, in radians, of a lens in millimetres."""
+        lens = self._float(word)
+        if not (math.isfinite(lens) and lens > 0):
+            self._fail(f"not a lens: {shown(word)}")
+        return 2 * math.atan(_FILM / 2 / lens / _ASPECT)
+
+    def _fail(self, message: str):
+        raise FileFormatError(message, self._path, self._number)
+
+
+def _material(name: str) -> Material:
+    """A material of which only the name is known; the name may be a colour."""
+    match = _COLOR_NAME.fullmatch(name)
+    if match is None:
+        return Material(name=name)
+    color = tuple(min(int(match[k]), 255) / 255 for k in (1, 2, 3))
+    return Material(name=name, color=tuple(round(c * 255) for c in color))
+
+
+def _mesh(record: _MeshRecord, materials: dict[str, Material]) -> Mesh:
+    positions = np.array(record.positions, np.float64).reshape(-1, 3)
+    corners = np.array(record.corners, np.int64).reshape(-1, 3)
+    edge_visible = np.array(record.edge_visible, bool).reshape(-1, 3)
+    none = np.full_like(corners, -1)
+    polygons = polygon_ids(corners, edge_visible)
+    names = list(dict.fromkeys(record.materials)) or [""]
+    number = {name: k for k, name in enumerate(names)}
+    ids = np.array([number[name] for name in record.materials], np.int32)
+    uvs = np.array(record.uvs, np.float64).reshape(-1, 2)[: len(positions) * record.is_mapped]
+    filled = fill_normals(
+        positions,
+        corners,
+        none,
+        np.zeros((0, 3)),
+        np.array(record.smoothing, np.int64),
+        polygons,
+        are_masks=True,
+    )
+    indices, normals = filled if filled is not None and len(corners) else (none, None)
+    triangles = Triangles(
+        corners,
+        corners if record.is_mapped else none,
+        indices,
+        ids,
+        polygons,
+        None if edge_visible.all() else edge_visible,
+    )
+    mesh = build_mesh(
+        Vertices(positions, None, uvs, np.zeros((0, 3))),
+        triangles,
+        normals,
+        np.zeros((0, 2), np.int64),
+        np.zeros(0, np.int64),
+        [materials.get(name) or Material() for name in names],
+        record.name,
+    )
+    mesh.groups = {record.name: np.arange(len(corners), dtype=np.int32)}
+    return mesh
+
+
+def _counts(parser: _Parser) -> dict:
+    return {
+        "vertices": sum(len(mesh.positions) for mesh in parser.meshes),
+        "uvs": sum(len(mesh.uvs) for mesh in parser.meshes if mesh.is_mapped),
+        "normals": 0,
+        "faces": sum(len(mesh.corners) for mesh in parser.meshes),
+        "triangles": sum(len(mesh.corners) for mesh in parser.meshes),
+        "lines": 0,
+        "points": 0,
+        "objects": [mesh.name for mesh in parser.meshes],
+        "groups": [],
+        "materials": [name for name in parser.material_names if name],
+        "lights": [light.name for light in parser.lights],
+        "cameras": [camera.name for camera in parser.cameras],
+    }
+
+
+def _resembles_asc(head: bytes) -> bool:
+    return head.lstrip().startswith((b"Ambient light color", b"Named object"))
+
+
+READERS = (Reader("asc", "3D Studio ASCII", "mesh", (".asc",), read_asc, resembles=_resembles_asc),)

@@ -1,0 +1,169 @@
+"""Threads, forks, signals and long lives: many renderers at once, and none that leaks."""
+
+import gc
+import os
+import resource
+import signal
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+
+SIZE = (160, 120)
+
+
+@pytest.fixture
+def scene():
+    scene = e3d.Scene()
+    scene.add(e3d.torus(0.6, 0.3, (64, 48)))
+    scene.add(e3d.DirectionalLight((-1, -1, -1)))
+    scene.add(e3d.PointLight(intensity=3.0), translation=(1, 1, 2))
+    return scene
+
+
+def test_renderers_in_several_threads_draw_the_same(scene):
+    expected = e3d.render(scene, size=SIZE, threads=1).color
+
+    def draw(threads):
+        with e3d.Renderer(*SIZE, threads=threads) as renderer:
+            return all(np.array_equal(renderer.render(scene).color, expected) for _ in range(10))
+
+    with ThreadPoolExecutor(6) as pool:
+        assert all(pool.map(draw, [1, 2, 3, 1, 2, 3]))
+
+
+def test_one_renderer_in_several_threads_draws_one_frame_after_the_other(scene):
+    renderer = e3d.Renderer(*SIZE)
+    expected = {
+        mode: e3d.render(scene, size=SIZE, mode=mode).color for mode in ("lit", "normal", "depth")
+    }
+
+    def draw(mode):
+        return np.array_equal(renderer.render(scene, mode=mode).color, expected[mode])
+
+    with ThreadPoolExecutor(6) as pool:
+        assert all(pool.map(draw, list(expected) * 10))
+
+
+def test_drawing_releases_the_gil(scene):
+    counted = 0
+    drawing = True
+
+    def count():
+        nonlocal counted
+        while drawing:
+            counted += 1
+            time.sleep(0.001)
+
+    counter = threading.Thread(target=count)
+    renderer = e3d.Renderer(1920, 1080, threads=1, backend="scalar")
+    counter.start()
+    before = counted
+    start = time.perf_counter()
+    renderer.render(scene)
+    seconds = time.perf_counter() - start
+    during = counted - before
+    drawing = False
+    counter.join()
+    assert during > 0.1 * seconds / 0.001
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_fork_draws_the_same(scene):
+    renderer = e3d.Renderer(*SIZE, threads=3)
+    expected = renderer.render(scene).color.tobytes()
+    child = os.fork()
+    if child == 0:
+        same = False
+        try:
+            signal.alarm(30)
+            same = renderer.render(scene).color.tobytes() == expected
+            same = same and e3d.render(scene, size=SIZE, threads=2).color.tobytes() == expected
+        finally:
+            os._exit(0 if same else 1)
+    _, status = os.waitpid(child, 0)
+    assert os.waitstatus_to_exitcode(status) == 0
+    assert renderer.render(scene).color.tobytes() == expected
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_ctrl_c_stops_a_long_frame(threads):
+    scene = e3d.Scene()
+    poses = np.zeros((4000, 4))
+    poses[:, 3] = 1 + np.arange(4000) * 1e-4
+    scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.5, (64, 32)), poses))
+    camera = (e3d.OrthographicCamera(0.2, znear=-9, zfar=9), np.eye(4))
+    renderer = e3d.Renderer(4096, 4096, threads=threads, samples=4, backend="portable")
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    start = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        renderer.render(scene, camera, hidden_surfaces="painter")
+    assert time.perf_counter() - start < 8
+    timer.join()
+    renderer.resize(8, 8)
+    assert renderer.render(e3d.Scene()).color.shape == (8, 8, 4)
+
+
+def test_a_signal_handler_that_does_not_raise_changes_nothing(scene):
+    seen = []
+    previous = signal.signal(signal.SIGUSR1, lambda *_: seen.append(1))
+    try:
+        renderer = e3d.Renderer(1920, 1080, threads=1)
+        expected = renderer.render(scene).color.tobytes()
+        timer = threading.Timer(0.001, os.kill, (os.getpid(), signal.SIGUSR1))
+        timer.start()
+        assert renderer.render(scene).color.tobytes() == expected
+        timer.join()
+    finally:
+        signal.signal(signal.SIGUSR1, previous)
+    assert seen == [1]
+
+
+def resident_pages():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1])
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_renderers_come_and_go_without_a_leak():
+    def live_once():
+        scene = e3d.Scene()
+        mesh = e3d.box()
+        mesh.materials = [e3d.Material(texture=e3d.Texture(np.zeros((8, 8, 3), np.uint8)))]
+        scene.add(mesh)
+        e3d.render(scene, size=(33, 17), threads=2, outputs=("color", "depth", "normal"))
+
+    for _ in range(100):
+        live_once()
+    gc.collect()
+    before = resident_pages()
+    for _ in range(1000):
+        live_once()
+    gc.collect()
+    grown = (resident_pages() - before) * resource.getpagesize()
+    assert grown < 2 << 20
+
+
+def test_native_handles_go_with_their_objects():
+    from engine3d import native_handles
+
+    scene = e3d.Scene()
+    texture = e3d.Texture(np.zeros((2, 2, 3), np.uint8))
+    mesh = e3d.box()
+    mesh.materials = [e3d.Material(texture=texture)]
+    scene.add(mesh)
+    e3d.render(scene, size=(4, 4))
+    assert mesh in native_handles._meshes
+    assert texture in native_handles._textures
+    meshes, textures = len(native_handles._meshes), len(native_handles._textures)
+    del scene, mesh, texture
+    gc.collect()
+    assert len(native_handles._meshes) < meshes
+    assert len(native_handles._textures) < textures

@@ -1,0 +1,45 @@
+"""Scenes of the models that come with engine3d: a textured one, and one in 3D Studio's ASCII."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+from ..display.opening import open_model
+from ..display.subject import Subject
+from ..lights import DirectionalLight
+
+SHOWCASE_MODEL = "island.obj"
+SKY = (142, 178, 204)
+SHOWCASE_SECONDS = 24.0
+TEXTURED_MODEL = "teapot.obj"
+ASC_MODEL = "workshop.asc"
+
+
+def showcase() -> Subject:
+    """Return the scene that shows when none is named: an island by day, turning slowly."""
+    subject = data_model(SHOWCASE_MODEL)
+    scene = subject.scene
+    scene.background = SKY
+    scene.ambient = (0.20, 0.23, 0.27)
+    scene.add(DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.95))
+    scene.add(DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18))
+    subject.title = "default"
+    subject.plays = True
+    subject.period = SHOWCASE_SECONDS
+    return subject
+
+
+def textured() -> Subject:
+    """Return a model with a texture."""
+    return data_model(TEXTURED_MODEL)
+
+
+def asc() -> Subject:
+    """Return a model of several objects from an .asc file."""
+    return data_model(ASC_MODEL)
+
+
+def data_model(name: str) -> Subject:
+    """Return a model of `engine3d.data` by its file name."""
+    return open_model(Path(str(files("engine3d.data"))) / "models" / name)

@@ -1,0 +1,89 @@
+"""Animations to files: GIF, animated WebP and APNG; and names for files that nobody named.
+
+In: (H, W, 4) uint8 RGBA arrays. Out: a file that loops without end, written beside its target and
+renamed when complete. Pillow encodes; it loads when something is written. Pictures are written by
+`Frame.save`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from ..atomic_write import atomic_write
+
+#: The extensions of pictures, which `Frame.save` writes.
+PICTURE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tga", ".webp")
+OPAQUE_SUFFIXES = (".jpg", ".jpeg")
+#: Pillow's name of each animated format.
+ANIMATION_FORMATS = {".gif": "GIF", ".webp": "WEBP", ".apng": "PNG"}
+WEBP_QUALITY = 90
+TRANSPARENT_INDEX = 255
+#: Viewers of GIF take anything shorter for a mistake and show a tenth of a second.
+SHORTEST_MILLISECONDS = 20
+
+
+def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float) -> None:
+    """Write an endless animation; the path's extension chooses the format.
+
+    Parameters
+    ----------
+    pictures : iterable of (H, W, 4) ndarray of uint8
+        At least one; drawn as they are asked for.
+    path : path-like
+        Ends in one of `ANIMATION_FORMATS`.
+    seconds_a_frame : float
+        How long each picture shows.
+
+    Raises
+    ------
+    FileAccessError
+        The file cannot be written.
+    """
+    image_format = ANIMATION_FORMATS[Path(path).suffix.lower()]
+    images = (_image(pixels) for pixels in pictures)
+    if image_format == "GIF":
+        images = (_with_palette(image) for image in images)
+    first, *others = images
+    milliseconds = max(SHORTEST_MILLISECONDS, round(seconds_a_frame * 1000))
+    options = {"save_all": True, "append_images": others, "loop": 0, "duration": milliseconds}
+    if image_format == "GIF":
+        options |= {"disposal": 2, "optimize": False}
+    if image_format == "WEBP":
+        options |= {"quality": WEBP_QUALITY, "method": 2}
+    with atomic_write(path) as file:
+        first.save(file, image_format, **options)
+
+
+def numbered_path(folder: Path, stem: str, suffix: str) -> Path:
+    """Return ``folder/stem-NNN.suffix`` with the first number that no file bears."""
+    number = 1
+    while (path := Path(folder) / f"{stem}-{number:03d}{suffix}").exists():
+        number += 1
+    return path
+
+
+def _image(pixels: np.ndarray):
+    """Return a Pillow image: RGB where every pixel is opaque, else RGBA."""
+    from PIL import Image
+
+    if (pixels[..., 3] == 255).all():
+        return Image.fromarray(np.ascontiguousarray(pixels[..., :3]))
+    return Image.fromarray(np.ascontiguousarray(pixels))
+
+
+def _with_palette(image):
+    """Return ``image`` in 256 colours of its own, as GIF wants it; the last may be transparent."""
+    from PIL import Image
+
+    if image.mode == "RGB":
+        return image.quantize(256, method=Image.Quantize.MEDIANCUT)
+    colors = image.convert("RGB").quantize(TRANSPARENT_INDEX, method=Image.Quantize.MEDIANCUT)
+    indices = np.array(colors)
+    indices[np.asarray(image)[..., 3] < 128] = TRANSPARENT_INDEX
+    result = Image.fromarray(indices, "P")
+    result.putpalette(colors.getpalette())
+    result.info["transparency"] = TRANSPARENT_INDEX
+    return result

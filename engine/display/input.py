@@ -1,0 +1,167 @@
+"""SDL's events, translated into small values that the viewer understands.
+
+In: an ``SDL_Event``. Out: one of the classes below, or None for events that mean nothing here.
+Keys carry both what they type and where they are (named as on a US keyboard). The rest of the
+display package never sees SDL's structures.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class KeyDown:
+    """A key went down (or repeats): ``key`` as typed, ``position`` on the keyboard."""
+
+    key: str
+    position: str
+    shift: bool = False
+    control: bool = False
+    repeat: bool = False
+
+
+@dataclass(frozen=True)
+class KeyUp:
+    """A key came up."""
+
+    key: str
+    position: str
+
+
+@dataclass(frozen=True)
+class MouseButton:
+    """A mouse button (``"left"``, ``"middle"``, ``"right"``) went down or came up."""
+
+    button: str
+    down: bool
+    shift: bool = False
+    control: bool = False
+
+
+@dataclass(frozen=True)
+class MouseMotion:
+    """The mouse moved by (dx, dy) pixels, y downward."""
+
+    dx: int
+    dy: int
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """The wheel turned by ``steps``, positive away from the user."""
+
+    steps: float
+
+
+@dataclass(frozen=True)
+class Resized:
+    """The window's drawable area has a new size, in pixels."""
+
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class FileDropped:
+    """A file was dropped on the window."""
+
+    path: str
+
+
+class Exposed:
+    """The window's content must be shown again."""
+
+
+class Minimised:
+    """The window is hidden: nothing needs drawing."""
+
+
+class Restored:
+    """The window shows again."""
+
+
+class FocusLost:
+    """The keyboard went to another window: no key is down any more as far as we know."""
+
+
+class CloseRequested:
+    """The user, or the system, asked the window to close."""
+
+
+def translate(event):
+    """Return ``event`` (an ``SDL_Event``) as one of this module's classes, or None."""
+    import sdl2
+
+    kind = event.type
+    if kind == sdl2.SDL_QUIT:
+        return CloseRequested()
+    if kind in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
+        return _key(sdl2, event.key, kind == sdl2.SDL_KEYDOWN)
+    if kind in (sdl2.SDL_MOUSEBUTTONDOWN, sdl2.SDL_MOUSEBUTTONUP):
+        return _button(sdl2, event.button.button, kind == sdl2.SDL_MOUSEBUTTONDOWN)
+    if kind == sdl2.SDL_MOUSEMOTION:
+        return MouseMotion(event.motion.xrel, event.motion.yrel)
+    if kind == sdl2.SDL_MOUSEWHEEL:
+        flipped = event.wheel.direction == sdl2.SDL_MOUSEWHEEL_FLIPPED
+        return Wheel(-event.wheel.y if flipped else event.wheel.y)
+    if kind == sdl2.SDL_DROPFILE:
+        return _dropped(sdl2, event.drop)
+    if kind == sdl2.SDL_WINDOWEVENT:
+        return _window(sdl2, event.window)
+    return None
+
+
+def _key(sdl2, event, down: bool):
+    symbol = event.keysym
+    key = sdl2.SDL_GetKeyName(symbol.sym).decode("utf-8", "replace").upper()
+    position = sdl2.SDL_GetScancodeName(symbol.scancode).decode("ascii", "replace")
+    key = key if len(key) == 1 else sdl2.SDL_GetKeyName(symbol.sym).decode("utf-8", "replace")
+    if not down:
+        return KeyUp(key, position)
+    shift = bool(symbol.mod & sdl2.KMOD_SHIFT)
+    control = bool(symbol.mod & sdl2.KMOD_CTRL)
+    return KeyDown(key, position, shift, control, bool(event.repeat))
+
+
+def _button(sdl2, number: int, down: bool):
+    names = {
+        sdl2.SDL_BUTTON_LEFT: "left",
+        sdl2.SDL_BUTTON_MIDDLE: "middle",
+        sdl2.SDL_BUTTON_RIGHT: "right",
+    }
+    if number not in names:
+        return None
+    modifiers = sdl2.SDL_GetModState()
+    shift, control = bool(modifiers & sdl2.KMOD_SHIFT), bool(modifiers & sdl2.KMOD_CTRL)
+    return MouseButton(names[number], down, shift, control)
+
+
+def _dropped(sdl2, event):
+    """Return the dropped file's path; SDL's copy of the name is ours to free."""
+    import ctypes
+    import os
+
+    if not event.file:
+        return None
+    path = os.fsdecode(event.file)
+    address = ctypes.c_void_p.from_buffer(event, type(event).file.offset).value
+    sdl2.SDL_free(ctypes.c_void_p(address))
+    return FileDropped(path)
+
+
+def _window(sdl2, event):
+    kind = event.event
+    if kind == sdl2.SDL_WINDOWEVENT_SIZE_CHANGED:
+        return Resized(event.data1, event.data2)
+    if kind in (sdl2.SDL_WINDOWEVENT_EXPOSED, sdl2.SDL_WINDOWEVENT_SHOWN):
+        return Exposed()
+    if kind in (sdl2.SDL_WINDOWEVENT_MINIMIZED, sdl2.SDL_WINDOWEVENT_HIDDEN):
+        return Minimised()
+    if kind in (sdl2.SDL_WINDOWEVENT_RESTORED, sdl2.SDL_WINDOWEVENT_MAXIMIZED):
+        return Restored()
+    if kind == sdl2.SDL_WINDOWEVENT_FOCUS_LOST:
+        return FocusLost()
+    if kind == sdl2.SDL_WINDOWEVENT_CLOSE:
+        return CloseRequested()
+    return None

@@ -1,0 +1,78 @@
+"""Which key does what: the one list that the loop obeys and the help overlay prints.
+
+A key is named by what it types ("W"), the way SDL names it; walking keys are read by position and
+live in `fps`. Digits also answer by position, for keyboards that type them with Shift.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Binding:
+    """Keys that call one action of `viewer_actions`, and the words the help shows for it."""
+
+    keys: tuple[str, ...]
+    action: str
+    help: str
+
+
+BINDINGS = (
+    Binding(("W",), "cycle_wireframe", "wireframe: off, overlay, only"),
+    Binding(("E",), "toggle_edges", "edges over the faces"),
+    Binding(("M",), "cycle_mode", "next drawing mode (Shift: previous)"),
+    Binding(("N",), "toggle_normals_mode", "show normals as colours"),
+    Binding(("U",), "toggle_unlit", "with or without light"),
+    Binding(("F",), "toggle_flat", "smooth or flat normals"),
+    Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
+    Binding(("V",), "cycle_hidden_surfaces", "hidden surfaces: depth buffer, painter, none"),
+    Binding(("L",), "cycle_lights", "next lights (Shift: previous)"),
+    Binding(("A",), "cycle_samples", "anti-aliasing: 1, 4, 16 samples a pixel"),
+    Binding(("+", "="), "widen_lines", "wider lines and points"),
+    Binding(("-",), "narrow_lines", "thinner lines and points"),
+    Binding(("1",), "view_front", "front view"),
+    Binding(("3",), "view_right", "right view"),
+    Binding(("7",), "view_top", "top view"),
+    Binding(("9",), "view_isometric", "isometric view"),
+    Binding(("5",), "toggle_orthographic", "orthographic or perspective"),
+    Binding(("R", "Return", "Enter"), "reset_view", "reset the view"),
+    Binding(("Tab",), "toggle_walking", "walk: WASD, arrows, Q E, mouse"),
+    Binding(("Space",), "toggle_playing", "pause or play"),
+    Binding(("G",), "toggle_grid", "grid"),
+    Binding(("X",), "toggle_axes", "axes"),
+    Binding(("Z",), "toggle_statistics", "statistics"),
+    Binding(("I",), "toggle_metadata", "what the file holds"),
+    Binding(("F11",), "toggle_fullscreen", "full screen"),
+    Binding(("F12",), "save_screenshot", "screenshot"),
+    Binding(("H",), "toggle_help", "this help"),
+    Binding(("Q",), "quit", "quit"),
+)
+
+#: Mouse gestures, for the help.
+GESTURES = (
+    ("left drag", "orbit"),
+    ("wheel, middle drag", "approach"),
+    ("right drag, Shift+left", "pan"),
+    ("drop a file", "open it"),
+)
+#: Arrow keys in orbit mode: radians of azimuth and elevation.
+ORBIT_ARROWS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
+
+_ACTIONS = {key: binding.action for binding in BINDINGS for key in binding.keys}
+
+
+def action_for(key: str, position: str = "") -> str | None:
+    """Return the action bound to a key, or None.
+
+    Parameters
+    ----------
+    key : str
+        What the key types, e.g. ``"W"``, ``"Return"``, ``"Keypad 7"``.
+    position : str
+        What the key would type on a US keyboard; asked only for digits.
+    """
+    action = _ACTIONS.get(key.removeprefix("Keypad "))
+    if action is None and position.isdigit():
+        action = _ACTIONS.get(position)
+    return action

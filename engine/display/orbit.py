@@ -1,0 +1,61 @@
+"""The orbit controller: mouse drags turn, move and approach a `Viewpoint` round its target.
+
+In: drags and wheel steps in pixels. Out: the view, changed in place.
+The gestures are three.js's OrbitControls: a drag over the window's height turns once round; a pan
+keeps the point under the pointer under it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .viewpoint import QUARTER_TURN, Viewpoint
+
+#: One wheel step, or twenty pixels of a dolly drag, scales the distance by this.
+DOLLY_STEP = 0.95
+DOLLY_PIXELS_A_STEP = 20.0
+#: More wheel steps at once than this are as good as this.
+MAX_STEPS = 500
+MIN_DISTANCE = 1e-6
+MAX_DISTANCE = 1e9
+
+
+class OrbitController:
+    """Turns a view round its target.
+
+    Parameters
+    ----------
+    view : Viewpoint
+        The view to change; may be replaced at any time through the attribute.
+    """
+
+    def __init__(self, view: Viewpoint):
+        self.view = view
+
+    def rotate(self, dx: float, dy: float, height: int) -> None:
+        """Turn by a drag of (dx, dy) pixels in a window ``height`` pixels high."""
+        full_turn = 2 * math.pi / max(height, 1)
+        self.turn(-dx * full_turn, dy * full_turn)
+
+    def turn(self, azimuth: float, elevation: float) -> None:
+        """Add to the angles (radians); the elevation stops overhead and underneath."""
+        view = self.view
+        view.azimuth = math.remainder(view.azimuth + azimuth, 2 * math.pi)
+        view.elevation = max(-QUARTER_TURN, min(QUARTER_TURN, view.elevation + elevation))
+
+    def dolly(self, steps: float) -> None:
+        """Approach the target by ``steps`` wheel steps; a negative number recedes."""
+        steps = max(-MAX_STEPS, min(MAX_STEPS, steps))
+        distance = self.view.distance * DOLLY_STEP**steps
+        self.view.distance = max(MIN_DISTANCE, min(MAX_DISTANCE, distance))
+
+    def dolly_drag(self, dy: float) -> None:
+        """Recede by a downward drag of ``dy`` pixels."""
+        self.dolly(-dy / DOLLY_PIXELS_A_STEP)
+
+    def pan(self, dx: float, dy: float, height: int) -> None:
+        """Move the target so that it follows a drag of (dx, dy) pixels."""
+        view = self.view
+        world_a_pixel = 2 * view.distance * math.tan(view.yfov / 2) / max(height, 1)
+        right, up, _ = view.rotation().T * world_a_pixel
+        view.target = view.target - right * dx + up * dy

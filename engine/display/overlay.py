@@ -1,0 +1,129 @@
+"""Text and marks over the picture: help, statistics, metadata, messages, the axes.
+
+In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text sits on dark,
+translucent blocks in the corners; what does not fit the picture is clipped.
+"""
+
+from __future__ import annotations
+
+from ..canvas import text_size
+from .keymap import BINDINGS, GESTURES
+from .viewpoint import Viewpoint
+
+TEXT = (235, 238, 242, 255)
+DIM = (170, 178, 190, 255)
+BLOCK = (16, 18, 24, 200)
+PADDING = 8
+MARGIN = 10
+LINE_GAP = 3
+#: Pictures at least this high get text twice the size.
+LARGE_HEIGHT = 1400
+#: X, Y and Z, the usual red, green and blue, light enough for a dark background.
+AXIS_COLORS = ((235, 80, 80, 255), (95, 205, 95, 255), (95, 140, 255, 255))
+AXIS_LENGTH = 34
+
+
+def text_scale(canvas) -> int:
+    """Return the factor on the font's size that suits the picture."""
+    return 2 if canvas.pixels.shape[0] >= LARGE_HEIGHT else 1
+
+
+def draw_block(canvas, lines: list[str], *, corner: str = "top left") -> None:
+    """Draw lines of text on a dark block.
+
+    Parameters
+    ----------
+    canvas : Canvas
+        Over the frame.
+    lines : list of str
+        The text.
+    corner : str
+        ``"top left"``, ``"top right"``, ``"bottom left"``, ``"bottom"`` or ``"middle"``.
+    """
+    if not lines:
+        return
+    scale = text_scale(canvas)
+    sizes = [text_size(line, scale) for line in lines]
+    line_height = text_size("M", scale)[1] + LINE_GAP * scale
+    width = max(size[0] for size in sizes) + 2 * PADDING
+    height = line_height * len(lines) - LINE_GAP * scale + 2 * PADDING
+    x, y = _place(canvas, width, height, corner)
+    canvas.rectangle(x, y, width, height, BLOCK)
+    for row, line in enumerate(lines):
+        canvas.text(x + PADDING, y + PADDING + row * line_height, line, TEXT, scale=scale)
+
+
+def _place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
+    """Return the top left pixel of a block in the given corner."""
+    picture_height, picture_width = canvas.pixels.shape[:2]
+    x, y = MARGIN, MARGIN
+    if "right" in corner:
+        x = picture_width - width - MARGIN
+    if corner in ("bottom", "middle"):
+        x = (picture_width - width) // 2
+    if "bottom" in corner:
+        y = picture_height - height - MARGIN
+    if corner == "middle":
+        y = (picture_height - height) // 2
+    return max(x, 0), max(y, 0)
+
+
+def help_lines() -> list[str]:
+    """Return the help: every key and gesture, in one column."""
+    rows = [(" ".join(binding.keys), binding.help) for binding in BINDINGS]
+    rows += list(GESTURES)
+    width = max(len(keys) for keys, _ in rows)
+    return [f"{keys:<{width}}  {text}" for keys, text in rows]
+
+
+def draw_help(canvas) -> None:
+    """Draw the help in the middle, in two columns where one is too high."""
+    lines = help_lines()
+    line_height = text_size("M", text_scale(canvas))[1] + LINE_GAP * text_scale(canvas)
+    if len(lines) * line_height + 2 * (PADDING + MARGIN) > canvas.pixels.shape[0]:
+        half = (len(lines) + 1) // 2
+        width = max(map(len, lines[:half])) + 3
+        right = lines[half:] + [""] * (2 * half - len(lines))
+        lines = [f"{a:<{width}}{b}" for a, b in zip(lines[:half], right, strict=True)]
+    draw_block(canvas, lines, corner="middle")
+
+
+def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[str]:
+    """Return the statistics of the last frame, line by line.
+
+    Parameters
+    ----------
+    seconds : float
+        Mean time from frame to frame.
+    size : (int, int)
+        Width and height in pixels.
+    samples : int
+        Samples a pixel.
+    stats : dict
+        `Frame.stats`: counters and milliseconds of each stage.
+    """
+    rate = 1.0 / seconds if seconds > 0.0 else 0.0
+    lines = [
+        f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
+        f"{size[0]}x{size[1]}" + (f", {samples} samples a pixel" if samples > 1 else ""),
+    ]
+    for name, value in stats.items():
+        text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
+        lines.append(f"{name.replace('_', ' '):<20}{text:>12}")
+    return lines
+
+
+def draw_axes(canvas, view: Viewpoint) -> None:
+    """Draw the world's axes, as the camera sees their directions, in the bottom left corner."""
+    scale = text_scale(canvas)
+    length = AXIS_LENGTH * scale
+    reach = length + 14 * scale
+    x0, y0 = reach, canvas.pixels.shape[0] - reach
+    # Row k of the rotation is the world's axis k in camera space: right, up, back.
+    axes = zip(view.rotation().tolist(), "XYZ", AXIS_COLORS, strict=True)
+    for (right, up, _), letter, color in sorted(axes, key=lambda axis: axis[0][2]):
+        x, y = round(x0 + right * length), round(y0 - up * length)
+        canvas.line(x0, y0, x, y, color, width=2 * scale)
+        half_width, half_height = (side / 2 for side in text_size(letter, scale))
+        x, y = x0 + right * (length + 8 * scale), y0 - up * (length + 8 * scale)
+        canvas.text(round(x - half_width), round(y - half_height), letter, color, scale=scale)

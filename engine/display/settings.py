@@ -1,0 +1,38 @@
+"""What the user asked for on the command line, whatever is shown.
+
+Plain data: the command line fills it in, `Studio` applies it to each subject.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass
+class Settings:
+    """What the user asked for, whatever the subject; None leaves it to the subject.
+
+    Attributes
+    ----------
+    look : dict
+        Fields of `Look` that were given.
+    up : str or None
+        A key of `viewpoint.UP_DIRECTIONS`.
+    background : (3,) tuple of int or None
+        sRGB, 0 to 255.
+    light_position : (3,) tuple of float or None
+        World space.
+    light_intensity : float or None
+        See `lighting.PlacedLight` and `lighting.Lighting`.
+    grid, axes, metadata : bool
+        What to draw besides the scene.
+    """
+
+    look: dict
+    up: str | None = None
+    background: tuple[int, int, int] | None = None
+    light_position: tuple[float, float, float] | None = None
+    light_intensity: float | None = None
+    grid: bool = False
+    axes: bool = False
+    metadata: bool = False

@@ -1,0 +1,176 @@
+"""A subject, lit and drawn: what the window, the turntable and the still picture have in common.
+
+In: a `Subject`, a size, a `Look`, a `Viewpoint`. Out: a `Frame`, with guides and text drawn on it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .. import linalg
+from ..renderer import Renderer
+from .guides import grid
+from .lighting import Lighting, PlacedLight
+from .look import Look
+from .overlay import draw_axes, draw_block
+from .settings import Settings
+from .subject import Subject
+from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, turning_outline
+
+
+class Studio:
+    """Holds a renderer and what it draws.
+
+    Parameters
+    ----------
+    subject : Subject
+        What to draw first; `show` changes it.
+    settings : Settings
+        What the user asked for.
+    size : (int, int)
+        Width and height in pixels.
+    backend, threads, samples
+        As in `Renderer`.
+    transparent : bool
+        Whether pixels that show no surface get alpha 0.
+    """
+
+    def __init__(
+        self,
+        subject: Subject,
+        settings: Settings,
+        size: tuple[int, int],
+        *,
+        backend: str = "auto",
+        threads: int = 0,
+        samples: int = 1,
+        transparent: bool = False,
+    ):
+        self._transparent = transparent
+        self._options = {"backend": backend, "threads": threads}
+        self.samples = samples
+        self.size = size
+        self.renderer = self._make_renderer()
+        self.settings = settings
+        self.show(subject)
+
+    def _make_renderer(self) -> Renderer:
+        return Renderer(*self.size, samples=self.samples, **self._options)
+
+    def show(self, subject: Subject, *, keep_look: bool = False) -> None:
+        """Draw another subject from now on.
+
+        Parameters
+        ----------
+        subject : Subject
+            What to draw.
+        keep_look : bool
+            Draw it as the last one was drawn, in the same lights.
+        """
+        settings = self.settings
+        self.subject = subject
+        lights = self.lighting.name if keep_look else ""
+        if not keep_look:
+            self.look = Look(**(subject.look | settings.look))
+        self.bounds = subject.bounds
+        self.up = settings.up or subject.up
+        # Before the grid, which is no part of what the first view shows.
+        self._outline = subject.focus
+        if self._outline is None:
+            self._outline = turning_outline(subject.scene, UP_DIRECTIONS[self.up])
+        self._grid = None
+        if self._transparent:
+            subject.scene.background = None
+        elif settings.background is not None:
+            subject.scene.background = settings.background
+        self.lighting = self._light()
+        if lights in self.lighting.names:
+            self.lighting.choose(lights)
+        self.show_grid(settings.grid)
+
+    def _light(self) -> Lighting | PlacedLight:
+        scene, settings = self.subject.scene, self.settings
+        intensity = settings.light_intensity
+        if settings.light_position is not None:
+            return PlacedLight(scene, settings.light_position, self.bounds, intensity)
+        return Lighting(scene, UP_DIRECTIONS[self.up], 1.0 if intensity is None else intensity)
+
+    def show_grid(self, shown: bool) -> None:
+        """Draw a grid under the scene, or not."""
+        self.settings.grid = shown
+        if shown and self._grid is None:
+            scene = self.subject.scene
+            lines = grid(self._lowest(), self.bounds, UP_DIRECTIONS[self.up])
+            self._grid = scene.add(lines, name="grid")
+        if self._grid is not None:
+            self._grid.visible = shown
+
+    def _lowest(self) -> float:
+        """Return how low the subject reaches along the up direction, however it moves."""
+        up = UP_DIRECTIONS[self.up]
+        if self.subject.update is not None:
+            return float(linalg.dot(self.bounds.center, up)) - self.bounds.radius
+        return float(linalg.dot(self.subject.scene.bounds, up).min())
+
+    def resize(self, width: int, height: int) -> None:
+        """Draw frames of another size from now on."""
+        if (width, height) != self.size:
+            self.size = (width, height)
+            self.renderer.resize(width, height)
+
+    def resample(self, samples: int) -> None:
+        """Take another number of samples a pixel from now on."""
+        self.samples = samples
+        self.renderer.close()
+        self.renderer = self._make_renderer()
+
+    @property
+    def aspect(self) -> float:
+        """Width over height of the frames."""
+        return self.size[0] / self.size[1]
+
+    def view(self, yfov: float = DEFAULT_YFOV) -> Viewpoint:
+        """Return the first view of the subject, with a vertical field of view in radians."""
+        subject, up = self.subject, UP_DIRECTIONS[self.up]
+        view = Viewpoint(np.zeros(3), 1.0, subject.azimuth, subject.elevation, up, yfov)
+        view.frame(self._outline, self.aspect)
+        return view
+
+    def draw(self, view: Viewpoint, time: float = 0.0):
+        """Return the frame at ``time`` (seconds) as seen by ``view``."""
+        if self.subject.update is not None:
+            self.subject.update(time)
+        pose = view.pose()
+        self.lighting.follow(pose)
+        camera = view.camera(self._clip_bounds())
+        frame = self.renderer.render(self.subject.scene, (camera, pose), **self.look.arguments())
+        if self.settings.axes or self.settings.metadata:
+            canvas = frame.canvas()
+            if self.settings.axes:
+                draw_axes(canvas, view)
+            if self.settings.metadata:
+                draw_block(canvas, self.metadata(), corner="top right")
+        return frame
+
+    def _clip_bounds(self) -> Sphere:
+        """Return what the clip planes must enclose: animated parts and the grid included."""
+        margin = 1.0 if self.subject.update is None else 1.6
+        if self.settings.grid:
+            margin = max(margin, 3.2)
+        return replace(self.bounds, radius=self.bounds.radius * margin)
+
+    def metadata(self) -> list[str]:
+        """Return what the subject's file holds, line by line."""
+        return [self.subject.title, *self.subject.details]
+
+    def close(self) -> None:
+        """Free the renderer's buffers."""
+        self.renderer.close()
+
+    def __enter__(self) -> Studio:
+        return self
+
+    def __exit__(self, *exception) -> None:
+        self.close()

@@ -1,0 +1,302 @@
+"""The viewer's loop: events in, frames out, as long as the window is open.
+
+In: a `Studio` and a `Window` (or anything with its methods). Out: frames on the screen.
+A frame is drawn only when something changed, moves or is walked through; otherwise the loop sleeps
+until the next event, and it does nothing at all while the window is minimised.
+"""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections import deque
+
+from ..errors import Engine3DError
+from . import input as events
+from . import viewer_actions
+from .fps import MOVES, FpsController
+from .keymap import ORBIT_ARROWS, action_for
+from .opening import open_model
+from .orbit import OrbitController
+from .overlay import draw_block, draw_help, statistics_lines
+from .studio import Studio
+from .watch import FileWatch
+
+#: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
+IDLE_SECONDS = 0.25
+MESSAGE_SECONDS = 2.5
+TITLE_SECONDS = 0.5
+#: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
+LONGEST_STEP = 0.1
+ARROW_RADIANS = math.radians(7.5)
+
+
+class Viewer:
+    """Shows a studio's subject in a window and lets the user turn it.
+
+    Parameters
+    ----------
+    studio : Studio
+        Draws the frames.
+    window : Window
+        Shows them and brings the events.
+    view : Viewpoint, optional
+        Where to look from at first and after a reset.
+    walking : bool
+        Start with the walking camera.
+    playing : bool, optional
+        Whether to move from the start; by default as the subject likes.
+    statistics : bool
+        Show statistics from the start.
+    watch : bool
+        Load the subject's file again when it changes.
+    """
+
+    def __init__(
+        self,
+        studio: Studio,
+        window,
+        *,
+        view=None,
+        walking: bool = False,
+        playing: bool | None = None,
+        statistics: bool = False,
+        watch: bool = False,
+    ):
+        self.studio = studio
+        self.window = window
+        self.first_view = view or studio.view()
+        self.view = self.first_view.copy()
+        self.orbit = OrbitController(self.view)
+        self.walker: FpsController | None = None
+        self.time = 0.0
+        self.playing = studio.subject.plays if playing is None else playing
+        self.show_help = False
+        self.show_statistics = statistics
+        self.running = True
+        self.changed = True
+        self.frame = None
+        self.held_positions: set[str] = set()
+        self.fast = False
+        self.drag: str | None = None
+        self._message = ""
+        self._message_ends = 0.0
+        self._frame_times = deque(maxlen=60)
+        self._title_due = 0.0
+        self._watch = FileWatch(studio.subject.path if watch else None)
+        if walking:
+            viewer_actions.toggle_walking(self)
+
+    # The loop
+
+    def run(self, frames: int | None = None) -> None:
+        """Show frames until the window closes, or until ``frames`` have been drawn."""
+        drawn = 0
+        last = clock.monotonic()
+        while self.running and (frames is None or drawn < frames):
+            for event in self.window.events(0.0 if self._lively() else IDLE_SECONDS):
+                self.handle(event)
+            now = clock.monotonic()
+            self.advance(min(now - last, LONGEST_STEP))
+            last = now
+            if self.changed and self.running and not self.window.minimised:
+                self.draw()
+                drawn += 1
+
+    def _lively(self) -> bool:
+        """Return whether the next frame should come at once rather than wait for an event."""
+        if self.window.minimised:
+            return False
+        return self.changed or self.playing or self._walking_now()
+
+    def _walking_now(self) -> bool:
+        return self.walker is not None and bool(self.held_positions)
+
+    def advance(self, seconds: float) -> None:
+        """Let ``seconds`` pass: animation, walking, messages that end, files that changed."""
+        if self.playing and not self.window.minimised:
+            self._play(seconds)
+        if self.walker is not None and self.walker.walk(self.held_positions, seconds, self.fast):
+            self.walker.place(self.view)
+            self.changed = True
+        if self._message and clock.monotonic() >= self._message_ends:
+            self._message = ""
+            self.changed = True
+        if self._watch.changed():
+            self.open(self._watch.path, keep_view=True)
+
+    def _play(self, seconds: float) -> None:
+        subject = self.studio.subject
+        self.changed = True
+        self.time = (self.time + seconds) % subject.period
+        if subject.update is None and self.walker is None and self.drag is None:
+            self.orbit.turn(2 * math.pi * seconds / subject.period, 0.0)
+
+    def draw(self) -> None:
+        """Draw one frame, its overlays, and show it."""
+        width, height = self.window.size
+        self.studio.resize(width, height)
+        self.changed = False
+        self.frame = self.studio.draw(self.view, self.time)
+        self._draw_overlays()
+        self.window.present(self.frame.color)
+        self._frame_times.append(clock.monotonic())
+        self._update_title()
+
+    def _draw_overlays(self) -> None:
+        if not (self.show_help or self.show_statistics or self._message):
+            return
+        canvas = self.frame.canvas()
+        if self.show_statistics:
+            draw_block(canvas, self._statistics())
+        if self.show_help:
+            draw_help(canvas)
+        if self._message:
+            draw_block(canvas, [self._message], corner="bottom")
+
+    def _statistics(self) -> list[str]:
+        studio = self.studio
+        return statistics_lines(
+            self.frame_seconds(),
+            studio.size,
+            studio.samples,
+            self.frame.stats,
+        )
+
+    def frame_seconds(self) -> float:
+        """Return the mean time from frame to frame over the last second or so; 0 if unknown."""
+        times = self._frame_times
+        recent = [moment for moment in times if moment > times[-1] - 1.0] if times else []
+        if len(recent) < 2:
+            return 0.0
+        return (recent[-1] - recent[0]) / (len(recent) - 1)
+
+    def _update_title(self) -> None:
+        now = clock.monotonic()
+        if now < self._title_due:
+            return
+        self._title_due = now + TITLE_SECONDS
+        seconds = self.frame_seconds()
+        rate = f" - {1.0 / seconds:.0f} fps" if seconds > 0.0 else ""
+        self.window.set_title(f"{self.studio.subject.title} - engine3d{rate}")
+
+    def say(self, message: str) -> None:
+        """Show a message for a moment."""
+        self._message = message
+        self._message_ends = clock.monotonic() + MESSAGE_SECONDS
+        self.changed = True
+
+    def open(self, path, *, keep_view: bool = False) -> None:
+        """Show another file; one that cannot be read leaves what is there, and says why."""
+        try:
+            subject = open_model(path)
+        except Engine3DError as error:
+            self.say(str(error))
+            return
+        self.studio.show(subject, keep_look=keep_view)
+        if not keep_view:
+            self.time = 0.0
+            self.playing = subject.plays
+            self.first_view = self.studio.view()
+            viewer_actions.reset_view(self)
+        self._watch.follow(path if self._watch.path else None)
+        self.say(subject.warnings[0] if subject.warnings else f"opened {subject.title}")
+
+    # Events
+
+    def handle(self, event) -> None:
+        """Obey one event of `input`."""
+        handler = _HANDLERS.get(type(event))
+        if handler is not None:
+            handler(self, event)
+
+    def _key_down(self, event) -> None:
+        self.fast = event.shift
+        if self.walker is not None and self._walk_key(event):
+            return
+        if event.position in ORBIT_ARROWS and self.walker is None:
+            right, up = ORBIT_ARROWS[event.position]
+            self.orbit.turn(right * ARROW_RADIANS, up * ARROW_RADIANS)
+            self.changed = True
+            return
+        action = action_for(event.key, event.position)
+        if action is not None and not event.repeat and not event.control:
+            getattr(viewer_actions, action)(self, -1 if event.shift else 1)
+            self.changed = True
+
+    def _walk_key(self, event) -> bool:
+        """Obey a key of walking mode; return whether it was one."""
+        if event.key == "Escape":
+            viewer_actions.toggle_walking(self)
+            return True
+        if event.position in MOVES:
+            self.held_positions.add(event.position)
+            return True
+        return False
+
+    def _key_up(self, event) -> None:
+        self.held_positions.discard(event.position)
+        if event.key.endswith("Shift"):
+            self.fast = False
+
+    def _button(self, event) -> None:
+        if self.walker is not None:
+            return
+        self.window.hold_mouse(event.down)
+        if not event.down:
+            self.drag = None
+        elif event.button == "left":
+            self.drag = "pan" if event.shift or event.control else "rotate"
+        else:
+            self.drag = {"middle": "dolly", "right": "pan"}[event.button]
+
+    def _motion(self, event) -> None:
+        height = self.studio.size[1]
+        if self.walker is not None:
+            self.walker.look(event.dx, event.dy)
+            self.walker.place(self.view)
+        elif self.drag == "rotate":
+            self.orbit.rotate(event.dx, event.dy, height)
+        elif self.drag == "pan":
+            self.orbit.pan(event.dx, event.dy, height)
+        elif self.drag == "dolly":
+            self.orbit.dolly_drag(event.dy)
+        else:
+            return
+        self.changed = True
+
+    def _wheel(self, event) -> None:
+        if self.walker is not None:
+            self.walker.change_speed(event.steps)
+            return
+        self.orbit.dolly(event.steps)
+        self.changed = True
+
+    def _redraw(self, event) -> None:
+        self.changed = True
+
+    def _release_keys(self, event) -> None:
+        self.held_positions.clear()
+        self.drag = None
+
+    def _dropped(self, event) -> None:
+        self.open(event.path)
+
+    def _close(self, event) -> None:
+        self.running = False
+
+
+_HANDLERS = {
+    events.KeyDown: Viewer._key_down,
+    events.KeyUp: Viewer._key_up,
+    events.MouseButton: Viewer._button,
+    events.MouseMotion: Viewer._motion,
+    events.Wheel: Viewer._wheel,
+    events.Resized: Viewer._redraw,
+    events.Exposed: Viewer._redraw,
+    events.Restored: Viewer._redraw,
+    events.Minimised: Viewer._release_keys,
+    events.FocusLost: Viewer._release_keys,
+    events.FileDropped: Viewer._dropped,
+    events.CloseRequested: Viewer._close,
+}

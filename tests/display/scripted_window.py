@@ -1,0 +1,37 @@
+"""A window without a screen, for tests: it plays a script of events and keeps what it was shown."""
+
+
+class ScriptedWindow:
+    """Has the methods of `Window`; each call of ``events`` returns the script's next list.
+
+    When the script is over it asks to close.
+    """
+
+    def __init__(self, script=(), size=(160, 120)):
+        self._script = list(script)
+        self.size = size
+        self.minimised = False
+        self.shown = []
+        self.titles = []
+        self.captured = False
+        self.fullscreen = False
+
+    def events(self, timeout=0.0):
+        from engine3d.display.input import CloseRequested
+
+        return self._script.pop(0) if self._script else [CloseRequested()]
+
+    def present(self, pixels):
+        self.shown.append(pixels.copy())
+
+    def set_title(self, title):
+        self.titles.append(title)
+
+    def capture_mouse(self, captured):
+        self.captured = captured
+
+    def hold_mouse(self, held):
+        pass
+
+    def toggle_fullscreen(self):
+        self.fullscreen = not self.fullscreen

@@ -1,0 +1,112 @@
+"""SDL events become the viewer's own."""
+
+import ctypes
+
+import pytest
+
+from engine3d.display import input as events
+from engine3d.display.window import load_sdl
+
+sdl2 = load_sdl()
+
+
+def key_event(kind, symbol, scancode, modifiers=0, repeat=0):
+    event = sdl2.SDL_Event()
+    event.type = kind
+    event.key.keysym.sym = symbol
+    event.key.keysym.scancode = scancode
+    event.key.keysym.mod = modifiers
+    event.key.repeat = repeat
+    return event
+
+
+def window_event(kind, width=0, height=0):
+    event = sdl2.SDL_Event()
+    event.type = sdl2.SDL_WINDOWEVENT
+    event.window.event = kind
+    event.window.data1, event.window.data2 = width, height
+    return event
+
+
+def test_a_key_has_a_letter_and_a_position():
+    azerty_z = key_event(sdl2.SDL_KEYDOWN, sdl2.SDLK_z, sdl2.SDL_SCANCODE_W)
+    assert events.translate(azerty_z) == events.KeyDown("Z", "W")
+
+
+def test_a_key_has_modifiers_and_repeats():
+    event = key_event(
+        sdl2.SDL_KEYDOWN, sdl2.SDLK_w, sdl2.SDL_SCANCODE_W, sdl2.KMOD_LSHIFT | sdl2.KMOD_RCTRL, 1
+    )
+    assert events.translate(event) == events.KeyDown("W", "W", True, True, True)
+
+
+def test_a_key_comes_up():
+    event = key_event(sdl2.SDL_KEYUP, sdl2.SDLK_LEFT, sdl2.SDL_SCANCODE_LEFT)
+    assert events.translate(event) == events.KeyUp("Left", "Left")
+
+
+@pytest.mark.parametrize(
+    ("symbol", "name"),
+    [
+        (sdl2.SDLK_RETURN, "Return"),
+        (sdl2.SDLK_TAB, "Tab"),
+        (sdl2.SDLK_SPACE, "Space"),
+        (sdl2.SDLK_F12, "F12"),
+        (sdl2.SDLK_ESCAPE, "Escape"),
+        (sdl2.SDLK_KP_7, "Keypad 7"),
+        (sdl2.SDLK_MINUS, "-"),
+    ],
+)
+def test_keys_bear_the_names_of_the_keymap(symbol, name):
+    event = key_event(sdl2.SDL_KEYDOWN, symbol, 0)
+    assert events.translate(event).key == name
+
+
+def test_mouse_events():
+    event = sdl2.SDL_Event()
+    event.type = sdl2.SDL_MOUSEBUTTONDOWN
+    event.button.button = sdl2.SDL_BUTTON_MIDDLE
+    assert events.translate(event) == events.MouseButton("middle", True)
+    event.button.button = 9
+    assert events.translate(event) is None
+    event = sdl2.SDL_Event()
+    event.type = sdl2.SDL_MOUSEMOTION
+    event.motion.xrel, event.motion.yrel = 3, -4
+    assert events.translate(event) == events.MouseMotion(3, -4)
+    event = sdl2.SDL_Event()
+    event.type = sdl2.SDL_MOUSEWHEEL
+    event.wheel.y = 2
+    assert events.translate(event) == events.Wheel(2)
+    event.wheel.direction = sdl2.SDL_MOUSEWHEEL_FLIPPED
+    assert events.translate(event) == events.Wheel(-2)
+
+
+def test_window_events():
+    resized = window_event(sdl2.SDL_WINDOWEVENT_SIZE_CHANGED, 300, 200)
+    assert events.translate(resized) == events.Resized(300, 200)
+    for kind, expected in [
+        (sdl2.SDL_WINDOWEVENT_EXPOSED, events.Exposed),
+        (sdl2.SDL_WINDOWEVENT_MINIMIZED, events.Minimised),
+        (sdl2.SDL_WINDOWEVENT_RESTORED, events.Restored),
+        (sdl2.SDL_WINDOWEVENT_FOCUS_LOST, events.FocusLost),
+        (sdl2.SDL_WINDOWEVENT_CLOSE, events.CloseRequested),
+    ]:
+        assert isinstance(events.translate(window_event(kind)), expected)
+    assert events.translate(window_event(sdl2.SDL_WINDOWEVENT_MOVED)) is None
+
+
+def test_a_dropped_file_gives_its_path():
+    name = "/tmp/päth.obj".encode()
+    sdl2.SDL_malloc.restype = ctypes.c_void_p
+    memory = sdl2.SDL_malloc(len(name) + 1)
+    ctypes.memmove(memory, name + b"\0", len(name) + 1)
+    event = sdl2.SDL_Event()
+    event.type = sdl2.SDL_DROPFILE
+    event.drop.file = ctypes.cast(memory, ctypes.c_char_p)
+    assert events.translate(event) == events.FileDropped("/tmp/päth.obj")
+
+
+def test_other_events_mean_nothing():
+    event = sdl2.SDL_Event()
+    event.type = sdl2.SDL_USEREVENT
+    assert events.translate(event) is None

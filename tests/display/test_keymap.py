@@ -1,0 +1,47 @@
+"""The keys: each is bound once, each action exists, and each is in the help."""
+
+import pytest
+
+from engine3d.display import viewer_actions
+from engine3d.display.fps import MOVES
+from engine3d.display.keymap import BINDINGS, action_for
+from engine3d.display.overlay import help_lines
+
+
+def test_no_key_is_bound_twice():
+    keys = [key for binding in BINDINGS for key in binding.keys]
+    assert len(keys) == len(set(keys))
+
+
+@pytest.mark.parametrize("binding", BINDINGS, ids=lambda binding: binding.action)
+def test_every_binding_calls_an_action(binding):
+    assert callable(getattr(viewer_actions, binding.action))
+
+
+def test_every_public_action_is_bound():
+    bound = {binding.action for binding in BINDINGS}
+    actions = {
+        name
+        for name, value in vars(viewer_actions).items()
+        if getattr(value, "__module__", "") == viewer_actions.__name__ and name[0] != "_"
+    }
+    assert actions == bound
+
+
+def test_keypad_keys_and_digits_by_position_answer():
+    assert action_for("Keypad 7") == "view_top"
+    assert action_for("Keypad Enter") == "reset_view"
+    assert action_for("&", "1") == "view_front"
+    assert action_for("Z", "W") == "toggle_statistics"
+    assert action_for("Escape") is None
+
+
+def test_the_help_names_every_key():
+    text = "\n".join(help_lines())
+    for binding in BINDINGS:
+        assert binding.help in text
+    assert "drag" in text
+
+
+def test_walking_keys_are_positions_of_letters_and_arrows():
+    assert {"W", "A", "S", "D", "Up", "Down", "Left", "Right"} <= set(MOVES)

@@ -1,0 +1,142 @@
+"""Overlays, the grid, animations in files, and the file watch."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from engine3d.canvas import Canvas
+from engine3d.display.animation_files import (
+    ANIMATION_FORMATS,
+    numbered_path,
+    save_animation,
+)
+from engine3d.display.guides import grid, grid_step
+from engine3d.display.overlay import draw_axes, draw_block, draw_help, statistics_lines
+from engine3d.display.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from engine3d.display.watch import FileWatch
+from engine3d.errors import FileAccessError
+
+
+@pytest.mark.parametrize("corner", ["top left", "top right", "bottom left", "bottom", "middle"])
+def test_a_block_darkens_its_corner_only(corner):
+    canvas = Canvas(200, 100)
+    canvas.clear((90, 90, 90))
+    draw_block(canvas, ["hello"], corner=corner)
+    changed = (canvas.pixels[..., :3] != 90).any(axis=2)
+    assert changed.any()
+    assert changed.mean() < 0.3
+    rows, columns = np.nonzero(changed)
+    if "bottom" in corner:
+        assert rows.min() > 50
+    if "top" in corner:
+        assert rows.max() < 50
+    if "right" in corner:
+        assert columns.min() > 100
+
+
+def test_text_on_a_picture_of_a_pixel_is_clipped():
+    canvas = Canvas(1, 1)
+    draw_block(canvas, ["hello", "world"])
+    draw_help(canvas)
+    draw_axes(canvas, Viewpoint(np.zeros(3), 1.0))
+
+
+def test_the_help_fits_the_usual_window():
+    canvas = Canvas(1280, 720)
+    draw_help(canvas)
+    untouched = (canvas.pixels[..., :3] == 0).all(axis=2)
+    assert untouched[:4].all() and untouched[-4:].all()
+    assert untouched[:, :4].all() and untouched[:, -4:].all()
+
+
+def test_axes_point_where_the_camera_sees_them():
+    canvas = Canvas(200, 200)
+    draw_axes(canvas, Viewpoint(np.zeros(3), 1.0, azimuth=0.0, elevation=0.0))
+    red, green = (canvas.pixels[..., k].astype(int) for k in (0, 1))
+    x_rows, x_columns = np.nonzero(red > green + 80)
+    y_rows, y_columns = np.nonzero(green > red + 80)
+    assert np.ptp(x_columns) > np.ptp(x_rows)
+    assert np.ptp(y_rows) > np.ptp(y_columns)
+
+
+def test_statistics_name_the_rate_and_every_counter():
+    lines = statistics_lines(0.02, (320, 200), 4, {"triangles": 12, "ms_total": 1.5})
+    text = "\n".join(lines)
+    assert "50.0 frames/s" in text
+    assert "320x200, 4 samples" in text
+    assert "triangles" in text and "12" in text and "1.500" in text
+    assert "0.0 frames/s" in statistics_lines(0.0, (1, 1), 1, {})[0]
+
+
+@pytest.mark.parametrize("radius", [1e-3, 0.37, 1.0, 5.0, 123.0, 1e6])
+def test_grid_steps_are_round(radius):
+    step = grid_step(radius)
+    mantissa = step / 10.0 ** np.floor(np.log10(step * 1.0001))
+    assert any(mantissa == pytest.approx(round_number) for round_number in (1, 2, 5))
+    assert 0.1 < step / radius < 1.0
+
+
+@pytest.mark.parametrize("up", UP_DIRECTIONS.values())
+def test_the_grid_lies_under_the_scene(up):
+    mesh = grid(-2.0, Sphere((0.0, 0.0, 0.0), 3.7), up)
+    heights = mesh.positions @ np.array(up)
+    np.testing.assert_allclose(heights, -2.0, atol=1e-5)
+    assert len(mesh.lines) > 10
+    assert len(mesh.faces) == 0
+
+
+@pytest.mark.parametrize("suffix", ANIMATION_FORMATS)
+@pytest.mark.parametrize("alpha", [255, 0])
+def test_animations_hold_every_picture_and_loop(tmp_path, suffix, alpha):
+    pictures = np.zeros((5, 20, 30, 4), dtype=np.uint8)
+    pictures[..., 3] = 255
+    for index in range(5):
+        pictures[index, :, index * 5 : index * 5 + 5, :3] = (200, 100, 50)
+    pictures[:, :5, :, 3] = alpha
+    path = tmp_path / f"turn{suffix}"
+    save_animation(iter(pictures), path, 0.05)
+    with Image.open(path) as image:
+        assert image.n_frames == 5
+        assert image.info.get("loop", 0) == 0
+        for index in range(5):
+            image.seek(index)
+            shown = np.asarray(image.convert("RGBA")).astype(int)
+            assert (abs(shown[10:, :, :3] - pictures[index, 10:, :, :3]) < 40).all()
+            assert (shown[:4, :, 3] == alpha).all()
+    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
+
+
+def test_an_animation_that_fails_leaves_no_file(tmp_path):
+    def pictures():
+        yield np.full((4, 4, 4), 255, dtype=np.uint8)
+        raise RuntimeError("lost")
+
+    with pytest.raises(RuntimeError, match="lost"):
+        save_animation(pictures(), tmp_path / "a.gif", 0.1)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_animation_into_a_missing_folder(tmp_path):
+    with pytest.raises(FileAccessError):
+        save_animation(iter(np.zeros((1, 4, 4, 4), np.uint8)), tmp_path / "no" / "a.gif", 0.1)
+
+
+def test_numbered_paths_take_the_first_free_number(tmp_path):
+    assert numbered_path(tmp_path, "a", ".png").name == "a-001.png"
+    (tmp_path / "a-001.png").touch()
+    assert numbered_path(tmp_path, "a", ".png").name == "a-002.png"
+
+
+def test_a_file_watch_reports_a_change_once_it_has_settled(tmp_path, monkeypatch):
+    monkeypatch.setattr("engine3d.display.watch.CHECK_SECONDS", 0.0)
+    path = tmp_path / "model"
+    path.write_text("one")
+    watch = FileWatch(path)
+    assert not watch.changed()
+    path.write_text("longer")
+    assert not watch.changed()
+    assert watch.changed()
+    assert not watch.changed()
+    path.unlink()
+    assert not watch.changed()
+    assert not FileWatch(None).changed()

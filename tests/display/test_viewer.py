@@ -1,0 +1,288 @@
+"""The viewer's loop and its keys, with a scripted window and the real renderer."""
+
+import math
+
+import numpy as np
+import pytest
+from display.scripted_window import ScriptedWindow
+
+import engine3d as e3d
+from engine3d.display import input as events
+from engine3d.display.keymap import BINDINGS
+from engine3d.display.settings import Settings
+from engine3d.display.studio import Studio
+from engine3d.display.subject import Subject
+from engine3d.display.viewer import Viewer
+
+SIZE = (160, 120)
+
+
+def key(name, **modifiers):
+    return events.KeyDown(name, name, **modifiers)
+
+
+def make_subject(**options):
+    scene = e3d.Scene((10, 20, 30))
+    scene.add(e3d.torus(0.5, 0.2, (24, 12)), name="torus")
+    return Subject(scene, "torus.obj", **options)
+
+
+def make_viewer(script=(), subject=None, **options):
+    studio = Studio(subject or make_subject(), Settings({}), SIZE)
+    window = ScriptedWindow(script, SIZE)
+    return Viewer(studio, window, **options), window
+
+
+def play(*script, subject=None, **options):
+    """Run a viewer through a script of events, one a turn of the loop; return it and the window."""
+    viewer, window = make_viewer([[event] for event in script], subject, **options)
+    viewer.run()
+    return viewer, window
+
+
+def test_the_first_frame_shows_the_model_framed():
+    viewer, window = play(events.Exposed())
+    pixels = window.shown[0]
+    assert pixels.shape == (120, 160, 4)
+    covered = (pixels[..., :3] != (10, 20, 30)).any(axis=2)
+    rows, columns = np.nonzero(covered)
+    assert 0 < rows.min() < 40 and 80 < rows.max() < 119
+    assert columns.min() > 0 and columns.max() < 159
+
+
+def test_nothing_is_drawn_while_nothing_changes():
+    nothing = events.KeyUp("B", "B")
+    _, window = play(events.Exposed(), nothing, nothing, nothing)
+    assert len(window.shown) == 1
+
+
+def test_a_playing_subject_is_drawn_every_turn_and_space_pauses_it():
+    nothing = events.KeyUp("B", "B")
+    viewer, window = play(nothing, nothing, nothing, subject=make_subject(plays=True))
+    assert len(window.shown) == 3
+    assert viewer.view.azimuth != viewer.first_view.azimuth
+    viewer, _ = play(key("Space"), subject=make_subject(plays=True))
+    assert not viewer.playing
+
+
+def test_an_animated_subject_is_updated_with_the_time():
+    times = []
+    subject = make_subject(update=times.append, period=2.0, plays=True)
+    viewer, _ = play(*[events.Exposed()] * 4, subject=subject)
+    assert times == sorted(times)
+    assert viewer.view.azimuth == viewer.first_view.azimuth
+
+
+def test_nothing_is_drawn_while_minimised():
+    viewer, window = make_viewer([[events.Exposed()]] * 3, make_subject(plays=True))
+    window.minimised = True
+    viewer.run()
+    assert window.shown == []
+
+
+def test_frames_limit_the_loop():
+    viewer, window = make_viewer([[]] * 100, make_subject(plays=True))
+    viewer.run(frames=5)
+    assert len(window.shown) == 5
+
+
+def test_the_title_has_the_name_and_the_rate():
+    viewer, window = make_viewer([[]] * 400, make_subject(plays=True))
+    viewer.run(frames=300)
+    assert window.titles[0] == "torus.obj - engine3d"
+
+
+def test_q_and_the_close_button_end_the_loop():
+    viewer, window = make_viewer([[key("Q")], [events.Exposed()]])
+    viewer.run()
+    assert not viewer.running
+    assert len(window._script) == 1
+    viewer, window = make_viewer([[events.CloseRequested()], [events.Exposed()]])
+    viewer.run()
+    assert len(window._script) == 1
+
+
+def test_left_drag_orbits_right_drag_pans_middle_drag_approaches():
+    left = [events.MouseButton("left", True), events.MouseMotion(30, 10)]
+    viewer, _ = play(*left)
+    assert viewer.view.azimuth < viewer.first_view.azimuth
+    assert viewer.view.elevation > viewer.first_view.elevation
+    for press in (
+        events.MouseButton("right", True),
+        events.MouseButton("left", True, shift=True),
+        events.MouseButton("left", True, control=True),
+    ):
+        viewer, _ = play(press, events.MouseMotion(30, 10))
+        assert viewer.view.azimuth == viewer.first_view.azimuth
+        assert (viewer.view.target != viewer.first_view.target).any()
+    viewer, _ = play(events.MouseButton("middle", True), events.MouseMotion(0, -30))
+    assert viewer.view.distance < viewer.first_view.distance
+
+
+def test_motion_without_a_button_does_nothing():
+    click = [events.MouseButton("left", True), events.MouseButton("left", False)]
+    viewer, _ = play(*click, events.MouseMotion(9, 9))
+    np.testing.assert_array_equal(viewer.view.pose(), viewer.first_view.pose())
+
+
+def test_the_wheel_approaches_and_r_resets():
+    viewer, _ = play(events.Wheel(3))
+    assert viewer.view.distance < viewer.first_view.distance
+    viewer, _ = play(events.Wheel(3), key("R"))
+    assert viewer.view.distance == viewer.first_view.distance
+    assert viewer.orbit.view is viewer.view
+
+
+@pytest.mark.parametrize(
+    ("name", "azimuth", "elevation"),
+    [
+        ("1", 0.0, 0.0),
+        ("3", math.pi / 2, 0.0),
+        ("7", 0.0, math.pi / 2),
+        ("9", math.pi / 4, math.atan(1 / math.sqrt(2))),
+    ],
+)
+def test_digits_choose_views(name, azimuth, elevation):
+    viewer, _ = play(key(name))
+    assert (viewer.view.azimuth, viewer.view.elevation) == (azimuth, elevation)
+
+
+def test_the_look_follows_the_keys():
+    viewer, _ = play(key("W"))
+    assert viewer.studio.look.wireframe == "overlay"
+    viewer, _ = play(key("W"), key("W"), key("W"))
+    assert viewer.studio.look.wireframe is None
+    viewer, _ = play(key("E"), key("N"), key("F"), key("B"), key("5"), key("+"))
+    look = viewer.studio.look
+    assert look.wireframe == "overlay"
+    assert look.mode == "normal"
+    assert look.normals == "flat"
+    assert look.cull == "front"
+    assert look.line_width == 2.0
+    assert viewer.view.orthographic
+    viewer, _ = play(key("M", shift=True))
+    assert viewer.studio.look.mode == "overdraw"
+
+
+def test_lights_go_round():
+    viewer, _ = make_viewer()
+    names = viewer.studio.lighting.names
+    viewer, _ = play(key("L"))
+    assert viewer.studio.lighting.name == names[1]
+    viewer, _ = play(*[key("L")] * len(names))
+    assert viewer.studio.lighting.name == names[0]
+
+
+@pytest.mark.parametrize("binding", BINDINGS, ids=lambda binding: binding.action)
+def test_every_key_draws_a_frame_and_twice_is_fine(binding, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    viewer, window = play(key(binding.keys[0]), key(binding.keys[0]), events.Exposed())
+    assert window.shown or binding.action == "quit"
+
+
+def test_keys_with_control_and_repeats_do_nothing():
+    viewer, _ = play(key("W", control=True), key("W", repeat=True))
+    assert viewer.studio.look.wireframe is None
+
+
+def test_help_statistics_and_messages_are_drawn_over_the_picture():
+    _, plain = play(events.Exposed())
+    _, helped = play(events.Exposed(), key("H"))
+    assert (helped.shown[-1] != plain.shown[-1]).any()
+    _, counted = play(events.Exposed(), statistics=True)
+    assert (counted.shown[-1] != plain.shown[-1]).any()
+    _, told = play(events.Exposed(), key("W"))
+    assert (told.shown[-1][100:] != plain.shown[-1][100:]).any()
+
+
+def test_walking_moves_looks_and_leaves():
+    viewer, window = make_viewer()
+    viewer.handle(key("Tab"))
+    assert window.captured
+    before = viewer.view.position()
+    viewer.handle(events.KeyDown("Z", "W"))
+    viewer.advance(0.1)
+    assert np.linalg.norm(viewer.view.position() - before) > 0.01
+    viewer.handle(events.KeyUp("Z", "W"))
+    stood = viewer.view.position()
+    viewer.advance(0.1)
+    np.testing.assert_array_equal(viewer.view.position(), stood)
+    azimuth = viewer.view.azimuth
+    viewer.handle(events.MouseMotion(50, 0))
+    assert viewer.view.azimuth != azimuth
+    viewer.handle(key("Q"))
+    assert viewer.running
+    viewer.handle(key("Escape"))
+    assert viewer.walker is None
+    assert not window.captured
+
+
+def test_walking_keys_are_let_go_when_the_focus_is_lost():
+    viewer, _ = make_viewer(walking=True)
+    viewer.handle(key("W"))
+    assert viewer.held_positions == {"W"}
+    viewer.handle(events.FocusLost())
+    assert viewer.held_positions == set()
+
+
+def test_letters_that_do_not_walk_still_act_while_walking():
+    viewer, _ = make_viewer(walking=True)
+    viewer.handle(key("G"))
+    assert viewer.studio.settings.grid
+
+
+def test_a_resized_window_gets_frames_of_its_size():
+    viewer, window = make_viewer([[events.Exposed()], [events.Resized(90, 70)]])
+    turns = iter([SIZE, (90, 70)])
+    original = window.events
+
+    def resize(timeout=0.0):
+        window.size = next(turns, (90, 70))
+        return original(timeout)
+
+    window.events = resize
+    viewer.run()
+    assert [pixels.shape[:2] for pixels in window.shown] == [(120, 160), (70, 90)]
+
+
+def test_a_screenshot_is_the_picture_without_overlays(tmp_path, monkeypatch):
+    from PIL import Image
+
+    monkeypatch.chdir(tmp_path)
+    _, plain = play(events.Exposed())
+    play(key("F12"), key("F12"), statistics=True)
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["torus-screenshot-001.png", "torus-screenshot-002.png"]
+    with Image.open(tmp_path / names[0]) as image:
+        np.testing.assert_array_equal(np.asarray(image.convert("RGBA")), plain.shown[0])
+
+
+def test_a_dropped_file_opens(tmp_path):
+    path = tmp_path / "triangle.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    viewer, window = play(events.FileDropped(str(path)), events.Exposed())
+    assert viewer.studio.subject.title == "triangle.obj"
+
+
+def test_a_dropped_file_that_cannot_be_read_leaves_the_picture(tmp_path):
+    path = tmp_path / "broken.obj"
+    path.write_text("v 0 0\nf 1 2 3\n")
+    viewer, _ = play(events.FileDropped(str(path)))
+    assert viewer.studio.subject.title == "torus.obj"
+
+
+def test_a_watched_file_is_loaded_again(tmp_path, monkeypatch):
+    from engine3d.display import watch
+    from engine3d.display.opening import open_model
+
+    monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)
+    path = tmp_path / "shape.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    viewer, _ = make_viewer(subject=open_model(path), watch=True)
+    viewer.handle(key("N"))
+    path.write_text("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 0\nf 1 2 3\nf 2 4 3\n")
+    for _ in range(3):
+        viewer.advance(0.01)
+    meshes = [node.object for node in viewer.studio.subject.scene.nodes]
+    assert [len(mesh.faces) for mesh in meshes if isinstance(mesh, e3d.Mesh)] == [2]
+    assert viewer.studio.look.mode == "normal"

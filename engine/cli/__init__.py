@@ -1,0 +1,102 @@
+"""The command line: ``engine3d run``, ``render`` and ``info``.
+
+In: arguments. Out: an exit status: 0, 1 after an error (one line on standard error that names the
+file and the line), 2 after wrong usage. One file a command; a command's module, and with it NumPy
+and the core, loads only when it runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+
+from .usage import UsageError
+
+INTERRUPTED = 130
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run one command.
+
+    Parameters
+    ----------
+    argv : list of str, optional
+        The arguments without the program's name; those of the process by default.
+
+    Returns
+    -------
+    int
+        The exit status.
+    """
+    from .options import join_signed_values
+    from .parser import make_parser
+
+    parser = make_parser()
+    arguments = sys.argv[1:] if argv is None else argv
+    try:
+        args = parser.parse_args(join_signed_values(arguments))
+        return _run(args)
+    except UsageError as error:
+        return _usage(str(error))
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else 1
+
+
+def _run(args: argparse.Namespace) -> int:
+    """Run the command that was parsed, and turn every foreseen exception into a line."""
+    from ..errors import Engine3DError
+
+    try:
+        with _short_warnings():
+            status = args.command(args)
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        # Whoever read our output has left; keep Python from complaining when it flushes at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except (Engine3DError, OSError) as error:
+        return _fail(_one_line(error))
+    except MemoryError:
+        return _fail("out of memory")
+
+
+def _one_line(error: Exception) -> str:
+    text = str(error)
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        text = f"{os.fsdecode(error.filename)}: {error.strerror}"
+    return " ".join(text.split()) or type(error).__name__
+
+
+def _fail(message: str) -> int:
+    print(f"engine3d: error: {message}", file=sys.stderr)
+    return 1
+
+
+def _usage(message: str) -> int:
+    print(f"engine3d: error: {message}", file=sys.stderr)
+    return 2
+
+
+class _short_warnings:
+    """While active, a warning of engine3d's own is one line on standard error."""
+
+    def __enter__(self):
+        import warnings
+
+        from ..errors import Engine3DWarning
+
+        self._catcher = warnings.catch_warnings()
+        self._catcher.__enter__()
+        warnings.simplefilter("always", Engine3DWarning)
+        warnings.showwarning = _show_warning
+
+    def __exit__(self, *exception):
+        self._catcher.__exit__(*exception)
+
+
+def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
+    print(f"engine3d: warning: {' '.join(str(message).split())}", file=sys.stderr)

@@ -1,0 +1,99 @@
+"""``engine3d info``: the lists that a model file holds, its bounds and its warnings."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+
+from ..loaders import load_document
+
+
+def info(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    sys.stdout.reconfigure(errors="backslashreplace")
+    report = describe(args.model)
+    if args.json:
+        print(json.dumps(report, indent=2))
+    else:
+        print("\n".join(report_lines(report)))
+    return 0
+
+
+def describe(path) -> dict:
+    """Return what a file holds, in types that JSON knows.
+
+    Parameters
+    ----------
+    path : path-like
+        A file of any format that `engine3d.loaders` reads.
+
+    Returns
+    -------
+    dict
+        ``file``, ``format``, ``counts``, ``bounds`` (``min``, ``max``, ``size``, or None where
+        there is no vertex), ``objects``, ``materials``, ``lights``, ``cameras``, ``warnings``.
+    """
+    document = load_document(path)
+    meshes = [mesh for _, mesh, _ in document.objects]
+    materials = {id(material): material for mesh in meshes for material in mesh.materials}
+    return {
+        "file": str(path),
+        "format": document.format,
+        "counts": dict(document.counts),
+        "bounds": _bounds(meshes),
+        "objects": [
+            {
+                "name": name,
+                "vertices": len(mesh.positions),
+                "faces": len(mesh.faces),
+                "lines": len(mesh.lines),
+                "points": len(mesh.points),
+                "groups": list(mesh.groups),
+            }
+            for name, mesh, _ in document.objects
+        ],
+        "materials": [
+            {"name": material.name, "texture": material.texture and material.texture.name}
+            for material in materials.values()
+        ],
+        "lights": [light.kind for light in document.lights],
+        "cameras": len(document.cameras),
+        "warnings": [str(warning) for warning in document.warnings],
+    }
+
+
+def _bounds(meshes) -> dict | None:
+    """Return the box round the meshes in file coordinates."""
+    boxes = [mesh.bounds.tolist() for mesh in meshes if len(mesh.positions)]
+    if not boxes:
+        return None
+    low = [min(box[0][axis] for box in boxes) for axis in range(3)]
+    high = [max(box[1][axis] for box in boxes) for axis in range(3)]
+    size = [b - a for a, b in zip(low, high, strict=True)]
+    return {"min": low, "max": high, "size": size}
+
+
+def report_lines(report: dict) -> list[str]:
+    """Return the report as lines of text."""
+    lines = [f"{report['file']}: {report['format']}"]
+    for name, entries in report["counts"].items():
+        count = entries if isinstance(entries, int) else len(entries)
+        lines.append(f"  {name:<12}{count:>12,d}")
+    if report["bounds"] is not None:
+        lines.append("bounds")
+        lines += [
+            f"  {name:<12}" + "".join(f"{value:>12.6g}" for value in report["bounds"][name])
+            for name in ("min", "max", "size")
+        ]
+    for item in report["objects"]:
+        name = item["name"] or "unnamed"
+        lines.append(f"object {name}: {item['vertices']:,d} vertices, {item['faces']:,d} faces")
+    for material in report["materials"]:
+        texture = f", texture {material['texture']}" if material["texture"] else ""
+        lines.append(f"material {material['name'] or 'default'}{texture}")
+    lines += [f"light {kind}" for kind in report["lights"]]
+    if report["cameras"]:
+        lines.append(f"cameras: {report['cameras']}")
+    lines += [f"warning: {warning}" for warning in report["warnings"]]
+    return lines

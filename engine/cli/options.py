@@ -1,0 +1,313 @@
+"""The options that commands share, and the types of their values.
+
+In: an argparse parser. Out: the same parser with options; `settings` and `place_view` turn what was
+parsed into what the display package takes. Spellings follow f3d where it has the option.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+
+from . import values
+from .usage import UsageError
+
+MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
+BACKENDS = ("auto", "scalar", "portable", "sse41", "avx2", "avx512")
+SCENES = ("default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc")
+SAMPLES = (1, 4, 16)
+#: Options whose value may start with a minus sign, which argparse would take for an option.
+SIGNED_OPTIONS = frozenset(
+    {
+        "--up",
+        "--light-position",
+        "--camera-position",
+        "--camera-focal-point",
+        "--camera-view-up",
+        "--camera-azimuth-angle",
+        "--camera-elevation-angle",
+    }
+)
+_SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]$|inf|nan)")
+
+
+def join_signed_values(arguments: list[str]) -> list[str]:
+    """Return the arguments with ``--option -1,2,3`` written as ``--option=-1,2,3``."""
+    joined: list[str] = []
+    for argument in arguments:
+        if joined and joined[-1] in SIGNED_OPTIONS and _SIGNED_VALUE.match(argument):
+            joined[-1] += "=" + argument
+        else:
+            joined.append(argument)
+    return joined
+
+
+# Groups of options
+
+
+def add_subject(parser) -> None:
+    """Add what to show."""
+    group = parser.add_argument_group("what to show")
+    group.add_argument("model", metavar="MODEL", nargs="?", help="a model file")
+    group.add_argument(
+        "--scene", choices=SCENES, metavar="NAME", help=f"a scene: {', '.join(SCENES)}"
+    )
+    group.add_argument(
+        "--texture",
+        metavar="FILE",
+        help="texture of a model without materials (an image beside it that bears its name is "
+        "found without)",
+    )
+    group.add_argument(
+        "--color", type=values.color, metavar="COLOR", help="colour of a model without materials"
+    )
+    group.add_argument(
+        "--verbose", action="store_true", help="print what is loaded and how long it takes"
+    )
+
+
+def add_picture(parser) -> None:
+    """Add the picture's size and what draws it."""
+    group = parser.add_argument_group("picture")
+    group.add_argument(
+        "--resolution",
+        type=values.resolution,
+        metavar="WxH",
+        help="size in pixels; 1280x720 by default",
+    )
+    group.add_argument(
+        "--samples", type=int, choices=SAMPLES, help="samples a pixel: more make smoother edges"
+    )
+    group.add_argument(
+        "--backend", choices=BACKENDS, default="auto", help="what computes the frame"
+    )
+    group.add_argument(
+        "--threads",
+        type=values.thread_count,
+        default=0,
+        metavar="N",
+        help="0: all that may be used",
+    )
+    group.add_argument("--background-color", type=values.color, metavar="COLOR")
+    group.add_argument("-g", "--grid", action="store_true", help="a grid under the model")
+    group.add_argument("-x", "--axis", action="store_true", help="the axes, in the corner")
+    group.add_argument("-m", "--metadata", action="store_true", help="what the file holds, as text")
+
+
+def add_look(parser) -> None:
+    """Add how surfaces and lines are drawn."""
+    group = parser.add_argument_group("look")
+    group.add_argument("--mode", choices=MODES, help="what the pixels show")
+    group.add_argument("--unlit", action="store_true", help="the same as --mode unlit")
+    group.add_argument(
+        "--wireframe",
+        nargs="?",
+        const="only",
+        choices=("overlay", "only"),
+        help="draw edges over the faces, or (without a value) alone",
+    )
+    group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")
+    group.add_argument("--hidden-lines", action="store_true", help="draw edges behind faces too")
+    group.add_argument("--line-width", type=values.positive, metavar="PIXELS")
+    group.add_argument("--line-color", type=values.color, metavar="COLOR")
+    group.add_argument("--point-size", type=values.positive, metavar="PIXELS")
+    normals = group.add_mutually_exclusive_group()
+    normals.add_argument("--flat", action="store_const", const="flat", dest="normals")
+    normals.add_argument("--smooth", action="store_const", const="smooth", dest="normals")
+    group.add_argument("--cull", choices=("back", "front", "none"), help="the faces to leave out")
+    group.add_argument(
+        "--hidden-surfaces",
+        choices=("zbuffer", "painter", "none"),
+        help="how nearer faces come to cover farther ones",
+    )
+    group.add_argument(
+        "--shading",
+        choices=("deferred", "forward"),
+        help="when pixels are shaded; the picture is the same",
+    )
+
+
+def add_light(parser) -> None:
+    """Add the light."""
+    group = parser.add_argument_group("light")
+    group.add_argument(
+        "--light-position",
+        type=values.vector,
+        metavar="X,Y,Z",
+        help="one point light there, and no other",
+    )
+    group.add_argument(
+        "--light-intensity",
+        type=values.not_negative,
+        metavar="I",
+        help="of that light, whose illumination at the distance d is I/d2; without "
+        "--light-position a factor on the usual lights",
+    )
+
+
+def add_camera(parser) -> None:
+    """Add where to look from."""
+    group = parser.add_argument_group("camera")
+    group.add_argument(
+        "--up", type=values.up_direction, metavar="±X|±Y|±Z", help="+Y, or +Z for .asc and .stl"
+    )
+    group.add_argument("--camera-position", type=values.vector, metavar="X,Y,Z")
+    group.add_argument(
+        "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="what to look at"
+    )
+    group.add_argument(
+        "--camera-view-up", type=values.vector, metavar="X,Y,Z", help="what is up in the picture"
+    )
+    group.add_argument(
+        "--camera-view-angle", type=values.view_angle, metavar="DEGREES", help="vertical"
+    )
+    group.add_argument(
+        "--camera-azimuth-angle", type=values.number, metavar="DEGREES", help="then turn right"
+    )
+    group.add_argument(
+        "--camera-elevation-angle", type=values.number, metavar="DEGREES", help="then rise"
+    )
+    group.add_argument(
+        "--camera-zoom-factor", type=values.positive, metavar="F", help="then approach"
+    )
+    group.add_argument("--camera-orthographic", action="store_true", help="parallel projection")
+
+
+def add_run(parser) -> None:
+    """Add the options of ``run`` alone."""
+    group = parser.add_argument_group("window")
+    group.add_argument(
+        "--animate",
+        action=argparse.BooleanOptionalAction,
+        help="move from the start: the scene's animation, or a slow turn",
+    )
+    group.add_argument(
+        "--camera", choices=("orbit", "fps"), default="orbit", help="turn the model, or walk"
+    )
+    group.add_argument(
+        "-z", "--fps", action="store_true", help="show frames per second and statistics"
+    )
+    group.add_argument(
+        "--vsync",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="wait for the screen's refresh (the default)",
+    )
+    group.add_argument(
+        "--watch", action="store_true", help="load the model again when its file changes"
+    )
+    group.add_argument("--headless", action="store_true", help="open no window; write an animation")
+    group.add_argument(
+        "--frames",
+        type=values.count,
+        metavar="N",
+        help="how many frames to show, or to write if headless",
+    )
+    group.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="what --headless writes: .gif, .webp, .apng; a picture if N is 1",
+    )
+
+
+def add_render(parser) -> None:
+    """Add the options of ``render`` alone."""
+    group = parser.add_argument_group("output")
+    group.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help=".png, .jpg, .tga, .webp; - writes PNG to standard output",
+    )
+    group.add_argument(
+        "--turntable",
+        type=values.count,
+        metavar="N",
+        help="N pictures of one turn, to .gif, .webp or .apng",
+    )
+    group.add_argument(
+        "--no-background", action="store_true", help="leave the background transparent"
+    )
+    group.add_argument(
+        "--reference", metavar="FILE", help="compare with this picture; exit with 1 if it differs"
+    )
+    group.add_argument(
+        "--reference-threshold",
+        type=values.not_negative,
+        default=0.0,
+        metavar="D",
+        help="the largest root mean square difference, 0 to 1, that passes; 0 by default",
+    )
+
+
+# What was parsed
+
+
+def settings(args: argparse.Namespace):
+    """Return the `Settings` that the options name."""
+    from ..display.settings import Settings
+
+    if args.unlit and args.mode not in (None, "unlit"):
+        raise UsageError(f"--unlit does not go with --mode {args.mode}")
+    if args.edges and args.wireframe == "only":
+        raise UsageError("--edges does not go with --wireframe only")
+    look = {
+        "mode": "unlit" if args.unlit else args.mode,
+        "wireframe": "overlay" if args.edges else args.wireframe,
+        "cull": args.cull,
+        "shading": args.shading,
+        "normals": args.normals,
+        "hidden_surfaces": args.hidden_surfaces,
+        "line_width": args.line_width,
+        "line_color": args.line_color,
+        "hidden_lines": args.hidden_lines or None,
+        "point_size": args.point_size,
+    }
+    return Settings(
+        look={name: value for name, value in look.items() if value is not None},
+        up=args.up,
+        background=args.background_color,
+        light_position=args.light_position,
+        light_intensity=args.light_intensity,
+        grid=args.grid,
+        axes=args.axis,
+        metadata=args.metadata,
+    )
+
+
+def place_view(args: argparse.Namespace, studio):
+    """Return the studio's view of its subject, moved as the camera options say."""
+    if args.camera_view_angle is None:
+        view = studio.view()
+    else:
+        view = studio.view(math.radians(args.camera_view_angle))
+    if args.camera_view_up is not None:
+        view.up = args.camera_view_up
+    if args.camera_position is not None:
+        view.look_from(args.camera_position, args.camera_focal_point or studio.bounds.center)
+    elif args.camera_focal_point is not None:
+        view.target[:] = args.camera_focal_point
+    view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
+    view.elevation += math.radians(args.camera_elevation_angle or 0.0)
+    view.distance /= args.camera_zoom_factor or 1.0
+    view.orthographic = args.camera_orthographic
+    return view
+
+
+def subject(args: argparse.Namespace, default_scene: str | None = None):
+    """Return the `Subject` that the options name; ``default_scene`` if they name none."""
+    if args.model is not None and args.scene is not None:
+        raise UsageError("give a MODEL or --scene, not both")
+    if args.model is None:
+        if args.texture is not None or args.color is not None:
+            raise UsageError("--texture and --color need a MODEL")
+        if args.scene is None and default_scene is None:
+            raise UsageError("give a MODEL or --scene NAME")
+        from ..demos import load_demo
+
+        return load_demo(args.scene or default_scene)
+    from ..display.opening import open_model
+
+    return open_model(args.model, texture=args.texture, color=args.color)

@@ -1,0 +1,44 @@
+"""Checks of an output's name before any work, and the progress bar of long work.
+
+In: what ``-o`` was given. Out: the path, or a usage error that lists the extensions that work.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from .usage import UsageError
+
+STANDARD_OUTPUT = "-"
+#: Shorter work gets no progress bar.
+FEW_FRAMES = 8
+
+
+def check_extension(output: str, formats: Iterable[str], what: str) -> Path:
+    """Return ``output`` as a path, or raise `UsageError` if its extension names no format."""
+    path = Path(output)
+    if path.suffix.lower() not in tuple(formats):
+        named = f"{path.suffix!r} in {output!r}" if path.suffix else f"{output!r} has none and"
+        known = ", ".join(formats)
+        raise UsageError(f"{what} needs one of the extensions {known}; {named} is not one of them")
+    return path
+
+
+def check_standard_output() -> None:
+    """Raise `UsageError` if binary output would go to a terminal."""
+    if sys.stdout.isatty():
+        raise UsageError("-o - would write a picture to the terminal; redirect standard output")
+
+
+def with_progress(items: Iterable, total: int, label: str) -> Iterator:
+    """Yield the items; on a terminal, and if there are many, show a progress bar meanwhile."""
+    if total < FEW_FRAMES or not sys.stderr.isatty():
+        yield from items
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        yield from progress.track(items, total=total, description=label)

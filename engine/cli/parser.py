@@ -1,0 +1,103 @@
+"""The parser of the command line: commands, and the functions that run them.
+
+The functions here only import the command's module and call it, so that ``--help`` is quick.
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from ..version import __version__
+from . import options
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of ``engine3d``; a parsed command has its function in ``command``."""
+    parser = argparse.ArgumentParser(
+        prog="engine3d",
+        description="Draw 3D models on the CPU: in a window, or to a file where there is none.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="version", version=f"engine3d {__version__}")
+    parser.add_argument(
+        "--list-readers", action=_ListReaders, nargs=0, help="print the formats that are read"
+    )
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    _add_run(commands)
+    _add_render(commands)
+    _add_info(commands)
+    return parser
+
+
+def _add_run(commands) -> None:
+    command = commands.add_parser(
+        "run",
+        help="show a model or a scene in a window",
+        description="Show a model or a scene in a window. H in the window lists the keys.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(command=_run)
+    options.add_subject(command)
+    options.add_run(command)
+    _add_shared(command)
+
+
+def _add_render(commands) -> None:
+    command = commands.add_parser(
+        "render",
+        help="draw a model or a scene to a file",
+        description="Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP) or, with "
+        "--turntable, to an animation (GIF, WebP, APNG).",
+        allow_abbrev=False,
+    )
+    command.set_defaults(command=_render)
+    options.add_subject(command)
+    options.add_render(command)
+    _add_shared(command)
+
+
+def _add_shared(command) -> None:
+    options.add_picture(command)
+    options.add_look(command)
+    options.add_light(command)
+    options.add_camera(command)
+
+
+def _add_info(commands) -> None:
+    command = commands.add_parser(
+        "info",
+        help="print what a model file holds",
+        description="Print the lists that a model file holds, its bounds and its warnings.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(command=_info)
+    command.add_argument("model", metavar="MODEL", help="the file")
+    command.add_argument("--json", action="store_true", help="print JSON")
+
+
+def _run(args: argparse.Namespace) -> int:
+    from .run import run
+
+    return run(args)
+
+
+def _render(args: argparse.Namespace) -> int:
+    from .render import render
+
+    return render(args)
+
+
+def _info(args: argparse.Namespace) -> int:
+    from .info import info
+
+    return info(args)
+
+
+class _ListReaders(argparse.Action):
+    """Print the formats and stop, as ``--version`` does."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        from .readers import list_readers
+
+        list_readers()
+        parser.exit()

@@ -1,0 +1,98 @@
+"""``engine3d render``: a picture or a turntable to a file or to standard output."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ..display import headless
+from ..display.animation_files import (
+    ANIMATION_FORMATS,
+    OPAQUE_SUFFIXES,
+    PICTURE_SUFFIXES,
+    save_animation,
+)
+from ..display.studio import Studio
+from . import options
+from .outputs import (
+    STANDARD_OUTPUT,
+    check_extension,
+    check_standard_output,
+    with_progress,
+)
+from .report import Report
+from .usage import UsageError
+
+DEFAULT_SIZE = (1280, 720)
+
+
+def render(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    _check(args)
+    report = Report(args.verbose)
+    subject = options.subject(args)
+    report.loaded(subject)
+    settings = options.settings(args)
+    with Studio(
+        subject,
+        settings,
+        args.resolution or DEFAULT_SIZE,
+        backend=args.backend,
+        threads=args.threads,
+        samples=args.samples or 1,
+        transparent=args.no_background,
+    ) as studio:
+        view = options.place_view(args, studio)
+        if args.turntable is not None:
+            _write_turntable(args, studio, view)
+            return 0
+        frame = studio.draw(view)
+        report.drawn(studio, frame)
+    _write_picture(args, frame)
+    return _compare(args, frame.color)
+
+
+def _check(args: argparse.Namespace) -> None:
+    """Refuse, before any work, what cannot be written."""
+    if args.output is None:
+        if args.reference is None or args.turntable is not None:
+            raise UsageError("say where to write with -o FILE")
+        return
+    if args.turntable is not None:
+        if args.output == STANDARD_OUTPUT or args.reference is not None:
+            raise UsageError("--turntable writes to a file, and compares with none")
+        check_extension(args.output, ANIMATION_FORMATS, "an animation")
+        return
+    if args.output == STANDARD_OUTPUT:
+        check_standard_output()
+        return
+    path = check_extension(args.output, PICTURE_SUFFIXES, "a picture")
+    if args.no_background and path.suffix.lower() in OPAQUE_SUFFIXES:
+        raise UsageError(f"--no-background needs transparency, which {path.suffix} lacks")
+
+
+def _write_turntable(args: argparse.Namespace, studio: Studio, view) -> None:
+    count = args.turntable
+    pictures = with_progress(headless.turntable(studio, view, count), count, "rendering")
+    save_animation(pictures, args.output, headless.seconds_a_frame(studio, count))
+
+
+def _write_picture(args: argparse.Namespace, frame) -> None:
+    if args.output == STANDARD_OUTPUT:
+        sys.stdout.buffer.write(frame.encode("png"))
+        sys.stdout.buffer.flush()
+    elif args.output is not None:
+        frame.save(args.output)
+
+
+def _compare(args: argparse.Namespace, pixels) -> int:
+    """Compare with the reference if one was given; return the exit status."""
+    if args.reference is None:
+        return 0
+    from .comparison import compare
+
+    result = compare(pixels, args.reference)
+    if result.difference <= args.reference_threshold:
+        return 0
+    print(f"engine3d: error: {args.reference}: {result}", file=sys.stderr)
+    return 1

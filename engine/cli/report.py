@@ -1,0 +1,44 @@
+"""What ``--verbose`` prints on standard error: what was loaded and drawn, and how long it took."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+
+class Report:
+    """Prints progress if asked to; times count from when it was made.
+
+    Parameters
+    ----------
+    verbose : bool
+        Whether to print anything.
+    """
+
+    def __init__(self, verbose: bool):
+        self._verbose = verbose
+        self._start = time.perf_counter()
+
+    def line(self, text: str) -> None:
+        """Print one line with the seconds since the start."""
+        if self._verbose:
+            print(f"[{time.perf_counter() - self._start:7.3f} s] {text}", file=sys.stderr)
+
+    def loaded(self, subject) -> None:
+        """Say what is shown."""
+        details = ", ".join(" ".join(line.split()) for line in subject.details)
+        self.line(f"loaded {subject.path or subject.title}" + (f": {details}" if details else ""))
+
+    def drawn(self, studio, frame) -> None:
+        """Say what drew a frame, and the frame's statistics."""
+        if not self._verbose:
+            return
+        width, height = studio.size
+        self.line(f"drew {width}x{height} with {studio.renderer.backend}")
+        for name, value in frame.stats.items():
+            print(
+                f"            {name:<24} {value:.3f}"
+                if isinstance(value, float)
+                else f"            {name:<24} {value}",
+                file=sys.stderr,
+            )

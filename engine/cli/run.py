@@ -1,0 +1,123 @@
+"""``engine3d run``: a window, or without a screen an animation in a file."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from ..display import headless
+from ..display.animation_files import (
+    ANIMATION_FORMATS,
+    PICTURE_SUFFIXES,
+    numbered_path,
+    save_animation,
+)
+from ..display.studio import Studio
+from ..errors import DisplayError
+from . import options
+from .outputs import check_extension, with_progress
+from .report import Report
+from .usage import UsageError
+
+WINDOW_SIZE = (1280, 720)
+#: What a turntable gets that nobody asked for: small, so that it is there soon.
+FILE_SIZE = (640, 360)
+FILE_FRAMES = 48
+FILE_SAMPLES = 4
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    _check(args)
+    report = Report(args.verbose)
+    reason = None if args.headless else _missing_screen()
+    subject = options.subject(args, default_scene="default")
+    report.loaded(subject)
+    if not args.headless and reason is None:
+        try:
+            _show(args, subject)
+            return 0
+        except DisplayError as error:
+            reason = str(error)
+    return _write(args, subject, reason)
+
+
+def _check(args: argparse.Namespace) -> None:
+    if args.output is not None:
+        if not args.headless:
+            raise UsageError("-o goes with --headless")
+        formats = PICTURE_SUFFIXES if args.frames == 1 else ANIMATION_FORMATS
+        what = "a picture (--frames 1)" if args.frames == 1 else "an animation"
+        check_extension(args.output, formats, what)
+    if args.watch and args.model is None:
+        raise UsageError("--watch needs a MODEL")
+
+
+def _missing_screen() -> str | None:
+    """Return why no window can open, as far as that shows without loading SDL, or None."""
+    from ..display.window import find_screen
+
+    try:
+        find_screen()
+    except DisplayError as error:
+        return str(error)
+    return None
+
+
+def _studio(args: argparse.Namespace, subject, size, samples: int) -> Studio:
+    return Studio(
+        subject,
+        options.settings(args),
+        args.resolution or size,
+        backend=args.backend,
+        threads=args.threads,
+        samples=args.samples or samples,
+    )
+
+
+def _show(args: argparse.Namespace, subject) -> None:
+    """Open a window and stay until it closes."""
+    from ..display.viewer import Viewer
+    from ..display.window import Window
+
+    size = args.resolution or WINDOW_SIZE
+    with (
+        Window(f"{subject.title} - engine3d", *size, vsync=args.vsync) as window,
+        _studio(args, subject, size, 1) as studio,
+    ):
+        viewer = Viewer(
+            studio,
+            window,
+            view=options.place_view(args, studio),
+            walking=args.camera == "fps",
+            playing=args.animate,
+            statistics=args.fps,
+            watch=args.watch,
+        )
+        viewer.run(args.frames)
+
+
+def _write(args: argparse.Namespace, subject, reason: str | None) -> int:
+    """Write an animation instead, and say where; ``reason`` tells why no window opened."""
+    count = args.frames or FILE_FRAMES
+    path = Path(args.output) if args.output else _new_path(subject, count)
+    if reason is not None:
+        print(f"engine3d: {reason}: rendering a turntable to {path} instead", file=sys.stderr)
+    with _studio(args, subject, FILE_SIZE, FILE_SAMPLES) as studio:
+        view = options.place_view(args, studio)
+        if count == 1:
+            studio.draw(view).save(path)
+        else:
+            pictures = headless.animation(studio, view, count)
+            pictures = with_progress(pictures, count, "rendering")
+            save_animation(pictures, path, headless.seconds_a_frame(studio, count))
+    if reason is None and args.output is None:
+        print(f"engine3d: wrote {path}", file=sys.stderr)
+    return 0
+
+
+def _new_path(subject, count: int) -> Path:
+    """Return the name of a file that is not there yet, in the current folder."""
+    stem = f"{Path(subject.title).stem}-turntable"
+    return numbered_path(Path(), stem, ".png" if count == 1 else ".gif")

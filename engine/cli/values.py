@@ -1,0 +1,111 @@
+"""The values of options: text in, a number, a vector or a colour out.
+
+Each function takes what was typed and returns the value, or raises ``ArgumentTypeError``, which the
+parser turns into a line and exit status 2.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+
+UPS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
+MAX_SIDE = 16384
+
+
+def resolution(text: str) -> tuple[int, int]:
+    """Parse ``1280x720`` or ``1280,720``."""
+    match = re.fullmatch(r"\s*(\d+)\s*[xX,]\s*(\d+)\s*", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"{text!r} is not like 1280x720")
+    width, height = int(match[1]), int(match[2])
+    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+        raise argparse.ArgumentTypeError(f"{text!r}: each side must be from 1 to {MAX_SIDE}")
+    return width, height
+
+
+def number(text: str) -> float:
+    """Parse a finite number."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number")
+    return value
+
+
+def positive(text: str) -> float:
+    """Parse a finite number above zero."""
+    value = number(text)
+    if value <= 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not above zero")
+    return value
+
+
+def not_negative(text: str) -> float:
+    """Parse a finite number, zero or more."""
+    value = number(text)
+    if value < 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is negative")
+    return value
+
+
+def count(text: str) -> int:
+    """Parse an integer of at least one."""
+    if not re.fullmatch(r"\d{1,9}", text) or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
+    return int(text)
+
+
+def thread_count(text: str) -> int:
+    """Parse a number of threads, 0 for as many as the process may use."""
+    return 0 if text == "0" else count(text)
+
+
+def vector(text: str) -> tuple[float, float, float]:
+    """Parse ``X,Y,Z``."""
+    parts = text.split(",")
+    if len(parts) != 3:
+        raise argparse.ArgumentTypeError(f"{text!r} is not like 1,2,3")
+    return number(parts[0]), number(parts[1]), number(parts[2])
+
+
+def view_angle(text: str) -> float:
+    """Parse a vertical field of view in degrees."""
+    value = number(text)
+    if not 0.1 <= value <= 170.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not from 0.1 to 170 degrees")
+    return value
+
+
+def up_direction(text: str) -> str:
+    """Parse ``+Y``, ``-z``, ``X`` and the like."""
+    name = text.upper()
+    name = name if name[:1] in ("+", "-") else "+" + name
+    if name not in UPS:
+        raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(UPS)}")
+    return name
+
+
+def color(text: str) -> tuple[int, int, int]:
+    """Parse ``0.2,0.4,0.6``, ``51,102,153``, ``#336699`` or a name, as seen on the screen (sRGB).
+
+    Numbers are 0 to 1, or 0 to 255 if one of them is above 1.
+    """
+    parts = text.split(",")
+    if len(parts) == 3:
+        values = [not_negative(part) for part in parts]
+        scale = 1.0 if max(values) > 1.0 else 255.0
+        if max(values) > 255.0:
+            raise argparse.ArgumentTypeError(f"{text!r}: a component is above 255")
+        red, green, blue = (int(value * scale + 0.5) for value in values)
+        return red, green, blue
+    from PIL import ImageColor
+
+    try:
+        return ImageColor.getrgb(text)[:3]
+    except ValueError:
+        message = f"{text!r} is neither R,G,B nor #rrggbb nor the name of a colour"
+        raise argparse.ArgumentTypeError(message) from None

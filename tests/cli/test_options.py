@@ -1,0 +1,127 @@
+"""The values of options, and how options become settings."""
+
+import argparse
+
+import pytest
+
+from engine3d.cli import options, values
+from engine3d.cli.parser import make_parser
+from engine3d.cli.usage import UsageError
+from engine3d.demos import DEMO_NAMES
+from engine3d.display.look import CULLS, HIDDEN_SURFACES, MODES
+from engine3d.display.viewpoint import UP_DIRECTIONS
+
+
+def parse(*arguments):
+    return make_parser().parse_args(options.join_signed_values(list(arguments)))
+
+
+@pytest.mark.parametrize("text", ["1280x720", "1280,720", "1280X720", " 1280 x 720 "])
+def test_resolution(text):
+    assert values.resolution(text) == (1280, 720)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "1280", "0x5", "5x0", "-5x5", "1x16385", "axb", "1.5x2", "1x2x3"]
+)
+def test_bad_resolution(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.resolution(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("1,1,1", (255, 255, 255)),
+        ("0,0,0", (0, 0, 0)),
+        ("0.2,0.4,0.6", (51, 102, 153)),
+        ("255,128,0", (255, 128, 0)),
+        ("#336699", (51, 102, 153)),
+        ("red", (255, 0, 0)),
+    ],
+)
+def test_color(text, expected):
+    assert values.color(text) == expected
+
+
+@pytest.mark.parametrize(
+    "text", ["", "1,2", "-1,0,0", "256,0,0", "nan,0,0", "no such colour", "#12"]
+)
+def test_bad_color(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.color(text)
+
+
+@pytest.mark.parametrize("text", ["1,2", "1,2,x", "1,2,3,4", "inf,0,0", ""])
+def test_bad_vector(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.vector(text)
+
+
+@pytest.mark.parametrize(("text", "name"), [("+Y", "+Y"), ("-z", "-Z"), ("X", "+X")])
+def test_up_direction(text, name):
+    assert values.up_direction(text) == name
+
+
+@pytest.mark.parametrize("text", ["", "W", "+-Y", "YY"])
+def test_bad_up_direction(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.up_direction(text)
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "1.5", "x", "", "99999999999"])
+def test_bad_count(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.count(text)
+
+
+def test_values_may_start_with_a_minus_sign():
+    args = parse("render", "a.obj", "--camera-position", "-1,2,3", "--up", "-Z", "-o", "-")
+    assert args.camera_position == (-1.0, 2.0, 3.0)
+    assert args.up == "-Z"
+    assert args.output == "-"
+
+
+def test_choices_are_those_of_the_display_package():
+    assert options.MODES == MODES
+    assert tuple(UP_DIRECTIONS) == values.UPS
+    assert options.SCENES == DEMO_NAMES
+    parser = argparse.ArgumentParser()
+    options.add_look(parser)
+    choices = {action.dest: action.choices for action in parser._actions}
+    assert choices["cull"] == CULLS
+    assert choices["hidden_surfaces"] == HIDDEN_SURFACES
+
+
+def test_settings_hold_only_what_was_given():
+    assert options.settings(parse("render", "a.obj", "-o", "a.png")).look == {}
+    given = options.settings(
+        parse("run", "a.obj", "--edges", "--unlit", "--flat", "--line-width", "2.5", "-gxm")
+    )
+    assert given.look == {
+        "mode": "unlit",
+        "wireframe": "overlay",
+        "normals": "flat",
+        "line_width": 2.5,
+    }
+    assert given.grid and given.axes and given.metadata
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("--unlit", "--mode", "depth"), ("--edges", "--wireframe", "only")],
+)
+def test_options_that_contradict_each_other(arguments):
+    with pytest.raises(UsageError):
+        options.settings(parse("run", "a.obj", *arguments))
+
+
+def test_wireframe_without_a_value_is_only():
+    assert parse("run", "--wireframe").wireframe == "only"
+    assert parse("run", "--wireframe", "overlay").wireframe == "overlay"
+
+
+def test_every_option_has_a_help_or_a_telling_name():
+    parser = make_parser()
+    text = parser.format_help()
+    assert "run" in text and "render" in text and "info" in text

@@ -253,7 +253,7 @@ class Renderer:
         """Find the camera; a view that has not changed is used again."""
         camera, pose = find_camera(scene, camera, self._width, self._height)
         if self._view is None or not self._view.is_of(camera, pose, self._width, self._height):
-            self._view = View(camera, pose, self._width, self._height)
+            self._view = View(camera, pose, self._width, self._height, self._view)
 
     def _list_draws(self, scene: Scene, mode: str, normals: str, wireframe, frame: Frame) -> None:
         outputs = frame._outputs

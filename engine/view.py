@@ -23,13 +23,25 @@ class View:
     camera : Camera
     pose : (4, 4) float64
         world-from-camera.
-    clip_from_world, view_from_world : (4, 4) float64
+    projection, clip_from_world, view_from_world : (4, 4) float64
     eye : tuple of 4 float
         The camera's world position and 1; without perspective the direction to the viewer and 0.
     """
 
-    def __init__(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> None:
-        projection = camera.projection(width, height)
+    def __init__(
+        self,
+        camera: Camera,
+        pose: np.ndarray,
+        width: int,
+        height: int,
+        previous: View | None = None,
+    ) -> None:
+        self._lens = (camera, camera.version, width, height)
+        if previous is not None and previous._lens == self._lens:
+            projection = previous.projection  # only the pose has changed
+        else:
+            projection = camera.projection(width, height)
+        self.projection = projection
         self.camera = camera
         self.pose = pose
         self.view_from_world = linalg.inverse(pose)
@@ -39,16 +51,11 @@ class View:
             self.eye = (*self.towards_viewer, 0.0)
         else:
             self.eye = (*pose[:3, 3].tolist(), 1.0)
-        self._key = (camera, camera.version, pose, width, height)
 
     def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
         """Whether the view is still that of this camera, pose and image."""
-        seen, version, at, *size = self._key
-        return (
-            seen is camera
-            and version == camera.version
-            and size == [width, height]
-            and (at is pose or np.array_equal(at, pose))
+        return self._lens == (camera, camera.version, width, height) and (
+            self.pose is pose or np.array_equal(self.pose, pose)
         )
 
     def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:

@@ -226,6 +226,8 @@ int e3d_surface_of(const e3d_context *context, e3d_worker *worker, const e3d_til
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* batch->color, clamped, is that of its samples. */
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
+/* The batch's samples show the background again: forward shading may have drawn there before. */
+void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);

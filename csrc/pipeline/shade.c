@@ -146,10 +146,14 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     if (context->wants & E3D_NEED_OUTPUTS)
         e3d_outputs_batch(context, worker, tile);
     int hidden = group->face && context->frame->wireframe == E3D_WIRE_ONLY;
-    if ((context->wants & E3D_NEED_COLOR) && !hidden) {
-        find_colors(context, group, batch, surfaces);
-        e3d_resolve_batch(context, worker);
+    if (!(context->wants & E3D_NEED_COLOR))
+        return;
+    if (hidden) {
+        e3d_resolve_hidden(context, worker);
+        return;
     }
+    find_colors(context, group, batch, surfaces);
+    e3d_resolve_batch(context, worker);
 }
 
 /* Samples number `order[first .. first + count)` of the visible list, or first … themselves where order is NULL. */

@@ -28,7 +28,7 @@ ROOT = Path(__file__).resolve().parents[1]
 STAGES = ["geometry", "raster", "shade", "resolve"]
 WARM_UP = 2
 FUNCTIONS = 12
-DRIVER_SCENES = "120"
+DRIVER_SCENES = "1200"
 
 
 def draw(scene, arguments, frames):
@@ -101,8 +101,8 @@ def perf_functions(name, arguments):
     return [(float(percent), function) for percent, function in found]
 
 
-def gprof_functions():
-    """[(percent, function)] of the C driver's random scenes, built with -pg."""
+def gprof_functions(backend):
+    """[(percent, function)] of the C driver's random scenes on one backend, built with -pg."""
     build = runpy.run_path(str(ROOT / ".ci" / "build_driver.py"), run_name="rules")
     compiler = os.environ.get("CC", "cc")
     os.chdir(ROOT)
@@ -111,15 +111,24 @@ def gprof_functions():
         objects = build["compile_all"](compiler, rules, ["-pg"], folder)
         program = f"{folder}/driver"
         subprocess.run([compiler, "-pg", "-pthread", *objects, "-lm", "-o", program], check=True)
-        run = [program, "--scenes", DRIVER_SCENES, "--threads", "1"]
+        run = [program, "--scenes", DRIVER_SCENES, "--threads", "1", "--backend", backend]
         subprocess.run(run, cwd=folder, check=True, capture_output=True)
         report = ["gprof", "-b", "-p", program, f"{folder}/gmon.out"]
         done = subprocess.run(report, check=True, capture_output=True, text=True)
+        own = functions_of(path for path in objects if "csrc_driver" in Path(path).name)
     found = re.findall(r"^\s*([\d.]+)\s+[\d.]+\s+[\d.]+\s.*?(\S+)$", done.stdout, re.MULTILINE)
-    return [(float(percent), function) for percent, function in found]
+    core = [(float(percent), function) for percent, function in found if function not in own]
+    whole = sum(percent for percent, _ in core) or 1.0
+    return [(100 * percent / whole, function) for percent, function in core]
 
 
-def profile_functions(arguments):
+def functions_of(objects):
+    """The names of the functions that object files define."""
+    done = subprocess.run(["nm", *objects], check=True, capture_output=True, text=True)
+    return set(re.findall(r" [tT] (\S+)$", done.stdout, re.MULTILINE))
+
+
+def profile_functions(arguments, backend):
     """Return {workload: [(percent, function)]}, by the tool that was asked for or that runs."""
     tool = arguments.functions
     if tool == "auto":
@@ -127,7 +136,7 @@ def profile_functions(arguments):
     if tool == "perf":
         return {name: perf_functions(name, arguments)[:FUNCTIONS] for name in arguments.workload}
     if tool == "gprof":
-        return {"random scenes of the C driver": gprof_functions()[:FUNCTIONS]}
+        return {"random scenes of the C driver": gprof_functions(backend)[:FUNCTIONS]}
     return {}
 
 
@@ -171,7 +180,7 @@ def main():
     if not arguments.json:
         print(f"backend {rows[0]['backend']}, {rows[0]['threads']} threads\n")
         print_stages(rows)
-    functions = profile_functions(arguments)
+    functions = profile_functions(arguments, rows[0]["backend"])
     if arguments.json:
         json.dump({"stages": rows, "functions": functions}, sys.stdout)
         print()

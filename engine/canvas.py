@@ -10,7 +10,7 @@ itself is C (csrc/canvas); docs/canvas.md gives its rules.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,7 +56,13 @@ class Canvas:
     >>> canvas.text(10, 10, "engine3d", (255, 255, 255), background=(0, 0, 0, 160))
     """
 
-    def __init__(self, *args: int | NDArray[np.uint8]) -> None:
+    @overload
+    def __init__(self, width: int, height: int, /) -> None: ...
+
+    @overload
+    def __init__(self, pixels: NDArray[np.uint8], /) -> None: ...
+
+    def __init__(self, *args) -> None:
         self._pixels = _new_pixels(*args) if len(args) == 2 else _given_pixels(*args)
         try:
             self._surface = native.Surface(self._pixels)
@@ -347,7 +353,7 @@ def _new_pixels(width: int, height: int) -> NDArray[np.uint8]:
     return pixels
 
 
-def _given_pixels(*args: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _given_pixels(*args) -> NDArray[np.uint8]:
     if len(args) != 1 or not isinstance(args[0], np.ndarray):
         raise InvalidArgumentError("a Canvas takes a width and a height, or an array of pixels")
     return args[0]

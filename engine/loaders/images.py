@@ -15,9 +15,9 @@ from ..textures import MAX_SIDE
 from .registry import Reader
 from .sources import Source
 
-# More pixels than this are refused before anything is decoded: 1 GiB as RGBA. Assign another value
-# to change it.
-MAX_PIXELS = 1 << 28
+# More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
+# another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
+MAX_PIXELS = 178_956_970
 
 
 def check_image_size(width: int, height: int, path: str) -> None:
@@ -50,9 +50,13 @@ def read_image(source: Source) -> np.ndarray:
     try:
         with Image.open(io.BytesIO(source.data), formats=formats) as image:
             check_image_size(*image.size, source.path)
-            return _rgba(image)
+            pixels = _rgba(image)
+            pixels.setflags(write=False)
+            return pixels
     except FileFormatError:
         raise
+    except Image.DecompressionBombError as error:
+        raise FileFormatError(f"an image is limited to {MAX_PIXELS} pixels", source.path) from error
     except Image.UnidentifiedImageError as error:
         raise FileFormatError("not an image of a known format", source.path) from error
     # Pillow's plugins raise whatever a damaged file leads them to: OSError, SyntaxError,

@@ -14,6 +14,7 @@ from ..materials import Material
 from ..mesh import Mesh
 from .corner_mesh import Triangles, Vertices, build_mesh
 from .documents import Document, DocumentObject
+from .ear_clipping import WorkBudget
 from .obj_elements import Elements, read_elements, read_vertices
 from .obj_materials import give_companion_texture, read_library, used_materials
 from .obj_statements import Statements, keyword_code
@@ -28,6 +29,12 @@ _GEOMETRY = ("v", "vt", "vn", "f", "fo", "l", "p", "g", "o", "s")
 # Statements that change nothing that is drawn here.
 _IGNORED = (b"lod", b"shadow_obj", b"trace_obj", b"bevel", b"c_interp", b"d_interp", b"vp", b"mg")
 _MAX_GROUP = 2**31 - 1
+
+# The work that concave polygons may take: a file of up to a megabyte loads within two seconds, a
+# larger one within ten.
+_LARGE_FILE = 1 << 20
+_WORK = 1_000_000
+_WORK_FOR_LARGE_FILES = 6_000_000
 
 
 def read_obj(source: Source, split: bool = False) -> Document:
@@ -53,7 +60,9 @@ def read_obj(source: Source, split: bool = False) -> Document:
     points = read_elements(statements, ("p",), vertices, warnings)
     states = _States(statements, warnings)
     materials, material_of_use = _materials(source, states, len(vertices.uvs) > 0, warnings)
-    triangles = _triangles(statements, vertices, faces, warnings)
+    is_large = len(source.data) > _LARGE_FILE
+    budget = WorkBudget(_WORK_FOR_LARGE_FILES if is_large else _WORK)
+    triangles = _triangles(statements, vertices, faces, budget, warnings)
     triangles.materials = _material_ids(
         states, material_of_use, materials, faces.statements[triangles.polygons]
     )
@@ -164,7 +173,7 @@ def _material_ids(states, material_of_use, materials, of_triangles) -> np.ndarra
     return ids
 
 
-def _triangles(statements, vertices: Vertices, faces: Elements, warnings) -> Triangles:
+def _triangles(statements, vertices: Vertices, faces: Elements, budget, warnings) -> Triangles:
     """Cut the faces into triangles."""
     short = np.flatnonzero(faces.sizes < 3)
     if len(short):
@@ -172,7 +181,7 @@ def _triangles(statements, vertices: Vertices, faces: Elements, warnings) -> Tri
             f"{len(short)} faces of fewer than three corners are left out",
             statements.line(faces.statements[short[0]]),
         )
-    cut = triangulate(faces.sizes, vertices.positions[faces.positions])
+    cut = triangulate(faces.sizes, vertices.positions[faces.positions], budget)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     return Triangles(

@@ -14,10 +14,9 @@ import numpy as np
 _BLANKS = b" \t\n\v\f"
 _IS_BLANK = np.isin(np.arange(256), np.frombuffer(_BLANKS, np.uint8))
 
-# A comment begins at a '#' that starts a line or follows a blank: names and numbers may hold one.
-_COMMENT = re.compile(rb"(?<![^ \t\n\v\f])#[^\n]*")
-# A backslash at the end of a line continues it, but not that of a comment (a path, say).
-_CONTINUATION = re.compile(rb"^[ \t]*#[^\n]*|\\[ \t]*\n", re.MULTILINE)
+_COMMENT = re.compile(rb"#[^\n]*")
+_LATER_COMMENT = re.compile(rb"(?<=[ \t\v\f])#")
+_CONTINUATION = re.compile(rb"\\[ \t]*\n")
 
 
 class Statements:
@@ -30,7 +29,7 @@ class Statements:
     codes : (buffer,) uint8
         The same bytes as an array.
     word_starts, word_ends : (W,) int64
-        Positions of all words.
+        Positions of all words; a comment is none.
     first : (S,) int64
         The first word of each statement: its keyword.
     count : (S,) int64
@@ -47,7 +46,7 @@ class Statements:
         if b"\\" in text:
             text = _CONTINUATION.sub(_join_line, text)
         if b"#" in text:
-            text = _COMMENT.sub(lambda comment: b" " * len(comment[0]), text)
+            text = _COMMENT.sub(_blank_comment, text)
         self.text = text
         self.codes = np.frombuffer(text, np.uint8)
         self._find_words()
@@ -114,6 +113,29 @@ def keyword_code(keyword: str) -> int:
     return int.from_bytes(keyword.encode(), "little")
 
 
+def _blank_comment(match: re.Match) -> bytes:
+    """Blank what a '#' begins, unless the '#' is part of a word."""
+    comment, text, start = match[0], match.string, match.start()
+    if _begins_comment(text, start):
+        return b" " * len(comment)
+    later = _LATER_COMMENT.search(comment)
+    kept = len(comment) if later is None else later.start()
+    return comment[:kept] + b" " * (len(comment) - kept)
+
+
+def _begins_comment(text: bytes, position: int) -> bool:
+    """Names may hold a '#', and so do numbers like ``1.#QNAN``; else it always begins a comment."""
+    before = text[position - 1 : position]
+    if not before or before in _BLANKS:
+        return True
+    line_start = text.rfind(b"\n", 0, position) + 1
+    is_numeric = text[line_start:position].lstrip()[:1] in (b"v", b"f", b"l", b"p", b"s")
+    return is_numeric and before != b"."
+
+
 def _join_line(match: re.Match) -> bytes:
-    found = match[0]
-    return found if found.lstrip().startswith(b"#") else b" " * len(found)
+    """A backslash at the end of a line continues it, but not that of a comment (a path, say)."""
+    start = match.string.rfind(b"\n", 0, match.start()) + 1
+    if match.string[start : match.start()].lstrip().startswith(b"#"):
+        return match[0]
+    return b" " * len(match[0])

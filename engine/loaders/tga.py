@@ -96,6 +96,7 @@ def read_tga(source: Source) -> np.ndarray:
     if attributes is None and not pixels[:, :, 3].any():
         pixels[:, :, 3] = 255
     _turn_upright(pixels, header)
+    pixels.setflags(write=False)
     return pixels
 
 
@@ -202,23 +203,26 @@ def _blocks(source: Source, header: _Header, start: int) -> Iterator[np.ndarray]
 def _find_packets(source: Source, start: int, size: int, count: int) -> np.ndarray:
     """Offsets of the packets that hold ``count`` pixels; a last one that holds more may end so."""
     data = source.data
-    end = len(data)
-    packets = []
-    position, done = start, 0
-    while done < count:
-        if position >= end:
-            raise FileFormatError(f"cut short: {done} of {count} pixels are there", source.path)
-        packets.append(position)
-        length = data[position]
-        if length & 128:
-            length &= 127
-            position += 1 + size
-        else:
-            position += 1 + (length + 1) * size
-        done += length + 1
+    packets: list[int] = []
+    note = packets.append
+    position, done, step = start, 0, 1 + size
+    try:
+        while done < count:
+            head = data[position]
+            note(position)
+            if head > 127:
+                position += step
+                done += head - 127
+            else:
+                position += step + head * size
+                done += head + 1
+    except IndexError:
+        raise FileFormatError(
+            f"cut short: {done} of {count} pixels are there", source.path
+        ) from None
     # The bytes that the surplus pixels of the last packet would take need not be there.
     surplus = 0 if data[packets[-1]] & 128 else (done - count) * size
-    if position - surplus > end:
+    if position - surplus > len(data):
         raise FileFormatError("cut short inside a run-length packet", source.path)
     return np.array(packets, np.int64)
 

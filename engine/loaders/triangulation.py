@@ -41,7 +41,9 @@ class Triangulation(NamedTuple):
     is_complete: bool
 
 
-def triangulate(sizes: np.ndarray, positions: np.ndarray) -> Triangulation:
+def triangulate(
+    sizes: np.ndarray, positions: np.ndarray, budget: WorkBudget | None = None
+) -> Triangulation:
     """Cut polygons into triangles.
 
     Parameters
@@ -50,6 +52,8 @@ def triangulate(sizes: np.ndarray, positions: np.ndarray) -> Triangulation:
         Corners of each polygon; those of fewer than three give no triangle.
     positions : (C, 3) float64
         The corners' positions, polygon after polygon; C is the sum of ``sizes``.
+    budget : WorkBudget, optional
+        The work that concave polygons may take.
 
     Returns
     -------
@@ -65,7 +69,7 @@ def triangulate(sizes: np.ndarray, positions: np.ndarray) -> Triangulation:
     # Corner numbers within the polygon first, then within the file.
     corners = np.empty((int(counts.sum()), 3), np.int64)
     polygons = np.repeat(np.arange(len(sizes)), counts)
-    budget = WorkBudget()
+    budget = budget or WorkBudget()
     for size in np.unique(sizes[sizes >= 3]).tolist():
         members = np.flatnonzero(sizes == size)
         rows = first_triangle[members, np.newaxis] + np.arange(size - 2)

@@ -1,0 +1,124 @@
+"""Images through Pillow, and the limits on them."""
+
+import struct
+import zlib
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from engine3d.errors import FileAccessError, FileFormatError
+from engine3d.loaders import images, load_texture
+
+
+@pytest.fixture
+def saved(tmp_path):
+    def save(image, name, **options):
+        path = tmp_path / name
+        image.save(path, **options)
+        return path
+
+    return save
+
+
+@pytest.mark.parametrize("extension", ["png", "webp", "bmp", "gif", "tiff", "ppm", "tga"])
+def test_lossless_formats(saved, extension):
+    colors = np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]], np.uint8)
+    options = {"lossless": True} if extension == "webp" else {}
+    texture = load_texture(saved(Image.fromarray(colors), f"a.{extension}", **options))
+    assert np.array_equal(texture.pixels[:, :, :3], colors)
+    assert (texture.pixels[:, :, 3] == 255).all()
+    assert not texture.pixels.flags.writeable
+
+
+def test_jpeg(saved):
+    texture = load_texture(saved(Image.new("RGB", (8, 8), (200, 100, 50)), "a.jpg", quality=95))
+    assert np.abs(texture.pixels[0, 0, :3].astype(int) - [200, 100, 50]).max() < 4
+
+
+@pytest.mark.parametrize(
+    ("mode", "color", "expected"),
+    [
+        ("L", 9, [9, 9, 9, 255]),
+        ("LA", (9, 8), [9, 9, 9, 8]),
+        ("RGBA", (1, 2, 3, 4), [1, 2, 3, 4]),
+        ("1", 1, [255, 255, 255, 255]),
+        ("I;16", 0x8012, [128, 128, 128, 255]),
+    ],
+)
+def test_modes(saved, mode, color, expected):
+    texture = load_texture(saved(Image.new(mode, (1, 1), color), "a.png"))
+    assert texture.pixels[0, 0].tolist() == expected
+
+
+def test_palette_with_transparency(saved):
+    image = Image.new("P", (2, 1))
+    image.putpalette([10, 20, 30, 40, 50, 60])
+    image.putpixel((1, 0), 1)
+    texture = load_texture(saved(image, "a.png", transparency=0))
+    assert texture.pixels[0].tolist() == [[10, 20, 30, 0], [40, 50, 60, 255]]
+
+
+def test_options_go_to_the_texture(saved):
+    path = saved(Image.new("L", (1, 1)), "a.png")
+    texture = load_texture(path, wrap="clamp", color_space="linear", filter="nearest")
+    assert (texture.wrap, texture.color_space, texture.filter) == ("clamp", "linear", "nearest")
+    assert texture.name == "a.png"
+
+
+def test_the_content_counts_more_than_the_extension(saved):
+    path = saved(Image.new("L", (1, 1), 7), "a.png")
+    renamed = path.with_suffix(".jpg")
+    path.rename(renamed)
+    assert load_texture(renamed).pixels[0, 0, 0] == 7
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"hello", b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff\xe0", b"GIF89a"]
+)
+def test_damaged_images_are_clear_errors(write, content):
+    with pytest.raises(FileFormatError, match=r"a\.png: "):
+        load_texture(write("a.png", content))
+
+
+def test_a_cut_png_gives_no_partial_pixels(saved):
+    path = saved(Image.effect_noise((64, 64), 50), "a.png")
+    path.write_bytes(path.read_bytes()[:-200])
+    with pytest.raises(FileFormatError):
+        load_texture(path)
+
+
+def test_a_decompression_bomb_is_refused_before_it_is_decoded(write):
+    header = struct.pack(">IIBBBBB", 30000, 30000, 8, 0, 0, 0, 0)
+    with pytest.raises(FileFormatError, match="limited to"):
+        load_texture(write("a.png", _png(header)))
+
+
+def test_the_limit_can_be_changed(saved, monkeypatch):
+    path = saved(Image.new("L", (20, 20)), "a.png")
+    monkeypatch.setattr(images, "MAX_PIXELS", 399)
+    with pytest.raises(FileFormatError, match="limited to 399 pixels"):
+        load_texture(path)
+
+
+def test_programs_behind_formats_are_not_started(write):
+    with pytest.raises(FileFormatError):
+        load_texture(write("a.png", b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 10 10\n"))
+
+
+def test_unknown_formats_and_missing_files(write, tmp_path):
+    with pytest.raises(FileFormatError, match=r"unknown image format '\.xyz' \(known: .*\.tga"):
+        load_texture(write("a.xyz", b"hello"))
+    with pytest.raises(FileAccessError):
+        load_texture(tmp_path / "none.png")
+
+
+def _png(header):
+    def chunk(kind, data):
+        crc = struct.pack(">I", zlib.crc32(kind + data))
+        return struct.pack(">I", len(data)) + kind + data + crc
+
+    body = (
+        chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"\0" * 1000)) + chunk(b"IEND", b"")
+    )
+    return b"\x89PNG\r\n\x1a\n" + body

@@ -1,0 +1,60 @@
+"""The choice of a reader, and what loading costs at most."""
+
+import contextlib
+import subprocess
+import sys
+import tracemalloc
+
+import pytest
+from shared_corpus import CONFORMANCE, cases_of, needs_conformance
+
+from engine3d.errors import Engine3DError, FileFormatError
+from engine3d.loaders import formats, load_mesh, load_texture
+
+MIB = 1 << 20
+
+
+def test_formats_are_listed():
+    names = {entry.name for entry in formats()}
+    assert {"obj", "asc", "tga", "png", "jpeg"} <= names
+    assert {entry.name for entry in formats("mesh")} == {"obj", "asc"}
+    assert all(extension.startswith(".") for f in formats() for extension in f.extensions)
+
+
+def test_an_unknown_format_is_a_clear_error(write):
+    with pytest.raises(FileFormatError, match=r"a\.ply: unknown mesh format '\.ply' \(known: \.as"):
+        load_mesh(write("a.ply", "ply\nformat ascii 1.0\n"))
+
+
+@pytest.mark.parametrize("extension", ["txt", "3d", ""])
+def test_text_is_recognised_without_its_extension(write, extension):
+    text = "# made by hand\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    assert len(load_mesh(write(f"a.{extension}", text)).faces) == 1
+
+
+def test_loading_a_mesh_does_not_import_pillow(write):
+    path = write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    code = (
+        "import sys, engine3d.loaders as loaders; "
+        f"loaders.load_mesh({str(path)!r}); sys.exit('PIL' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@needs_conformance
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.parametrize("kinds", [("obj", "mtl", "asc"), ("tga",)])
+def test_memory_stays_within_its_limit(kinds):
+    """64 MiB and 40 times the file, and for images their pixels besides."""
+    load = load_texture if kinds == ("tga",) else load_mesh
+    tracemalloc.start()
+    try:
+        for case in (parameter.values[0] for parameter in cases_of(*kinds)):
+            limit = 64 * MIB + 40 * case["size"] + 4 * case.get("width", 0) * case.get("height", 0)
+            tracemalloc.reset_peak()
+            before = tracemalloc.get_traced_memory()[0]
+            with contextlib.suppress(Engine3DError):
+                load(CONFORMANCE / case["file"])
+            assert tracemalloc.get_traced_memory()[1] - before <= limit, case["file"]
+    finally:
+        tracemalloc.stop()

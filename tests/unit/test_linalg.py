@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+
 from engine3d import linalg
 from engine3d.errors import InvalidArgumentError
 

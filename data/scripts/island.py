@@ -30,8 +30,19 @@ MATERIALS = {
 
 
 def build():
-    """Return the model's files."""
-    surfaces = [
+    """Return the model's files, by name, as functions that make them."""
+    title = "A lighthouse on an island"
+    return {
+        "island.obj": lambda: obj(title, surfaces(), "island.mtl"),
+        "island.mtl": lambda: mtl(title, MATERIALS),
+        "island_ground.tga": lambda: tga(ground_texture(standing())),
+        "island_details.tga": lambda: tga(details_texture()),
+    }
+
+
+def surfaces():
+    """Return everything that the model shows."""
+    return [
         land_surface(),
         sea_surface(),
         *lighthouse(),
@@ -43,13 +54,10 @@ def build():
         *gulls(),
         *stand(SEA_RADIUS),
     ]
-    shaded = [(x, z, 0.20 + 0.1 * size) for x, _, z, size, _ in tree_spots()]
-    shaded += [(x, z, 0.15 + 0.2 * size) for x, _, z, size, _ in rock_spots()]
-    shaded += [(TOWER[0], TOWER[1], 0.62), (COTTAGE[0], COTTAGE[1], 0.62)]
-    title = "A lighthouse on an island"
-    return {
-        "island.obj": obj(title, surfaces, "island.mtl"),
-        "island.mtl": mtl(title, MATERIALS),
-        "island_ground.tga": tga(ground_texture(shaded)),
-        "island_details.tga": tga(details_texture()),
-    }
+
+
+def standing():
+    """Return what stands on the ground, as (x, z, radius)."""
+    trees = [(x, z, 0.20 + 0.1 * size) for x, _, z, size, _ in tree_spots()]
+    stones = [(x, z, 0.15 + 0.2 * size) for x, _, z, size, _ in rock_spots()]
+    return trees + stones + [(TOWER[0], TOWER[1], 0.62), (COTTAGE[0], COTTAGE[1], 0.62)]

@@ -29,16 +29,16 @@ GIRTH, WALL_LENGTH = 12.6, 3.2
 
 
 def build():
-    """Return the model's files."""
+    """Return the model's files, by name, as functions that make them."""
     materials = {
         "porcelain": {"Kd": (1, 1, 1), "Ks": (0.45, 0.45, 0.45), "Ns": 90, "map_Kd": "teapot.tga"},
         "tea": {"Kd": (0.18, 0.07, 0.02), "Ks": (0.3, 0.3, 0.3), "Ns": 60},
     }
     title = "The Utah teapot (Martin Newell, 1975)"
     return {
-        "teapot.obj": obj(title, surfaces(), "teapot.mtl"),
-        "teapot.mtl": mtl(title, materials),
-        "teapot.tga": tga(texture()),
+        "teapot.obj": lambda: obj(title, surfaces(), "teapot.mtl"),
+        "teapot.mtl": lambda: mtl(title, materials),
+        "teapot.tga": lambda: tga(texture()),
     }
 
 

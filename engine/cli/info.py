@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import warnings
 
+from ..errors import Engine3DWarning
 from ..loaders import load_document
 
 
@@ -34,7 +36,9 @@ def describe(path) -> dict:
         ``file``, ``format``, ``counts``, ``bounds`` (``min``, ``max``, ``size``, or None where
         there is no vertex), ``objects``, ``materials``, ``lights``, ``cameras``, ``warnings``.
     """
-    document = load_document(path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
+        document = load_document(path)
     meshes = [mesh for _, mesh, _ in document.objects]
     materials = {id(material): material for mesh in meshes for material in mesh.materials}
     return {

@@ -13,7 +13,7 @@ SHOWCASE_MODEL = "island.obj"
 SKY = (142, 178, 204)
 SHOWCASE_SECONDS = 24.0
 TEXTURED_MODEL = "teapot.obj"
-ASC_MODEL = "workshop.asc"
+ASC_MODEL = "train.asc"
 
 
 def showcase() -> Subject:

@@ -1,0 +1,407 @@
+"""The commands end to end: what they write, what they print, how they exit."""
+
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import engine3d as e3d
+from engine3d.cli import main
+
+OBJ = """o square
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3 4/4
+"""
+SMALL = ("--resolution", "48x32")
+
+
+@pytest.fixture
+def model(tmp_path):
+    path = tmp_path / "square.obj"
+    path.write_text(OBJ)
+    return path
+
+
+@pytest.fixture(autouse=True)
+def no_screen(monkeypatch, tmp_path):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.chdir(tmp_path)
+
+
+def pixels(path):
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGBA"))
+
+
+def start(*arguments, **options):
+    command = [sys.executable, "-m", "engine3d", *map(str, arguments)]
+    return subprocess.Popen(command, stdout=-1, stderr=-1, **options)
+
+
+@pytest.mark.parametrize("suffix", [".png", ".tga", ".webp", ".jpg", ".JPEG"])
+def test_render_writes_each_format(model, tmp_path, capsys, suffix):
+    path = tmp_path / f"out{suffix}"
+    assert main(["render", str(model), *SMALL, "-o", str(path)]) == 0
+    picture = pixels(path)
+    assert picture.shape == (32, 48, 4)
+    assert picture[16, 24, :3].min() > 100
+    assert capsys.readouterr() == ("", "")
+
+
+def test_the_same_picture_on_every_backend(model, tmp_path):
+    pictures = set()
+    for backend in e3d.backends():
+        path = tmp_path / "out.png"
+        assert main(["render", str(model), *SMALL, "--backend", backend, "-o", str(path)]) == 0
+        pictures.add(path.read_bytes())
+    assert len(pictures) == 1
+
+
+def test_dash_writes_png_to_standard_output(model):
+    process = start("render", model, *SMALL, "-o", "-")
+    out, err = process.communicate()
+    assert (process.returncode, err) == (0, b"")
+    with Image.open(io.BytesIO(out)) as image:
+        assert (image.format, image.size) == ("PNG", (48, 32))
+
+
+def test_no_background_is_transparent_where_nothing_is(model, tmp_path):
+    path = tmp_path / "out.png"
+    assert main(["render", str(model), *SMALL, "--no-background", "-o", str(path)]) == 0
+    alpha = pixels(path)[..., 3]
+    assert alpha[0, 0] == 0
+    assert alpha[16, 24] == 255
+
+
+def test_background_color_is_what_it_says(model, tmp_path):
+    path = tmp_path / "out.png"
+    arguments = ["--background-color", "12,34,56", "-o", str(path)]
+    assert main(["render", str(model), *SMALL, *arguments]) == 0
+    assert pixels(path)[0, 0].tolist() == [12, 34, 56, 255]
+
+
+@pytest.mark.parametrize("suffix", [".gif", ".webp", ".apng"])
+def test_turntable(model, tmp_path, suffix):
+    path = tmp_path / f"out{suffix}"
+    arguments = ["--turntable", "5", "--cull", "none", "-o", str(path)]
+    assert main(["render", str(model), *SMALL, *arguments]) == 0
+    with Image.open(path) as image:
+        assert image.n_frames == 5
+
+
+def test_look_options_change_the_picture(model, tmp_path):
+    def draw(*arguments):
+        path = tmp_path / "out.png"
+        size = ["--resolution", "160x120"]
+        assert main(["render", str(model), *size, *arguments, "-o", str(path)]) == 0
+        return path.read_bytes()
+
+    plain = draw()
+    for arguments in (
+        ["--unlit"],
+        ["--mode", "normal"],
+        ["--wireframe"],
+        ["--edges"],
+        ["--edges", "--line-width", "3"],
+        ["--edges", "--line-color", "red"],
+        ["--cull", "front"],
+        ["--color", "red"],
+        ["--light-position", "0,0,5"],
+        ["--light-intensity", "0.3"],
+        ["--grid"],
+        ["--axis"],
+        ["--metadata"],
+        ["--samples", "4"],
+        ["--up", "-Z"],
+        ["--camera-position", "-1,2,3"],
+        ["--camera-focal-point", "1,1,0"],
+        ["--camera-view-up", "1,0,0"],
+        ["--camera-view-angle", "60"],
+        ["--camera-azimuth-angle", "-20"],
+        ["--camera-elevation-angle", "-10"],
+        ["--camera-zoom-factor", "2"],
+        ["--camera-orthographic"],
+    ):
+        assert draw(*arguments) != plain, arguments
+    assert draw("--shading", "forward") == plain
+
+
+def test_hidden_surfaces_flat_normals_and_points_change_a_solid(tmp_path):
+    def draw(*arguments):
+        path = tmp_path / "out.png"
+        assert main(["render", *arguments, "--resolution", "96x64", "-o", str(path)]) == 0
+        return path.read_bytes()
+
+    solid = ["--scene", "shapes"]
+    assert draw(*solid) != draw(*solid, "--hidden-surfaces", "none", "--cull", "none")
+    assert draw(*solid) != draw(*solid, "--flat")
+    lines = [*solid, "--wireframe", "only"]
+    assert draw(*lines) != draw(*lines, "--hidden-lines")
+    points = ["--scene", "vertices"]
+    assert draw(*points) != draw(*points, "--point-size", "3")
+
+
+def test_a_texture_is_asked_for_or_found_beside_the_model(model, tmp_path):
+    def draw(*arguments):
+        path = tmp_path / "out.png"
+        assert main(["render", str(model), *SMALL, "--unlit", *arguments, "-o", str(path)]) == 0
+        return pixels(path)[16, 24, :3].tolist()
+
+    Image.new("RGB", (4, 4), (200, 30, 10)).save(tmp_path / "elsewhere.png")
+    assert draw() == [255, 255, 255]
+    assert draw("--texture", str(tmp_path / "elsewhere.png")) == [200, 30, 10]
+    Image.new("RGB", (4, 4), (10, 30, 200)).save(tmp_path / "square_diffuse.tga")
+    assert draw() == [10, 30, 200]
+
+
+def test_a_reference_decides_the_exit_status(model, tmp_path, capsys):
+    path = str(tmp_path / "reference.png")
+    base = ["render", str(model), *SMALL]
+    assert main([*base, "-o", path]) == 0
+    assert main([*base, "--reference", path]) == 0
+    assert main([*base, "--reference", path, "--unlit"]) == 1
+    error = capsys.readouterr().err
+    assert error.startswith("engine3d: error: ") and error.count("\n") == 1
+    assert "pixels" in error
+    assert main([*base, "--reference", path, "--unlit", "--reference-threshold", "1"]) == 0
+    assert main([*base, "--resolution", "20x20", "--reference", path]) == 1
+    assert "48x32" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["missing.obj"], "missing.obj"),
+        (["broken.obj"], "broken.obj:2: "),
+        (["square.obj", "--texture", "missing.png"], "missing.png"),
+        (["square.obj", "--texture", "broken.obj"], "broken.obj"),
+        (["square.obj", "--reference", "missing.png"], "missing.png"),
+        (["square.obj", "--reference", "broken.obj"], "broken.obj"),
+        (["square.obj", "-o", "no/folder/out.png"], "no/folder"),
+        (["square.obj", "--camera-position", "0,0,0", "--camera-focal-point", "0,0,0"], "same"),
+        (["square.obj", "--camera-view-up", "0,0,0"], "zero"),
+        (["."], "."),
+    ],
+)
+def test_bad_input_is_one_line_and_status_1(model, tmp_path, capsys, arguments, part):
+    (tmp_path / "broken.obj").write_text("v 0 0 0\nf 1 2 9\n")
+    if "-o" not in arguments:
+        arguments = [*arguments, "-o", "out.png"]
+    assert main(["render", *SMALL, *arguments]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("engine3d: error: ")
+    assert err.count("\n") == 1
+    assert part in err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["fly"],
+        ["render"],
+        ["render", "a.obj"],
+        ["render", "-o", "out.png"],
+        ["render", "a.obj", "-o", "out.xyz"],
+        ["render", "a.obj", "-o", "out"],
+        ["render", "a.obj", "-o", "out.gif"],
+        ["render", "a.obj", "--turntable", "4", "-o", "out.png"],
+        ["render", "a.obj", "--turntable", "4", "-o", "-"],
+        ["render", "a.obj", "--turntable", "0", "-o", "out.gif"],
+        ["render", "a.obj", "--no-background", "-o", "out.jpg"],
+        ["render", "a.obj", "--scene", "cube", "-o", "out.png"],
+        ["render", "--scene", "moon", "-o", "out.png"],
+        ["render", "--scene", "cube", "--texture", "a.png", "-o", "out.png"],
+        ["render", "a.obj", "-o", "out.png", "--resolution", "0x0"],
+        ["render", "a.obj", "-o", "out.png", "--mode", "pretty"],
+        ["render", "a.obj", "-o", "out.png", "--unlit", "--mode", "depth"],
+        ["render", "a.obj", "-o", "out.png", "--backend", "gpu"],
+        ["render", "a.obj", "-o", "out.png", "--no-such-option"],
+        ["run", "--headless", "-o", "out.png"],
+        ["run", "--watch"],
+        ["run", "-o", "out.gif"],
+        ["info"],
+    ],
+)
+def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments):
+    (tmp_path / "a.obj").write_text(OBJ)
+    assert main(arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "error: " in err.splitlines()[-1]
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.obj"]
+
+
+def test_a_backend_that_the_machine_lacks_is_an_error(model, capsys, monkeypatch):
+    monkeypatch.setenv("ENGINE3D_BACKEND", "abacus")
+    assert main(["render", str(model), *SMALL, "-o", "out.png"]) == 1
+    assert "abacus" in capsys.readouterr().err
+
+
+def test_a_loaders_warning_is_a_line(tmp_path, capsys):
+    path = tmp_path / "model.obj"
+    path.write_text("mtllib missing.mtl\n" + OBJ)
+    assert main(["render", str(path), *SMALL, "-o", "out.png"]) == 0
+    err = capsys.readouterr().err
+    assert err.startswith("engine3d: warning: ")
+    assert "missing.mtl" in err
+    assert err.count("\n") == 1
+
+
+def test_verbose_tells_what_was_loaded_and_drawn(model, capsys):
+    assert main(["render", str(model), *SMALL, "-o", "out.png", "--verbose"]) == 0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "square.obj" in err and "48x32" in err and "triangles" in err
+
+
+def test_info(model, capsys):
+    assert main(["info", str(model)]) == 0
+    text = capsys.readouterr().out
+    assert "square.obj" in text and "vertices" in text and "bounds" in text
+    assert main(["info", str(model), "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["counts"]["vertices"] == 4
+    assert report["bounds"]["max"] == [1.0, 1.0, 0.0]
+    assert report["warnings"] == []
+    assert [item["faces"] for item in report["objects"]] == [2]
+
+
+def test_info_of_a_file_that_is_no_model(tmp_path, capsys):
+    (tmp_path / "a.obj").write_text("v 1 2\n")
+    assert main(["info", "a.obj"]) == 1
+    assert "a.obj:1: " in capsys.readouterr().err
+
+
+def test_info_lists_warnings(tmp_path, capsys):
+    (tmp_path / "a.obj").write_text("mtllib none.mtl\n" + OBJ)
+    assert main(["info", "a.obj", "--json"]) == 0
+    out, err = capsys.readouterr()
+    (warning,) = json.loads(out)["warnings"]
+    assert "none.mtl" in warning
+    assert err == ""
+
+
+def test_list_readers_and_version(capsys):
+    assert main(["--list-readers"]) == 0
+    text = capsys.readouterr().out
+    assert ".obj" in text and ".tga" in text and ".asc" in text
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"engine3d {e3d.__version__}\n"
+
+
+@pytest.mark.parametrize("command", [[], ["run"], ["render"], ["info"]])
+def test_help(command, capsys):
+    assert main([*command, "--help"]) == 0
+    assert "usage: engine3d" in capsys.readouterr().out
+
+
+def test_run_without_a_screen_says_so_and_writes_a_turntable(model, tmp_path, capsys):
+    command = ["run", str(model), *SMALL, "--cull", "none"]
+    assert main([*command, "--frames", "3"]) == 0
+    out, err = capsys.readouterr()
+    assert err.count("\n") == 1
+    assert "no screen" in err and "square-turntable-001.gif" in err
+    with Image.open(tmp_path / "square-turntable-001.gif") as image:
+        assert image.n_frames == 3
+    assert main([*command, "--frames", "2"]) == 0
+    assert (tmp_path / "square-turntable-002.gif").exists()
+
+
+def test_run_headless_writes_what_it_is_told(model, tmp_path, capsys):
+    headless = ["run", str(model), *SMALL, "--headless", "--cull", "none"]
+    assert main([*headless, "--frames", "4", "-o", "out.webp"]) == 0
+    with Image.open(tmp_path / "out.webp") as image:
+        assert image.n_frames == 4
+    assert main([*headless, "--frames", "1", "-o", "out.png"]) == 0
+    assert pixels(tmp_path / "out.png").shape == (32, 48, 4)
+    assert capsys.readouterr().err == ""
+
+
+def test_run_in_a_dummy_window_stops_after_its_frames(model, monkeypatch, capsys):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    arguments = ["--animate", "--fps", "--no-vsync", "--frames", "3", "--camera", "fps"]
+    assert main(["run", str(model), *SMALL, *arguments]) == 0
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    "scene", ["default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc"]
+)
+def test_every_scene_draws_something_that_moves(scene, tmp_path):
+    path = tmp_path / "out.webp"
+    arguments = ["--headless", "--frames", "3", "-o", str(path)]
+    assert main(["run", "--scene", scene, "--resolution", "96x64", *arguments]) == 0
+    with Image.open(path) as image:
+        assert image.n_frames == 3
+        first = np.asarray(image.convert("RGB")).astype(int)
+        image.seek(1)
+        second = np.asarray(image.convert("RGB")).astype(int)
+    assert np.ptp(first) > 100
+    assert abs(first - second).max() > 30
+
+
+def test_a_reader_that_leaves_is_no_traceback(model):
+    process = start("info", model, "--json")
+    process.stdout.close()
+    assert b"Traceback" not in process.stderr.read()
+    assert process.wait() in (0, 1)
+    process.stderr.close()
+
+
+def test_a_reader_of_a_picture_that_leaves():
+    size = ["--resolution", "1280x720"]
+    process = start("render", "--scene", "default", *size, "-o", "-")
+    process.stdout.read(10)
+    process.stdout.close()
+    error = process.stderr.read()
+    process.stderr.close()
+    assert process.wait() == 1
+    assert error == b""
+
+
+def test_ctrl_c_is_quiet_and_leaves_no_file(model, tmp_path):
+    output = tmp_path / "long.gif"
+    process = start("render", model, "--turntable", "3000", "--verbose", "-o", output)
+    assert b"loaded" in process.stderr.readline()
+    time.sleep(0.5)
+    os.kill(process.pid, signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert (out, err) == (b"", b"")
+    assert [entry.name for entry in tmp_path.iterdir()] == [model.name]
+
+
+def test_help_loads_neither_numpy_nor_pillow():
+    code = (
+        "import sys; from engine3d.cli import main; main(['render', '--help']);"
+        "print([name for name in ('numpy', 'PIL', 'sdl2', 'rich') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_render_loads_neither_sdl_nor_rich(model):
+    code = (
+        "import sys; from engine3d.cli import main;"
+        f"main(['render', {str(model)!r}, '--resolution', '20x20', '-o', 'out.png']);"
+        "print([name for name in ('sdl2', 'rich') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"

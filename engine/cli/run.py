@@ -95,6 +95,7 @@ def _show(args: argparse.Namespace, subject) -> None:
             statistics=args.fps,
             watch=args.watch,
         )
+        viewer.say("H: help")
         viewer.run(args.frames)
 
 

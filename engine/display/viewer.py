@@ -26,6 +26,7 @@ from .watch import FileWatch
 IDLE_SECONDS = 0.25
 MESSAGE_SECONDS = 2.5
 TITLE_SECONDS = 0.5
+AVERAGED_FRAMES = 30
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
 ARROW_RADIANS = math.radians(7.5)
@@ -81,7 +82,7 @@ class Viewer:
         self.drag: str | None = None
         self._message = ""
         self._message_ends = 0.0
-        self._frame_times = deque(maxlen=60)
+        self._frame_costs = deque(maxlen=AVERAGED_FRAMES)
         self._title_due = 0.0
         self._watch = FileWatch(studio.subject.path if watch else None)
         if walking:
@@ -134,13 +135,14 @@ class Viewer:
 
     def draw(self) -> None:
         """Draw one frame, its overlays, and show it."""
+        start = clock.monotonic()
         width, height = self.window.size
         self.studio.resize(width, height)
         self.changed = False
         self.frame = self.studio.draw(self.view, self.time)
         self._draw_overlays()
         self.window.present(self.frame.color)
-        self._frame_times.append(clock.monotonic())
+        self._frame_costs.append(clock.monotonic() - start)
         self._update_title()
 
     def _draw_overlays(self) -> None:
@@ -164,12 +166,12 @@ class Viewer:
         )
 
     def frame_seconds(self) -> float:
-        """Return the mean time from frame to frame over the last second or so; 0 if unknown."""
-        times = self._frame_times
-        recent = [moment for moment in times if moment > times[-1] - 1.0] if times else []
-        if len(recent) < 2:
-            return 0.0
-        return (recent[-1] - recent[0]) / (len(recent) - 1)
+        """Return the mean time that the last frames took to draw and to show; 0 if unknown.
+
+        The wait for the screen's refresh counts, the sleep between events does not.
+        """
+        costs = self._frame_costs
+        return sum(costs) / len(costs) if costs else 0.0
 
     def _update_title(self) -> None:
         now = clock.monotonic()

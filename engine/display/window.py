@@ -78,6 +78,8 @@ class Window:
     def _open_video(self) -> None:
         sdl = self._sdl
         sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_ALLOW_SCREENSAVER, b"1")
+        # The class by which window managers know the program.
+        sdl.SDL_setenv(b"SDL_VIDEO_X11_WMCLASS", b"engine3d", 0)
         sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, b"0")
         if sdl.SDL_InitSubSystem(sdl.SDL_INIT_VIDEO) != 0:
             raise DisplayError(f"no screen (SDL: {_error(sdl)})")

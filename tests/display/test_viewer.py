@@ -89,7 +89,8 @@ def test_frames_limit_the_loop():
 def test_the_title_has_the_name_and_the_rate():
     viewer, window = make_viewer([[]] * 400, make_subject(plays=True))
     viewer.run(frames=300)
-    assert window.titles[0] == "torus.obj - engine3d"
+    assert window.titles[0].startswith("torus.obj - engine3d - ")
+    assert window.titles[0].endswith(" fps")
 
 
 def test_q_and_the_close_button_end_the_loop():

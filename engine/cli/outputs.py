@@ -32,6 +32,14 @@ def check_standard_output() -> None:
         raise UsageError("-o - would write a picture to the terminal; redirect standard output")
 
 
+def write_standard_output(data: bytes) -> None:
+    """Write all of ``data`` to standard output, which may be unbuffered and take less at a time."""
+    rest = memoryview(data)
+    while rest:
+        rest = rest[sys.stdout.buffer.write(rest) :]
+    sys.stdout.buffer.flush()
+
+
 def with_progress(items: Iterable, total: int, label: str) -> Iterator:
     """Yield the items; on a terminal, and if there are many, show a progress bar meanwhile."""
     if total < FEW_FRAMES or not sys.stderr.isatty():

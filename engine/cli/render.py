@@ -19,6 +19,7 @@ from .outputs import (
     check_extension,
     check_standard_output,
     with_progress,
+    write_standard_output,
 )
 from .report import Report
 from .usage import UsageError
@@ -79,8 +80,7 @@ def _write_turntable(args: argparse.Namespace, studio: Studio, view) -> None:
 
 def _write_picture(args: argparse.Namespace, frame) -> None:
     if args.output == STANDARD_OUTPUT:
-        sys.stdout.buffer.write(frame.encode("png"))
-        sys.stdout.buffer.flush()
+        write_standard_output(frame.encode("png"))
     elif args.output is not None:
         frame.save(args.output)
 

@@ -92,6 +92,7 @@ typedef struct e3d_group {
 typedef struct e3d_tile_memory {
     float z[E3D_TILE_SAMPLES + E3D_PAD];
     float bound[E3D_TILE_SAMPLES + E3D_PAD]; /* E3D_BEYOND_FAR everywhere */
+    float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* wireframe: what an edge's depth must be less than */
     int32_t slot[E3D_TILE_SAMPLES + E3D_PAD];
     int32_t mark[E3D_TILE_SAMPLES + E3D_PAD];  /* overdraw counts, then wireframe marks */
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling: 1 where a sample has its own colour */

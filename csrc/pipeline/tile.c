@@ -140,13 +140,35 @@ static int act_count(tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
+static int edges_are_tested(const e3d_frame *frame)
+{
+    return frame->hidden == E3D_HIDDEN_ZBUFFER &&
+           (frame->wireframe == E3D_WIRE_OVERLAY || frame->remove_hidden_lines);
+}
+
+/* R36: an edge may lie behind the kept depth by the slope of that piece over the line's reach. */
+static void find_edge_limits(tile_job *job)
+{
+    e3d_tile_memory *memory = job->worker->tile;
+    const e3d_slot *slots = job->worker->slots.data;
+    float reach = (float)job->context->line_half * (1.0f / 256.0f) + 0.5f;
+    for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
+        memory->edge_limit[i] = E3D_BEYOND_FAR;
+        if (memory->slot[i] < 0)
+            continue;
+        const e3d_record *kept = slots[memory->slot[i]].record;
+        float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
+        float limit = memory->z[i] + (slope < range ? slope : range);
+        if (limit < E3D_BEYOND_FAR)
+            memory->edge_limit[i] = limit;
+    }
+}
+
 static int act_mark(tile_job *job, const e3d_piece *piece)
 {
-    const e3d_frame *frame = job->context->frame;
     e3d_tile_memory *memory = job->worker->tile;
-    int tested = frame->hidden == E3D_HIDDEN_ZBUFFER &&
-                 (frame->wireframe == E3D_WIRE_OVERLAY || frame->remove_hidden_lines);
-    e3d_tile_buffers buffers = buffers_of(job, tested ? memory->z : memory->bound, memory->mark);
+    float *limit = edges_are_tested(job->context->frame) ? memory->edge_limit : memory->bound;
+    e3d_tile_buffers buffers = buffers_of(job, limit, memory->mark);
     e3d_piece marked = *piece;
     marked.slot = 1;
     job->context->kernels->raster_mark(&marked, &buffers);
@@ -225,7 +247,9 @@ static int draw_marks(tile_job *job)
     if (frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE)
         return 1;
     int64_t start = now_ns();
-    if (frame->mode == E3D_MODE_OVERDRAW) {
+    if (edges_are_tested(frame))
+        find_edge_limits(job); /* while the slots are the scene's */
+    if (frame->mode == E3D_MODE_OVERDRAW && frame->wireframe != E3D_WIRE_ONLY) {
         clear_marks(job->worker->tile);
         if (!run_bins(job, E3D_PASS_SCENE, act_count))
             return 0;

@@ -44,12 +44,22 @@ static void keep_fragment(const ref_scene *scene, const ref_piece *piece, int64_
     }
 }
 
+/* R36: how far behind the kept depth an edge still shows: the slope of that piece over the line's reach. */
+static float edge_slack(const ref_scene *scene, const ref_piece *kept)
+{
+    float reach = (float)ref_half_size(scene, scene->frame->line_width) * (1.0f / 256.0f) + 0.5f;
+    float slope = (fabsf(kept->z_dx) + fabsf(kept->z_dy)) * reach;
+    return ref_min(slope, kept->z_max - kept->z_min);
+}
+
 static void keep_edge(const ref_scene *scene, float z, ref_band *band, size_t sample)
 {
     const e3d_frame *frame = scene->frame;
     int tested = frame->hidden == E3D_HIDDEN_ZBUFFER &&
                  (frame->wireframe == E3D_WIRE_OVERLAY || frame->remove_hidden_lines);
-    if (!tested || band->piece[sample] < 0 || z < band->depth[sample])
+    int64_t kept = band->piece[sample];
+    if (!tested || kept < 0 ||
+        z < band->depth[sample] + edge_slack(scene, &scene->pieces.items[kept]))
         band->edge[sample] = 1;
 }
 

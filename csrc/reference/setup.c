@@ -204,7 +204,7 @@ static e3d_status setup_quad(ref_scene *scene, const ref_primitive *primitive, c
 }
 
 /* R11: half a line's width or a point's size, in 1/256 sample. */
-static int32_t half_size(const ref_scene *scene, float size)
+int32_t ref_half_size(const ref_scene *scene, float size)
 {
     int32_t half = ref_rint((size * (float)scene->frame->samples_axis) * 128.0f);
     return half > 1 ? half : 1;
@@ -219,7 +219,7 @@ e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, cons
     if (primitive->kind == REF_EDGE)
         for (int k = 0; k < 2; k++)
             v[k].z = v[k].z - E3D_WIRE_PULL;
-    int32_t half = half_size(scene, scene->frame->line_width);
+    int32_t half = ref_half_size(scene, scene->frame->line_width);
     int x_major = labs((long)v[1].x - v[0].x) >= labs((long)v[1].y - v[0].y);
     int32_t dx = x_major ? 0 : half, dy = x_major ? half : 0;
     screen_corner quad[4] = {shifted(v[0], -dx, -dy), shifted(v[1], -dx, -dy), shifted(v[1], dx, dy),
@@ -232,7 +232,7 @@ e3d_status ref_setup_point(ref_scene *scene, const ref_primitive *primitive, con
     screen_corner v;
     if (!project(scene, corner, 0, &v))
         return E3D_OK;
-    int32_t half = half_size(scene, scene->frame->point_size);
+    int32_t half = ref_half_size(scene, scene->frame->point_size);
     screen_corner quad[4] = {shifted(v, -half, -half), shifted(v, half, -half), shifted(v, half, half),
                              shifted(v, -half, half)};
     return setup_quad(scene, primitive, quad);

@@ -79,11 +79,19 @@ def _with_palette(image):
     from PIL import Image
 
     if image.mode == "RGB":
-        return image.quantize(256, method=Image.Quantize.MEDIANCUT)
-    colors = image.convert("RGB").quantize(TRANSPARENT_INDEX, method=Image.Quantize.MEDIANCUT)
+        return _dithered(image, 256)
+    colors = _dithered(image.convert("RGB"), TRANSPARENT_INDEX)
     indices = np.array(colors)
     indices[np.asarray(image)[..., 3] < 128] = TRANSPARENT_INDEX
     result = Image.fromarray(indices, "P")
     result.putpalette(colors.getpalette())
     result.info["transparency"] = TRANSPARENT_INDEX
     return result
+
+
+def _dithered(image, count: int):
+    """Return an RGB image in ``count`` colours; of Pillow's ways the one with least banding."""
+    from PIL import Image
+
+    palette = image.quantize(count, method=Image.Quantize.MAXCOVERAGE)
+    return image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)

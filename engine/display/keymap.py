@@ -18,43 +18,53 @@ class Binding:
     help: str
 
 
-BINDINGS = (
-    Binding(("W",), "cycle_wireframe", "wireframe: off, overlay, only"),
-    Binding(("E",), "toggle_edges", "edges over the faces"),
-    Binding(("M",), "cycle_mode", "next drawing mode (Shift: previous)"),
-    Binding(("N",), "toggle_normals_mode", "show normals as colours"),
-    Binding(("U",), "toggle_unlit", "with or without light"),
-    Binding(("F",), "toggle_flat", "smooth or flat normals"),
-    Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
-    Binding(("V",), "cycle_hidden_surfaces", "hidden surfaces: depth buffer, painter, none"),
-    Binding(("L",), "cycle_lights", "next lights (Shift: previous)"),
-    Binding(("A",), "cycle_samples", "anti-aliasing: 1, 4, 16 samples a pixel"),
-    Binding(("+", "="), "widen_lines", "wider lines and points"),
-    Binding(("-",), "narrow_lines", "thinner lines and points"),
-    Binding(("1",), "view_front", "front view"),
-    Binding(("3",), "view_right", "right view"),
-    Binding(("7",), "view_top", "top view"),
-    Binding(("9",), "view_isometric", "isometric view"),
-    Binding(("5",), "toggle_orthographic", "orthographic or perspective"),
-    Binding(("R", "Return", "Enter"), "reset_view", "reset the view"),
-    Binding(("Tab",), "toggle_walking", "walk: WASD, arrows, Q E, mouse"),
-    Binding(("Space",), "toggle_playing", "pause or play"),
-    Binding(("G",), "toggle_grid", "grid"),
-    Binding(("X",), "toggle_axes", "axes"),
-    Binding(("Z",), "toggle_statistics", "statistics"),
-    Binding(("I",), "toggle_metadata", "what the file holds"),
-    Binding(("F11",), "toggle_fullscreen", "full screen"),
-    Binding(("F12",), "save_screenshot", "screenshot"),
-    Binding(("H",), "toggle_help", "this help"),
-    Binding(("Q",), "quit", "quit"),
-)
+#: The bindings, by what they change.
+SECTIONS = {
+    "Drawing": (
+        Binding(("W",), "cycle_wireframe", "wireframe: off, overlay, only"),
+        Binding(("E",), "toggle_edges", "edges over the faces"),
+        Binding(("M",), "cycle_mode", "next drawing mode (Shift: previous)"),
+        Binding(("N",), "toggle_normals_mode", "normals as colours"),
+        Binding(("U",), "toggle_unlit", "with or without light"),
+        Binding(("L",), "cycle_lights", "next lights (Shift: previous)"),
+        Binding(("F",), "toggle_flat", "smooth or flat normals"),
+        Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
+        Binding(("V",), "cycle_hidden_surfaces", "depth buffer, painter, neither"),
+        Binding(("A",), "cycle_samples", "1, 4, 16 samples a pixel"),
+        Binding(("+", "="), "widen_lines", "wider lines and points"),
+        Binding(("-",), "narrow_lines", "thinner lines and points"),
+    ),
+    "View": (
+        Binding(("1",), "view_front", "front"),
+        Binding(("3",), "view_right", "right"),
+        Binding(("7",), "view_top", "top"),
+        Binding(("9",), "view_isometric", "isometric"),
+        Binding(("5",), "toggle_orthographic", "orthographic or perspective"),
+        Binding(("R", "Return", "Enter"), "reset_view", "reset"),
+        Binding(("Tab",), "toggle_walking", "walk: WASD, arrows, Q E, mouse"),
+        Binding(("Space",), "toggle_playing", "pause or play"),
+    ),
+    "Overlays": (
+        Binding(("H",), "toggle_help", "this help"),
+        Binding(("Z",), "toggle_statistics", "statistics"),
+        Binding(("I",), "toggle_metadata", "what the file holds"),
+        Binding(("G",), "toggle_grid", "grid"),
+        Binding(("X",), "toggle_axes", "axes"),
+    ),
+    "Window": (
+        Binding(("F11",), "toggle_fullscreen", "full screen"),
+        Binding(("F12",), "save_screenshot", "screenshot"),
+        Binding(("Q",), "quit", "quit"),
+    ),
+}
+BINDINGS = tuple(binding for section in SECTIONS.values() for binding in section)
 
 #: Mouse gestures, for the help.
 GESTURES = (
     ("left drag", "orbit"),
-    ("wheel, middle drag", "approach"),
-    ("right drag, Shift+left", "pan"),
-    ("drop a file", "open it"),
+    ("wheel", "approach (also middle drag)"),
+    ("right drag", "pan (also Shift+left)"),
+    ("drop", "open a file"),
 )
 #: Arrow keys in orbit mode: radians of azimuth and elevation.
 ORBIT_ARROWS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}

@@ -7,12 +7,13 @@ translucent blocks in the corners; what does not fit the picture is clipped.
 from __future__ import annotations
 
 from ..canvas import text_size
-from .keymap import BINDINGS, GESTURES
+from .keymap import GESTURES, SECTIONS
 from .viewpoint import Viewpoint
 
 TEXT = (235, 238, 242, 255)
-DIM = (170, 178, 190, 255)
-BLOCK = (16, 18, 24, 200)
+KEY = (255, 206, 115, 255)
+TITLE = (130, 190, 255, 255)
+BLOCK = (16, 18, 24, 210)
 PADDING = 8
 MARGIN = 10
 LINE_GAP = 3
@@ -68,24 +69,38 @@ def _place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
     return max(x, 0), max(y, 0)
 
 
-def help_lines() -> list[str]:
-    """Return the help: every key and gesture, in one column."""
-    rows = [(" ".join(binding.keys), binding.help) for binding in BINDINGS]
-    rows += list(GESTURES)
-    width = max(len(keys) for keys, _ in rows)
-    return [f"{keys:<{width}}  {text}" for keys, text in rows]
+def help_columns() -> list[list[tuple[str, str]]]:
+    """Return the help: two columns of (key, what it does); a title has no second part."""
+
+    def rows(title: str) -> list[tuple[str, str]]:
+        bindings = SECTIONS[title]
+        return [(title, ""), *((" ".join(binding.keys), binding.help) for binding in bindings)]
+
+    gap = ("", "")
+    left = [*rows("Drawing"), gap, ("Mouse", ""), *GESTURES]
+    right = [*rows("View"), gap, *rows("Overlays"), gap, *rows("Window")]
+    return [left, right]
 
 
 def draw_help(canvas) -> None:
-    """Draw the help in the middle, in two columns where one is too high."""
-    lines = help_lines()
-    line_height = text_size("M", text_scale(canvas))[1] + LINE_GAP * text_scale(canvas)
-    if len(lines) * line_height + 2 * (PADDING + MARGIN) > canvas.pixels.shape[0]:
-        half = (len(lines) + 1) // 2
-        width = max(map(len, lines[:half])) + 3
-        right = lines[half:] + [""] * (2 * half - len(lines))
-        lines = [f"{a:<{width}}{b}" for a, b in zip(lines[:half], right, strict=True)]
-    draw_block(canvas, lines, corner="middle")
+    """Draw every key and gesture on a block in the middle."""
+    scale = text_scale(canvas)
+    character, line_height = text_size("M", scale)[0], text_size("M", scale)[1] + LINE_GAP * scale
+    columns = help_columns()
+    indent = max(len(key) for column in columns for key, text in column if text) + 2
+    widths = [(indent + max(len(text) for _, text in column)) * character for column in columns]
+    gutter = 4 * character
+    width = sum(widths) + gutter + 4 * PADDING
+    height = line_height * max(map(len, columns)) - LINE_GAP * scale + 4 * PADDING
+    left, top = _place(canvas, width, height, "middle")
+    canvas.rectangle(left, top, width, height, BLOCK)
+    x = left + 2 * PADDING
+    for column, column_width in zip(columns, widths, strict=True):
+        for row, (key, text) in enumerate(column):
+            y = top + 2 * PADDING + row * line_height
+            canvas.text(x, y, key, KEY if text else TITLE, scale=scale)
+            canvas.text(x + indent * character, y, text, TEXT, scale=scale)
+        x += column_width + gutter
 
 
 def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[str]:

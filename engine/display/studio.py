@@ -135,8 +135,12 @@ class Studio:
         """Return the first view of the subject, with a vertical field of view in radians."""
         subject, up = self.subject, UP_DIRECTIONS[self.up]
         view = Viewpoint(np.zeros(3), 1.0, subject.azimuth, subject.elevation, up, yfov)
-        view.frame(self._outline, self.aspect)
+        self.frame(view)
         return view
+
+    def frame(self, view: Viewpoint) -> None:
+        """Move a view along its direction to where all of the subject shows."""
+        view.frame(self._outline, self.aspect)
 
     def draw(self, view: Viewpoint, time: float = 0.0):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""

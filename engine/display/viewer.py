@@ -149,10 +149,10 @@ class Viewer:
         if not (self.show_help or self.show_statistics or self._message):
             return
         canvas = self.frame.canvas()
-        if self.show_statistics:
-            draw_block(canvas, self._statistics())
         if self.show_help:
             draw_help(canvas)
+        elif self.show_statistics:
+            draw_block(canvas, self._statistics())
         if self._message:
             draw_block(canvas, [self._message], corner="bottom")
 

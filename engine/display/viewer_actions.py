@@ -113,6 +113,7 @@ def _look_along(viewer, azimuth: float, elevation: float) -> None:
     if viewer.walker is not None:
         toggle_walking(viewer)
     viewer.view.azimuth, viewer.view.elevation = azimuth, elevation
+    viewer.studio.frame(viewer.view)
 
 
 def view_front(viewer, step: int) -> None:

@@ -11,7 +11,7 @@ import argparse
 import importlib
 from pathlib import Path
 
-MODELS = ("teapot", "island", "globe", "train")
+MODELS = ("teapot", "island", "globe", "nautilus", "train")
 
 
 def main():

@@ -7,24 +7,36 @@ each part that moves or has a name of its own is an object.
 import numpy as np
 from asc_files import asc
 from noise import value_noise
-from surfaces import Surface, box, grid, lathe
+from surfaces import box, grid
+from train_shapes import (
+    ACROSS,
+    BACKWARD,
+    BLACK,
+    BRASS,
+    COAL,
+    COPPER,
+    CREAM,
+    CROSSWISE,
+    DARK_GREEN,
+    GLASS,
+    GREEN,
+    LENGTHWISE,
+    RED,
+    STEEL,
+    UPRIGHT,
+    bar,
+    block,
+    both_sides,
+    prism,
+    turned,
+)
+from train_track import GAUGE, RAIL_TOP, ballast, base, rails, sleepers, smoke
 
 from engine3d import linalg
 
-# Materials by colour, the only properties that the format's names can tell.
-GREEN, DARK_GREEN, RED = "r34g98b58a0", "r22g66b40a0", "r178g42b34a0"
-BLACK, STEEL, BRASS = "r44g44b48a0", "r168g172b178a0", "r214g168b72a0"
-COPPER, GLASS, WOOD = "r190g112b64a0", "r150g196b214a0", "r122g84b52a0"
-GRAVEL, COAL, CREAM, GRASS = "r150g142b130a0", "r30g30b33a0", "r240g230b205a0", "r96g142b66a0"
-
-RAIL_TOP, GAUGE = 4.2, 8.0
 AXLE, WHEEL = 11.2, 7.0  # height and radius of the driving wheels
 DRIVERS = (17.5, 2.5, -12.5)
 CRANK = (0.6, -0.8)  # direction of the cranks
-
-UPRIGHT = linalg.rotation_x(np.pi / 2.0)  # the axis of turned shapes: y to z
-LENGTHWISE = linalg.rotation_z(-np.pi / 2.0)  # y to x
-CROSSWISE = np.eye(4)
 
 LIGHTS = [
     ("Light01", (90.0, -110.0, 130.0), (1.0, 0.96, 0.88)),
@@ -60,39 +72,6 @@ def objects():
         "Base": base(),
         "Smoke": smoke(),
     }
-
-
-# --- shapes -------------------------------------------------------------------------------------
-
-
-def turned(profile, columns, place, axis, material):
-    """A turned profile, points (radius, distance along the axis), at a place."""
-    return (
-        lathe(profile, columns)
-        .moved(linalg.multiply(linalg.translation(place), axis))
-        .labelled(material)
-    )
-
-
-def block(low, high, material):
-    """An upright box between two corners."""
-    low, high = np.array(low, np.float64), np.array(high, np.float64)
-    return box(high - low, 0.5 * (low + high)).labelled(material)
-
-
-def both_sides(part):
-    """A part and its mirror image on the other side of the engine."""
-    return [part, part.moved(linalg.scaling((1.0, -1.0, 1.0)))]
-
-
-def prism(outline, low, high, material):
-    """A solid with an outline in (x, z), counter-clockwise seen from -Y, from y = low to high."""
-    count = len(outline)
-    points = [(x, y, z) for y in (low, high) for x, z in outline]
-    sides = [(k, k + count, (k + 1) % count + count, (k + 1) % count) for k in range(count)]
-    ends = [tuple(range(count)), tuple(range(2 * count - 1, count - 1, -1))]
-    uvs = [(0.5 + 0.01 * x, 0.01 * z) for _ in (low, high) for x, z in outline]
-    return Surface(points, uvs, sides + ends, material=material)
 
 
 # --- engine -------------------------------------------------------------------------------------
@@ -189,9 +168,6 @@ def cab():
     return [*parts, roof()]
 
 
-BACKWARD = linalg.rotation_z(np.pi / 2.0)  # y to -x
-
-
 def roof():
     """A vault over the cab, as a closed shell."""
     t = np.arange(13) / 12.0
@@ -200,8 +176,7 @@ def roof():
     outline = [*zip(y, top, strict=True), *zip(y[::-1], top[::-1] - 0.9, strict=True)]
     # The outline lies in (y, z); turn it so that the prism runs along x.
     shell = prism(outline[::-1], 6.5, 27.5, BLACK)
-    quarter = np.array([(0, -1, 0, 0), (1, 0, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)], np.float64)
-    return shell.moved(quarter)
+    return shell.moved(ACROSS)
 
 
 def frame():
@@ -263,16 +238,6 @@ def pin(x, axle=AXLE, arm=3.0):
     return x + arm * CRANK[0], axle + arm * CRANK[1]
 
 
-def bar(start, end, half_height, y, material):
-    """A flat rod between two points (x, z), `y` its outer face."""
-    (ax, az), (bx, bz) = start, end
-    dx, dz = bx - ax, bz - az
-    long = np.sqrt(dx * dx + dz * dz)
-    nx, nz = -dz / long * half_height, dx / long * half_height
-    outline = [(ax - nx, az - nz), (bx - nx, bz - nz), (bx + nx, bz + nz), (ax + nx, az + nz)]
-    return prism(outline, y, y + 0.6, material)
-
-
 def rods():
     crosshead = (20.4, 9.8)
     parts = [
@@ -331,7 +296,7 @@ def wheels():
     return objects
 
 
-# --- tender, track, smoke -----------------------------------------------------------------------
+# --- tender -------------------------------------------------------------------------------------
 
 
 def tender():
@@ -365,78 +330,3 @@ def coal():
     z = 20.6 + 4.6 * heap + 1.3 * value_noise(0.7 * x, 0.7 * y, 0.5 * x, seed=3)
     part = grid(np.stack((x, y, z), axis=-1), np.stack((u, v), axis=-1))
     return part.labelled(COAL)
-
-
-def rails():
-    profile = [
-        (-1.3, 1.9),
-        (1.3, 1.9),
-        (1.3, 2.3),
-        (0.35, 2.6),
-        (0.35, 3.5),
-        (0.8, 3.7),
-        (0.8, RAIL_TOP),
-    ]
-    profile += [(-x, z) for x, z in profile[:0:-1]]
-    quarter = np.array([(0, -1, 0, 0), (1, 0, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)], np.float64)
-    parts = []
-    for side in (-GAUGE, GAUGE):
-        rail = prism([(x + side, z) for x, z in profile[:1] + profile[1:]], -42.0, 66.0, STEEL)
-        parts.append(rail.moved(quarter))
-    return parts
-
-
-def sleepers():
-    return [
-        block((x - 1.6, -13.0, 0.6), (x + 1.6, 13.0, 1.95), WOOD)
-        for x in np.arange(-62.0, 41.0, 7.2)
-    ]
-
-
-def ballast():
-    """A bed of gravel, its top uneven between the sleepers."""
-    t, s = np.arange(53) / 52.0, np.arange(13) / 12.0
-    u, v = np.meshgrid(t, s)
-    across = np.abs(2.0 * v - 1.0)
-    slope = np.minimum(1.0, 4.0 * (1.0 - across))
-    x, y = -68.0 + 112.0 * u, -18.0 + 36.0 * v
-    z = -1.4 + 2.3 * slope + 0.55 * value_noise(0.9 * x, 0.9 * y, 0.0, seed=8) * slope
-    return grid(np.stack((x, y, z), axis=-1), np.stack((8.0 * u, 2.0 * v), axis=-1)).labelled(
-        GRAVEL
-    )
-
-
-def base():
-    return [
-        block((-70.0, -26.0, -3.6), (46.0, 26.0, -1.2), GRASS),
-        block((-71.5, -27.5, -7.0), (47.5, 27.5, -3.6), WOOD),
-    ]
-
-
-def smoke():
-    """Puffs that grow as they drift back."""
-    parts = []
-    puffs = (
-        (28.4, 45.0, 3.0),
-        (24.8, 49.4, 4.0),
-        (19.2, 53.6, 5.0),
-        (11.6, 57.2, 6.2),
-        (1.5, 60.0, 7.4),
-    )
-    ball = [
-        (0.0, -1.0),
-        (0.5, -0.866),
-        (0.866, -0.5),
-        (1.0, 0.0),
-        (0.866, 0.5),
-        (0.5, 0.866),
-        (0.0, 1.0),
-    ]
-    for k, (x, z, radius) in enumerate(puffs):
-        puff = turned(ball, 12, (0.0, 0.0, 0.0), UPRIGHT, CREAM)
-        p = puff.positions
-        push = 1.0 + 0.25 * value_noise(*(1.6 * p.T + 5.3 * k), seed=k)
-        centre = (x, 0.8 * (k % 2) - 0.4, z)
-        cloud = Surface(p * push[:, np.newaxis] * radius + centre, puff.uvs, puff.polygons)
-        parts.append(cloud.labelled(CREAM))
-    return parts

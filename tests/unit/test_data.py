@@ -13,9 +13,9 @@ import engine3d as e3d
 from engine3d import loaders
 
 SCRIPTS = Path(__file__).parents[2] / "data" / "scripts"
-MODELS = ("teapot.obj", "island.obj", "globe.obj", "train.asc")
+MODELS = ("teapot.obj", "island.obj", "globe.obj", "nautilus.obj", "train.asc")
 # What the scripts make in a few seconds: all geometry, and the smallest texture.
-REMADE = (*MODELS, "teapot.mtl", "island.mtl", "globe.mtl", "globe_stand.tga")
+REMADE = (*MODELS, "teapot.mtl", "island.mtl", "globe.mtl", "nautilus.mtl", "globe_stand.tga")
 
 
 def folder():

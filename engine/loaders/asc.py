@@ -19,7 +19,7 @@ from ..errors import FileFormatError
 from ..materials import Material
 from ..mesh import Mesh
 from ..topology import polygon_ids
-from .corner_mesh import Triangles, Vertices, build_mesh
+from .corner_mesh import Geometry, Triangles, Vertices, build_mesh
 from .documents import CameraRecord, Document, DocumentObject, LightRecord
 from .number_arrays import parse_float
 from .obj_materials import give_companion_texture
@@ -325,43 +325,45 @@ def _material(name: str) -> Material:
 
 def _mesh(record: _MeshRecord, materials: dict[str, Material]) -> Mesh:
     positions = np.array(record.positions, np.float64).reshape(-1, 3)
-    corners = np.array(record.corners, np.int64).reshape(-1, 3)
+    corners = np.array(record.corners, np.int32).reshape(-1, 3)
     edge_visible = np.array(record.edge_visible, bool).reshape(-1, 3)
-    none = np.full_like(corners, -1)
-    polygons = polygon_ids(corners, edge_visible)
     names = list(dict.fromkeys(record.materials)) or [""]
     number = {name: k for k, name in enumerate(names)}
-    ids = np.array([number[name] for name in record.materials], np.int32)
-    uvs = np.array(record.uvs, np.float64).reshape(-1, 2)[: len(positions) * record.is_mapped]
-    filled = fill_normals(
-        positions,
-        corners,
-        none,
-        np.zeros((0, 3)),
-        np.array(record.smoothing, np.int64),
-        polygons,
-        are_masks=True,
-    )
-    indices, normals = filled if filled is not None and len(corners) else (none, None)
     triangles = Triangles(
         corners,
-        corners if record.is_mapped else none,
-        indices,
-        ids,
-        polygons,
+        corners if record.is_mapped else None,
+        None,
+        np.array([number[name] for name in record.materials], np.int32),
+        polygon_ids(corners, edge_visible),
         None if edge_visible.all() else edge_visible,
     )
-    mesh = build_mesh(
-        Vertices(positions, None, uvs, np.zeros((0, 3))),
+    geometry = Geometry(
+        Vertices(positions, None, np.array(record.uvs).reshape(-1, 2), np.zeros((0, 3))),
         triangles,
-        normals,
-        np.zeros((0, 2), np.int64),
-        np.zeros(0, np.int64),
-        [materials.get(name) or Material() for name in names],
-        record.name,
+        _smooth(positions, triangles, record.smoothing),
+        np.zeros((0, 2), np.int32),
+        np.zeros(0, np.int32),
     )
+    mesh = build_mesh(geometry, [materials.get(name) or Material() for name in names], record.name)
     mesh.groups = {record.name: np.arange(len(corners), dtype=np.int32)}
     return mesh
+
+
+def _smooth(positions: np.ndarray, triangles: Triangles, masks: list[int]) -> np.ndarray | None:
+    """Give the triangles normals by their smoothing groups; None leaves that to the mesh."""
+    filled = fill_normals(
+        positions,
+        triangles.positions,
+        None,
+        np.zeros((0, 3)),
+        np.array(masks, np.int64),
+        triangles.polygons,
+        are_masks=True,
+    )
+    if filled is None:
+        return None
+    triangles.normals, normals = filled
+    return normals
 
 
 def _counts(parser: _Parser) -> dict:

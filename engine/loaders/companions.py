@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 
-from .linked_files import LinkedFileError, find_linked_file
+from .linked_files import LinkedFileError, LinkedFiles
 from .registry import formats
 
 _SUFFIXES = ("", "_diffuse", "_texture", "_color", "_albedo", "_basecolor")
@@ -34,6 +34,7 @@ def companion_texture(path: str | os.PathLike) -> str | None:
         present = {entry.lower(): entry for entry in sorted(os.listdir(folder or "."))}
     except OSError:
         return None
+    files = LinkedFiles(folder or ".")
     others = (e for image in formats("image") for e in image.extensions if e not in _PREFERRED)
     extensions = (*_PREFERRED, *others)
     for suffix in _SUFFIXES:
@@ -42,7 +43,7 @@ def companion_texture(path: str | os.PathLike) -> str | None:
             if entry is None:
                 continue
             try:
-                return find_linked_file(entry, folder or ".")
+                return files.find(entry)
             except LinkedFileError:
                 continue
     return None

@@ -6,7 +6,7 @@ combination that occurs; triangles keep their order. Positions that nothing uses
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -40,99 +40,110 @@ class Triangles:
 
     Attributes
     ----------
-    positions, uvs, normals : (T, 3) int64
-        Indices of the corners; -1 for none.
+    positions : (T, 3) int32
+        Indices of the corners' positions.
+    uvs, normals : (T, 3) int32 or None
+        Those of texture coordinates and normals, -1 for none; None if no corner has any.
     materials : (T,) int32
-    polygons : (T,) int64
+    polygons : (T,) int32
         The polygon that each triangle was cut from.
     edge_visible : (T, 3) bool or None
     """
 
     positions: np.ndarray
-    uvs: np.ndarray
-    normals: np.ndarray
+    uvs: np.ndarray | None
+    normals: np.ndarray | None
     materials: np.ndarray
     polygons: np.ndarray
     edge_visible: np.ndarray | None
 
-    def select(self, chosen: np.ndarray) -> Triangles:
-        """Return some of the triangles; ``chosen`` is a mask (T,)."""
-        visible = None if self.edge_visible is None else self.edge_visible[chosen]
-        return Triangles(
-            self.positions[chosen],
-            self.uvs[chosen],
-            self.normals[chosen],
-            self.materials[chosen],
-            self.polygons[chosen],
-            visible,
-        )
+    def part(self, chosen: slice) -> Triangles:
+        """Return some triangles that stand together."""
+        arrays = (self.positions, self.uvs, self.normals, self.materials, self.polygons)
+        parts = [None if array is None else array[chosen] for array in arrays]
+        return Triangles(*parts, None if self.edge_visible is None else self.edge_visible[chosen])
 
 
-def build_mesh(
-    vertices: Vertices,
-    triangles: Triangles,
-    normals: np.ndarray | None,
-    lines: np.ndarray,
-    points: np.ndarray,
-    materials: list[Material],
-    name: str,
-) -> Mesh:
-    """Weld corners into vertices.
+class Geometry(NamedTuple):
+    """What one mesh is made of: lists, and elements that refer to them.
 
-    Parameters
+    Attributes
     ----------
     vertices : Vertices
     triangles : Triangles
     normals : (N, 3) float or None
         What ``triangles.normals`` refers to; None leaves normals to the mesh.
-    lines : (L, 2) int64, points : (P,) int64
+    lines : (L, 2) int, points : (P,) int
         Position indices.
-    materials : list of Material
-    name : str
     """
-    uv_indices, uvs = _with_uv_transforms(triangles, vertices.uvs, materials)
-    normal_indices = triangles.normals if normals is not None else None
-    welded = _weld(triangles.positions, uv_indices, normal_indices, len(vertices.positions))
-    faces, (of_position, of_uv, of_normal) = welded
+
+    vertices: Vertices
+    triangles: Triangles
+    normals: np.ndarray | None
+    lines: np.ndarray
+    points: np.ndarray
+
+    def with_own_positions(self) -> Geometry:
+        """Return the same with only the positions in use, for one of many parts of a file."""
+        corners = self.triangles.positions
+        used = np.unique(np.concatenate([corners.ravel(), self.lines.ravel(), self.points]))
+        colors = self.vertices.colors
+        vertices = self.vertices._replace(
+            positions=self.vertices.positions[used], colors=None if colors is None else colors[used]
+        )
+        return self._replace(
+            vertices=vertices,
+            triangles=replace(self.triangles, positions=np.searchsorted(used, corners)),
+            lines=np.searchsorted(used, self.lines),
+            points=np.searchsorted(used, self.points),
+        )
+
+
+def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh:
+    """Weld corners into vertices."""
+    vertices, triangles, normals, lines, points = geometry
+    count = len(vertices.positions)
+    uv_indices, uvs = _transformed_uvs(triangles, vertices.uvs, materials)
+    normal_indices = None if normals is None else triangles.normals
+    faces, welded = _weld(triangles.positions, uv_indices, normal_indices, count)
+    of_position, of_uv, of_normal = welded
     used = np.concatenate([lines.ravel(), points])
-    vertex_of, of_position, extra = _vertices_for(used, of_position, len(vertices.positions))
-    has_uvs = uv_indices is not None and bool((uv_indices >= 0).any())
+    vertex_of, of_position, extra = _vertices_for(used, of_position, count)
     is_split = uv_indices is not None or normal_indices is not None
-    mesh = Mesh(
+    return Mesh(
         vertices.positions[of_position],
-        faces.astype(np.int32),
+        faces,
         normals=None if normals is None else _gather(normals, of_normal, extra),
-        uvs=_gather(uvs, of_uv, extra) if has_uvs else None,
+        uvs=None if uv_indices is None else _gather(uvs, of_uv, extra),
         colors=None if vertices.colors is None else vertices.colors[of_position],
         materials=materials,
         material_ids=triangles.materials,
         lines=vertex_of[: lines.size].reshape(-1, 2),
         points=vertex_of[lines.size :],
         edge_visible=triangles.edge_visible,
-        position_ids=of_position if is_split and len(of_position) else None,
+        position_ids=of_position if is_split else None,
         name=name,
     )
-    return mesh
 
 
-def _with_uv_transforms(triangles, uvs, materials):
-    """Texture coordinates as each material's ``-s`` and ``-o`` want them; None if there are none.
+def _transformed_uvs(triangles, uvs, materials):
+    """Texture coordinates as each material's ``-s`` and ``-o`` want them, and their indices.
 
-    The transformed lists are put behind the file's own, so that a coordinate which two materials
-    share becomes two.
+    A coordinate that materials of different transforms share becomes several.
     """
-    if len(uvs) == 0:
-        return None, uvs
-    indices, tables = triangles.uvs, [uvs]
-    for number, material in enumerate(materials):
-        transform = uv_transform(material)
-        if transform is None:
-            continue
-        indices = indices.copy() if indices is triangles.uvs else indices
-        own = (triangles.materials == number)[:, np.newaxis] & (indices >= 0)
-        indices[own] += len(tables) * len(uvs)
-        tables.append(uvs * np.array(transform[:2]) + np.array(transform[2:]))
-    return indices, np.concatenate(tables)
+    transforms: dict[tuple, int] = {(1.0, 1.0, 0.0, 0.0): 0}
+    kinds = [transforms.setdefault(uv_transform(m), len(transforms)) for m in materials]
+    indices = triangles.uvs
+    if indices is None or len(transforms) == 1:
+        return indices, uvs
+    kind = np.array(kinds)[triangles.materials].reshape(-1, 1)
+    keys = np.where(indices < 0, -1, indices.astype(np.int64) * len(transforms) + kind)
+    unique, inverse = np.unique(keys, return_inverse=True)
+    source, kind = np.divmod(unique, len(transforms))
+    table = np.array(list(transforms), np.float64)[kind]
+    moved = uvs[source] * table[:, :2] + table[:, 2:]
+    moved[unique < 0] = 0
+    return inverse.reshape(indices.shape), moved
 
 
 def _weld(positions, uvs, normals, position_count):
@@ -143,10 +154,13 @@ def _weld(positions, uvs, normals, position_count):
     """
     if uvs is None and normals is None:
         return _without_unused(positions, position_count)
-    keys, spans = positions, []
+    keys, spans = positions.astype(np.int64), []
     for other in (uvs, normals):
         span = 1 if other is None else int(other.max(initial=-1)) + 2
-        keys = keys * span + (0 if other is None else other + 1)
+        keys *= span
+        if other is not None:
+            keys += other
+            keys += 1
         spans.append(span)
     unique, faces = np.unique(keys, return_inverse=True)
     unique, of_normal = np.divmod(unique, spans[1])
@@ -159,19 +173,17 @@ def _without_unused(positions, position_count):
     is_used = np.zeros(position_count, bool)
     is_used[positions.ravel()] = True
     if is_used.all():
-        everything = np.arange(position_count)
-        return positions, (everything, None, None)
-    of_position = np.flatnonzero(is_used)
-    number = np.cumsum(is_used) - 1
-    return number[positions], (of_position, None, None)
+        return positions, (np.arange(position_count), None, None)
+    number = np.cumsum(is_used, dtype=np.int32) - 1
+    return number[positions], (np.flatnonzero(is_used), None, None)
 
 
 def _vertices_for(used, of_position, position_count):
     """A vertex for each used position: one that the faces have, or a new one at the end."""
-    vertex = np.full(position_count, -1, np.int64)
-    vertex[of_position[::-1]] = np.arange(len(of_position))[::-1]
+    vertex = np.full(position_count, -1, np.int32)
+    vertex[of_position[::-1]] = np.arange(len(of_position), dtype=np.int32)[::-1]
     new = np.unique(used[vertex[used] < 0])
-    vertex[new] = len(of_position) + np.arange(len(new))
+    vertex[new] = len(of_position) + np.arange(len(new), dtype=np.int32)
     return vertex[used], np.concatenate([of_position, new]), len(new)
 
 

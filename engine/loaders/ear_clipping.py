@@ -46,6 +46,7 @@ def clip_ears(points: list[tuple[float, float]], budget: WorkBudget) -> list[tup
     if _twice_area(points) < 0:
         points = [(-x, y) for x, y in points]
     count = len(points)
+    budget.tests -= 10 + 4 * count
     before = [count - 1, *range(count - 1)]
     after = [*range(1, count), 0]
     reflex = {i for i in range(count) if _turn(points, before[i], i, after[i]) <= 0}

@@ -12,60 +12,81 @@ import re
 import stat
 
 _MAX_NAME = 4096
+# A file that names more missing ones than this only wants to keep the disk busy.
+_MAX_FAILURES = 2000
 
 
 class LinkedFileError(Exception):
     """The reason, in a few words, why a named file is not read."""
 
 
-def find_linked_file(name: str, folder: str, root: str | None = None) -> str:
-    """Return the path of the file that ``name`` means.
+class LinkedFiles:
+    """The files that one model may name.
 
     Parameters
     ----------
-    name : str
-        Relative name; backslashes count as slashes. Where the letter case differs from that of the
-        one on disk, the file is still found.
-    folder : str
-        The folder that the name is relative to.
-    root : str, optional
-        The folder that may not be left; ``folder`` if left out.
-
-    Raises
-    ------
-    LinkedFileError
+    root : str
+        The model's folder, which no name may leave.
     """
-    name = name.strip().strip('"').replace("\\", "/")
-    if not name or "\0" in name or len(name) > _MAX_NAME:
-        raise LinkedFileError("not a file name")
-    if name.startswith(("/", "~")) or re.match(r"[A-Za-z]:", name):
-        raise LinkedFileError("an absolute path is refused")
-    path = os.path.join(folder, name)
-    inside = os.path.realpath(folder if root is None else root)
-    try:
-        if not os.path.lexists(path):
-            path = _with_other_case(path)
-        real = os.path.realpath(path)
-        if os.path.commonpath([inside, real]) != inside:
-            raise LinkedFileError("a path that leaves the model's folder is refused")
-        mode = os.stat(real).st_mode
-    except FileNotFoundError:
-        raise LinkedFileError("not found") from None
-    except (OSError, ValueError) as error:
-        raise LinkedFileError(getattr(error, "strerror", None) or "not a file name") from None
-    if not stat.S_ISREG(mode):
-        raise LinkedFileError("not a regular file")
-    return path
 
+    def __init__(self, root: str) -> None:
+        self.root = root
+        self._real_root = os.path.realpath(root)
+        self._listings: dict[str, dict[str, str]] = {}
+        self._failures = 0
 
-def _with_other_case(path: str) -> str:
-    """The path with the last part as the folder spells it, if only letter case differs."""
-    folder, name = os.path.split(path)
-    wanted = name.casefold()
-    try:
-        for entry in sorted(os.listdir(folder or ".")):
-            if entry.casefold() == wanted:
-                return os.path.join(folder, entry)
-    except OSError:
-        pass
-    return path
+    def find(self, name: str, folder: str | None = None) -> str:
+        """Return the path of the file that ``name`` means.
+
+        Parameters
+        ----------
+        name : str
+            Relative name; backslashes count as slashes. Where the letter case differs from that
+            of the one on disk, the file is still found.
+        folder : str, optional
+            The folder that the name is relative to; the model's if left out.
+
+        Raises
+        ------
+        LinkedFileError
+        """
+        if self._failures >= _MAX_FAILURES:
+            raise LinkedFileError("not looked for, too many files are missing")
+        try:
+            return self._find(name, self.root if folder is None else folder)
+        except LinkedFileError:
+            self._failures += 1
+            raise
+
+    def _find(self, name: str, folder: str) -> str:
+        name = name.strip().strip('"').replace("\\", "/")
+        if not name or "\0" in name or len(name) > _MAX_NAME:
+            raise LinkedFileError("not a file name")
+        if name.startswith(("/", "~")) or re.match(r"[A-Za-z]:", name):
+            raise LinkedFileError("an absolute path is refused")
+        path = os.path.join(folder, name)
+        try:
+            if not os.path.lexists(path):
+                path = self._with_other_case(path)
+            real = os.path.realpath(path)
+            if os.path.commonpath([self._real_root, real]) != self._real_root:
+                raise LinkedFileError("a path that leaves the model's folder is refused")
+            mode = os.stat(real).st_mode
+        except FileNotFoundError:
+            raise LinkedFileError("not found") from None
+        except (OSError, ValueError) as error:
+            raise LinkedFileError(getattr(error, "strerror", None) or "not a file name") from None
+        if not stat.S_ISREG(mode):
+            raise LinkedFileError("not a regular file")
+        return path
+
+    def _with_other_case(self, path: str) -> str:
+        """The path with the last part as the folder spells it, if only letter case differs."""
+        folder, name = os.path.split(path)
+        if folder not in self._listings:
+            try:
+                entries = sorted(os.listdir(folder or "."), reverse=True)
+            except OSError:
+                entries = []
+            self._listings[folder] = {entry.casefold(): entry for entry in entries}
+        return os.path.join(folder, self._listings[folder].get(name.casefold(), name))

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from ..errors import Engine3DError
 from ..materials import Material
 from ..textures import Texture
-from .linked_files import LinkedFileError, find_linked_file
+from .linked_files import LinkedFileError, LinkedFiles
 from .sources import Source
 from .text import decoded, shown, text_lines
 from .warning_list import WarningList
@@ -44,36 +44,71 @@ _OPTIONS = {
 
 
 class TextureCache:
-    """Textures of one model, each image loaded once.
+    """The textures of one model, each image loaded once.
 
     Parameters
     ----------
+    files : LinkedFiles
+        The files that the model may name.
     load : callable
-        ``load(path, wrap=…) -> Texture``.
+        ``load(path, wrap=...) -> Texture``.
     """
 
-    def __init__(self, load: Callable[..., Texture]) -> None:
+    def __init__(self, files: LinkedFiles, load: Callable[..., Texture]) -> None:
+        self._files = files
         self._load = load
         self._textures: dict[tuple[str, str], Texture] = {}
 
-    def get(self, path: str, wrap: str) -> Texture:
+    def get(self, name: str, folder: str, wrap: str) -> tuple[Texture, str]:
+        """Return the texture that a name means, and what to say of it ("" for nothing).
+
+        Parameters
+        ----------
+        name : str
+        folder : str
+            Where it is looked for first, before the model's folder.
+        wrap : {"repeat", "clamp"}
+
+        Raises
+        ------
+        LinkedFileError, Engine3DError
+            There is no such image, or it is damaged.
+        """
+        path, note = self._find(name, folder)
         key = (os.path.realpath(path), wrap)
         if key not in self._textures:
             self._textures[key] = self._load(path, wrap=wrap)
-        return self._textures[key]
+        return self._textures[key], note
+
+    def _find(self, name: str, folder: str) -> tuple[str, str]:
+        """Materials made elsewhere name images by paths of another machine.
+
+        An image of the same name beside the model is taken for the one that was meant.
+        """
+        try:
+            return self._files.find(name, folder), ""
+        except LinkedFileError as error:
+            first_reason = str(error)
+        bare = name.replace("\\", "/").rpartition("/")[2]
+        candidates = dict.fromkeys([(name, self._files.root), (bare, folder)])
+        candidates[bare, self._files.root] = None
+        candidates.pop((name, folder), None)
+        for candidate, place in candidates:
+            try:
+                path = self._files.find(candidate, place)
+            except LinkedFileError:
+                continue
+            return path, f"{first_reason}; {path} is used" if candidate != name else ""
+        raise LinkedFileError(first_reason)
 
 
-def read_mtl(
-    source: Source, root: str, textures: TextureCache, warnings: WarningList
-) -> dict[str, Material]:
+def read_mtl(source: Source, textures: TextureCache, warnings: WarningList) -> dict[str, Material]:
     """Read a material library.
 
     Parameters
     ----------
     source : Source
-        The library; images are looked for beside it, then in ``root``.
-    root : str
-        The model's folder, which no path may leave.
+        The library; images are looked for beside it first.
     textures : TextureCache
     warnings : WarningList
 
@@ -98,13 +133,13 @@ def read_mtl(
             continue
         rest = _without_comment(rest)
         if keyword == b"newmtl":
-            _finish(current, materials, root, textures, warnings, source)
+            _finish(current, materials, textures, warnings, source)
             current = {"name": decoded(rest), "line": number, "maps": {}, "values": {}}
         elif current is None:
             warnings.add(f"{shown(keyword)} before any newmtl", number, source.path)
         else:
             _read_statement(current, decoded(keyword), rest, number, warnings, source.path)
-    _finish(current, materials, root, textures, warnings, source)
+    _finish(current, materials, textures, warnings, source)
     return materials
 
 
@@ -192,12 +227,12 @@ def _is_number(word: str) -> bool:
     return True
 
 
-def _finish(current, materials, root, textures, warnings, source) -> None:
+def _finish(current, materials, textures, warnings, source) -> None:
     """Turn what was gathered of one material into a `Material`."""
     if current is None or current["name"] in materials:
         return
     values, maps = current["values"], current["maps"]
-    texture = _texture(maps.get("map_Kd"), root, textures, warnings, source)
+    texture = _texture(maps.get("map_Kd"), textures, warnings, source)
     color = values.get("Kd", (1.0, 1.0, 1.0))
     if texture is not None and not any(color):
         # Exporters that know nothing but the image write Kd 0 0 0 beside it.
@@ -227,52 +262,28 @@ def _specular(values: dict) -> tuple[float, float, float]:
     return values.get("Ks", (0.0, 0.0, 0.0)) if has_highlight else (0.0, 0.0, 0.0)
 
 
-def _texture(entry: dict | None, root: str, textures, warnings, source) -> Texture | None:
+def _texture(entry: dict | None, textures: TextureCache, warnings, source) -> Texture | None:
     if entry is None:
         return None
     name, line = entry["name"], entry["line"]
     wrap = "clamp" if entry.get("clamp", ["off"])[:1] == ["on"] else "repeat"
     try:
-        path, note = _find_image(name, source.folder, root)
+        texture, note = textures.get(name, source.folder, wrap)
         if note:
             warnings.add(f"texture {shown(name)}: {note}", line, source.path)
-        return textures.get(path, wrap)
+        return texture
     except (LinkedFileError, Engine3DError) as error:
         warnings.add(f"texture {shown(name)}: {error}", line, source.path)
     return None
 
 
-def _find_image(name: str, folder: str, root: str) -> tuple[str, str]:
-    """The path of an image beside the library or in the model's folder, and what to say of it.
-
-    Materials made elsewhere name images by paths of another machine; an image of the same name
-    beside the model is taken for the one that was meant.
-    """
-    try:
-        return find_linked_file(name, folder, root), ""
-    except LinkedFileError as error:
-        first_reason = str(error)
-    bare = name.replace("\\", "/").rpartition("/")[2]
-    for candidate, place in ((name, root), (bare, folder), (bare, root)):
-        try:
-            path = find_linked_file(candidate, place, root)
-        except LinkedFileError:
-            continue
-        return path, f"{first_reason}; {path} is used" if candidate != name else ""
-    raise LinkedFileError(first_reason)
-
-
-def uv_transform(material: Material) -> tuple[float, float, float, float] | None:
-    """Return scale u, scale v, offset u, offset v of a material's ``map_Kd``, None if neutral."""
-    entry = material.extras.get("maps", {}).get("map_Kd")
-    if entry is None:
-        return None
+def uv_transform(material: Material) -> tuple[float, float, float, float]:
+    """Return scale u, scale v, offset u, offset v of a material's ``map_Kd``."""
+    entry = material.extras.get("maps", {}).get("map_Kd", {})
     scale = _pair(entry.get("s", []), 1.0)
     offset = _pair(entry.get("o", []), 0.0)
     transform = (*scale, *offset)
-    if transform == (1.0, 1.0, 0.0, 0.0) or not all(map(math.isfinite, transform)):
-        return None
-    return transform
+    return transform if all(map(math.isfinite, transform)) else (1.0, 1.0, 0.0, 0.0)
 
 
 def _pair(words: list[str], default: float) -> tuple[float, float]:

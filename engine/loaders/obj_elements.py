@@ -30,15 +30,25 @@ class Elements(NamedTuple):
         The statement that each element stands in.
     sizes : (E,) int64
         Its number of corners.
-    positions, uvs, normals : (C,) int64
-        Of all corners, element after element: indices from 0, -1 for none.
+    positions : (C,) int32
+        Of all corners, element after element: indices from 0.
+    uvs, normals : (C,) int32 or None
+        The same, -1 for none; None if no corner has any.
     """
 
     statements: np.ndarray
     sizes: np.ndarray
     positions: np.ndarray
-    uvs: np.ndarray
-    normals: np.ndarray
+    uvs: np.ndarray | None
+    normals: np.ndarray | None
+
+    def part(self, start: int, end: int) -> Elements:
+        """Return the elements whose statements are in a range."""
+        first, last = np.searchsorted(self.statements, [start, end])
+        corners = slice(int(self.sizes[:first].sum()), int(self.sizes[:last].sum()))
+        indices = (self.positions, self.uvs, self.normals)
+        parts = [None if array is None else array[corners] for array in indices]
+        return Elements(self.statements[first:last], self.sizes[first:last], *parts)
 
 
 def read_vertices(statements: Statements, warnings: WarningList) -> Vertices:
@@ -168,10 +178,10 @@ class _CornerParser:
         normal = (np.minimum(second + 1, ends), ends)
         return (starts, first), texture, normal
 
-    def _indices(self, field, keyword: str, total: int, what: str) -> np.ndarray:
+    def _indices(self, field, keyword: str, total: int, what: str) -> np.ndarray | None:
         is_vertex = keyword == "v"
         if field is None:
-            return np.full(len(self._words), -1, np.int64)
+            return None
         values, sound = parse_integers(self._statements.codes, *field)
         self._fail_at(~sound, f"not a {what} index")
         missing = field[0] == field[1]
@@ -192,7 +202,8 @@ class _CornerParser:
                 f"left out in {int(outside.sum())} corners",
                 self._line(corner),
             )
-        return np.where(missing | outside, -1, indices)
+        indices[missing | outside] = -1
+        return None if not is_vertex and (indices < 0).all() else indices.astype(np.int32)
 
     def _fail_at(self, wrong: np.ndarray, message: str) -> None:
         if wrong.any():

@@ -10,7 +10,7 @@ from ..errors import Engine3DError
 from ..materials import Material
 from ..textures import Texture
 from .companions import companion_texture
-from .linked_files import LinkedFileError, find_linked_file
+from .linked_files import LinkedFileError, LinkedFiles
 from .mtl import TextureCache, read_mtl
 from .sources import Source, read_source
 from .text import shown
@@ -36,15 +36,16 @@ def read_library(
         Of materials with the same name, the first.
     """
     library: dict[str, Material] = {}
-    textures = TextureCache(_load_texture)
+    files = LinkedFiles(source.folder)
+    textures = TextureCache(files, _load_texture)
     seen = set()
     for names, line in statements:
-        for path in _library_paths(names, source.folder, line, warnings):
+        for path in _library_paths(names, files, line, warnings):
             if path in seen:
                 continue
             seen.add(path)
             try:
-                found = read_mtl(read_source(path), source.folder, textures, warnings)
+                found = read_mtl(read_source(path), textures, warnings)
             except Engine3DError as error:
                 warnings.add(f"material library left out: {error}", line)
                 continue
@@ -91,23 +92,23 @@ def give_companion_texture(
         material.texture = texture
 
 
-def _library_paths(names: str, folder: str, line: int, warnings: WarningList) -> list[str]:
+def _library_paths(names: str, files: LinkedFiles, line: int, warnings: WarningList) -> list[str]:
     """``mtllib`` names one file, whose name may hold blanks, or several files."""
     try:
-        return [find_linked_file(names, folder)]
+        return [files.find(names)]
     except LinkedFileError as error:
         reason = str(error)
     words = names.split()
     if len(words) < 2:
         warnings.add(f"material library {shown(names)}: {reason}", line)
         return []
-    found = [_library_path(word, folder, line, warnings) for word in words]
+    found = [_library_path(word, files, line, warnings) for word in words]
     return [path for path in found if path is not None]
 
 
-def _library_path(name: str, folder: str, line: int, warnings: WarningList) -> str | None:
+def _library_path(name: str, files: LinkedFiles, line: int, warnings: WarningList) -> str | None:
     try:
-        return find_linked_file(name, folder)
+        return files.find(name)
     except LinkedFileError as error:
         warnings.add(f"material library {shown(name)}: {error}", line)
         return None

@@ -43,6 +43,7 @@ class Statements:
 
     def __init__(self, text: bytes) -> None:
         self._original = text
+        self._line_ends: np.ndarray | None = None
         if b"\\" in text:
             text = _CONTINUATION.sub(_join_line, text)
         if b"#" in text:
@@ -76,8 +77,11 @@ class Statements:
 
     def line(self, statement: int) -> int:
         """Return the line, from 1, that a statement begins in."""
+        if self._line_ends is None:
+            original = np.frombuffer(self._original, np.uint8)
+            self._line_ends = np.flatnonzero(original == ord("\n"))
         start = int(self.word_starts[self.first[statement]])
-        return 1 + self._original.count(b"\n", 0, start)
+        return 1 + int(np.searchsorted(self._line_ends, start))
 
     def keyword_text(self, statement: int) -> bytes:
         return self.word(int(self.first[statement]))

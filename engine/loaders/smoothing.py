@@ -19,7 +19,7 @@ _MAX_MASKS = 64
 def fill_normals(
     positions: np.ndarray,
     corners: np.ndarray,
-    normal_indices: np.ndarray,
+    normal_indices: np.ndarray | None,
     normals: np.ndarray,
     groups: np.ndarray,
     polygons: np.ndarray,
@@ -31,15 +31,15 @@ def fill_normals(
     Parameters
     ----------
     positions : (V, 3) float64
-    corners : (T, 3) int64
+    corners : (T, 3) int32
         Position index of each triangle's corners.
-    normal_indices : (T, 3) int64
-        Their normals in ``normals``, -1 for none.
+    normal_indices : (T, 3) int32 or None
+        Their normals in ``normals``, -1 for none; None if no corner has any.
     normals : (N, 3) float64
         The file's normals.
     groups : (T,) int64
         Smoothing group of each triangle, 0 for flat.
-    polygons : (T,) int64
+    polygons : (T,) int32
         The polygon that each triangle is part of.
     are_masks : bool
         Each bit of ``groups`` is a group, and a triangle may be in several.
@@ -50,12 +50,14 @@ def fill_normals(
         None if no corner has a normal and all are in one group: then the mesh computes the same
         by itself.
     """
+    is_flat = groups == FLAT
+    if normal_indices is None:
+        if not is_flat.any() and (groups == groups[:1]).all():
+            return None
+        normal_indices = np.full(corners.shape, -1, np.int32)
     missing = normal_indices < 0
     if not missing.any():
         return normal_indices, normals
-    is_flat = groups == FLAT
-    if missing.all() and not is_flat.any() and (groups == groups[0]).all():
-        return None
     filled = normal_indices.copy()
     tables = [np.asarray(normals, np.float32).reshape(-1, 3)]
     for chosen, compute in (
@@ -73,7 +75,7 @@ def fill_normals(
 def _grouped_normals(positions, corners, groups):
     """One normal for each position in each group, and the one of every corner."""
     _, group = np.unique(groups, return_inverse=True)
-    keys = corners * (int(group.max()) + 1) + group.reshape(-1, 1)
+    keys = corners.astype(np.int64) * (int(group.max()) + 1) + group.reshape(-1, 1)
     _, shared = np.unique(keys, return_inverse=True)
     shared = shared.reshape(-1)
     vectors = corner_vectors(positions, corners).reshape(-1, 3)

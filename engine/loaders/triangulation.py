@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..normals import face_area_vectors
 from .ear_clipping import WorkBudget, clip_ears
 
 # A corner counts as reflex if it turns back by more than this share of the polygon's area: flat
@@ -25,9 +24,9 @@ class Triangulation(NamedTuple):
 
     Attributes
     ----------
-    corners : (T, 3) int64
+    corners : (T, 3) int32
         Corner numbers, counted over all polygons.
-    polygons : (T,) int64
+    polygons : (T,) int32
         The polygon that each triangle is part of.
     edge_visible : (T, 3) bool or None
         Which edges are the polygon's; None if all are.
@@ -61,23 +60,25 @@ def triangulate(
         n - 2 triangles for a polygon of n corners, degenerate ones included.
     """
     if len(sizes) and sizes.min() == 3 == sizes.max():
-        corners = np.arange(3 * len(sizes), dtype=np.int64).reshape(-1, 3)
-        return Triangulation(corners, np.arange(len(sizes)), None, True)
+        corners = np.arange(3 * len(sizes), dtype=np.int32).reshape(-1, 3)
+        return Triangulation(corners, np.arange(len(sizes), dtype=np.int32), None, True)
     counts = np.maximum(sizes - 2, 0)
     first_triangle = np.cumsum(counts) - counts
     first_corner = np.cumsum(sizes) - sizes
     # Corner numbers within the polygon first, then within the file.
-    corners = np.empty((int(counts.sum()), 3), np.int64)
-    polygons = np.repeat(np.arange(len(sizes)), counts)
+    corners = np.empty((int(counts.sum()), 3), np.int32)
+    polygons = np.repeat(np.arange(len(sizes), dtype=np.int32), counts)
     budget = budget or WorkBudget()
     for size in np.unique(sizes[sizes >= 3]).tolist():
         members = np.flatnonzero(sizes == size)
         rows = first_triangle[members, np.newaxis] + np.arange(size - 2)
         corners[rows] = _cut_polygons(size, positions, first_corner[members], budget)
-    step = corners[:, [1, 2, 0]] - corners
-    last = sizes[polygons][:, np.newaxis] - 1
-    edge_visible = (step == 1) | (step == -last)
-    corners += first_corner[polygons][:, np.newaxis]
+    last = (1 - sizes[polygons]).astype(np.int32)
+    edge_visible = np.empty(corners.shape, bool)
+    for edge in range(3):
+        step = corners[:, (edge + 1) % 3] - corners[:, edge]
+        edge_visible[:, edge] = (step == 1) | (step == last)
+    corners += first_corner[polygons].astype(np.int32)[:, np.newaxis]
     visible = None if edge_visible.all() else edge_visible
     return Triangulation(corners, polygons, visible, not budget.is_spent)
 
@@ -85,7 +86,7 @@ def triangulate(
 def _cut_polygons(size, positions, first_corner, budget) -> np.ndarray:
     """Cut polygons of one size: (P, size - 2, 3) corner numbers within each polygon."""
     spokes = np.arange(1, size - 1)
-    fan = np.stack([np.zeros_like(spokes), spokes, spokes + 1], axis=1)
+    fan = np.stack([np.zeros_like(spokes), spokes, spokes + 1], axis=1).astype(np.int32)
     cut = np.repeat(fan[np.newaxis], len(first_corner), axis=0)
     if size == 3:
         return cut
@@ -105,27 +106,35 @@ def _cut_polygons(size, positions, first_corner, budget) -> np.ndarray:
 
 
 def _area_vectors(outlines: np.ndarray) -> np.ndarray:
-    """Newell's area vector, twice the area long, of polygons (P, n, 3): (P, 3)."""
-    count, size, _ = outlines.shape
-    base = np.arange(count)[:, np.newaxis] * size
-    spokes = np.arange(1, size - 1)
-    faces = np.stack(
-        [np.broadcast_to(base, (count, size - 2)), base + spokes, base + spokes + 1], axis=2
-    )
-    triangles = face_area_vectors(outlines.reshape(-1, 3), faces.reshape(-1, 3))
-    return triangles.reshape(count, size - 2, 3).sum(axis=1)
+    """Newell's area vector, twice the area long, of polygons (P, n, 3): (P, 3).
+
+    Sums run in the order of the corners, whatever the processor, so that ties between axes are
+    the same everywhere.
+    """
+    area = np.empty((len(outlines), 3), np.float64)
+    with np.errstate(all="ignore"):
+        for axis in range(3):
+            a, b = (
+                outlines[:, :, (axis + k) % 3] - outlines[:, :1, (axis + k) % 3] for k in (1, 2)
+            )
+            terms = a * np.roll(b, -1, axis=1) - b * np.roll(a, -1, axis=1)
+            area[:, axis] = np.cumsum(terms, axis=1)[:, -1]
+    area[~np.isfinite(area).all(axis=1)] = 0
+    return area
 
 
 def _reflex_corners(outlines: np.ndarray, area: np.ndarray) -> np.ndarray:
     """Which corners (P, n) turn against their polygon; none where a corner is not finite."""
+    along = np.zeros(outlines.shape[:2], np.float64)
     with np.errstate(all="ignore"):
-        arriving = outlines - np.roll(outlines, 1, axis=1)
-        leaving = np.roll(outlines, -1, axis=1) - outlines
-        turn = np.cross(arriving, leaving)
-        along = (turn * area[:, np.newaxis]).sum(axis=2)
-        size = (area * area).sum(axis=1)
-        finite = np.isfinite(outlines).all(axis=(1, 2))
-        return (along < -_FLAT * size[:, np.newaxis]) & (finite & (size > 0))[:, np.newaxis]
+        edges = np.roll(outlines, -1, axis=1) - outlines
+        before = np.roll(edges, 1, axis=1)
+        for axis in range(3):
+            y, z = (axis + 1) % 3, (axis + 2) % 3
+            turn = before[:, :, y] * edges[:, :, z] - before[:, :, z] * edges[:, :, y]
+            along += turn * area[:, axis, np.newaxis]
+        size = area[:, 0] ** 2 + area[:, 1] ** 2 + area[:, 2] ** 2
+        return (along < -_FLAT * size[:, np.newaxis]) & (size > 0)[:, np.newaxis]
 
 
 def _projected(outline: np.ndarray, area: np.ndarray) -> list[tuple[float, float]]:

@@ -37,6 +37,8 @@ DEFAULT_ELEVATION = math.radians(18.0)
 QUARTER_TURN = math.pi / 2
 #: Space left round what is framed.
 FRAMING_MARGIN = 1.06
+#: The near plane's distance as a share of that of the scene's middle.
+NEAR_SHARE = 0.05
 #: How finely `turning_outline` follows a scene.
 OUTLINE_BANDS = 24
 OUTLINE_ANGLES = 24
@@ -132,7 +134,9 @@ class Viewpoint:
         znear, zfar = clip_planes(self.position(), bounds)
         if self.orthographic:
             ymag = self.distance * math.tan(self.yfov / 2)
-            return OrthographicCamera(ymag, znear=znear, zfar=zfar)
+            return OrthographicCamera(
+                ymag, znear=-zfar / NEAR_SHARE / 2, zfar=zfar / NEAR_SHARE / 2
+            )
         return PerspectiveCamera(self.yfov, znear=znear, zfar=zfar)
 
     def frame(self, points: np.ndarray, aspect: float = 1.0) -> None:
@@ -188,11 +192,15 @@ class Viewpoint:
 
 
 def clip_planes(position, bounds: Sphere) -> tuple[float, float]:
-    """Return the near and far distances that enclose ``bounds`` as seen from ``position``."""
+    """Return the near and far distances that enclose ``bounds`` as seen from ``position``.
+
+    The near plane is nearer than it need be: wireframe edges are pulled towards the viewer by a
+    constant in normalised depth, which the tightest planes would make too short a way.
+    """
     offset = np.asarray(position, dtype=np.float64) - np.array(bounds.center)
     distance = math.sqrt(_dot(offset, offset))
     zfar = (distance + bounds.radius) * 1.01
-    znear = max((distance - bounds.radius) * 0.99, zfar * 5e-4)
+    znear = max(min((distance - bounds.radius) * 0.99, distance * NEAR_SHARE), zfar * 5e-4)
     return znear, zfar
 
 

@@ -29,13 +29,13 @@ def main(argv: list[str] | None = None) -> int:
     int
         The exit status.
     """
-    from .options import join_signed_values
+    from .options import join_values
     from .parser import make_parser
 
     parser = make_parser()
     arguments = sys.argv[1:] if argv is None else argv
     try:
-        args = parser.parse_args(join_signed_values(arguments))
+        args = parser.parse_args(join_values(arguments))
         return _run(args)
     except UsageError as error:
         return _usage(str(error))

@@ -17,6 +17,7 @@ MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id"
 BACKENDS = ("auto", "scalar", "portable", "sse41", "avx2", "avx512")
 SCENES = ("default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc")
 SAMPLES = (1, 4, 16)
+WIREFRAMES = ("overlay", "only")
 #: Options whose value may start with a minus sign, which argparse would take for an option.
 SIGNED_OPTIONS = frozenset(
     {
@@ -32,12 +33,20 @@ SIGNED_OPTIONS = frozenset(
 _SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]$|inf|nan)")
 
 
-def join_signed_values(arguments: list[str]) -> list[str]:
-    """Return the arguments with ``--option -1,2,3`` written as ``--option=-1,2,3``."""
+def join_values(arguments: list[str]) -> list[str]:
+    """Return the arguments with values joined to options where argparse would take them wrongly.
+
+    ``--camera-position -1,2,3`` becomes ``--camera-position=-1,2,3``, and ``--wireframe MODEL``,
+    whose value may be left out, becomes ``--wireframe=only MODEL``.
+    """
     joined: list[str] = []
     for argument in arguments:
-        if joined and joined[-1] in SIGNED_OPTIONS and _SIGNED_VALUE.match(argument):
+        option = joined[-1] if joined else ""
+        if option in SIGNED_OPTIONS and _SIGNED_VALUE.match(argument):
             joined[-1] += "=" + argument
+        elif option == "--wireframe" and argument not in WIREFRAMES:
+            joined[-1] += "=" + WIREFRAMES[-1]
+            joined.append(argument)
         else:
             joined.append(argument)
     return joined
@@ -103,8 +112,8 @@ def add_look(parser) -> None:
     group.add_argument(
         "--wireframe",
         nargs="?",
-        const="only",
-        choices=("overlay", "only"),
+        const=WIREFRAMES[-1],
+        choices=WIREFRAMES,
         help="draw edges over the faces, or (without a value) alone",
     )
     group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")

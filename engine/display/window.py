@@ -81,6 +81,9 @@ class Window:
         # The class by which window managers know the program.
         sdl.SDL_setenv(b"SDL_VIDEO_X11_WMCLASS", b"engine3d", 0)
         sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, b"0")
+        if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY"):
+            # Looking for Wayland as well would print its complaints on standard error.
+            sdl.SDL_SetHint(sdl.SDL_HINT_VIDEODRIVER, b"x11")
         if sdl.SDL_InitSubSystem(sdl.SDL_INIT_VIDEO) != 0:
             raise DisplayError(f"no screen (SDL: {_error(sdl)})")
         self._video_open = True

@@ -13,7 +13,7 @@ from engine3d.display.viewpoint import UP_DIRECTIONS
 
 
 def parse(*arguments):
-    return make_parser().parse_args(options.join_signed_values(list(arguments)))
+    return make_parser().parse_args(options.join_values(list(arguments)))
 
 
 @pytest.mark.parametrize("text", ["1280x720", "1280,720", "1280X720", " 1280 x 720 "])
@@ -119,6 +119,10 @@ def test_options_that_contradict_each_other(arguments):
 def test_wireframe_without_a_value_is_only():
     assert parse("run", "--wireframe").wireframe == "only"
     assert parse("run", "--wireframe", "overlay").wireframe == "overlay"
+    before_model = parse("run", "--wireframe", "a.obj")
+    assert (before_model.wireframe, before_model.model) == ("only", "a.obj")
+    assert parse("run", "--wireframe=overlay", "a.obj").wireframe == "overlay"
+    assert parse("run", "--wireframe", "--edges").wireframe == "only"
 
 
 def test_every_option_has_a_help_or_a_telling_name():

@@ -1,7 +1,8 @@
 """Index arithmetic shared by the primitives: grids of vertices, quads, triangles, edge masks.
 
 In: numbers of rows and columns, or quads as vertex indices, counter-clockwise. Out: int32 faces
-with their visible edges, entry k of which is the edge from corner k to the next.
+with their visible edges, entry k of which is the edge from corner k to the next, and numbers that
+tell which vertices are one point, split for texture coordinates or normals.
 """
 
 from __future__ import annotations
@@ -47,3 +48,23 @@ def split_quads(quads: IntArray) -> tuple[IntArray, BoolArray]:
     faces = np.ascontiguousarray(quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
     edge_visible = np.tile([[True, True, False], [False, True, True]], (len(quads), 1))
     return faces, edge_visible
+
+
+def grid_points(rows: int, columns: int, *, closed_rows: bool = False) -> IntArray:
+    """Number the points of a grid whose last column lies on its first, row by row.
+
+    Parameters
+    ----------
+    rows, columns : int
+        Numbers of quads; the grid has ``(rows + 1) * (columns + 1)`` vertices.
+    closed_rows : bool
+        Whether the last row lies on the first, too.
+
+    Returns
+    -------
+    ndarray of int32, shape ((rows + 1) * (columns + 1),)
+        The same number for vertices at the same place, from 0 on.
+    """
+    row = np.arange(rows + 1) % (rows if closed_rows else rows + 1)
+    column = np.arange(columns + 1) % columns
+    return (row[:, np.newaxis] * columns + column).ravel().astype(np.int32)

@@ -62,8 +62,15 @@ def box(size: float | npt.ArrayLike = (1.0, 1.0, 1.0)) -> Mesh:
         normals=np.repeat(_BOX_FACES[:, 0], 4, axis=0),
         uvs=np.tile(_CORNER_UVS, (6, 1)),
         edge_visible=edge_visible,
+        position_ids=_corner_numbers(corners),
         name="box",
     )
+
+
+def _corner_numbers(corners: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
+    """Number corners of the cube from -1 to 1 by the octant that they lie in."""
+    positive = corners.reshape(-1, 3) > 0.0
+    return (positive * (1, 2, 4)).sum(axis=1).astype(np.int32)
 
 
 def plane(size: float | npt.ArrayLike = (1.0, 1.0), segments: int | npt.ArrayLike = 1) -> Mesh:

@@ -52,12 +52,14 @@ def icosphere(radius: float = 0.5, subdivisions: int = 3) -> Mesh:
     # A vertex is a point together with its texture coordinates.
     corners = np.column_stack((faces.ravel(), corner_uvs.reshape(-1, 2)))
     vertices, index = np.unique(corners, axis=0, return_inverse=True)
-    normals = points[vertices[:, 0].astype(np.intp)]
+    point_ids = vertices[:, 0].astype(np.intp)
+    normals = points[point_ids]
     return Mesh(
         normals * radius,
         index.reshape(-1, 3).astype(np.int32),
         normals=normals,
         uvs=vertices[:, 1:],
+        position_ids=point_ids,
         name="icosphere",
     )
 

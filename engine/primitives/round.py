@@ -14,7 +14,7 @@ from .. import linalg
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
 from .arguments import MAX_SEGMENTS, integer, positive, segment_pair
-from .faces import BoolArray, IntArray, grid_quads, split_quads
+from .faces import BoolArray, IntArray, grid_points, grid_quads, split_quads
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -80,8 +80,16 @@ def uv_sphere(radius: float = 0.5, segments: npt.ArrayLike = (32, 16)) -> Mesh:
         normals=normals,
         uvs=_globe_uvs(around, bands),
         edge_visible=np.vstack([visible for _, visible in parts]),
+        position_ids=_globe_points(around, bands),
         name="uv_sphere",
     )
+
+
+def _globe_points(around: int, bands: int) -> IntArray:
+    """Number the points of a globe: the south pole, the parallels, the north pole."""
+    parallels = 1 + grid_points(bands - 2, around)
+    poles = np.repeat((0, 1 + (bands - 1) * around), around)
+    return np.concatenate((poles[:around], parallels, poles[around:])).astype(np.int32)
 
 
 def _globe_uvs(around: int, bands: int) -> FloatArray:
@@ -136,8 +144,17 @@ def cylinder(radius: float = 0.5, height: float = 1.0, segments: int = 32) -> Me
         normals=normals,
         uvs=np.vstack((side_uvs, *cap_uvs)),
         edge_visible=np.vstack([visible for _, visible in parts]),
+        position_ids=_cylinder_points(count),
         name="cylinder",
     )
+
+
+def _cylinder_points(count: int) -> IntArray:
+    """Number the points of a cylinder: its two rims, then the centres of the caps."""
+    side = grid_points(1, count)
+    bottom = np.append(np.arange(count), 2 * count)
+    top = np.append(np.arange(count, 2 * count), 2 * count + 1)
+    return np.concatenate((side, bottom, top)).astype(np.int32)
 
 
 def _fan(first: int, count: int, upward: bool) -> tuple[IntArray, BoolArray]:
@@ -198,5 +215,6 @@ def torus(
         normals=normals.reshape(-1, 3),
         uvs=np.stack((u.ravel(), v.ravel()), axis=1),
         edge_visible=edge_visible,
+        position_ids=grid_points(across, around, closed_rows=True),
         name="torus",
     )

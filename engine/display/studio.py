@@ -11,13 +11,14 @@ import numpy as np
 
 from .. import linalg
 from ..renderer import Renderer
+from .extent import turning_outline
 from .guides import grid
 from .lighting import Lighting, PlacedLight
 from .look import Look
 from .overlay import draw_axes, draw_block
 from .settings import Settings
 from .subject import Subject
-from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, turning_outline
+from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
 
 
 class Studio:

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere, bounding_sphere
+from .extent import bounding_sphere
+from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
 
 #: Seconds of one turn of a turntable.
 TURN_SECONDS = 6.0

@@ -10,7 +10,7 @@ cases; sines are rounded to 14 decimals, which makes right angles exact.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,8 +18,6 @@ import numpy as np
 from .. import linalg
 from ..cameras import OrthographicCamera, PerspectiveCamera
 from ..errors import InvalidArgumentError
-from ..instances import InstancedMesh
-from ..mesh import Mesh
 
 #: What ``up`` may be, as the command line spells it.
 UP_DIRECTIONS = {
@@ -39,9 +37,6 @@ QUARTER_TURN = math.pi / 2
 FRAMING_MARGIN = 1.06
 #: The near plane's distance as a share of that of the scene's middle.
 NEAR_SHARE = 0.05
-#: How finely `turning_outline` follows a scene.
-OUTLINE_BANDS = 24
-OUTLINE_ANGLES = 24
 #: Each narrows the place of a minimum by a third: to a thousandth of where it began.
 MINIMUM_STEPS = 18
 
@@ -68,10 +63,13 @@ def home_axes(up) -> np.ndarray:
         Rows: right, up, and back, which is where the camera stands at azimuth zero. For +Y that is
         X, Y, Z; for +Z it is X, Z, -Y.
     """
-    up = _unit(up)
+    length = float(linalg.length(up))
+    if not 0.0 < length < math.inf:
+        raise InvalidArgumentError("an up direction must not be zero")
+    up = np.asarray(up, dtype=np.float64) / length
     side = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.9 else np.array([0.0, 0.0, -up[0]])
-    right = _unit(side - up * _dot(side, up))
-    return np.array([right, up, _cross(right, up)])
+    right = linalg.normalize(side - up * _dot(side, up))
+    return np.array([right, up, linalg.cross(right, up)])
 
 
 @dataclass
@@ -110,8 +108,8 @@ class Viewpoint:
     def rotation(self) -> np.ndarray:
         """Return the camera's axes in world space: (3, 3), columns right, up and back."""
         right, up, front = home_axes(self.up)
-        sin_a, cos_a = _sine(self.azimuth), _cosine(self.azimuth)
-        sin_e, cos_e = _sine(self.elevation), _cosine(self.elevation)
+        sin_a, cos_a = sine(self.azimuth), cosine(self.azimuth)
+        sin_e, cos_e = sine(self.elevation), cosine(self.elevation)
         outward = right * sin_a + front * cos_a
         camera_right = right * cos_a - front * sin_a
         camera_up = up * cos_e - outward * sin_e
@@ -181,7 +179,7 @@ class Viewpoint:
         """Stand at ``position`` and look at ``focal_point`` (both (3,), world space)."""
         position = np.asarray(position, dtype=np.float64)
         offset = position - np.asarray(focal_point, dtype=np.float64)
-        distance = math.sqrt(_dot(offset, offset))
+        distance = float(linalg.length(offset))
         if not distance > 0.0 or not math.isfinite(distance):
             raise InvalidArgumentError("the camera's position and focal point are the same")
         right, up, front = home_axes(self.up)
@@ -198,94 +196,10 @@ def clip_planes(position, bounds: Sphere) -> tuple[float, float]:
     constant in normalised depth, which the tightest planes would make too short a way.
     """
     offset = np.asarray(position, dtype=np.float64) - np.array(bounds.center)
-    distance = math.sqrt(_dot(offset, offset))
+    distance = float(linalg.length(offset))
     zfar = (distance + bounds.radius) * 1.01
     znear = max(min((distance - bounds.radius) * 0.99, distance * NEAR_SHARE), zfar * 5e-4)
     return znear, zfar
-
-
-def bounding_sphere(scene) -> Sphere:
-    """Return a sphere round every visible mesh of ``scene``.
-
-    It is centred on the bounding box and reaches to the farthest vertex; instances count as their
-    boxes. A scene without extent gets a sphere of radius one.
-    """
-    low, high = scene.bounds
-    center = (low + high) / 2
-    farthest = 0.0
-    for points in _world_points(scene):
-        offsets = points - center
-        farthest = max(farthest, float(linalg.dot(offsets, offsets).max(initial=0.0)))
-    return Sphere(tuple(center.tolist()), math.sqrt(farthest) or 1.0)
-
-
-def turning_outline(scene, up) -> np.ndarray:
-    """Return points round everything visible in ``scene``, however it turns about ``up``.
-
-    Framing them keeps a turntable in the picture, closer than a sphere would. They lie on rings
-    about the vertical axis through the middle of the scene, as wide as it is at their height.
-
-    Parameters
-    ----------
-    scene : Scene
-        What to go round.
-    up : (3,) sequence of float
-        The axis's direction.
-
-    Returns
-    -------
-    (N, 3) ndarray of float64
-        World space. A scene without extent gets rings of radius one.
-    """
-    right, up, back = home_axes(up)
-    low, high = scene.bounds
-    center = (low + high) / 2
-    heights, squares = [np.zeros(1)], [np.zeros(1)]
-    for points in _world_points(scene):
-        offsets = points - center
-        heights.append(linalg.dot(offsets, up))
-        across, along = linalg.dot(offsets, right), linalg.dot(offsets, back)
-        squares.append(across * across + along * along)
-    heights, widths = np.concatenate(heights), np.sqrt(np.concatenate(squares))
-    bottom, top = heights.min(), heights.max()
-    if top == bottom and not widths.any():
-        bottom, top, widths = -1.0, 1.0, np.ones_like(widths)
-    step = (top - bottom) / OUTLINE_BANDS or 1.0
-    bands = np.minimum(((heights - bottom) / step).astype(np.intp), OUTLINE_BANDS - 1)
-    widest = np.zeros(OUTLINE_BANDS)
-    np.maximum.at(widest, bands, widths)
-    levels = bottom + step * np.arange(OUTLINE_BANDS + 1)
-    # A band's ring stands at both of its ends: where in the band the scene is that wide is unknown.
-    rings = [(level, max(pair)) for level, pair in zip(levels, _ends(widest), strict=True)]
-    angles = [2 * math.pi * k / OUTLINE_ANGLES for k in range(OUTLINE_ANGLES)]
-    circle = [right * _sine(angle) + back * _cosine(angle) for angle in angles]
-    return np.array([center + up * level + spoke * w for level, w in rings for spoke in circle])
-
-
-def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
-    """Return the widths of the bands below and above each level."""
-    return list(zip([0.0, *widest], [*widest, 0.0], strict=True))
-
-
-def _world_points(scene) -> Iterator[np.ndarray]:
-    """Yield the finite vertices of each visible mesh, (N, 3) in world space; instances as boxes."""
-    for node in scene.nodes:
-        points = _outline(node) if node.shown else None
-        if points is not None:
-            points = linalg.transform_points(node.world_pose, points)
-            yield points[np.isfinite(points).all(axis=1)]
-
-
-def _outline(node) -> np.ndarray | None:
-    """Return points of the node's mesh, (N, 3) in its own space, that its hull goes through."""
-    shape = node.object
-    if isinstance(shape, Mesh):
-        return shape.positions
-    if isinstance(shape, InstancedMesh):
-        box = shape.bounds_in_node()
-        corners = [[box[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
-        return np.array(corners, dtype=np.float64)
-    return None
 
 
 def _minimum(function: Callable[[float], float], low: float, high: float) -> float:
@@ -299,27 +213,15 @@ def _minimum(function: Callable[[float], float], low: float, high: float) -> flo
     return (low + high) / 2
 
 
-def _sine(angle: float) -> float:
+def sine(angle: float) -> float:
+    """Return the sine, exact at right angles."""
     return round(math.sin(angle), 14)
 
 
-def _cosine(angle: float) -> float:
+def cosine(angle: float) -> float:
+    """Return the cosine, exact at right angles."""
     return round(math.cos(angle), 14)
 
 
 def _dot(a, b) -> float:
-    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
-
-
-def _cross(a, b) -> np.ndarray:
-    return np.array(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
-
-
-def _unit(vector) -> np.ndarray:
-    vector = np.asarray(vector, dtype=np.float64)
-    length = math.sqrt(_dot(vector, vector))
-    if not length > 0.0 or not math.isfinite(length):
-        raise InvalidArgumentError("an up direction must not be zero")
-    return vector / length
+    return float(linalg.dot(a, b))

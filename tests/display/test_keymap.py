@@ -1,5 +1,7 @@
 """The keys: each is bound once, each action exists, and each is in the help."""
 
+from pathlib import Path
+
 import pytest
 
 from engine3d.display import viewer_actions
@@ -45,3 +47,11 @@ def test_the_help_names_every_key():
 
 def test_walking_keys_are_positions_of_letters_and_arrows():
     assert {"W", "A", "S", "D", "Up", "Down", "Left", "Right"} <= set(MOVES)
+
+
+def test_the_manual_names_every_key():
+    manual = Path(__file__).parents[2] / "docs" / "viewer.md"
+    rows = [line.split("|")[1].split() for line in manual.read_text().splitlines() if "|" in line]
+    named = {key for row in rows for key in row}
+    missing = {key for binding in BINDINGS for key in binding.keys} - named
+    assert missing <= {"Enter", "="}

@@ -47,6 +47,7 @@ _COLOR_NAME = re.compile(r"r(\d{1,3})g(\d{1,3})b(\d{1,3})a(\d{1,3})", re.IGNOREC
 _FILM = 43.27
 _ASPECT = 4 / 3
 _UP = (0.0, 0.0, 1.0)
+_MAX_OBJECTS = 5000
 
 
 @dataclass
@@ -196,7 +197,12 @@ class _Parser:
                     self._path,
                     mesh.line,
                 )
-        self.meshes.append(mesh)
+        if not mesh.corners:
+            self.warnings.add(f"tri-mesh {shown(mesh.name)} without faces is left out", mesh.line)
+        elif len(self.meshes) >= _MAX_OBJECTS:
+            raise FileFormatError(f"more than {_MAX_OBJECTS} objects", self._path, mesh.line)
+        else:
+            self.meshes.append(mesh)
 
     def _read_material(self, name: str) -> None:
         mesh = self._open_mesh("Material")

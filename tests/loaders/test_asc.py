@@ -146,6 +146,13 @@ Bank angle: 180 degrees
     assert parsed.warnings == []
 
 
+def test_an_object_without_faces_is_left_out(write):
+    text = 'Named object: "Dummy"\nTri-mesh, Vertices: 0     Faces: 0\n'
+    with pytest.warns(UserWarning, match="'Dummy' without faces"):
+        parsed = load_document(write("model.asc", HEADER + text + SQUARE))
+    assert [entry.name for entry in parsed.objects] == ["Square"]
+
+
 def test_lines_that_are_not_understood_are_warned_of(write):
     path = write("model.asc", HEADER + "Fog settings\n" + SQUARE)
     with pytest.warns(UserWarning, match=r"model\.asc:3: 'Fog settings' is not understood"):

@@ -92,14 +92,15 @@ typedef struct e3d_surface {
     int32_t back;                  /* the face looks away: normals are negated */
     int32_t local, face, node, instance; /* number in the instance, face or -1, IDs */
     int32_t group;                 /* samples of one group are shaded together */
-    int32_t spare[11];
+    int32_t samples, next;         /* while they are sorted */
+    int32_t spare[9];
 } e3d_surface;
 
-_Static_assert(sizeof(e3d_surface) == 64 * 4, "gathers step by whole surfaces");
+_Static_assert(sizeof(e3d_surface) == 64 * 4, "a surface is four cache lines");
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 
-/* Samples of one material on their way to a colour. */
+/* Samples of one material on their way to a colour; those of one surface stand together. */
 typedef struct e3d_batch {
     int count;
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */

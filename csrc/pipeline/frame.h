@@ -86,7 +86,7 @@ typedef struct e3d_counters {
 typedef struct e3d_group {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance;
-    int32_t count, start; /* while samples are sorted by group */
+    int32_t count, start, next; /* of its samples, while they are sorted */
 } e3d_group;
 
 typedef struct e3d_tile_memory {
@@ -97,9 +97,9 @@ typedef struct e3d_tile_memory {
     int32_t mark[E3D_TILE_SAMPLES + E3D_PAD];  /* overdraw counts, then wireframe marks */
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling: 1 where a sample has its own colour */
     float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling only */
-    int32_t visible[E3D_TILE_SAMPLES];          /* samples to shade, then by group */
-    int32_t surface[E3D_TILE_SAMPLES];
-    int32_t sorted[E3D_TILE_SAMPLES];
+    int32_t visible[E3D_TILE_SAMPLES];  /* samples to shade */
+    int32_t surface[E3D_TILE_SAMPLES];  /* of each */
+    uint32_t sorted[E3D_TILE_SAMPLES];  /* surface * E3D_TILE_SAMPLES + sample, by group and surface */
     e3d_batch batch;
     uint32_t encoded[E3D_BATCH + E3D_PAD];
 } e3d_tile_memory;

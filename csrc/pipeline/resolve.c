@@ -10,8 +10,24 @@ static float unit(float v)
     return v < 1.0f ? v : 1.0f;
 }
 
-/* What a sample holds before anything is drawn. */
-static void clear_sample(const e3d_context *context, e3d_tile_memory *memory, int at)
+void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_tile_memory *memory = worker->tile;
+    e3d_outputs_begin(context, tile);
+    if (!context->targets->color)
+        return;
+    int single = context->frame->samples_axis == 1;
+    uint32_t rgba = single ? context->background_rgba : 0;
+    for (int i = 0; i < E3D_TILE_SAMPLES; i++)
+        memory->rgba[i] = rgba;
+    for (int k = 0; k < 3 && !single; k++) {
+        float value = unit(context->frame->background[k]);
+        for (int i = 0; i < E3D_TILE_SAMPLES; i++)
+            memory->color[k][i] = value;
+    }
+}
+
+static void show_background(const e3d_context *context, e3d_tile_memory *memory, int at)
 {
     int single = context->frame->samples_axis == 1;
     memory->rgba[at] = single ? context->background_rgba : 0;
@@ -19,21 +35,11 @@ static void clear_sample(const e3d_context *context, e3d_tile_memory *memory, in
         memory->color[k][at] = unit(context->frame->background[k]);
 }
 
-void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
-{
-    e3d_tile_memory *memory = worker->tile;
-    e3d_outputs_begin(context, tile);
-    if (!context->targets->color)
-        return;
-    for (int i = 0; i < E3D_TILE_SAMPLES; i++)
-        clear_sample(context, memory, i);
-}
-
 void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker)
 {
     const e3d_batch *batch = &worker->tile->batch;
     for (int i = 0; i < batch->count; i++)
-        clear_sample(context, worker->tile, batch->sample[i]);
+        show_background(context, worker->tile, batch->sample[i]);
 }
 
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)

@@ -156,18 +156,18 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
-/* Samples number `order[first .. first + count)` of the visible list, or first … themselves where order is NULL. */
+/* Samples first … first + count of the sorted list, which are of one group. */
 static void shade_run(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                      const e3d_group *group, const int32_t *order, int32_t first, int32_t count)
+                      const e3d_group *group, int32_t first, int32_t count)
 {
     e3d_tile_memory *memory = worker->tile;
     e3d_batch *batch = &memory->batch;
     for (int32_t done = 0; done < count; done += batch->count) {
         batch->count = count - done < E3D_BATCH ? count - done : E3D_BATCH;
         for (int i = 0; i < batch->count; i++) {
-            int32_t at = order ? order[first + done + i] : first + done + i;
-            batch->sample[i] = memory->visible[at];
-            batch->surface[i] = memory->surface[at];
+            uint32_t entry = memory->sorted[first + done + i];
+            batch->sample[i] = (int32_t)(entry & (E3D_TILE_SAMPLES - 1));
+            batch->surface[i] = (int32_t)(entry / E3D_TILE_SAMPLES);
         }
         shade_batch(context, worker, tile, group);
     }
@@ -191,25 +191,33 @@ static int find_surfaces(const e3d_context *context, e3d_worker *worker, const e
     return 1;
 }
 
-/* Counting sort of the visible list by group, stable. */
-static void sort_by_group(e3d_worker *worker, int32_t count)
+/* Counting sort of the visible list by group, then surface, stable: what is shaded alike stands together. */
+static void sort_samples(e3d_worker *worker, int32_t count)
 {
     e3d_tile_memory *memory = worker->tile;
-    const e3d_surface *surfaces = worker->surfaces.data;
+    e3d_surface *surfaces = worker->surfaces.data;
     e3d_group *groups = worker->groups.data;
     int32_t start = 0;
+    for (size_t s = 0; s < worker->surfaces.count; s++)
+        surfaces[s].samples = 0;
     for (size_t g = 0; g < worker->groups.count; g++)
         groups[g].count = 0;
     for (int32_t i = 0; i < count; i++)
-        groups[surfaces[memory->surface[i]].group].count++;
+        surfaces[memory->surface[i]].samples++;
+    for (size_t s = 0; s < worker->surfaces.count; s++)
+        groups[surfaces[s].group].count += surfaces[s].samples;
     for (size_t g = 0; g < worker->groups.count; g++) {
-        groups[g].start = start;
+        groups[g].start = groups[g].next = start;
         start += groups[g].count;
-        groups[g].count = 0;
+    }
+    for (size_t s = 0; s < worker->surfaces.count; s++) {
+        e3d_group *group = &groups[surfaces[s].group];
+        surfaces[s].next = group->next;
+        group->next += surfaces[s].samples;
     }
     for (int32_t i = 0; i < count; i++) {
-        e3d_group *group = &groups[surfaces[memory->surface[i]].group];
-        memory->sorted[group->start + group->count++] = i;
+        uint32_t surface = (uint32_t)memory->surface[i];
+        memory->sorted[surfaces[surface].next++] = surface * E3D_TILE_SAMPLES + (uint32_t)memory->visible[i];
     }
 }
 
@@ -218,13 +226,9 @@ int e3d_shade_samples(const e3d_context *context, e3d_worker *worker, const e3d_
     if (!find_surfaces(context, worker, tile, count))
         return 0;
     const e3d_group *groups = worker->groups.data;
-    if (worker->groups.count == 1) {
-        shade_run(context, worker, tile, groups, NULL, 0, count);
-        return 1;
-    }
-    sort_by_group(worker, count);
+    sort_samples(worker, count);
     for (size_t g = 0; g < worker->groups.count; g++)
-        shade_run(context, worker, tile, &groups[g], worker->tile->sorted, groups[g].start,
-                  groups[g].count);
+        if (groups[g].count)
+            shade_run(context, worker, tile, &groups[g], groups[g].start, groups[g].count);
     return 1;
 }

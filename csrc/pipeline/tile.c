@@ -186,6 +186,7 @@ static int act_forward(tile_job *job, const e3d_piece *piece)
         for (int32_t x = piece->x0; x <= x1; x++)
             if (memory->slot[y * E3D_TILE + x] == (int32_t)piece->slot)
                 memory->visible[count++] = y * E3D_TILE + x;
+    job->worker->surfaces.count = job->worker->groups.count = 0; /* no slot is shaded twice */
     return !count || e3d_shade_samples(job->context, job->worker, &job->tile, count);
 }
 

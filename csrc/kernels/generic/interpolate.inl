@@ -1,62 +1,55 @@
 /* interpolate: barycentrics and attributes of a batch of samples (R18-R26).
  *
- * Neighbouring samples mostly lie on one surface: then its words are broadcast, else gathered.
+ * Samples of one surface stand together: a run of them is evaluated with the surface's words broadcast. A run's last
+ * vector spills over its end; the next run, or nothing, writes there afterwards.
  */
 
-/* The surfaces of one vector of samples. */
-typedef struct surface_lanes {
-    const float *words; /* of all surfaces */
-    const float *one;   /* of the only surface, or NULL */
-    vi32 first;         /* word index of each lane's surface */
-} surface_lanes;
-
-enum { SURFACE_WORDS = sizeof(e3d_surface) / 4 };
-#define SURFACE_WORD(member) ((int)(offsetof(e3d_surface, member) / 4))
-
-static inline surface_lanes surface_of(const e3d_surface *surfaces, const int32_t *index)
+static inline vf32 interpolate_three(const vf32 b[3], const vf32 v[3])
 {
-    vi32 which = v_loadi(index);
-    vmask same = v_eqi(which, v_seti(index[0]));
-    surface_lanes s = {(const float *)surfaces, NULL, v_shl(which, 6)};
-    if (!v_any(v_mnot(same)))
-        s.one = (const float *)&surfaces[index[0]];
-    return s;
+    return v_add(v_add(v_mul(b[0], v[0]), v_mul(b[1], v[1])), v_mul(b[2], v[2]));
 }
 
-static inline vf32 surface_float(const surface_lanes *s, int word)
+static inline void broadcast_three(const float *words, vf32 out[3])
 {
-    if (s->one)
-        return v_setf(s->one[word]);
-    return v_gatherf(s->words, v_addi(s->first, v_seti(word)));
+    for (int k = 0; k < 3; k++)
+        out[k] = v_setf(words[k]);
 }
 
-static inline vi32 surface_int(const surface_lanes *s, int word)
+/* The end of the run of one surface that starts at sample `first` of the batch. */
+static inline int run_end(const e3d_batch *batch, int first)
 {
-    return v_asi(surface_float(s, word));
+    int end = first + 1;
+    while (end < batch->count && batch->surface[end] == batch->surface[first])
+        end++;
+    return end;
 }
 
-static inline vf32 interpolate_three(const vf32 b[3], vf32 v0, vf32 v1, vf32 v2)
-{
-    return v_add(v_add(v_mul(b[0], v0), v_mul(b[1], v1)), v_mul(b[2], v2));
-}
+/* The planes of R18, broadcast. */
+typedef struct plane_lanes {
+    vf32 p[3], px[3], py[3];
+    vi32 base_x, base_y;
+} plane_lanes;
 
-static inline vf32 interpolate_word(const surface_lanes *s, const vf32 b[3], int word)
+static inline plane_lanes broadcast_planes(const e3d_surface *s)
 {
-    return interpolate_three(b, surface_float(s, word), surface_float(s, word + 1),
-                             surface_float(s, word + 2));
+    plane_lanes planes;
+    broadcast_three(s->p, planes.p);
+    broadcast_three(s->px, planes.px);
+    broadcast_three(s->py, planes.py);
+    planes.base_x = v_seti(s->base_x);
+    planes.base_y = v_seti(s->base_y);
+    return planes;
 }
 
 /* R19 */
-static inline vf32 interpolate_barycentric(const surface_lanes *s, vi32 sample, vf32 b[3])
+static inline vf32 interpolate_barycentric(const plane_lanes *planes, vi32 sample, vf32 b[3])
 {
     vi32 x = v_andi(sample, v_seti(E3D_TILE - 1)), y = v_shr(sample, 6);
-    vf32 dx = v_float(v_subi(x, surface_int(s, SURFACE_WORD(base_x))));
-    vf32 dy = v_float(v_subi(y, surface_int(s, SURFACE_WORD(base_y))));
+    vf32 dx = v_float(v_subi(x, planes->base_x)), dy = v_float(v_subi(y, planes->base_y));
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f), p[3];
     for (int k = 0; k < 3; k++) {
-        vf32 along = v_mul(dx, surface_float(s, SURFACE_WORD(px) + k));
-        vf32 down = v_mul(dy, surface_float(s, SURFACE_WORD(py) + k));
-        p[k] = v_max(v_add(v_add(surface_float(s, SURFACE_WORD(p) + k), along), down), zero);
+        vf32 along = v_mul(dx, planes->px[k]), down = v_mul(dy, planes->py[k]);
+        p[k] = v_max(v_add(v_add(planes->p[k], along), down), zero);
     }
     vf32 sum = v_add(v_add(p[0], p[1]), p[2]);
     vmask some = v_ge(sum, v_setf(0x1p-126f));
@@ -78,57 +71,95 @@ static inline void unit_length(vf32 *x, vf32 *y, vf32 *z)
     *z = v_self(some, v_mul(*z, inverse), zero);
 }
 
-static inline void interpolate_normal(e3d_batch *batch, int i, const surface_lanes *s, const vf32 b[3],
-                                      int flat)
+static inline void load_barycentric(const e3d_batch *batch, int i, vf32 b[3])
 {
-    vf32 n[3], zero = v_setf(0.0f);
-    vmask front = v_eqi(surface_int(s, SURFACE_WORD(back)), v_seti(0));
-    for (int k = 0; k < 3; k++) {
-        int word = SURFACE_WORD(normal) + 3 * k;
-        n[k] = flat ? surface_float(s, word) : interpolate_word(s, b, word);
-        n[k] = v_self(front, n[k], v_sub(zero, n[k]));
-    }
-    unit_length(&n[0], &n[1], &n[2]);
     for (int k = 0; k < 3; k++)
-        v_storef(batch->normal[k] + i, n[k]);
+        b[k] = v_loadf(batch->b[k] + i);
+}
+
+static void run_barycentric(e3d_batch *batch, int first, int end, const e3d_surface *s)
+{
+    plane_lanes planes = broadcast_planes(s);
+    for (int i = first; i < end; i += V_LANES) {
+        vf32 b[3], r = interpolate_barycentric(&planes, v_loadi(batch->sample + i), b);
+        v_storef(batch->r + i, r);
+        for (int k = 0; k < 3; k++)
+            v_storef(batch->b[k] + i, b[k]);
+    }
+}
+
+/* `words`: `channels` rows of three corner values. */
+static void run_attribute(e3d_batch *batch, int first, int end, const float *words, int channels,
+                          e3d_lane_array *out)
+{
+    for (int c = 0; c < channels; c++) {
+        vf32 corner[3], b[3];
+        broadcast_three(words + 3 * c, corner);
+        for (int i = first; i < end; i += V_LANES) {
+            load_barycentric(batch, i, b);
+            v_storef(out[c] + i, interpolate_three(b, corner));
+        }
+    }
+}
+
+static void run_normal(e3d_batch *batch, int first, int end, const e3d_surface *s, int flat)
+{
+    vf32 corner[3][3], zero = v_setf(0.0f);
+    for (int c = 0; c < 3; c++)
+        broadcast_three(s->normal[c], corner[c]);
+    for (int i = first; i < end; i += V_LANES) {
+        vf32 b[3], n[3];
+        load_barycentric(batch, i, b);
+        for (int c = 0; c < 3; c++) {
+            n[c] = flat ? corner[c][0] : interpolate_three(b, corner[c]);
+            n[c] = s->back ? v_sub(zero, n[c]) : n[c];
+        }
+        unit_length(&n[0], &n[1], &n[2]);
+        for (int c = 0; c < 3; c++)
+            v_storef(batch->normal[c] + i, n[c]);
+    }
 }
 
 static void kernel_interpolate(e3d_batch *batch, const e3d_surface *surfaces, int wanted)
 {
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        surface_lanes s = surface_of(surfaces, batch->surface + i);
-        vf32 b[3];
-        vf32 r = interpolate_barycentric(&s, v_loadi(batch->sample + i), b);
-        v_storef(batch->r + i, r);
-        for (int k = 0; k < 3; k++)
-            v_storef(batch->b[k] + i, b[k]);
+    for (int first = 0, end; first < batch->count; first = end) {
+        const e3d_surface *s = &surfaces[batch->surface[first]];
+        end = run_end(batch, first);
+        run_barycentric(batch, first, end, s);
         if (wanted & E3D_WANT_POSITION)
-            for (int k = 0; k < 3; k++)
-                v_storef(batch->position[k] + i,
-                         interpolate_word(&s, b, SURFACE_WORD(position) + 3 * k));
+            run_attribute(batch, first, end, s->position[0], 3, batch->position);
         if (wanted & E3D_WANT_NORMAL)
-            interpolate_normal(batch, i, &s, b, wanted & E3D_WANT_FLAT);
+            run_normal(batch, first, end, s, wanted & E3D_WANT_FLAT);
         if (wanted & E3D_WANT_UV)
-            for (int k = 0; k < 2; k++)
-                v_storef(batch->uv[k] + i, interpolate_word(&s, b, SURFACE_WORD(uv) + 3 * k));
+            run_attribute(batch, first, end, s->uv[0], 2, batch->uv);
+    }
+}
+
+/* Read and written in place: the last vector of a run must leave the next run's samples alone. */
+static void run_tint(e3d_batch *batch, int first, int end, const e3d_surface *s, int by_vertex,
+                     int by_instance)
+{
+    for (int c = 0; c < 3; c++) {
+        vf32 corner[3], instance = v_setf(s->instance_color[c]);
+        broadcast_three(s->color[c], corner);
+        for (int i = first; i < end; i += V_LANES) {
+            vf32 b[3], old = v_loadf(batch->color[c] + i), v = old;
+            load_barycentric(batch, i, b);
+            if (by_vertex)
+                v = v_mul(v, interpolate_three(b, corner));
+            if (by_instance)
+                v = v_mul(v, instance);
+            vmask own = v_gti(v_seti(end - i), v_iota());
+            v_storef(batch->color[c] + i, v_self(own, v, old));
+        }
     }
 }
 
 static void kernel_tint(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance)
 {
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        surface_lanes s = surface_of(surfaces, batch->surface + i);
-        vf32 b[3];
-        for (int k = 0; k < 3; k++)
-            b[k] = v_loadf(batch->b[k] + i);
-        for (int k = 0; k < 3; k++) {
-            vf32 c = v_loadf(batch->color[k] + i);
-            if (by_vertex)
-                c = v_mul(c, interpolate_word(&s, b, SURFACE_WORD(color) + 3 * k));
-            if (by_instance)
-                c = v_mul(c, surface_float(&s, SURFACE_WORD(instance_color) + k));
-            v_storef(batch->color[k] + i, c);
-        }
+    for (int first = 0, end; first < batch->count; first = end) {
+        end = run_end(batch, first);
+        run_tint(batch, first, end, &surfaces[batch->surface[first]], by_vertex, by_instance);
     }
 }
 
@@ -171,17 +202,33 @@ static inline vf32 exp2_poly(vf32 y)
     return v_mul(fraction, v_asf(v_shl(v_addi(whole, v_seti(127)), 23)));
 }
 
-static inline vf32 level_length2(const surface_lanes *s, int plane_word, const vf32 corner[2][3],
-                                 const vf32 value[2], vf32 r, const vf32 size[2])
+/* Squared length, in texels, of the step of both coordinates along one screen axis. */
+static inline vf32 level_length2(const float *plane_words, const e3d_surface *s, const vf32 value[2],
+                                 vf32 r, const vf32 size[2])
 {
-    vf32 plane[3], square[2];
-    for (int k = 0; k < 3; k++)
-        plane[k] = surface_float(s, plane_word + k);
+    vf32 plane[3], corner[3], square[2];
+    broadcast_three(plane_words, plane);
     for (int k = 0; k < 2; k++) {
-        vf32 texels = v_mul(level_derivative(plane, corner[k], value[k], r), size[k]);
+        broadcast_three(s->uv[k], corner);
+        vf32 texels = v_mul(level_derivative(plane, corner, value[k], r), size[k]);
         square[k] = v_mul(texels, texels);
     }
     return v_add(square[0], square[1]);
+}
+
+static void run_level(e3d_batch *batch, int first, int end, const e3d_surface *s, const vf32 size[2],
+                      vi32 last)
+{
+    vf32 one = v_setf(1.0f);
+    for (int i = first; i < end; i += V_LANES) {
+        vf32 r = v_loadf(batch->r + i);
+        const vf32 value[2] = {v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i)};
+        vf32 q = v_max(level_length2(s->px, s, value, r, size), level_length2(s->py, s, value, r, size));
+        vmask minified = v_gt(q, one);
+        q = v_min(v_self(minified, q, one), v_setf(0x1p100f));
+        vi32 lod = v_rint(v_mul(log2_poly(q), v_setf(128.0f)));
+        v_storei(batch->lod + i, v_mini(v_seli(minified, lod, v_seti(0)), last));
+    }
 }
 
 static void kernel_select_level(e3d_batch *batch, const e3d_surface *surfaces,
@@ -190,19 +237,8 @@ static void kernel_select_level(e3d_batch *batch, const e3d_surface *surfaces,
     const vf32 size[2] = {v_setf((float)texture->levels[0].width),
                           v_setf((float)texture->levels[0].height)};
     vi32 last = v_seti((texture->level_count - 1) * 256);
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        surface_lanes s = surface_of(surfaces, batch->surface + i);
-        vf32 corner[2][3], value[2], r = v_loadf(batch->r + i);
-        for (int k = 0; k < 2; k++) {
-            value[k] = v_loadf(batch->uv[k] + i);
-            for (int j = 0; j < 3; j++)
-                corner[k][j] = surface_float(&s, SURFACE_WORD(uv) + 3 * k + j);
-        }
-        vf32 q = v_max(level_length2(&s, SURFACE_WORD(px), corner, value, r, size),
-                       level_length2(&s, SURFACE_WORD(py), corner, value, r, size));
-        vmask minified = v_gt(q, v_setf(1.0f));
-        q = v_min(v_self(minified, q, v_setf(1.0f)), v_setf(0x1p100f));
-        vi32 lod = v_rint(v_mul(log2_poly(q), v_setf(128.0f)));
-        v_storei(batch->lod + i, v_mini(v_seli(minified, lod, v_seti(0)), last));
+    for (int first = 0, end; first < batch->count; first = end) {
+        end = run_end(batch, first);
+        run_level(batch, first, end, &surfaces[batch->surface[first]], size, last);
     }
 }

@@ -1,0 +1,89 @@
+"""The engine as a peer of other renderers: one class, on the public API alone.
+
+In:  a renderer-neutral scene (NumPy arrays, matrices, a mode; 8-bit colours as they are, no gamma).
+Out: finished frames as NumPy arrays. The environment variables ENGINE3D_BACKEND and
+     ENGINE3D_THREADS choose backend and number of threads.
+"""
+
+import numpy as np
+
+import engine3d as e3d
+from engine3d import linalg
+
+OUTPUTS = {"depth": "ndc_depth", "id": "instance_id"}
+
+
+class Peer:
+    """Draws one scene; `scene.view` is read anew for each frame."""
+
+    split = False  # a frame is delivered as an array
+    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id"}
+
+    def __init__(self, scene):
+        self.source = scene
+        self.output = OUTPUTS.get(scene.mode, "color")
+        self.shading = "forward" if scene.mode == "lights" else "deferred"
+        ambient = (float(scene.ambient),) * 3
+        self.scene = e3d.Scene(background=tuple(map(float, scene.clear[:3])), ambient=ambient)
+        for draw in scene.draws:
+            self.scene.add(drawable(draw))
+        for light, pose in lights(scene):
+            self.scene.add(light, translation=pose)
+        self.camera = e3d.Camera(np.asarray(scene.proj, np.float64))
+        self.renderer = e3d.Renderer(scene.width, scene.height, color_space="linear")
+
+    def info(self):
+        return {"version": "engine3d " + e3d.__version__, "backend": self.renderer.backend}
+
+    def render(self):
+        source = self.source
+        pose = linalg.inverse(np.asarray(source.view, np.float64))
+        self.frame = self.renderer.render(
+            self.scene,
+            (self.camera, pose),
+            mode="unlit" if source.mode == "unlit" else "lit",
+            outputs=(self.output,),
+        )
+
+    def read(self):
+        if self.output == "instance_id":
+            return (self.frame.instance_id + 1).view(np.uint32)  # 0 is the background
+        return getattr(self.frame, self.output)
+
+    def render_read(self):
+        self.render()
+        return self.read()
+
+
+def drawable(draw):
+    """A mesh or instances, from the neutral description."""
+    mesh = draw.mesh
+    material = e3d.Material()
+    if draw.texture is not None:
+        material = e3d.Material(texture=e3d.Texture(draw.texture, filter="bilinear"))
+    made = e3d.Mesh(
+        mesh.pos,
+        mesh.idx.astype(np.int32),
+        normals=mesh.nrm,
+        uvs=mesh.uv,
+        colors=mesh.col,
+        materials=[material],
+    )
+    if draw.inst is None:
+        return made
+    return e3d.InstancedMesh(made, draw.inst, colors=draw.inst_col)
+
+
+def lights(scene):
+    """(light, position) pairs of the neutral description."""
+    if scene.light_pos is not None:
+        for (x, y, z, radius), color in zip(scene.light_pos, scene.light_col, strict=True):
+            color = tuple(map(float, color[:3]))
+            light = e3d.PointLight(
+                color=color, intensity=1.0, range=float(radius), falloff="window"
+            )
+            yield light, (float(x), float(y), float(z))
+    elif scene.mode == "lit":
+        strength = 1.0 - float(scene.ambient)
+        direction = tuple(-float(c) for c in scene.light_dir)
+        yield e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0), None

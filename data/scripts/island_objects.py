@@ -306,8 +306,8 @@ def gulls():
     above = Surface(points, np.tile(middle, (10, 1)), quads)
     below = Surface(points, np.tile(middle, (10, 1)), [q[::-1] for q in quads])
     parts = []
-    for x, y, z, turn in ((0.4, 4.9, 0.6, 0.5), (1.2, 5.3, -0.2, 0.9), (-2.8, 4.6, 0.4, -0.5)):
-        parts += placed([above, below], at(x, y, z, turn), "gulls")
+    for x, y, z, turn in ((1.5, 4.6, 1.0, 0.5), (2.3, 5.2, -0.1, 0.9), (-2.8, 4.6, 0.4, -0.5)):
+        parts += placed([above, below], at(x, y, z, turn, 1.3), "gulls")
     return parts
 
 

@@ -28,6 +28,8 @@ _ARC_COSINE = (
     0.0066700901,
     -0.0012624911,
 )
+# Faces worked on at a time, which bounds the memory for intermediate results.
+_BLOCK = 1 << 16
 _PI = 3.141592653589793
 
 
@@ -95,6 +97,33 @@ def corner_vectors(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return corner_angles(positions, faces)[:, :, np.newaxis] * normals[:, np.newaxis, :]
 
 
+def smooth_sums(
+    positions: np.ndarray, faces: np.ndarray, groups: np.ndarray, count: int
+) -> np.ndarray:
+    """Add up the `corner_vectors` of all corners by group.
+
+    Parameters
+    ----------
+    positions : (V, 3) float
+    faces : (F, 3) int
+    groups : (F, 3) int
+        The group of each corner, in 0..count-1.
+    count : int
+        Number of groups.
+
+    Returns
+    -------
+    sums : (count, 3) float64
+        Not normalised. Added up in the order of the faces, block by block.
+    """
+    sums = np.zeros((count, 3), np.float64)
+    for start in range(0, len(faces), _BLOCK):
+        block = slice(start, start + _BLOCK)
+        vectors = corner_vectors(positions, faces[block]).reshape(-1, 3)
+        sums += group_sums(vectors, groups[block].ravel(), count)
+    return sums
+
+
 def vertex_normals(
     positions: np.ndarray, faces: np.ndarray, position_ids: np.ndarray | None = None
 ) -> np.ndarray:
@@ -112,12 +141,12 @@ def vertex_normals(
     -------
     normals : (V, 3) float32, unit length, or zero where no face tells a direction
     """
-    count = len(positions)
-    corners = faces if position_ids is None else position_ids[faces]
-    points = count if position_ids is None else int(position_ids.max(initial=-1)) + 1
-    sums = group_sums(corner_vectors(positions, faces).reshape(-1, 3), corners.ravel(), points)
-    normals = unit_vectors(sums).astype(np.float32)
-    return normals if position_ids is None else normals[position_ids]
+    if position_ids is None:
+        sums = smooth_sums(positions, faces, faces, len(positions))
+        return unit_vectors(sums).astype(np.float32)
+    points = int(position_ids.max(initial=-1)) + 1
+    sums = smooth_sums(positions, faces, position_ids[faces], points)
+    return unit_vectors(sums).astype(np.float32)[position_ids]
 
 
 def group_sums(vectors: np.ndarray, groups: np.ndarray, count: int) -> np.ndarray:

@@ -15,6 +15,7 @@ from .corner_mesh import Geometry, Triangles, Vertices, build_mesh
 from .documents import DocumentObject
 from .obj_elements import Elements
 from .obj_states import ObjStates
+from .smoothing import join_seams
 from .warning_list import WarningList
 
 # No model has more; files that do are taken as one object, and a group name beyond is left out.
@@ -75,9 +76,7 @@ class ObjParts(NamedTuple):
         geometry = Geometry(
             self.vertices, self.triangles, self.normals, _segments(self.lines), points
         )
-        mesh = build_mesh(geometry, self.materials, name)
-        mesh.groups = self._groups(self._triangle_statements())
-        return DocumentObject(name, mesh)
+        return self._built(geometry, name, self._triangle_statements())
 
     def objects(self, stem: str, warnings: WarningList) -> list[DocumentObject]:
         """Return one object for each ``o`` that holds anything, and one for what stands before."""
@@ -111,8 +110,13 @@ class ObjParts(NamedTuple):
             _segments(lines),
             points.positions,
         )
-        mesh = build_mesh(geometry.with_own_positions(), self.materials, name)
-        mesh.groups = self._groups(statements[chosen])
+        return self._built(geometry.with_own_positions(), name, statements[chosen])
+
+    def _built(self, geometry: Geometry, name: str, statements: np.ndarray) -> DocumentObject:
+        mesh = build_mesh(geometry, self.materials, name)
+        if not mesh.has_normals:
+            join_seams(mesh)
+        mesh.groups = self._groups(statements)
         return DocumentObject(name, mesh)
 
     def _triangle_statements(self) -> np.ndarray:

@@ -10,9 +10,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..normals import corner_vectors, face_normals, group_sums, unit_vectors
+from ..mesh import Mesh
+from ..normals import face_normals, smooth_sums, unit_vectors
 
 FLAT = 0
+# Parts of a surface that meet at an angle of less than 30 degrees were smooth where they were cut.
+_SEAM_COSINE = 0.8660254
 _MAX_MASKS = 64
 
 
@@ -77,10 +80,9 @@ def _grouped_normals(positions, corners, groups):
     _, group = np.unique(groups, return_inverse=True)
     keys = corners.astype(np.int64) * (int(group.max()) + 1) + group.reshape(-1, 1)
     _, shared = np.unique(keys, return_inverse=True)
-    shared = shared.reshape(-1)
-    vectors = corner_vectors(positions, corners).reshape(-1, 3)
-    sums = group_sums(vectors, shared, int(shared.max()) + 1)
-    return unit_vectors(sums).astype(np.float32), shared.reshape(corners.shape)
+    shared = shared.reshape(corners.shape)
+    sums = smooth_sums(positions, corners, shared, int(shared.max()) + 1)
+    return unit_vectors(sums).astype(np.float32), shared
 
 
 def _masked_normals(positions, corners, masks):
@@ -90,11 +92,10 @@ def _masked_normals(positions, corners, masks):
         # Nobody models like this; the lowest group alone keeps the work in bounds.
         return _grouped_normals(positions, corners, masks & -masks)
     count = len(positions)
-    vectors = corner_vectors(positions, corners)
     tables = []
     for value in distinct:
-        near = (masks & value) != 0
-        sums = group_sums(vectors[near].reshape(-1, 3), corners[near].reshape(-1), count)
+        near = corners[(masks & value) != 0]
+        sums = smooth_sums(positions, near, near, count)
         tables.append(unit_vectors(sums).astype(np.float32))
     return np.concatenate(tables), corners + mask.reshape(-1, 1) * count
 
@@ -104,3 +105,47 @@ def _flat_normals(positions, corners, polygons):
     _, first, polygon = np.unique(polygons, return_index=True, return_inverse=True)
     table = face_normals(positions, corners, polygon.reshape(-1))[first]
     return table, np.repeat(polygon.reshape(-1, 1), 3, axis=1)
+
+
+def join_seams(mesh: Mesh) -> None:
+    """Make vertices of equal coordinates one point where the surface goes on smoothly.
+
+    Many files list the points along the border of two patches twice. Their normals would show a
+    crease there. Vertices whose normals differ from the one they would have together by 30
+    degrees or more stay apart: that is an edge of the model.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Without normals of its own; its ``position_ids`` may change.
+    """
+    positions, ids = mesh.positions, mesh.position_ids
+    ids = np.arange(len(positions)) if ids is None else ids
+    group, is_apart = _equal_positions(positions, ids)
+    if not is_apart.any():
+        return
+    faces = mesh.faces[is_apart[mesh.faces].any(axis=1)]
+    together, own = (
+        unit_vectors(smooth_sums(positions, faces, by[faces], int(by.max()) + 1))[by]
+        for by in (group, ids)
+    )
+    x, y, z = own[:, 0] * together[:, 0], own[:, 1] * together[:, 1], own[:, 2] * together[:, 2]
+    joined = is_apart & (x + y + z > _SEAM_COSINE)
+    _, mesh.position_ids = np.unique(
+        np.where(joined, group, int(group.max()) + 1 + ids), return_inverse=True
+    )
+
+
+def _equal_positions(positions: np.ndarray, ids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A number for each position that equal ones share, and where those have different ids."""
+    # Adding zero turns -0 into 0. Positions with the same hash are compared once more.
+    bits = (positions + np.float32(0)).view(np.uint32).astype(np.uint64)
+    with np.errstate(over="ignore"):
+        keys = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
+        keys ^= bits[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F)
+        keys ^= bits[:, 2] * np.uint64(0x165667B19E3779F9)
+    _, first, group = np.unique(keys, return_index=True, return_inverse=True)
+    group = group.reshape(-1)
+    first = first[group]
+    is_apart = np.bincount(group, weights=ids != ids[first])[group] > 0
+    return group, is_apart & (positions == positions[first]).all(axis=1)

@@ -231,6 +231,27 @@ def test_without_smoothing_statements_all_is_smooth(obj_mesh):
     assert len(mesh.positions) == 4
 
 
+def patches(height):
+    """Two quads side by side that share no vertex; the second goes up to ``height``."""
+    left = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+    right = f"v 1 -0 0\nv 2 0 {height}\nv 2 1 {height}\nv 1 1 0\n"
+    return left + right + "f 1 2 3 4\nf 5 6 7 8\n"
+
+
+def test_patches_that_meet_smoothly_show_no_seam(obj_mesh):
+    mesh = obj_mesh(patches(0.2))
+    assert not mesh.has_normals
+    assert len(mesh.positions) == 8
+    assert np.array_equal(mesh.normals[1], mesh.normals[4])
+    assert len(mesh.edges()) == 7
+
+
+def test_patches_that_meet_at_an_angle_keep_their_edge(obj_mesh):
+    mesh = obj_mesh(patches(5))
+    assert mesh.normals[1].tolist() == [0, 0, 1]
+    assert mesh.normals[4, 0] < -0.9
+
+
 @pytest.mark.parametrize("off", ["off", "0"])
 def test_smoothing_off_is_flat(obj_mesh, off):
     mesh = obj_mesh(f"s {off}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n")

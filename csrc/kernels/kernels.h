@@ -78,6 +78,12 @@ typedef struct e3d_tile_buffers {
 
 /* ---- shade ---- */
 
+/* Neighbouring samples of one row of a tile that show the same: a slot, later its surface. */
+typedef struct e3d_run {
+    int32_t owner;
+    uint16_t sample, length;
+} e3d_run;
+
 enum { E3D_BATCH = 256 };
 
 /* What a visible piece brings to shading: 64 words. */
@@ -92,7 +98,7 @@ typedef struct e3d_surface {
     int32_t back;                  /* the face looks away: normals are negated */
     int32_t local, face, node, instance; /* number in the instance, face or -1, IDs */
     int32_t group;                 /* samples of one group are shaded together */
-    int32_t samples, next;         /* while they are sorted */
+    int32_t runs, next;            /* of samples, while they are sorted */
     int32_t spare[9];
 } e3d_surface;
 
@@ -140,6 +146,8 @@ typedef struct e3d_kernels {
     void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile);
+    /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
+    int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
     void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted);
     /* lod of R26, for trilinear textures of this size. */
     void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,

@@ -86,7 +86,7 @@ typedef struct e3d_counters {
 typedef struct e3d_group {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance;
-    int32_t count, start, next; /* of its samples, while they are sorted */
+    int32_t count, start, next; /* of its runs, while they are sorted */
 } e3d_group;
 
 typedef struct e3d_tile_memory {
@@ -97,10 +97,11 @@ typedef struct e3d_tile_memory {
     int32_t mark[E3D_TILE_SAMPLES + E3D_PAD];  /* overdraw counts, then wireframe marks */
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling: 1 where a sample has its own colour */
     float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling only */
-    int32_t visible[E3D_TILE_SAMPLES];  /* samples to shade */
-    int32_t surface[E3D_TILE_SAMPLES];  /* of each */
-    uint32_t sorted[E3D_TILE_SAMPLES];  /* surface * E3D_TILE_SAMPLES + sample, by group and surface */
+    e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
+    e3d_run sorted[E3D_TILE_SAMPLES + 1]; /* by group and surface, which owns them now */
     e3d_batch batch;
+    const e3d_run *batch_runs;          /* the batch's samples, as runs */
+    int32_t batch_run_count;
     uint32_t encoded[E3D_BATCH + E3D_PAD];
 } e3d_tile_memory;
 
@@ -222,7 +223,8 @@ typedef struct e3d_tile {
     int32_t width, height; /* samples inside the viewport */
 } e3d_tile;
 void e3d_tiles(e3d_context *context);
-int e3d_shade_samples(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
+/* Shades the first `count` of the tile memory's runs; 0 when memory is out. */
+int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
 int e3d_surface_of(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t slot);
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* batch->color, clamped, is that of its samples. */

@@ -49,8 +49,12 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
     if (context->frame->samples_axis == 1) {
         context->kernels->encode(batch->color[0], batch->color[1], batch->color[2], batch->count,
                                  context->srgb, memory->encoded);
-        for (int i = 0; i < batch->count; i++)
-            memory->rgba[batch->sample[i]] = memory->encoded[i];
+        const uint32_t *from = memory->encoded;
+        for (int32_t i = 0; i < memory->batch_run_count; i++) {
+            const e3d_run *run = &memory->batch_runs[i];
+            memcpy(memory->rgba + run->sample, from, 4 * (size_t)run->length);
+            from += run->length;
+        }
         return;
     }
     for (int i = 0; i < batch->count; i++) {

@@ -156,56 +156,59 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
-/* Samples first … first + count of the sorted list, which are of one group. */
-static void shade_run(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                      const e3d_group *group, int32_t first, int32_t count)
+static void append_run(e3d_batch *batch, const e3d_run *run)
+{
+    for (int i = 0; i < run->length; i++) {
+        batch->sample[batch->count + i] = run->sample + i;
+        batch->surface[batch->count + i] = run->owner;
+    }
+    batch->count += run->length;
+}
+
+/* `count` sorted runs from `first` on, which are of one group. */
+static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
+                        const e3d_group *group, int32_t first, int32_t count)
 {
     e3d_tile_memory *memory = worker->tile;
     e3d_batch *batch = &memory->batch;
-    for (int32_t done = 0; done < count; done += batch->count) {
-        batch->count = count - done < E3D_BATCH ? count - done : E3D_BATCH;
-        for (int i = 0; i < batch->count; i++) {
-            uint32_t entry = memory->sorted[first + done + i];
-            batch->sample[i] = (int32_t)(entry & (E3D_TILE_SAMPLES - 1));
-            batch->surface[i] = (int32_t)(entry / E3D_TILE_SAMPLES);
-        }
+    const e3d_run *run = memory->sorted + first, *end = run + count;
+    while (run < end) {
+        memory->batch_runs = run;
+        for (batch->count = 0; run < end && batch->count + run->length <= E3D_BATCH; run++)
+            append_run(batch, run);
+        memory->batch_run_count = (int32_t)(run - memory->batch_runs);
         shade_batch(context, worker, tile, group);
     }
 }
 
+/* Runs are owned by their surfaces from here on. */
 static int find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
                          int32_t count)
 {
-    e3d_tile_memory *memory = worker->tile;
-    int32_t last_slot = E3D_NO_SLOT, surface = 0;
+    e3d_run *runs = worker->tile->runs;
     for (int32_t i = 0; i < count; i++) {
-        int32_t slot = memory->slot[memory->visible[i]];
-        if (slot != last_slot) {
-            surface = e3d_surface_of(context, worker, tile, slot);
-            if (surface < 0)
-                return 0;
-            last_slot = slot;
-        }
-        memory->surface[i] = surface;
+        runs[i].owner = e3d_surface_of(context, worker, tile, runs[i].owner);
+        if (runs[i].owner < 0)
+            return 0;
     }
     return 1;
 }
 
-/* Counting sort of the visible list by group, then surface, stable: what is shaded alike stands together. */
-static void sort_samples(e3d_worker *worker, int32_t count)
+/* Counting sort by group, then surface, stable: what is shaded alike stands together. */
+static void sort_runs(e3d_worker *worker, int32_t count)
 {
     e3d_tile_memory *memory = worker->tile;
     e3d_surface *surfaces = worker->surfaces.data;
     e3d_group *groups = worker->groups.data;
     int32_t start = 0;
     for (size_t s = 0; s < worker->surfaces.count; s++)
-        surfaces[s].samples = 0;
+        surfaces[s].runs = 0;
     for (size_t g = 0; g < worker->groups.count; g++)
         groups[g].count = 0;
     for (int32_t i = 0; i < count; i++)
-        surfaces[memory->surface[i]].samples++;
+        surfaces[memory->runs[i].owner].runs++;
     for (size_t s = 0; s < worker->surfaces.count; s++)
-        groups[surfaces[s].group].count += surfaces[s].samples;
+        groups[surfaces[s].group].count += surfaces[s].runs;
     for (size_t g = 0; g < worker->groups.count; g++) {
         groups[g].start = groups[g].next = start;
         start += groups[g].count;
@@ -213,22 +216,19 @@ static void sort_samples(e3d_worker *worker, int32_t count)
     for (size_t s = 0; s < worker->surfaces.count; s++) {
         e3d_group *group = &groups[surfaces[s].group];
         surfaces[s].next = group->next;
-        group->next += surfaces[s].samples;
+        group->next += surfaces[s].runs;
     }
-    for (int32_t i = 0; i < count; i++) {
-        uint32_t surface = (uint32_t)memory->surface[i];
-        memory->sorted[surfaces[surface].next++] = surface * E3D_TILE_SAMPLES + (uint32_t)memory->visible[i];
-    }
+    for (int32_t i = 0; i < count; i++)
+        memory->sorted[surfaces[memory->runs[i].owner].next++] = memory->runs[i];
 }
 
-int e3d_shade_samples(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
+int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
 {
     if (!find_surfaces(context, worker, tile, count))
         return 0;
     const e3d_group *groups = worker->groups.data;
-    sort_samples(worker, count);
+    sort_runs(worker, count);
     for (size_t g = 0; g < worker->groups.count; g++)
-        if (groups[g].count)
-            shade_run(context, worker, tile, &groups[g], groups[g].start, groups[g].count);
+        shade_group(context, worker, tile, &groups[g], groups[g].start, groups[g].count);
     return 1;
 }

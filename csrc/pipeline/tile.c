@@ -175,19 +175,31 @@ static int act_mark(tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
+/* The runs of one slot in a box. */
+static int32_t runs_of_slot(e3d_tile_memory *memory, int32_t slot, const e3d_box *box)
+{
+    int32_t count = 0;
+    for (int32_t y = box->y0; y <= box->y1; y++)
+        for (int32_t x = box->x0, first = x; x <= box->x1; x++, first = x) {
+            while (x <= box->x1 && memory->slot[y * E3D_TILE + x] == slot)
+                x++;
+            if (x > first)
+                memory->runs[count++] = (e3d_run){slot, (uint16_t)(y * E3D_TILE + first),
+                                                  (uint16_t)(x - first)};
+        }
+    return count;
+}
+
 /* Forward shading: whatever the piece just won is shaded at once. */
 static int act_forward(tile_job *job, const e3d_piece *piece)
 {
-    e3d_tile_memory *memory = job->worker->tile;
     act_visible(job, piece);
-    int32_t count = 0, x1 = piece->x1 < job->tile.width - 1 ? piece->x1 : job->tile.width - 1,
-            y1 = piece->y1 < job->tile.height - 1 ? piece->y1 : job->tile.height - 1;
-    for (int32_t y = piece->y0; y <= y1; y++)
-        for (int32_t x = piece->x0; x <= x1; x++)
-            if (memory->slot[y * E3D_TILE + x] == (int32_t)piece->slot)
-                memory->visible[count++] = y * E3D_TILE + x;
+    e3d_box box = {piece->x0, piece->y0, piece->x1, piece->y1};
+    box.x1 = box.x1 < job->tile.width - 1 ? box.x1 : job->tile.width - 1;
+    box.y1 = box.y1 < job->tile.height - 1 ? box.y1 : job->tile.height - 1;
+    int32_t count = runs_of_slot(job->worker->tile, (int32_t)piece->slot, &box);
     job->worker->surfaces.count = job->worker->groups.count = 0; /* no slot is shaded twice */
-    return !count || e3d_shade_samples(job->context, job->worker, &job->tile, count);
+    return e3d_shade_runs(job->context, job->worker, &job->tile, count);
 }
 
 /* ---- stages of a tile ---- */
@@ -206,17 +218,6 @@ static void clear_marks(e3d_tile_memory *memory)
         memory->mark[i] = 0;
 }
 
-static int32_t list_visible(e3d_tile_memory *memory, const e3d_tile *tile)
-{
-    int32_t count = 0;
-    for (int32_t y = 0; y < tile->height; y++)
-        for (int32_t x = 0; x < tile->width; x++) {
-            memory->visible[count] = y * E3D_TILE + x;
-            count += memory->slot[y * E3D_TILE + x] >= 0;
-        }
-    return count;
-}
-
 static int draw_scene(tile_job *job)
 {
     e3d_context *context = job->context;
@@ -231,8 +232,9 @@ static int draw_scene(tile_job *job)
     int64_t rastered = now_ns();
     job->worker->counters.ns_raster += rastered - start;
     if (surfaces && !forward) {
-        int32_t count = list_visible(memory, &job->tile);
-        if (count && !e3d_shade_samples(context, job->worker, &job->tile, count))
+        int32_t count = context->kernels->find_runs(memory->slot, job->tile.width, job->tile.height,
+                                                    memory->runs);
+        if (!e3d_shade_runs(context, job->worker, &job->tile, count))
             return 0;
     }
     job->worker->counters.ns_shade += now_ns() - rastered;

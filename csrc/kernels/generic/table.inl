@@ -9,6 +9,7 @@
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/raster.inl"
+#include "kernels/generic/runs.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"
@@ -22,6 +23,7 @@ const e3d_kernels E3D_TABLE = {
     .raster_overwrite = kernel_raster_overwrite,
     .raster_count = kernel_raster_count,
     .raster_mark = kernel_raster_mark,
+    .find_runs = kernel_find_runs,
     .interpolate = kernel_interpolate,
     .select_level = kernel_select_level,
     .texture = kernel_texture,

@@ -64,12 +64,46 @@ static inline vi32 texture_blend(vi32 a, vi32 b, vi32 weight)
     return v_addi(v_muli(a, v_subi(v_seti(256), weight)), v_muli(b, weight));
 }
 
-/* Bilinear, of levels that start at `start` texels and are width x height, per lane. */
-static inline texel_lanes texture_bilinear(const uint16_t *texels, vi32 start, vi32 width, vi32 height,
-                                           vf32 s, vf32 t, int wrap)
+#ifdef V_QUADS
+
+/* Texel numbers and weights of one vector of samples. */
+typedef struct texture_footprint {
+    int32_t corner[4][V_LANES]; /* upper left, upper right, lower left, lower right */
+    int32_t across[V_LANES], down[V_LANES];
+} texture_footprint;
+
+static inline __m128i texture_mix(const uint16_t *texels, const texture_footprint *f, int lane)
 {
-    texture_taps x = texture_linear(s, width, wrap), y = texture_linear(t, height, wrap);
-    vi32 top = v_addi(start, v_muli(y.first, width)), bottom = v_addi(start, v_muli(y.second, width));
+    __m128i upper = quad_blend(texels, f->corner[0][lane], f->corner[1][lane], f->across[lane]);
+    __m128i lower = quad_blend(texels, f->corner[2][lane], f->corner[3][lane], f->across[lane]);
+    return quad_mix(upper, lower, f->down[lane]);
+}
+
+static inline texel_lanes texture_filter(const uint16_t *texels, vi32 top, vi32 bottom, texture_taps x,
+                                         vi32 weight)
+{
+    texture_footprint f;
+    int32_t planes[3][V_LANES];
+    v_storei(f.corner[0], v_addi(top, x.first));
+    v_storei(f.corner[1], v_addi(top, x.second));
+    v_storei(f.corner[2], v_addi(bottom, x.first));
+    v_storei(f.corner[3], v_addi(bottom, x.second));
+    v_storei(f.across, v_ori(v_subi(v_seti(256), x.weight), v_shl(x.weight, 16)));
+    v_storei(f.down, weight);
+    for (int lane = 0; lane < V_LANES; lane += 4) {
+        __m128i q[4];
+        for (int i = 0; i < 4; i++)
+            q[i] = texture_mix(texels, &f, lane + i);
+        quad_store(q, planes[0] + lane, planes[1] + lane, planes[2] + lane);
+    }
+    return (texel_lanes){{v_loadi(planes[0]), v_loadi(planes[1]), v_loadi(planes[2])}};
+}
+
+#else
+
+static inline texel_lanes texture_filter(const uint16_t *texels, vi32 top, vi32 bottom, texture_taps x,
+                                         vi32 weight)
+{
     texel_lanes a = texture_fetch(texels, v_addi(top, x.first));
     texel_lanes b = texture_fetch(texels, v_addi(top, x.second));
     texel_lanes c = texture_fetch(texels, v_addi(bottom, x.first));
@@ -77,10 +111,21 @@ static inline texel_lanes texture_bilinear(const uint16_t *texels, vi32 start, v
     for (int k = 0; k < 3; k++) {
         vi32 upper = texture_blend(a.c[k], b.c[k], x.weight);
         vi32 lower = texture_blend(c.c[k], d.c[k], x.weight);
-        vi32 sum = v_addi(texture_blend(upper, lower, y.weight), v_seti(32768));
+        vi32 sum = v_addi(texture_blend(upper, lower, weight), v_seti(32768));
         a.c[k] = v_shr(sum, 16);
     }
     return a;
+}
+
+#endif
+
+/* Bilinear, of levels that start at `start` texels and are width x height, per lane. */
+static inline texel_lanes texture_bilinear(const uint16_t *texels, vi32 start, vi32 width, vi32 height,
+                                           vf32 s, vf32 t, int wrap)
+{
+    texture_taps x = texture_linear(s, width, wrap), y = texture_linear(t, height, wrap);
+    vi32 top = v_addi(start, v_muli(y.first, width)), bottom = v_addi(start, v_muli(y.second, width));
+    return texture_filter(texels, top, bottom, x, y.weight);
 }
 
 /* Sizes and starts of all levels, to look up by lane. */

@@ -5,6 +5,8 @@
 #include <immintrin.h>
 #include <stdint.h>
 
+#include "kernels/simd/quad_sse.h"
+
 #define V_LANES 8
 
 typedef __m256 vf32;

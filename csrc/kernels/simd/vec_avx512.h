@@ -5,6 +5,8 @@
 #include <immintrin.h>
 #include <stdint.h>
 
+#include "kernels/simd/quad_sse.h"
+
 #define V_LANES 16
 
 typedef __m512 vf32;

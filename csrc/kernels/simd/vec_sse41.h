@@ -6,6 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "kernels/simd/quad_sse.h"
+
 #define V_LANES 4
 
 typedef __m128 vf32;

@@ -1,0 +1,30 @@
+/* runs: neighbouring samples of a row that show the same slot, found a vector at a time. */
+
+/* Bit x: sample x differs from sample x + 1, or is the row's last. */
+static inline uint64_t runs_ends(const int32_t *row, int width)
+{
+    uint64_t ends = 0;
+    for (int x = 0; x < E3D_TILE; x += V_LANES) {
+        vmask same = v_eqi(v_loadi(row + x), v_loadi(row + x + 1));
+        ends |= (uint64_t)(v_bits(v_mnot(same))) << x;
+    }
+    uint64_t last = (uint64_t)1 << (width - 1);
+    return (ends & (last - 1)) | last;
+}
+
+static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run *out)
+{
+    int count = 0;
+    for (int y = 0; y < height; y++) {
+        const int32_t *row = slot + y * E3D_TILE;
+        int first = 0;
+        for (uint64_t ends = runs_ends(row, width); ends; ends &= ends - 1) {
+            int last = __builtin_ctzll(ends);
+            out[count] = (e3d_run){row[first], (uint16_t)(y * E3D_TILE + first),
+                                   (uint16_t)(last - first + 1)};
+            count += row[first] >= 0;
+            first = last + 1;
+        }
+    }
+    return count;
+}

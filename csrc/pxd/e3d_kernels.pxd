@@ -1,0 +1,85 @@
+# The Cython mirror of csrc/kernels/kernels.h, and nothing else: what the tests of the kernels need.
+
+from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t
+
+from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
+
+
+cdef extern from "kernels/kernels.h" nogil:
+    enum:
+        E3D_MAX_LEVELS
+        E3D_PAD
+        E3D_TILE
+        E3D_TILE_SAMPLES
+        E3D_CLUSTER_TRIANGLES
+        E3D_CLUSTER_VERTICES
+        E3D_BATCH
+
+    ctypedef struct e3d_level:
+        const uint16_t *texels
+        int32_t width
+        int32_t height
+
+    ctypedef struct e3d_texture_view:
+        e3d_level levels[16]
+        int32_t level_count
+        e3d_filter filter
+        e3d_wrap wrap
+
+    ctypedef struct e3d_viewport:
+        int32_t width
+        int32_t height
+        float scale_x
+        float scale_y
+        float guard_x
+        float guard_y
+
+    ctypedef struct e3d_vertices:
+        pass
+
+    ctypedef struct e3d_survivors:
+        pass
+
+    ctypedef struct e3d_piece:
+        pass
+
+    ctypedef struct e3d_tile_buffers:
+        float *z
+        int32_t *slot
+        const uint32_t *orders
+
+    ctypedef struct e3d_surface:
+        pass
+
+    ctypedef struct e3d_batch:
+        pass
+
+    ctypedef struct e3d_lighting:
+        const e3d_light *lights
+        int light_count
+        float ambient[3]
+        float clamp[2]
+        float eye[4]
+
+    ctypedef struct e3d_kernels:
+        void (*transform)(const float *positions, int stride, int count, const float *matrix,
+                          const e3d_viewport *viewport, e3d_vertices *out)
+        void (*take_clip)(const float *positions, int stride, int count,
+                          const e3d_viewport *viewport, e3d_vertices *out)
+        void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
+                      const e3d_viewport *viewport, e3d_survivors *out)
+        void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+        void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+        void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+        void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+        void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted)
+        void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,
+                             const e3d_texture_view *texture)
+        void (*texture)(e3d_batch *batch, const e3d_texture_view *texture)
+        void (*tint)(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance)
+        void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
+        void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)
+        void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
+                       uint32_t *rgba)
+
+    const e3d_kernels *e3d_kernels_for(e3d_backend backend)

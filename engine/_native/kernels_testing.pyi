@@ -1,0 +1,81 @@
+"""Types of the gateway to single kernels; the docstrings are in kernels_testing.pyx."""
+
+import numpy as np
+import numpy.typing as npt
+
+_Bytes = npt.NDArray[np.uint8]
+_Texels = npt.NDArray[np.uint16]
+_Words = npt.NDArray[np.uint32]
+_Floats = npt.NDArray[np.float32]
+_Integers = npt.NDArray[np.int32]
+
+STRUCT_SIZES: dict[str, int]
+LIMITS: dict[str, int]
+FLUSH_DENORMALS: int
+ROUND_UP: int
+
+def float_control() -> int: ...
+def set_float_control(value: int) -> None: ...
+
+class Kernels:
+    def __init__(self, backend: int) -> None: ...
+    def transform(
+        self,
+        positions: _Floats,
+        stride: int,
+        count: int,
+        matrix: _Floats,
+        viewport: _Bytes,
+        out: _Bytes,
+    ) -> None: ...
+    def take_clip(
+        self, positions: _Floats, stride: int, count: int, viewport: _Bytes, out: _Bytes
+    ) -> None: ...
+    def setup(
+        self,
+        vertices: _Bytes,
+        indices: _Bytes,
+        triangles: int,
+        cull: int,
+        viewport: _Bytes,
+        out: _Bytes,
+    ) -> None: ...
+    def raster_depth(self, piece: _Bytes, z: _Floats, slot: _Integers, orders: _Words) -> None: ...
+    def raster_overwrite(
+        self, piece: _Bytes, z: _Floats, slot: _Integers, orders: _Words
+    ) -> None: ...
+    def raster_count(self, piece: _Bytes, z: _Floats, slot: _Integers, orders: _Words) -> None: ...
+    def raster_mark(self, piece: _Bytes, z: _Floats, slot: _Integers, orders: _Words) -> None: ...
+    def interpolate(self, batch: _Bytes, surfaces: _Bytes, wanted: int) -> None: ...
+    def select_level(
+        self,
+        batch: _Bytes,
+        surfaces: _Bytes,
+        texels: _Texels,
+        sizes: _Integers,
+        filter: int,
+        wrap: int,
+    ) -> None: ...
+    def texture(
+        self, batch: _Bytes, texels: _Texels, sizes: _Integers, filter: int, wrap: int
+    ) -> None: ...
+    def tint(self, batch: _Bytes, surfaces: _Bytes, by_vertex: bool, by_instance: bool) -> None: ...
+    def light(
+        self,
+        batch: _Bytes,
+        lights: _Bytes,
+        ambient: _Floats,
+        clamp: _Floats,
+        eye: _Floats,
+        shininess: float,
+    ) -> None: ...
+    def combine(self, batch: _Bytes, specular: _Floats | None, emissive: _Floats) -> None: ...
+    def encode(
+        self,
+        red: _Floats,
+        green: _Floats,
+        blue: _Floats,
+        count: int,
+        srgb: bool,
+        rgba: _Words,
+    ) -> None: ...

@@ -1,0 +1,203 @@
+# cython: boundscheck=False, wraparound=False, initializedcheck=False
+"""The table of kernels of one backend, for tests and benchmarks; the engine itself never imports it.
+
+In:  plain numbers, arrays, and the kernels' C structs as their bytes (uint8 arrays whose size is
+     checked: `STRUCT_SIZES`). tests/kernels/layouts.py has them as NumPy record types.
+Out: what one call of one kernel wrote, in the same arrays.
+Always: nothing but the sizes of structs is checked. What a kernel expects of its arguments
+     (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
+"""
+
+from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t
+from libc.string cimport memcpy
+
+from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
+from e3d_kernels cimport *
+
+cdef extern from *:
+    """
+    #include <stdint.h>
+    #if defined(__x86_64__) || defined(__i386__)
+    #include <xmmintrin.h>
+    enum { FLOAT_CONTROL_FLUSH = 0x8040, FLOAT_CONTROL_ROUND_UP = 0x4000 };
+    static uint64_t float_control_read(void) { return _mm_getcsr(); }
+    static void float_control_write(uint64_t value) { _mm_setcsr((unsigned)value); }
+    #elif defined(__aarch64__)
+    enum { FLOAT_CONTROL_FLUSH = 1 << 24, FLOAT_CONTROL_ROUND_UP = 1 << 22 };
+    static uint64_t float_control_read(void)
+    {
+        uint64_t value;
+        __asm__ volatile("mrs %0, fpcr" : "=r"(value));
+        return value;
+    }
+    static void float_control_write(uint64_t value) { __asm__ volatile("msr fpcr, %0" : : "r"(value)); }
+    #else
+    enum { FLOAT_CONTROL_FLUSH = 0, FLOAT_CONTROL_ROUND_UP = 0 };
+    static uint64_t float_control_read(void) { return 0; }
+    static void float_control_write(uint64_t value) { (void)value; }
+    #endif
+    """
+    enum:
+        FLOAT_CONTROL_FLUSH
+        FLOAT_CONTROL_ROUND_UP
+    unsigned long long float_control_read() nogil
+    void float_control_write(unsigned long long value) nogil
+
+STRUCT_SIZES = {
+    "viewport": sizeof(e3d_viewport),
+    "vertices": sizeof(e3d_vertices),
+    "survivors": sizeof(e3d_survivors),
+    "piece": sizeof(e3d_piece),
+    "surface": sizeof(e3d_surface),
+    "batch": sizeof(e3d_batch),
+    "light": sizeof(e3d_light),
+}
+LIMITS = {
+    "PAD": E3D_PAD,
+    "TILE": E3D_TILE,
+    "CLUSTER_TRIANGLES": E3D_CLUSTER_TRIANGLES,
+    "CLUSTER_VERTICES": E3D_CLUSTER_VERTICES,
+    "BATCH": E3D_BATCH,
+    "MAX_LEVELS": E3D_MAX_LEVELS,
+}
+# Bits of the calling thread's floating-point control register: denormals become zero; rounding is
+# towards +inf. Both are 0 where this file does not know the processor.
+FLUSH_DENORMALS = FLOAT_CONTROL_FLUSH
+ROUND_UP = FLOAT_CONTROL_ROUND_UP
+
+
+def float_control():
+    """The calling thread's floating-point control register (MXCSR, FPCR)."""
+    return float_control_read()
+
+
+def set_float_control(unsigned long long value):
+    """Set the calling thread's floating-point control register."""
+    float_control_write(value)
+
+
+cdef int check_size(const uint8_t[::1] struct, size_t size) except -1:
+    if <size_t>struct.shape[0] != size:
+        raise ValueError(f"a struct of {size} bytes was expected, not {struct.shape[0]}")
+    return 0
+
+
+cdef class Kernels:
+    """The kernels of one backend, by the number that `rasterizer.BACKENDS` gives it.
+
+    Raises
+    ------
+    LookupError
+        This build or CPU has no such kernels.
+    """
+
+    cdef const e3d_kernels *table
+
+    def __cinit__(self, int backend):
+        self.table = e3d_kernels_for(<e3d_backend>backend)
+        if self.table == NULL:
+            raise LookupError("this build or CPU lacks the backend")
+
+    def transform(self, const float[::1] positions, int stride, int count, const float[::1] matrix,
+                  const uint8_t[::1] viewport, uint8_t[::1] out):
+        check_size(viewport, sizeof(e3d_viewport))
+        check_size(out, sizeof(e3d_vertices))
+        self.table.transform(&positions[0], stride, count, &matrix[0],
+                             <const e3d_viewport *>&viewport[0], <e3d_vertices *>&out[0])
+
+    def take_clip(self, const float[::1] positions, int stride, int count,
+                  const uint8_t[::1] viewport, uint8_t[::1] out):
+        check_size(viewport, sizeof(e3d_viewport))
+        check_size(out, sizeof(e3d_vertices))
+        self.table.take_clip(&positions[0], stride, count, <const e3d_viewport *>&viewport[0],
+                             <e3d_vertices *>&out[0])
+
+    def setup(self, const uint8_t[::1] vertices, const uint8_t[::1] indices, int triangles, int cull,
+              const uint8_t[::1] viewport, uint8_t[::1] out):
+        check_size(vertices, sizeof(e3d_vertices))
+        check_size(viewport, sizeof(e3d_viewport))
+        check_size(out, sizeof(e3d_survivors))
+        self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull,
+                         <const e3d_viewport *>&viewport[0], <e3d_survivors *>&out[0])
+
+    def raster_depth(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+                     const uint32_t[::1] orders):
+        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
+        check_size(piece, sizeof(e3d_piece))
+        self.table.raster_depth(<const e3d_piece *>&piece[0], &tile)
+
+    def raster_overwrite(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+                         const uint32_t[::1] orders):
+        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
+        check_size(piece, sizeof(e3d_piece))
+        self.table.raster_overwrite(<const e3d_piece *>&piece[0], &tile)
+
+    def raster_count(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+                     const uint32_t[::1] orders):
+        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
+        check_size(piece, sizeof(e3d_piece))
+        self.table.raster_count(<const e3d_piece *>&piece[0], &tile)
+
+    def raster_mark(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+                    const uint32_t[::1] orders):
+        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
+        check_size(piece, sizeof(e3d_piece))
+        self.table.raster_mark(<const e3d_piece *>&piece[0], &tile)
+
+    def interpolate(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted):
+        check_size(batch, sizeof(e3d_batch))
+        self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], wanted)
+
+    def select_level(self, uint8_t[::1] batch, const uint8_t[::1] surfaces,
+                     const uint16_t[::1] texels, const int32_t[:, ::1] sizes, int filter, int wrap):
+        cdef e3d_texture_view view = texture_view(texels, sizes, filter, wrap)
+        check_size(batch, sizeof(e3d_batch))
+        self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], &view)
+
+    def texture(self, uint8_t[::1] batch, const uint16_t[::1] texels, const int32_t[:, ::1] sizes,
+                int filter, int wrap):
+        cdef e3d_texture_view view = texture_view(texels, sizes, filter, wrap)
+        check_size(batch, sizeof(e3d_batch))
+        self.table.texture(<e3d_batch *>&batch[0], &view)
+
+    def tint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, bint by_vertex, bint by_instance):
+        check_size(batch, sizeof(e3d_batch))
+        self.table.tint(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], by_vertex,
+                        by_instance)
+
+    def light(self, uint8_t[::1] batch, const uint8_t[::1] lights, const float[::1] ambient,
+              const float[::1] clamp, const float[::1] eye, float shininess):
+        cdef e3d_lighting lighting
+        check_size(batch, sizeof(e3d_batch))
+        lighting.light_count = <int>(lights.shape[0] // sizeof(e3d_light))
+        lighting.lights = <const e3d_light *>&lights[0] if lighting.light_count else NULL
+        memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
+        memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
+        memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
+        self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)
+
+    def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive):
+        """``specular`` may be None."""
+        check_size(batch, sizeof(e3d_batch))
+        self.table.combine(<e3d_batch *>&batch[0], NULL if specular is None else &specular[0],
+                           &emissive[0])
+
+    def encode(self, const float[::1] red, const float[::1] green, const float[::1] blue, int count,
+               bint srgb, uint32_t[::1] rgba):
+        self.table.encode(&red[0], &green[0], &blue[0], count, srgb, &rgba[0])
+
+
+cdef e3d_texture_view texture_view(const uint16_t[::1] texels, const int32_t[:, ::1] sizes,
+                                   int filter, int wrap):
+    """The levels lie one after the other in `texels`; `sizes` is (levels, 2): width and height."""
+    cdef e3d_texture_view view
+    cdef Py_ssize_t start = 0, level
+    view.level_count = <int32_t>sizes.shape[0]
+    view.filter = <e3d_filter>filter
+    view.wrap = <e3d_wrap>wrap
+    for level in range(sizes.shape[0]):
+        view.levels[level].texels = &texels[start]
+        view.levels[level].width = sizes[level, 0]
+        view.levels[level].height = sizes[level, 1]
+        start += 4 * <Py_ssize_t>sizes[level, 0] * sizes[level, 1]
+    return view

@@ -1,0 +1,108 @@
+"""The C structs of csrc/kernels/kernels.h as NumPy record types, field by field."""
+
+import numpy as np
+
+from engine3d._native import kernels_testing
+
+PAD = kernels_testing.LIMITS["PAD"]
+TILE = kernels_testing.LIMITS["TILE"]
+CLUSTER_TRIANGLES = kernels_testing.LIMITS["CLUSTER_TRIANGLES"]
+CLUSTER_VERTICES = kernels_testing.LIMITS["CLUSTER_VERTICES"]
+BATCH = kernels_testing.LIMITS["BATCH"]
+
+# Outcodes (R4, R5, R8).
+NEAR, FAR, LEFT, RIGHT, BOTTOM, TOP = 1, 2, 4, 8, 16, 32
+OUTSIDE, BEHIND, BEYOND_GUARD, NONFINITE, BAD_SCREEN = 63, 64, 128, 256, 512
+NEEDS_CLIPPING = NEAR | BEHIND | BEYOND_GUARD
+
+# What interpolation is asked for.
+WANT_POSITION, WANT_NORMAL, WANT_UV, WANT_FLAT = 1, 2, 4, 8
+
+VIEWPORT = np.dtype(
+    [
+        ("width", "i4"),
+        ("height", "i4"),
+        ("scale_x", "f4"),
+        ("scale_y", "f4"),
+        ("guard_x", "f4"),
+        ("guard_y", "f4"),
+    ]
+)
+VERTICES = np.dtype(
+    [(name, "f4", CLUSTER_VERTICES) for name in ("x", "y", "z", "w", "iw", "zn")]
+    + [(name, "i4", CLUSTER_VERTICES) for name in ("sx", "sy", "code")]
+)
+SURVIVORS = np.dtype(
+    [
+        ("draw", "u1", CLUSTER_TRIANGLES),
+        ("clip", "u1", CLUSTER_TRIANGLES),
+        ("draws", "i4"),
+        ("clips", "i4"),
+    ]
+)
+PIECE = np.dtype(
+    [("e", "i4", 3), ("a", "i4", 3), ("b", "i4", 3)]
+    + [(name, "i4") for name in ("x0", "y0", "x1", "y1")]
+    + [(name, "f4") for name in ("z0", "gx", "gy", "zmin", "zmax")]
+    + [("base_x", "i4"), ("base_y", "i4"), ("slot", "u4"), ("order", "u4")]
+)
+SURFACE = np.dtype(
+    [
+        ("p", "f4", 3),
+        ("px", "f4", 3),
+        ("py", "f4", 3),
+        ("base_x", "i4"),
+        ("base_y", "i4"),
+        ("position", "f4", (3, 3)),
+        ("normal", "f4", (3, 3)),
+        ("uv", "f4", (2, 3)),
+        ("color", "f4", (3, 3)),
+        ("instance_color", "f4", 3),
+        ("back", "i4"),
+        ("numbers", "i4", 4),
+        ("group", "i4"),
+        ("spare", "i4", 11),
+    ]
+)
+_LANES = BATCH + PAD
+BATCH_RECORD = np.dtype(
+    [
+        ("count", "i4"),
+        ("sample", "i4", _LANES),
+        ("surface", "i4", _LANES),
+        ("b", "f4", (3, _LANES)),
+        ("r", "f4", _LANES),
+        ("position", "f4", (3, _LANES)),
+        ("normal", "f4", (3, _LANES)),
+        ("uv", "f4", (2, _LANES)),
+        ("color", "f4", (3, _LANES)),
+        ("lod", "i4", _LANES),
+        ("energy", "f4", (3, _LANES)),
+        ("shine", "f4", (3, _LANES)),
+    ]
+)
+LIGHT = np.dtype(
+    [
+        ("kind", "i4"),
+        ("falloff", "i4"),
+        ("color", "f4", 3),
+        ("to_light", "f4", 3),
+        ("position", "f4", 3),
+        ("range", "f4"),
+    ]
+)
+STRUCTS = {
+    "viewport": VIEWPORT,
+    "vertices": VERTICES,
+    "survivors": SURVIVORS,
+    "piece": PIECE,
+    "surface": SURFACE,
+    "batch": BATCH_RECORD,
+    "light": LIGHT,
+}
+
+
+def viewport_of(width, height):
+    """A viewport record: sizes in samples, and the guard factors of section 2 of the rules."""
+    guard_x, guard_y = (2.0 ** np.floor(np.log2(65536 / size)) for size in (width, height))
+    return np.array([(width, height, 128 * width, 128 * height, guard_x, guard_y)], VIEWPORT)

@@ -1,0 +1,86 @@
+"""encode against R34: colours in [0, 1] to bytes."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+from kernels.harness import POISON, all_backends
+from kernels.layouts import PAD
+
+TABLES = Path(__file__).parents[2] / "csrc" / "core" / "srgb_tables.h"
+COUNT = 1 << 17
+GUARD = 64
+
+
+def srgb_thresholds():
+    """The 255 stored thresholds, read from the C header."""
+    text = TABLES.read_text("utf-8")
+    body = re.search(r"SRGB_THRESHOLDS\[255\] = \{(.*?)\}", text, re.DOTALL).group(1)
+    values = [float.fromhex(word.strip().rstrip("f")) for word in body.split(",") if word.strip()]
+    return np.array(values, np.float32)
+
+
+def expected_bytes(planes, srgb):
+    if srgb:
+        codes = [np.searchsorted(srgb_thresholds(), plane, side="right") for plane in planes]
+    else:
+        codes = [np.trunc(np.float32(255) * plane + np.float32(0.5)) for plane in planes]
+    red, green, blue = (code.astype(np.uint32) for code in codes)
+    return red | green << 8 | blue << 16 | np.uint32(0xFF000000)
+
+
+def run(kernels, planes, count, srgb):
+    """Encode the first `count`; everything beyond the pad must still be poison."""
+    room = np.full(GUARD + len(planes[0]) + PAD + GUARD, POISON, np.uint32)
+    kernels.encode(*planes, count, srgb, room[GUARD:])
+    assert (room[:GUARD] == POISON).all()
+    assert (room[GUARD + count + PAD :] == POISON).all()
+    return room[GUARD : GUARD + count]
+
+
+def worst_values():
+    """Every threshold and every boundary of the float's upper bits, and their neighbours."""
+    edges = np.concatenate(
+        [
+            srgb_thresholds(),
+            (np.arange(0, 0x3F80 * 4, dtype=np.uint32) << 14).view(np.float32),
+            ((np.arange(256) + np.float32(0.5)) / np.float32(255)).astype(np.float32),
+            np.arange(256, dtype=np.float32) / np.float32(255),
+            np.float32([0, 1e-45, 1e-38, 1]),
+        ]
+    )
+    near = [np.nextafter(edges, np.float32(end)) for end in (0, 2)]
+    return np.clip(np.concatenate([edges, *near]), 0, 1)
+
+
+def test_thresholds_are_the_srgb_formula():
+    """Each stored threshold is where the formula, in float64, passes the half."""
+    codes = (np.arange(255) + 0.5) / 255
+    linear = np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
+    np.testing.assert_allclose(srgb_thresholds(), linear, rtol=3e-7)
+
+
+@all_backends
+def test_random_and_worst_values(kernels):
+    rng = np.random.default_rng(0)
+    values = [worst_values(), rng.random(COUNT, np.float32), rng.random(COUNT, np.float32) ** 8]
+    tiny = rng.integers(0, 0x3F800001, COUNT, np.uint32).view(np.float32)  # every exponent alike
+    values = np.concatenate([*values, tiny])
+    planes = [rng.permutation(values) for _ in range(3)]
+    padded = [np.append(plane, np.zeros(PAD, np.float32)) for plane in planes]
+    for srgb in (False, True):
+        got = run(kernels, padded, len(values), srgb)
+        assert np.array_equal(got, expected_bytes(planes, srgb))
+
+
+@all_backends
+def test_every_length(kernels):
+    rng = np.random.default_rng(1)
+    for count in range(2 * PAD + 2):
+        planes = [rng.random(4 * PAD, np.float32) for _ in range(3)]
+        for plane in planes:
+            plane[count + PAD :] = 7.0
+        for srgb in (False, True):
+            got = run(kernels, planes, count, srgb)
+            expected = expected_bytes([plane[:count] for plane in planes], srgb)
+            assert np.array_equal(got, expected)

@@ -1,0 +1,140 @@
+"""light and combine against R27 and R31."""
+
+import numpy as np
+import pytest
+from kernels.arithmetic import ONE, ZERO, clamp, dot, greatest, power, unit
+from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
+from kernels.layouts import LIGHT
+from kernels.surfaces import ROUNDS, fill, planes, random_batches
+
+DIRECTIONAL, POINT = 0, 1
+INVERSE_SQUARE, WINDOW = 0, 1
+SHININESS = [0.0, 1.0, 5.5, 32.0, 1000.0, 1e-3]
+
+
+def random_lights(rng, count):
+    lights = np.zeros(count, LIGHT)
+    lights["kind"] = rng.integers(0, 2, count)
+    lights["falloff"] = rng.integers(0, 2, count)
+    lights["color"] = rng.uniform(0, 4, (count, 3))
+    lights["position"] = rng.uniform(-3, 3, (count, 3))
+    towards = rng.normal(size=(count, 3))
+    lights["to_light"] = towards / np.sqrt((towards**2).sum(axis=1, keepdims=True))
+    lights["range"] = rng.choice([0.5, 2.0, 1e20, 3e-30], count)
+    unlimited = (lights["falloff"] == INVERSE_SQUARE) & (rng.random(count) < 0.5)
+    lights["range"][unlimited] = np.inf
+    return lights
+
+
+def towards(light, position):
+    """The unit vector to a light, its attenuation, and the samples that it reaches."""
+    everywhere = np.ones(position[0].shape, bool)
+    if light["kind"] == DIRECTIONAL:
+        full = np.full(position[0].shape, ONE)
+        return [full * component for component in light["to_light"]], full, everywhere
+    d = [light["position"][k] - position[k] for k in range(3)]
+    d2 = dot(d, d)
+    range2 = light["range"] * light["range"]
+    reached = ~(d2 >= range2)
+    d2 = greatest(d2, np.float32(2.0**-40))
+    inverse = ONE / np.sqrt(d2)
+    if light["falloff"] == WINDOW:
+        t = ONE - d2 * (ONE / range2)
+        attenuation = t * t
+    else:
+        attenuation = ONE / d2
+    return [component * inverse for component in d], attenuation, reached
+
+
+def lit(lights, ambient, light_clamp, eye, shininess, position, normal):
+    """R31: energy and shine, three arrays each."""
+    energy = [np.full(position[0].shape, value) for value in ambient]
+    shine = [np.zeros(position[0].shape, np.float32) for _ in range(3)]
+    view = [np.full(position[0].shape, eye[k]) for k in range(3)]
+    if eye[3]:
+        view = unit([eye[k] - position[k] for k in range(3)])
+    for light in lights:
+        direction, attenuation, reached = towards(light, position)
+        facing = greatest(dot(normal, direction), ZERO)
+        amount = attenuation * facing
+        for k in range(3):
+            energy[k] = np.where(reached, energy[k] + light["color"][k] * amount, energy[k])
+        if shininess > 0:
+            half = unit([direction[k] + view[k] for k in range(3)])
+            highlight = power(greatest(dot(normal, half), ZERO), np.float32(shininess))
+            amount = attenuation * np.where(facing > 0, highlight, ZERO)
+            for k in range(3):
+                shine[k] = np.where(reached, shine[k] + light["color"][k] * amount, shine[k])
+    return [clamp(e, *light_clamp) for e in energy], shine
+
+
+def random_normals(rng, batches):
+    shape = batches.fields["normal"].shape
+    normal = unit(planes(rng.normal(size=shape).astype(np.float32)))
+    normal = np.stack(normal, axis=1)
+    return np.where(rng.random(shape) < 0.02, hostile(rng, shape, rate=0.5), normal)
+
+
+@all_backends
+@pytest.mark.parametrize("shininess", SHININESS)
+def test_light(kernels, shininess):
+    for seed in range(2):
+        rng = np.random.default_rng(seed)
+        batches = random_batches(rng)
+        position = hostile(rng, batches.fields["position"].shape, 3.0, 0.03)
+        normal = random_normals(rng, batches)
+        lights = random_lights(rng, (6, 1)[seed])
+        position[:, :, 5] = lights["position"][-1]  # on a light
+        fill(batches, "position", position)
+        fill(batches, "normal", normal)
+        ambient = rng.random(3).astype(np.float32)
+        light_clamp = np.float32([(0, np.inf), (0.1, 1)][seed])
+        eye = np.float32([(0.5, 2, 4, 1), (0, 0.6, 0.8, 0)][seed])
+        for row in batches.rows:
+            kernels.light(row, lights.view(np.uint8), ambient, light_clamp, eye, shininess)
+        energy, shine = lit(
+            lights, ambient, light_clamp, eye, shininess, planes(position), planes(normal)
+        )
+        counts = batches.fields["count"]
+        for k in range(3):
+            check_lanes(f"energy[{k}]", batches.fields["energy"][:, k], energy[k], counts)
+            check_lanes(f"shine[{k}]", batches.fields["shine"][:, k], shine[k], counts)
+        check_poisoned(batches.fields, ["b", "r", "uv", "color", "lod"])
+        batches.check_gaps()
+
+
+@all_backends
+def test_without_lights(kernels):
+    """Ambient light alone, clamped."""
+    batches = random_batches(np.random.default_rng(0))
+    ambient, nothing = np.float32([0.05, 0.5, 5]), np.zeros(0, np.uint8)
+    for row in batches.rows:
+        kernels.light(row, nothing, ambient, np.float32([0.1, 1]), np.float32([0, 0, 1, 0]), 0.0)
+    counts = batches.fields["count"]
+    for k, value in enumerate((0.1, 0.5, 1.0)):
+        expected = np.full(batches.fields["energy"][:, k].shape, value, np.float32)
+        check_lanes("energy", batches.fields["energy"][:, k], expected, counts)
+
+
+@all_backends
+@pytest.mark.parametrize("shiny", [False, True])
+def test_combine(kernels, shiny):
+    for seed in range(ROUNDS // 2):
+        rng = np.random.default_rng(seed)
+        batches = random_batches(rng)
+        values = {name: hostile(rng, batches.fields[name].shape) for name in ("color", "energy")}
+        values["shine"] = hostile(rng, batches.fields["shine"].shape)
+        for name in values if shiny else ("color", "energy"):
+            fill(batches, name, values[name])
+        specular, emissive = hostile(rng, 3, finite=True), rng.random(3).astype(np.float32)
+        for row in batches.rows:
+            kernels.combine(row, specular if shiny else None, emissive)
+        for k in range(3):
+            expected = values["color"][:, k] * values["energy"][:, k]
+            if shiny:
+                expected = expected + specular[k] * values["shine"][:, k]
+            expected = expected + emissive[k]
+            got = batches.fields["color"][:, k]
+            check_lanes(f"color[{k}]", got, expected, batches.fields["count"])
+        check_poisoned(batches.fields, ["b", "r", "position", "normal", "uv", "lod"])
+        batches.check_gaps()

@@ -1,0 +1,288 @@
+"""raster_depth, raster_overwrite, raster_count and raster_mark against R10, R12 and R14–R17.
+
+The oracle knows nothing of tiles: it evaluates each triangle's edge functions in 64 bits at every
+sample of the tile. What the kernel is given is prepared as the pipeline does.
+"""
+
+import itertools
+
+import numpy as np
+import pytest
+from kernels.arithmetic import clamp
+from kernels.harness import POISON, all_backends, bits, hostile
+from kernels.layouts import PAD, PIECE, TILE
+
+BEYOND_FAR = np.float32(float.fromhex("0x1.000002p0"))
+GUARD = 128  # elements of poison before the tile; after it PAD may change, the next ones not
+LARGEST = 65536  # samples a side of the largest viewport
+REGION = 256 * 33280  # 1/256 sample: half the guard band and a line's width, from the centre
+PIECES_A_TILE = 40
+TILES = 40
+
+
+class Triangle:
+    """A snapped triangle of positive area, its edge functions (R12) and its sample box (R10)."""
+
+    def __init__(self, x, y, width, height):
+        area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+        order = [0, 1, 2] if area > 0 else [0, 2, 1]
+        self.area = abs(area)
+        self.x, self.y = x[order], y[order]
+        next_one, last = [1, 2, 0], [2, 0, 1]
+        self.a = self.y[next_one] - self.y[last]
+        self.b = self.x[last] - self.x[next_one]
+        self.top_left = (self.a > 0) | ((self.a == 0) & (self.b > 0))
+        self.left, self.right = self._range(self.x, width)
+        self.top, self.bottom = self._range(self.y, height)
+
+    @staticmethod
+    def _range(values, size):
+        first = max(-((128 - int(values.min())) // 256), 0)
+        return first, min((int(values.max()) - 128) // 256, size - 1)
+
+    @property
+    def empty(self):
+        return self.area == 0 or self.left > self.right or self.top > self.bottom
+
+    def edges_at(self, column, row):
+        """(3, …) int64: edge functions at the centres of samples."""
+        shape = (3,) + (1,) * np.ndim(column)
+        corners = [1, 2, 0]
+        x, y = (256 * np.asarray(v, np.int64) + 128 for v in (column, row))
+        a, b = self.a.reshape(shape), self.b.reshape(shape)
+        return a * (x - self.x[corners].reshape(shape)) + b * (y - self.y[corners].reshape(shape))
+
+    def covers(self, column, row):
+        edges = self.edges_at(column, row)
+        rule = self.top_left.reshape((3,) + (1,) * np.ndim(column))
+        return ((edges > 0) | ((edges == 0) & rule)).all(axis=0)
+
+
+def piece_of(triangle, tile_x, tile_y):
+    """The kernel's view of a triangle in a tile, or None where an edge rejects the tile."""
+    piece = np.zeros(1, PIECE)
+    first = triangle.edges_at(tile_x, tile_y) - ~triangle.top_left
+    span = TILE - 1
+    for k in range(3):
+        e, a, b = int(first[k]) >> 8, int(triangle.a[k]), int(triangle.b[k])
+        if e + span * (max(a, 0) + max(b, 0)) < 0:
+            return None
+        if e + span * (min(a, 0) + min(b, 0)) < 0:
+            piece["e"][0, k], piece["a"][0, k], piece["b"][0, k] = e, a, b
+    piece["x0"], piece["x1"] = np.clip([triangle.left - tile_x, triangle.right - tile_x], 0, span)
+    piece["y0"], piece["y1"] = np.clip([triangle.top - tile_y, triangle.bottom - tile_y], 0, span)
+    piece["base_x"], piece["base_y"] = triangle.left - tile_x, triangle.top - tile_y
+    return piece
+
+
+def random_corners(rng, kind, tile_x, tile_y):
+    """(3, 2) int64: corners of a triangle that probably touches the tile."""
+    centre = 256 * (np.array([tile_x, tile_y]) + rng.uniform(0, TILE, 2))
+    if kind == "small":
+        corners = centre + rng.uniform(-1, 1, (3, 2)) * 256 * rng.choice([0.7, 2, 5, 9])
+    elif kind == "medium":
+        corners = centre + rng.uniform(-1, 1, (3, 2)) * 256 * rng.choice([16, 64, 300])
+    elif kind == "centers":  # corners and edges on sample centres
+        corners = centre + rng.integers(-6, 7, (3, 2)) * rng.choice([128, 256, 1024])
+        return corners.astype(np.int64) // 128 * 128
+    elif kind == "sliver":
+        along = rng.uniform(-1, 1, 2) * 256 * rng.choice([8, 60, 2000])
+        corners = centre + np.outer([-1, 0, 1], along) + rng.integers(-3, 4, (3, 2))
+    else:  # "budget": an edge across the whole guard band, through the tile
+        corners = budget_corners(rng, centre)
+    low, high = 128 * LARGEST - REGION, 128 * LARGEST + REGION
+    return np.clip(corners, low, high).astype(np.int64)
+
+
+def budget_corners(rng, centre):
+    """Two corners at the ends of the allowed region, so that |E / 256| comes close to 2^31."""
+    low, high = 128 * LARGEST - REGION, 128 * LARGEST + REGION
+    ends = np.array([(low, low), (high, high)])
+    if rng.random() < 0.5:
+        ends[:, 1] = ends[::-1, 1]
+    aside = rng.integers(0, 300, 2)  # up to more than a sample: past a corner of the tile
+    third = np.array(rng.choice([low, high], 2)) if rng.random() < 0.5 else centre
+    ends = ends + np.where(ends == low, aside, 0)
+    return np.concatenate([ends, [third]])[rng.permutation(3)]
+
+
+def random_tile(rng, kind):
+    """The viewport's size and the tile's first sample."""
+    if kind == "budget":
+        # On a diagonal of the guard band, which the longest edges follow, or beside it.
+        at = int(rng.integers(1, LARGEST // TILE - 1)) * TILE
+        other = at if rng.random() < 0.5 else LARGEST - TILE - at
+        return LARGEST, LARGEST, at, other + int(rng.choice([0, -TILE, TILE]))
+    width, height = rng.choice([1, 7, 63, 64, 65, 200, 1000, LARGEST], 2)
+    column, row = (int(rng.integers(0, -(-size // TILE))) * TILE for size in (width, height))
+    return int(width), int(height), column, row
+
+
+def depth_plane(rng, piece):
+    """Random planes: steep, constant, equal to others, and with the worst finite numbers."""
+    steepness = rng.choice([0.0, 1e-4, 0.02, 1.0])
+    piece["z0"], low, high = rng.choice([-1.0, 0.25, 0.5, 1.0, rng.uniform(-1, 1.2)], 3)
+    piece["gx"], piece["gy"] = rng.uniform(-steepness, steepness, 2)
+    piece["zmin"], piece["zmax"] = min(low, high), max(low, high)
+    if rng.random() < 0.1:
+        for name in ("z0", "gx", "gy", "zmin", "zmax"):
+            piece[name] = hostile(rng, 1, rate=1.0, finite=True)
+        piece["zmin"], piece["zmax"] = sorted([piece["zmin"][0], piece["zmax"][0]])
+
+
+def depth_at(piece, columns, rows):
+    """R14 for the samples of a tile."""
+    dx = (columns - piece["base_x"]).astype(np.float32)
+    dy = (rows - piece["base_y"]).astype(np.float32)
+    z = (piece["z0"] + dx * piece["gx"]) + dy * piece["gy"]
+    return clamp(z, piece["zmin"], piece["zmax"])
+
+
+class Tile:
+    """A tile's buffers, in the middle of poison."""
+
+    def __init__(self, z, slot):
+        self._z = self._room(z)
+        self._slot = self._room(slot.astype(np.int32))
+        self.buffers = self._z[GUARD:].view(np.float32), self._slot[GUARD:].view(np.int32)
+
+    @staticmethod
+    def _room(values):
+        room = np.full(GUARD + TILE * TILE + PAD + GUARD + 16, POISON, np.uint32)
+        start = -room.ctypes.data % 64 // 4  # buffers are aligned to 64 bytes
+        room = room[start : start + GUARD + TILE * TILE + PAD + GUARD]
+        room[GUARD : GUARD + TILE * TILE] = values.ravel().view(np.uint32)
+        return room
+
+    def check(self, z, slot, shown):
+        """The samples of the viewport are as expected, and the poison around them is whole."""
+        for room in (self._z, self._slot):
+            assert (room[:GUARD] == POISON).all() and (room[-GUARD:] == POISON).all()
+        size = TILE * TILE
+        for name, got, expected in zip(("z", "slot"), self.buffers, (z, slot), strict=True):
+            differ = shown & (bits(got[:size].reshape(TILE, TILE)) != bits(expected))
+            assert not differ.any(), f"{name} at (row, column) {np.argwhere(differ)[0]}"
+
+
+def expect_depth(piece, covered, new, z, slot, orders):
+    taken = np.where(slot >= 0, orders[slot.clip(0)], 0)
+    first = (slot >= 0) & (int(piece["order"][0]) < taken)
+    wins = covered & (new < z)
+    ties = covered & (new == z) & first
+    z[wins] = new[wins]
+    slot[wins | ties] = piece["slot"][0]
+
+
+def expect_overwrite(piece, covered, new, z, slot, orders):
+    passes = covered & (new < BEYOND_FAR)
+    z[passes] = new[passes]
+    slot[passes] = piece["slot"][0]
+
+
+def expect_count(piece, covered, new, z, slot, orders):
+    slot[covered & (new < z)] += 1
+
+
+def expect_mark(piece, covered, new, z, slot, orders):
+    slot[covered & (new < z)] = piece["slot"][0]
+
+
+EXPECTATIONS = {
+    "raster_depth": expect_depth,
+    "raster_overwrite": expect_overwrite,
+    "raster_count": expect_count,
+    "raster_mark": expect_mark,
+}
+
+
+def first_contents(rng, use):
+    """Depths and slots before the first piece."""
+    z = np.full((TILE, TILE), BEYOND_FAR)
+    slot = np.full((TILE, TILE), -1 if use in ("raster_depth", "raster_overwrite") else 0, np.int32)
+    if rng.random() < 0.5:
+        z = rng.choice(np.float32([-1, 0.25, 0.5, 1, BEYOND_FAR]), (TILE, TILE))
+    return z, slot
+
+
+def draw_tile(kernels, rng, use, kind):
+    """Draw random pieces one after the other; return how many there were."""
+    width, height, tile_x, tile_y = random_tile(rng, kind)
+    rows, columns = np.mgrid[0:TILE, 0:TILE]
+    shown = (columns < width - tile_x) & (rows < height - tile_y)
+    z, slot = first_contents(rng, use)
+    tile = Tile(z, slot)
+    orders = rng.permutation(PIECES_A_TILE).astype(np.uint32)
+    kernel, expect, drawn = getattr(kernels, use), EXPECTATIONS[use], 0
+    for number in range(PIECES_A_TILE):
+        corners = random_corners(rng, kind, tile_x, tile_y)
+        triangle = Triangle(corners[:, 0], corners[:, 1], width, height)
+        covered = triangle.covers(tile_x + columns, tile_y + rows)
+        piece = None if triangle.empty else piece_of(triangle, tile_x, tile_y)
+        if piece is None:
+            assert triangle.empty or not (covered & shown).any()
+            continue
+        depth_plane(rng, piece)
+        piece["slot"], piece["order"] = number, orders[number]
+        kernel(piece.view(np.uint8), *tile.buffers, orders)
+        expect(piece, covered, depth_at(piece, columns, rows), z, slot, orders)
+        tile.check(z, slot, shown)
+        drawn += 1
+    return drawn
+
+
+@all_backends
+@pytest.mark.parametrize("use", EXPECTATIONS)
+def test_random_pieces(kernels, use):
+    rng = np.random.default_rng(3)
+    kinds = ["small", "medium", "centers", "sliver", "budget"]
+    drawn = dict.fromkeys(kinds, 0)
+    for number in range(TILES):
+        kind = kinds[number % len(kinds)]
+        drawn[kind] += draw_tile(kernels, rng, use, kind)
+    assert min(drawn.values()) > 40 and sum(drawn.values()) * TILE * TILE > 10**6
+
+
+def test_budget_pieces_come_close_to_32_bits():
+    """The tests reach edge functions of more than 2^31 - 2^26, and none beyond 2^31."""
+    rng = np.random.default_rng(4)
+    largest = 0
+    for _ in range(400):
+        width, height, tile_x, tile_y = random_tile(rng, "budget")
+        corners = random_corners(rng, "budget", tile_x, tile_y)
+        triangle = Triangle(corners[:, 0], corners[:, 1], width, height)
+        piece = None if triangle.empty else piece_of(triangle, tile_x, tile_y)
+        if piece is None:
+            continue
+        e, a, b = (piece[name][0].astype(np.int64) for name in ("e", "a", "b"))
+        for column, row in itertools.product((0, TILE - 1), repeat=2):
+            largest = max(largest, int(np.abs(e + a * column + b * row).max()))
+    assert 2**31 - 2**26 < largest < 2**31
+
+
+@all_backends
+@pytest.mark.parametrize("use", EXPECTATIONS)
+def test_every_box(kernels, use):
+    """Rectangles of every width at every column: boxes of all shapes, no edge left to test."""
+    rows, columns = np.mgrid[0:TILE, 0:TILE]
+    expect, kernel = EXPECTATIONS[use], getattr(kernels, use)
+    shown = np.ones((TILE, TILE), bool)
+    orders = np.zeros(1, np.uint32)
+    rng = np.random.default_rng(5)
+    for x0 in range(0, TILE, 3):
+        for x1 in [*range(x0, min(x0 + 18, TILE)), TILE - 1]:
+            y0, y1 = sorted(rng.integers(0, TILE, 2))
+            piece = np.zeros(1, PIECE)
+            piece["x0"], piece["x1"], piece["y0"], piece["y1"] = x0, x1, y0, y1
+            # Left, right, top and bottom as two edges each would be too many: two triangles do.
+            for half in (0, 1):
+                corners = np.array([(x0, y0), (x1 + 1, y0), (x1 + 1, y1 + 1), (x0, y1 + 1)])
+                corners = 256 * corners[[0, 1, 2] if half == 0 else [0, 2, 3]]
+                triangle = Triangle(corners[:, 0], corners[:, 1], TILE, TILE)
+                piece = piece_of(triangle, 0, 0)
+                piece["zmin"], piece["zmax"], piece["gx"] = -1, 1, 1 / 64
+                z, slot = first_contents(rng, use)
+                tile = Tile(z, slot)
+                kernel(piece.view(np.uint8), *tile.buffers, orders)
+                covered = triangle.covers(columns, rows)
+                expect(piece, covered, depth_at(piece, columns, rows), z, slot, orders)
+                tile.check(z, slot, shown)

@@ -1,0 +1,135 @@
+"""setup against R4–R7, R9 and R10: which triangles of a cluster stay.
+
+It may keep what only 64 bits can decide (boxes wider than 32767 steps of 1/256 sample), nothing
+else that the rules drop; and it must keep all that they keep.
+"""
+
+import numpy as np
+from kernels import layouts
+from kernels.harness import Records, all_backends, every_count
+from kernels.layouts import CLUSTER_TRIANGLES, CLUSTER_VERTICES, SURVIVORS, VERTICES, viewport_of
+
+CALLS = 6000
+ROUNDS = 3  # with CALLS: 10^6 triangles and more
+SIZES = [(1, 1), (16, 16), (640, 480), (65536, 65536), (1, 4096), (37, 23)]
+WIDE = 32767
+
+
+def random_positions(rng, viewport):
+    """(calls, vertices) snapped coordinates: near each other, on sample centres, far outside."""
+    shape = (CALLS, CLUSTER_VERTICES)
+    half = 128 * viewport[:, None].astype(np.int64)
+    spread = 2 ** rng.integers(1, 25, (CALLS, 1))
+    spread[::3] = 1024
+    position = half + rng.integers(-spread, spread + 1, shape)
+    grid = rng.choice([1, 128, 256], (CALLS, 1))
+    return (position // grid * grid).clip(-(2**26), 2**26).astype(np.int32)
+
+
+def random_codes(rng):
+    shape = (CALLS, CLUSTER_VERTICES)
+    flags = (rng.random((*shape, 10)) < rng.choice([0, 0.01, 0.3], (CALLS, 1, 1))).astype(np.int32)
+    return (flags << np.arange(10)).sum(axis=-1).astype(np.int32)
+
+
+def no_sample(low, high, size):
+    """R10, in 64 bits."""
+    first = np.maximum(-((128 - low) // 256), 0)  # ceil((low - 128) / 256)
+    last = np.minimum((high - 128) // 256, size[:, None] - 1)
+    return first > last
+
+
+def survivors(x, y, code, viewport, cull):
+    """(calls, triangles) bool: what is drawn as it is, and what needs clipping."""
+    x, y = x.astype(np.int64), y.astype(np.int64)
+    every = code[0] & code[1] & code[2]
+    some = code[0] | code[1] | code[2]
+    keep = ((every & layouts.OUTSIDE) == 0) & ((some & layouts.NONFINITE) == 0)
+    clip = keep & ((some & layouts.NEEDS_CLIPPING) != 0)
+    width, height = x.max(axis=0) - x.min(axis=0), y.max(axis=0) - y.min(axis=0)
+    area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+    known = np.maximum(width, height) <= WIDE
+    wrong_side = (area == 0) | (np.sign(area) == np.where(cull == 0, 9, cull)[:, None])
+    drop = known & wrong_side
+    drop |= no_sample(x.min(axis=0), x.max(axis=0), viewport["width"].astype(np.int64))
+    drop |= no_sample(y.min(axis=0), y.max(axis=0), viewport["height"].astype(np.int64))
+    drop |= (some & layouts.BAD_SCREEN) != 0
+    return keep & ~clip & ~drop, clip
+
+
+def check_list(name, got, number, expected):
+    """The numbers of the expected triangles in rising order; nothing is written after them."""
+    counts = expected.sum(axis=1)
+    assert np.array_equal(number, counts), name
+    order = np.argsort(~expected, axis=1, kind="stable").astype(np.uint8)
+    lanes = np.arange(CLUSTER_TRIANGLES)
+    listed = lanes < counts[:, None]
+    assert np.array_equal(got[listed], order[listed]), name
+    poison = Records(SURVIVORS, 1).fields[name][0]
+    assert (got == poison)[~listed].all(), f"{name}: written beyond its end"
+
+
+@all_backends
+def test_setup(kernels):
+    for seed in range(ROUNDS):
+        rng = np.random.default_rng(seed)
+        sizes = np.array(SIZES)[rng.integers(0, len(SIZES), CALLS)]
+        viewport = np.concatenate([viewport_of(*size) for size in sizes])
+        vertices = np.zeros(CALLS, VERTICES)
+        vertices["sx"] = random_positions(rng, viewport["width"])
+        vertices["sy"] = random_positions(rng, viewport["height"])
+        vertices["code"] = random_codes(rng)
+        indices = rng.integers(0, CLUSTER_VERTICES, (CALLS, 3, CLUSTER_TRIANGLES), np.uint8)
+        counts = every_count(rng, CLUSTER_TRIANGLES, CALLS)
+        cull = rng.integers(-1, 2, CALLS).astype(np.int32)
+
+        out = Records(SURVIVORS, CALLS)
+        for number, row in enumerate(out.rows):
+            kernels.setup(
+                vertices[number : number + 1].view(np.uint8),
+                indices[number].ravel(),
+                int(counts[number]),
+                int(cull[number]),
+                viewport[number : number + 1].view(np.uint8),
+                row,
+            )
+        fetched = [
+            np.stack(
+                [np.take_along_axis(vertices[name], plane, 1) for plane in indices.swapaxes(0, 1)]
+            )
+            for name in ("sx", "sy", "code")
+        ]
+        draw, clip = survivors(*fetched, viewport, cull)
+        given = np.arange(CLUSTER_TRIANGLES) < counts[:, None]
+        assert (draw & given).sum() > CALLS and (clip & given).sum() > CALLS
+        check_list("draw", out.fields["draw"], out.fields["draws"], draw & given)
+        check_list("clip", out.fields["clip"], out.fields["clips"], clip & given)
+        out.check_gaps()
+
+
+@all_backends
+def test_wide_triangles_stay(kernels):
+    """Areas that do not fit 32 bits: none of their signs may be guessed."""
+    rng = np.random.default_rng(9)
+    viewport = viewport_of(65536, 65536)
+    vertices = np.zeros(1, VERTICES)
+    for spread in (WIDE + 1, 2**16, 2**20, 2**24, 2**25):
+        vertices["sx"] = rng.integers(0, 2, CLUSTER_VERTICES) * spread + 2**23
+        vertices["sy"] = rng.integers(0, 2, CLUSTER_VERTICES) * spread + 2**22
+        indices = rng.integers(0, CLUSTER_VERTICES, (3, CLUSTER_TRIANGLES), np.uint8)
+        x = vertices["sx"][0][indices].astype(np.int64)
+        y = vertices["sy"][0][indices].astype(np.int64)
+        area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+        for cull in (-1, 0, 1):
+            out = Records(SURVIVORS, 1)
+            kernels.setup(
+                vertices.view(np.uint8),
+                indices.ravel(),
+                64,
+                cull,
+                viewport.view(np.uint8),
+                out.rows[0],
+            )
+            drawn = out.fields["draw"][0, : out.fields["draws"][0]]
+            must_stay = np.flatnonzero((area != 0) & (np.sign(area) != (cull or 9)))
+            assert set(must_stay) <= set(drawn)

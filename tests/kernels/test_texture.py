@@ -1,0 +1,169 @@
+"""select_level and texture against R25–R30."""
+
+import numpy as np
+import pytest
+from kernels.arithmetic import ONE, UNORM16, clamp, floor, greatest, least, log2, round_even
+from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
+from kernels.surfaces import BATCHES, LANES, ROUNDS, fill, planes, random_batches, random_surfaces
+
+from engine3d._native.rasterizer import FILTERS, WRAPS
+
+SIZES = [(1, 1), (2, 3), (16, 16), (37, 5), (1, 300), (256, 1), (1000, 3), (33, 64), (4099, 2)]
+LARGE_SIZES = [(32768, 32768), (32768, 1), (1, 16384), (512, 300)]
+
+
+def chain_sizes(width, height, levels=16):
+    """(levels, 2) int32: each side halved, rounded down, at least 1."""
+    sizes = [(width, height)]
+    while sizes[-1] != (1, 1) and len(sizes) < levels:
+        sizes.append(tuple(max(1, side >> 1) for side in sizes[-1]))
+    return np.array(sizes, np.int32)
+
+
+def length2(surface, plane, uv, r, size):
+    """R25 and R26 along one screen axis, squared."""
+    weights = [surface[plane][..., k] for k in range(3)]
+    total = (weights[0] + weights[1]) + weights[2]
+    squares = []
+    for k in range(2):
+        corners = [surface["uv"][..., k, vertex] for vertex in range(3)]
+        along = (weights[0] * corners[0] + weights[1] * corners[1]) + weights[2] * corners[2]
+        texels = ((along - uv[k] * total) * r) * np.float32(size[k])
+        squares.append(texels * texels)
+    return squares[0] + squares[1]
+
+
+def level_of(surface, uv, r, sizes):
+    """R26"""
+    rx, ry = (length2(surface, plane, uv, r, sizes[0]) for plane in ("px", "py"))
+    q = greatest(rx, ry)
+    smaller = q > 1
+    q = least(np.where(smaller, q, ONE), np.float32(2.0**100))
+    lod = round_even(log2(q) * np.float32(128))
+    return np.minimum(np.where(smaller, lod, 0), (len(sizes) - 1) * 256).astype(np.int32)
+
+
+@all_backends
+def test_select_level(kernels):
+    texels = np.zeros(4, np.uint16)  # never read
+    for seed in range(ROUNDS):
+        rng = np.random.default_rng(seed)
+        surfaces, batches = random_surfaces(rng), random_batches(rng)
+        sizes = chain_sizes(*(SIZES + LARGE_SIZES)[seed])
+        uv = hostile(rng, batches.fields["uv"].shape, 3.0)
+        r = np.abs(hostile(rng, (BATCHES, LANES), 2.0))
+        fill(batches, "uv", uv)
+        fill(batches, "r", r)
+        for row in batches.rows:
+            kernels.select_level(
+                row, surfaces.view(np.uint8), texels, sizes, FILTERS["trilinear"], WRAPS["repeat"]
+            )
+        surface = surfaces[batches.fields["surface"]]
+        expected = level_of(surface, planes(uv), r, sizes)
+        assert len(np.unique(expected)) > 100 or len(sizes) < 3
+        check_lanes("lod", batches.fields["lod"], expected, batches.fields["count"])
+        unused = ["b", "position", "normal", "color", "energy", "shine"]
+        check_poisoned(batches.fields, unused)
+        batches.check_gaps()
+
+
+def wrapped(s, wrap):
+    """R29"""
+    s = clamp(s, np.float32(-(2.0**22)), np.float32(2.0**22))
+    if wrap == "repeat":
+        return s - floor(s)
+    if wrap == "clamp":
+        return clamp(s, np.float32(0), ONE)
+    half = s * np.float32(0.5)
+    m = (half - floor(half)) * np.float32(2)
+    return np.where(m > 1, np.float32(2) - m, m)
+
+
+def taps(s, size, wrap):
+    """R30: the two columns (or rows) and the weight of the second."""
+    p = round_even(s * (256 * size).astype(np.float32)).astype(np.int64) - 128
+    low, weight = p >> 8, p & 255
+    high = low + 1
+    if wrap == "repeat":
+        return np.where(low < 0, low + size, low), np.where(high >= size, high - size, high), weight
+    return low.clip(0, size - 1), high.clip(0, size - 1), weight
+
+
+def bilinear(texels, starts, sizes, level, s, t, wrap):
+    """R30 of a level for each lane; (…, 3) int64."""
+    width, height = (sizes[level, k].astype(np.int64) for k in range(2))
+    left, right, fx = taps(s, width, wrap)
+    top, bottom, fy = taps(t, height, wrap)
+    start = starts[level]
+
+    def texel(row, column):
+        return texels[start + row * width + column, :3].astype(np.int64)
+
+    def across(row):
+        return texel(row, left) * (256 - fx)[..., None] + texel(row, right) * fx[..., None]
+
+    blended = across(top) * (256 - fy)[..., None] + across(bottom) * fy[..., None] + 32768
+    assert blended.max() < 2**32
+    return blended >> 16
+
+
+def nearest(texels, sizes, s, t):
+    width, height = (int(side) for side in sizes[0])
+    column = np.minimum((s * np.float32(width)).astype(np.int64), width - 1)
+    row = np.minimum((t * np.float32(height)).astype(np.int64), height - 1)
+    return texels[row * width + column, :3].astype(np.int64)
+
+
+def sampled(texels, sizes, filter_name, wrap, uv, lod):
+    """R29 and R30: (…, 3) values of 16 bits."""
+    s, t = wrapped(uv[0], wrap), wrapped(ONE - uv[1], wrap)
+    if filter_name == "nearest":
+        return nearest(texels, sizes, s, t)
+    starts = np.concatenate([[0], np.cumsum(sizes[:, 0].astype(np.int64) * sizes[:, 1])])
+    if filter_name == "bilinear":
+        return bilinear(texels, starts, sizes, np.zeros_like(lod), s, t, wrap)
+    level, f = lod >> 8, (lod & 255).astype(np.int64)[..., None]
+    near = bilinear(texels, starts, sizes, level, s, t, wrap)
+    far = bilinear(texels, starts, sizes, np.minimum(level + 1, len(sizes) - 1), s, t, wrap)
+    return (near * (256 - f) + far * f + 128) >> 8
+
+
+def random_coordinates(rng, shape, sizes):
+    """Around the texture, on the edges of texels and halfway between them, and hostile."""
+    uv = hostile(rng, shape, 2.5)
+    for k in range(2):
+        steps = rng.integers(-512, 1024, (shape[0], shape[2])) / (256.0 * sizes[0, k])
+        grid = rng.integers(-4, 9, (shape[0], shape[2])) / (2.0 * sizes[0, k])
+        kind = rng.random((shape[0], shape[2]))
+        uv[:, k] = np.where(kind < 0.2, grid, np.where(kind < 0.4, steps, uv[:, k]))
+    return uv
+
+
+@all_backends
+@pytest.mark.parametrize("filter_name", FILTERS)
+@pytest.mark.parametrize("wrap", WRAPS)
+def test_texture(kernels, filter_name, wrap):
+    for seed in range(ROUNDS):
+        rng = np.random.default_rng(seed)
+        batches = random_batches(rng)
+        sizes = chain_sizes(*SIZES[seed], levels=16 if filter_name == "trilinear" else 1)
+        count = int((sizes[:, 0].astype(np.int64) * sizes[:, 1]).sum())
+        texels = rng.choice([0, 65535, 1, 32768], (count, 4)).astype(np.uint16)
+        texels[::2] = rng.integers(0, 65536, texels[::2].shape)
+        shape = batches.fields["uv"].shape
+        uv = random_coordinates(rng, shape, sizes)
+        color = hostile(rng, batches.fields["color"].shape)
+        lod = rng.integers(0, (len(sizes) - 1) * 256 + 1, (BATCHES, LANES)).astype(np.int32)
+        lod[::3] &= ~255
+        fill(batches, "uv", uv)
+        fill(batches, "color", color)
+        batches.fields["lod"] = lod  # whole vectors look levels up
+        for row in batches.rows:
+            kernels.texture(row, texels.ravel(), sizes, FILTERS[filter_name], WRAPS[wrap])
+        values = sampled(texels, sizes, filter_name, wrap, planes(uv), lod).astype(np.float32)
+        for k in range(3):
+            expected = color[:, k] * (values[..., k] * UNORM16)
+            got = batches.fields["color"][:, k]
+            check_lanes(f"color[{k}]", got, expected, batches.fields["count"])
+        check_poisoned(batches.fields, ["b", "r", "position", "normal", "energy", "shine"])
+        batches.check_gaps()

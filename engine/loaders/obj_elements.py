@@ -19,6 +19,7 @@ from .text import shown
 from .warning_list import WarningList
 
 _SLASH = ord("/")
+_FLOAT32_MAX = 3.4028234e38
 
 
 class Elements(NamedTuple):
@@ -56,7 +57,8 @@ def read_vertices(statements: Statements, warnings: WarningList) -> Vertices:
     rows = _Rows(statements, "v", 3, "vertex", warnings.path)
     positions = rows.columns(3)
     normals = _Rows(statements, "vn", 3, "normal", warnings.path).columns(3)
-    uvs = _Rows(statements, "vt", 1, "texture coordinate", warnings.path).columns(2)
+    uvs = _Rows(statements, "vt", 1, "texture coordinate", warnings.path).columns(2).copy()
+    uvs[~(np.abs(uvs) <= _FLOAT32_MAX)] = 0
     return Vertices(positions, _vertex_colors(rows), uvs, normals)
 
 
@@ -158,7 +160,7 @@ class _CornerParser:
             (fields[2], "vn", len(vertices.normals), "normal"),
         ):
             indices.append(self._indices(field, keyword, total, what))
-        return Elements(self._members, self._sizes, *indices)
+        return Elements(self._members, self._sizes, *indices[:2], _usable(indices[2], vertices))
 
     def _split_at_slashes(self):
         """Start and end of the three fields of each corner; empty ones begin where they end."""
@@ -218,3 +220,15 @@ class _CornerParser:
     def _line(self, corner: int) -> int:
         element = int(np.searchsorted(np.cumsum(self._sizes), corner, side="right"))
         return self._statements.line(int(self._members[element]))
+
+
+def _usable(normal_indices: np.ndarray | None, vertices: Vertices) -> np.ndarray | None:
+    """Normals without a direction (zero, not finite) count as missing."""
+    if normal_indices is None:
+        return None
+    normals = vertices.normals
+    usable = (normals != 0).any(axis=1) & (np.abs(normals) <= _FLOAT32_MAX).all(axis=1)
+    if usable.all():
+        return normal_indices
+    indices = np.where((normal_indices >= 0) & usable[normal_indices], normal_indices, -1)
+    return indices if (indices >= 0).any() else None

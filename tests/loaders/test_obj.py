@@ -177,6 +177,17 @@ def test_missing_uvs_are_zero_and_missing_normals_computed(obj_mesh):
     assert mesh.normals[second].tolist() == [0, 0, 1]
 
 
+@pytest.mark.parametrize("normal", ["0 0 0", "nan 0 1", "1e999 0 0", "1e300 0 0"])
+def test_normals_without_a_direction_count_as_missing(obj_mesh, normal):
+    mesh = obj_mesh(TRIANGLE + f"vn {normal}\nvn 1 0 0\nf 1//1 2//2 3//1\n")
+    assert sorted(mesh.normals.tolist()) == [[0, 0, 1], [0, 0, 1], [1, 0, 0]]
+
+
+def test_texture_coordinates_that_are_not_finite_are_zero(obj_mesh):
+    mesh = obj_mesh(TRIANGLE + "vt nan 1\nvt 1e300 0\nvt 1 1\nf 1/1 2/2 3/3\n")
+    assert mesh.uvs.tolist() == [[0, 1], [0, 0], [1, 1]]
+
+
 def test_uv_and_normal_indices_out_of_range_are_warned_of(write):
     path = write("model.obj", TRIANGLE + "vt 0 0\nf 1/1 2/2 3/9\n")
     with pytest.warns(Engine3DWarning, match=r"model\.obj:5: texture coordinate index"):

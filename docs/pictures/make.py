@@ -1,0 +1,192 @@
+"""Draws the pictures of README.md and of the documentation with engine3d itself.
+
+    python docs/pictures/make.py               draw them all again, a few seconds each
+    python docs/pictures/make.py models        only some
+    python docs/pictures/make.py --check       draw, and compare with the files, pixel for pixel
+
+In: the models of engine3d.data. Out: one lossless WebP a picture in this folder. The same pixels
+come out on every machine and backend; a test compares them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+
+import engine3d as e3d
+from engine3d import linalg
+
+FOLDER = Path(__file__).resolve().parent
+MODELS = files("engine3d.data") / "models"
+SAMPLES = 16
+PAPER = (30, 33, 40)
+CAPTION = (255, 255, 255)
+
+
+def load(name: str) -> e3d.Mesh:
+    return e3d.load_mesh(MODELS / name)
+
+
+def stand(scene, name, *, at, height, turn=0.0, up="y"):
+    """Add a model, scaled to a height, turned (radians) about the vertical, on the ground."""
+    mesh = load(name)
+    axis = "xyz".index(up)
+    low, high = mesh.bounds[:, axis]
+    lift = np.zeros(3)
+    lift[axis] = -low
+    upright = linalg.rotation_x(-math.pi / 2 if up == "z" else 0.0)
+    pose = linalg.multiply(upright, linalg.translation(lift))
+    pose = linalg.multiply(linalg.scaling(height / (high - low)), pose)
+    pose = linalg.multiply(linalg.rotation_y(turn), pose)
+    pose = linalg.multiply(linalg.translation((at[0], 0.0, at[1])), pose)
+    scene.add(mesh, name=name, pose=pose)
+
+
+def add_daylight(scene):
+    """A warm sun from the upper right and a faint cool light from the other side."""
+    scene.ambient = (0.20, 0.23, 0.27)
+    scene.add(e3d.DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.92))
+    scene.add(e3d.DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18))
+
+
+def add_table(scene, size, shades):
+    """Add a table top whose texture is darker where something stands: (x, z, radius) each."""
+    width, depth = size
+    z, x = np.mgrid[0:384, 0:768]
+    x = (x + 0.5) / 768 * width - width / 2
+    z = (z + 0.5) / 384 * depth - depth / 2
+    light = np.ones(x.shape)
+    for center_x, center_z, radius in shades:
+        distance = ((x - center_x) ** 2 + (z - center_z) ** 2) / radius**2
+        light *= 1.0 - 0.62 / (1.0 + distance * distance * distance)
+    color = np.array([222.0, 200.0, 176.0])
+    pixels = np.rint(light[:, :, None] * color).astype(np.uint8)
+    table = e3d.plane(size)
+    table.materials = [e3d.Material(texture=e3d.Texture(pixels, wrap="clamp"))]
+    scene.add(table, name="table")
+
+
+def draw(scene, camera, size, **options) -> np.ndarray:
+    """Return a picture as (H, W, 4) uint8."""
+    return e3d.render(scene, camera, size=size, samples=SAMPLES, **options).color
+
+
+def look(eye, target, yfov=0.34):
+    camera = e3d.PerspectiveCamera(yfov, znear=1.0, zfar=200.0)
+    return camera, linalg.look_at(eye, target)
+
+
+def sheet(tiles, columns: int) -> np.ndarray:
+    """Lay (caption, picture) pairs of one size out in rows."""
+    height, width = tiles[0][1].shape[:2]
+    rows = -(-len(tiles) // columns)
+    page = np.zeros((rows * height, columns * width, 4), np.uint8)
+    page[:] = (*PAPER, 255)
+    for number, (_, picture) in enumerate(tiles):
+        row, column = divmod(number, columns)
+        page[row * height : (row + 1) * height, column * width : (column + 1) * width] = picture
+    canvas = e3d.Canvas(page)
+    for number, (caption, _) in enumerate(tiles):
+        row, column = divmod(number, columns)
+        place = (column * width + 10, row * height + 10)
+        canvas.text(*place, caption, CAPTION, background=(0, 0, 0, 130))
+    return page
+
+
+def models() -> np.ndarray:
+    """Every model of engine3d.data on a table."""
+    scene = e3d.Scene(background=(196, 211, 222))
+    add_daylight(scene)
+    stand(scene, "island.obj", at=(0.2, 0.0), height=7.33, turn=-0.35)
+    stand(scene, "teapot.obj", at=(-7.5, -0.6), height=3.3, turn=0.55)
+    stand(scene, "globe.obj", at=(8.3, -2.6), height=6.0, turn=0.5)
+    stand(scene, "train.asc", at=(7.0, 3.6), height=2.4, turn=-0.4, up="z")
+    shades = [(0.2, 0.0, 5.8), (-7.5, -0.6, 2.6), (8.3, -2.6, 2.2)]
+    shades += [(7.0 + k * 1.1, 3.6 + k * 0.46, 0.9) for k in (-1.7, -0.8, 0.1, 1.0)]
+    add_table(scene, (64.0, 32.0), shades)
+    return draw(scene, look((0.0, 7.6, 28.0), (0.2, 2.75, 0.0), 0.362), (1280, 600))
+
+
+def modes() -> np.ndarray:
+    """One scene in the modes that show how it is drawn."""
+    mesh = load("island.obj")
+    looks = (
+        ("lit", {}),
+        ("wireframe", {"wireframe": "overlay", "line_color": (20, 30, 50)}),
+        ("depth", {"mode": "depth"}),
+        ("normal", {"mode": "normal"}),
+        ("random", {"mode": "random"}),
+        ("overdraw", {"mode": "overdraw"}),
+    )
+    tiles = []
+    for name, options in looks:
+        scene = e3d.Scene(background=PAPER)
+        add_daylight(scene)
+        scene.add(mesh)
+        camera = look((6.5, 7.0, 19.0), (0.0, 1.7, 0.0), 0.5)
+        tiles.append((name, draw(scene, camera, (420, 380), **options)))
+    return sheet(tiles, 3)
+
+
+def filters() -> np.ndarray:
+    """A floor that recedes, through the three texture filters."""
+    board = (np.indices((64, 64)) // 32).sum(axis=0) % 2
+    pixels = np.where(board[:, :, None], np.uint8([236, 232, 222]), np.uint8([64, 84, 120]))
+    tiles = []
+    for name in ("nearest", "bilinear", "trilinear"):
+        floor = e3d.plane((240.0, 120.0))
+        floor.uvs = floor.uvs * np.float32((96, 48))
+        floor.materials = [e3d.Material(texture=e3d.Texture(pixels, filter=name))]
+        scene = e3d.Scene(background=PAPER)
+        scene.add(floor)
+        camera = look((0.0, 2.2, 30.0), (4.0, 0.0, 8.0), 0.6)
+        frame = e3d.render(scene, camera, size=(420, 240), mode="unlit")
+        tiles.append((name, frame.color))
+    return sheet(tiles, 3)
+
+
+PICTURES = {"models": models, "modes": modes, "filters": filters}
+
+
+def save(picture: np.ndarray, path: Path) -> None:
+    from PIL import Image
+
+    Image.fromarray(picture[:, :, :3]).save(path, lossless=True, quality=100, method=6)
+    print(f"{path.name}: {picture.shape[1]}x{picture.shape[0]}, {path.stat().st_size:,} bytes")
+
+
+def differs(picture: np.ndarray, path: Path) -> bool:
+    """Whether a file shows anything else than a picture."""
+    from PIL import Image
+
+    with Image.open(path) as image:
+        return not np.array_equal(np.asarray(image.convert("RGB")), picture[:, :, :3])
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Draw the pictures of the documentation.")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(PICTURES))
+    parser.add_argument("--check", action="store_true", help="compare with the files instead")
+    arguments = parser.parse_args()
+    unknown = set(arguments.names) - set(PICTURES)
+    if unknown:
+        parser.error(f"no such picture: {', '.join(sorted(unknown))}")
+    stale = []
+    for name in arguments.names or PICTURES:
+        picture, path = PICTURES[name](), FOLDER / f"{name}.webp"
+        if not arguments.check:
+            save(picture, path)
+        elif differs(picture, path):
+            stale.append(path.name)
+    if stale:
+        print(f"not what the engine draws: {', '.join(stale)}", file=sys.stderr)
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -103,10 +103,11 @@ def models() -> np.ndarray:
     scene = e3d.Scene(background=(196, 211, 222))
     add_daylight(scene)
     stand(scene, "island.obj", at=(0.2, 0.0), height=7.33, turn=-0.35)
-    stand(scene, "teapot.obj", at=(-7.5, -0.6), height=3.3, turn=0.55)
+    stand(scene, "nautilus.obj", at=(-8.2, -3.0), height=6.2, turn=0.1)
+    stand(scene, "teapot.obj", at=(-6.8, 4.0), height=2.2, turn=0.55)
     stand(scene, "globe.obj", at=(8.3, -2.6), height=6.0, turn=0.5)
     stand(scene, "train.asc", at=(7.0, 3.6), height=2.4, turn=-0.4, up="z")
-    shades = [(0.2, 0.0, 5.8), (-7.5, -0.6, 2.6), (8.3, -2.6, 2.2)]
+    shades = [(0.2, 0.0, 5.8), (-8.2, -3.0, 3.0), (-6.8, 4.0, 1.7), (8.3, -2.6, 2.2)]
     shades += [(7.0 + k * 1.1, 3.6 + k * 0.46, 0.9) for k in (-1.7, -0.8, 0.1, 1.0)]
     add_table(scene, (64.0, 32.0), shades)
     return draw(scene, look((0.0, 7.6, 28.0), (0.2, 2.75, 0.0), 0.362), (1280, 600))
@@ -128,7 +129,7 @@ def modes() -> np.ndarray:
         scene = e3d.Scene(background=PAPER)
         add_daylight(scene)
         scene.add(mesh)
-        camera = look((6.5, 7.0, 19.0), (0.0, 1.7, 0.0), 0.5)
+        camera = look((6.5, 7.0, 19.0), (0.0, 1.62, 0.0), 0.5)
         tiles.append((name, draw(scene, camera, (420, 380), **options)))
     return sheet(tiles, 3)
 

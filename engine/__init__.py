@@ -58,9 +58,9 @@ _PUBLIC = {
     "rasterize": "rasterization",
     "backends": "backend_selection",
 }
-_MODULES = frozenset({"errors", "linalg", "loaders", "primitives"})
+_MODULES = ("errors", "linalg", "loaders", "primitives")
 
-__all__ = ["__version__"] + list(_PUBLIC) + list(_MODULES)
+__all__ = ["__version__", *_PUBLIC, *_MODULES]
 
 
 def __getattr__(name):

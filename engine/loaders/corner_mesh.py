@@ -114,7 +114,7 @@ def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh
         vertices.positions[of_position],
         faces,
         normals=None if normals is None else _gather(normals, of_normal, extra),
-        uvs=None if uv_indices is None else _gather(uvs, of_uv, extra),
+        uvs=None if uv_indices is None else _finite(_gather(uvs, of_uv, extra)),
         colors=None if vertices.colors is None else vertices.colors[of_position],
         materials=materials,
         material_ids=triangles.materials,
@@ -193,4 +193,10 @@ def _gather(table, indices, extra):
     present = indices >= 0
     with np.errstate(over="ignore"):
         rows[: len(indices)][present] = table[indices[present]]
+    return rows
+
+
+def _finite(rows):
+    """Rows with zero for what is not finite."""
+    rows[~np.isfinite(rows)] = 0
     return rows

@@ -19,7 +19,8 @@ from .text import shown
 from .warning_list import WarningList
 
 _SLASH = ord("/")
-_FLOAT32_MAX = 3.4028234e38
+# Normals whose largest component is outside have no direction that float32 could tell.
+_SHORTEST, _LONGEST = 1e-15, 1e15
 
 
 class Elements(NamedTuple):
@@ -57,8 +58,7 @@ def read_vertices(statements: Statements, warnings: WarningList) -> Vertices:
     rows = _Rows(statements, "v", 3, "vertex", warnings.path)
     positions = rows.columns(3)
     normals = _Rows(statements, "vn", 3, "normal", warnings.path).columns(3)
-    uvs = _Rows(statements, "vt", 1, "texture coordinate", warnings.path).columns(2).copy()
-    uvs[~(np.abs(uvs) <= _FLOAT32_MAX)] = 0
+    uvs = _Rows(statements, "vt", 1, "texture coordinate", warnings.path).columns(2)
     return Vertices(positions, _vertex_colors(rows), uvs, normals)
 
 
@@ -226,8 +226,8 @@ def _usable(normal_indices: np.ndarray | None, vertices: Vertices) -> np.ndarray
     """Normals without a direction (zero, not finite) count as missing."""
     if normal_indices is None:
         return None
-    normals = vertices.normals
-    usable = (normals != 0).any(axis=1) & (np.abs(normals) <= _FLOAT32_MAX).all(axis=1)
+    largest = np.abs(vertices.normals).max(axis=1)
+    usable = (largest >= _SHORTEST) & (largest <= _LONGEST)
     if usable.all():
         return normal_indices
     indices = np.where((normal_indices >= 0) & usable[normal_indices], normal_indices, -1)

@@ -177,7 +177,7 @@ def test_missing_uvs_are_zero_and_missing_normals_computed(obj_mesh):
     assert mesh.normals[second].tolist() == [0, 0, 1]
 
 
-@pytest.mark.parametrize("normal", ["0 0 0", "nan 0 1", "1e999 0 0", "1e300 0 0"])
+@pytest.mark.parametrize("normal", ["0 0 0", "nan 0 1", "1e999 0 0", "1e300 0 0", "1e-40 0 0"])
 def test_normals_without_a_direction_count_as_missing(obj_mesh, normal):
     mesh = obj_mesh(TRIANGLE + f"vn {normal}\nvn 1 0 0\nf 1//1 2//2 3//1\n")
     assert sorted(mesh.normals.tolist()) == [[0, 0, 1], [0, 0, 1], [1, 0, 0]]

@@ -9,7 +9,8 @@
 #define E3D_LIMITS_H
 
 enum {
-    E3D_TILE = 64,               /* samples a side: depth and slot of a tile fill half an L1 cache */
+    E3D_TILE_SHIFT = 6,
+    E3D_TILE = 1 << E3D_TILE_SHIFT, /* samples a side: a tile's depths and slots fill half an L1 cache */
     E3D_TILE_SAMPLES = E3D_TILE * E3D_TILE,
     E3D_SUBPIXEL = 256,          /* positions are snapped to 1/256 sample */
     E3D_GUARD = 32768,           /* samples from the viewport's centre to the guard band */

@@ -47,7 +47,8 @@ typedef struct e3d_vertices {
 
 /* ---- setup ---- */
 
-/* Triangles of a cluster that may show: `draw` go to the record as they are, `clip` need clipping first. */
+/* Triangles of a cluster that may show: `draw` go to the record as they are, `clip` need clipping first. None that covers a
+ * sample is missing; of the others, those go that 32 bits can tell: no sample in the box, or a box of at most 2 x 2 without cover. */
 typedef struct e3d_survivors {
     uint8_t draw[E3D_CLUSTER_TRIANGLES], clip[E3D_CLUSTER_TRIANGLES];
     int draws, clips;

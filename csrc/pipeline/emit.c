@@ -1,7 +1,7 @@
 /* setup, scalar half: a piece's facing, box and depth plane become a record (R8-R13), which is then binned. */
 #include <math.h>
 
-#include "pipeline/frame.h"
+#include "pipeline/coverage.h"
 
 static float clamp(float v, float lo, float hi)
 {
@@ -41,15 +41,15 @@ static int depth_plane(const e3d_corner *c0, const e3d_corner *c1, const e3d_cor
     double d1 = (double)c1->zn - (double)c0->zn, d2 = (double)c2->zn - (double)c0->zn;
     double r = 256.0 / (double)area;
     double gx = (d1 * cy - d2 * ay) * r, gy = (d2 * ax - d1 * cx) * r;
-    double ex = (256.0 * box->x0 + 128.0 - c0->x) / 256.0;
-    double ey = (256.0 * box->y0 + 128.0 - c0->y) / 256.0;
+    double ex = (256 * box->x0 + 128 - c0->x) * (1.0 / 256), ey = (256 * box->y0 + 128 - c0->y) * (1.0 / 256);
     out->z0 = (float)((c0->zn + ex * gx) + ey * gy);
     out->gx = (float)gx;
     out->gy = (float)gy;
     float lo = c0->zn < c1->zn ? c0->zn : c1->zn, hi = c0->zn > c1->zn ? c0->zn : c1->zn;
     out->zmin = lo < c2->zn ? lo : c2->zn;
     out->zmax = hi > c2->zn ? hi : c2->zn;
-    return isfinite(out->z0) && isfinite(out->gx) && isfinite(out->gy);
+    float none = (out->z0 - out->z0) + ((out->gx - out->gx) + (out->gy - out->gy));
+    return none == 0.0f; /* v - v is 0 for finite v, NaN for the others */
 }
 
 static int append_corners(e3d_record_set *set, const e3d_corner *corner[3], uint32_t *meta)
@@ -72,17 +72,26 @@ static int append_key(e3d_record_set *set, const e3d_corner *corner[3])
     return 1;
 }
 
-static int append(const e3d_context *context, e3d_worker *worker, int pass, const e3d_record *record)
+/* Room for one more record; NULL when memory is out. */
+static e3d_record *next_record(e3d_record_set *set)
 {
-    e3d_record_set *set = &worker->pass[pass];
-    if (!e3d_array_reserve(&set->records, set->records.count + 1, sizeof *record))
-        return 0;
-    ((e3d_record *)set->records.data)[set->records.count] = *record;
+    if (!e3d_array_reserve(&set->records, set->records.count + 1, sizeof(e3d_record)))
+        return NULL;
+    return (e3d_record *)set->records.data + set->records.count;
+}
+
+/* Counts the record in; it is binned now, or after sorting. */
+static int accept(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, const e3d_box *box,
+                  int sorted)
+{
     uint32_t number = (uint32_t)set->records.count++;
     worker->counters.records++;
-    if (context->sorted && pass == E3D_PASS_SCENE)
-        return 1; /* binned after sorting */
-    return e3d_bin_record(context, worker, set, number);
+    return sorted || e3d_bin_record(context, worker, set, number, box);
+}
+
+static int is_culled(const e3d_primitive *primitive, int front)
+{
+    return (primitive->cull == E3D_CULL_BACK && !front) || (primitive->cull == E3D_CULL_FRONT && front);
 }
 
 void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner corner[3],
@@ -90,25 +99,29 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
 {
     int64_t area = doubled_area(corner);
     int front = (area < 0) != (primitive->mirrored != 0);
-    if (area == 0 || (primitive->cull == E3D_CULL_BACK && !front) ||
-        (primitive->cull == E3D_CULL_FRONT && front))
+    if (area == 0 || is_culled(primitive, front))
         return;
     const e3d_corner *c[3] = {&corner[0], &corner[area < 0 ? 2 : 1], &corner[area < 0 ? 1 : 2]};
-    e3d_record record = {.order = primitive->order};
-    for (int k = 0; k < 3; k++) {
-        record.x[k] = c[k]->x;
-        record.y[k] = c[k]->y;
-        record.iw[k] = c[k]->iw;
-    }
-    e3d_box box = e3d_sample_box(record.x, record.y, &context->viewport);
-    if (box.x0 > box.x1 || box.y0 > box.y1 ||
-        !depth_plane(c[0], c[1], c[2], area < 0 ? -area : area, &box, &record))
-        return;
-    record.meta = (front ? 0 : E3D_RECORD_BACK) | (area < 0 ? E3D_RECORD_SWAPPED : 0) |
-                  (primitive->face ? E3D_RECORD_FACE : 0);
     e3d_record_set *set = &worker->pass[primitive->pass];
-    if ((primitive->cut && !append_corners(set, c, &record.meta)) ||
-        (context->sorted && primitive->pass == E3D_PASS_SCENE && !append_key(set, c)) ||
-        !append(context, worker, primitive->pass, &record))
+    int sorted = context->sorted && primitive->pass == E3D_PASS_SCENE;
+    e3d_record *record = next_record(set);
+    if (!record) {
+        worker->failed = 1;
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        record->x[k] = c[k]->x;
+        record->y[k] = c[k]->y;
+        record->iw[k] = c[k]->iw;
+    }
+    e3d_box box = e3d_sample_box(record->x, record->y, &context->viewport);
+    if (box.x0 > box.x1 || box.y0 > box.y1 ||
+        !depth_plane(c[0], c[1], c[2], area < 0 ? -area : area, &box, record))
+        return;
+    record->order = primitive->order;
+    record->meta = (front ? 0 : E3D_RECORD_BACK) | (area < 0 ? E3D_RECORD_SWAPPED : 0) |
+                   (primitive->face ? E3D_RECORD_FACE : 0);
+    if ((primitive->cut && !append_corners(set, c, &record->meta)) || (sorted && !append_key(set, c)) ||
+        !accept(context, worker, set, &box, sorted))
         worker->failed = 1;
 }

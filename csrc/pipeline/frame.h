@@ -202,17 +202,12 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
 
 /* bin.c */
 int e3d_bins_reset(e3d_record_set *set, int32_t tiles);
-int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t record);
-/* Edge function k at a tile's first sample, floor(E / 256) with the top-left rule inside. */
-typedef struct e3d_edge {
-    int64_t e;
-    int32_t a, b;
-} e3d_edge;
-e3d_edge e3d_edge_at(const e3d_record *record, int k, int32_t x, int32_t y);
+/* Samples, inclusive; empty where x0 > x1 or y0 > y1. */
 typedef struct e3d_box {
     int32_t x0, y0, x1, y1;
 } e3d_box;
-e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], const e3d_viewport *viewport);
+int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t record,
+                   const e3d_box *box);
 
 /* order.c */
 int e3d_sort_records(e3d_context *context);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pipeline/frame.h"
+#include "pipeline/coverage.h"
 
 typedef struct entry {
     float key; /* 0 where only the order counts */
@@ -96,8 +96,12 @@ int e3d_sort_records(e3d_context *context)
     }
     install(context, &sorted);
     e3d_worker *worker = context->renderer->workers[0];
-    for (size_t r = 0; r < count; r++)
-        if (!e3d_bin_record(context, worker, &worker->pass[E3D_PASS_SCENE], (uint32_t)r))
+    e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
+    for (size_t r = 0; r < count; r++) {
+        const e3d_record *record = (const e3d_record *)set->records.data + r;
+        e3d_box box = e3d_sample_box(record->x, record->y, &context->viewport);
+        if (!e3d_bin_record(context, worker, set, (uint32_t)r, &box))
             return 0;
+    }
     return 1;
 }

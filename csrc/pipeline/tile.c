@@ -3,7 +3,7 @@
 #include <time.h>
 
 #include "core/pool.h"
-#include "pipeline/frame.h"
+#include "pipeline/coverage.h"
 
 static int64_t now_ns(void)
 {

@@ -1,0 +1,41 @@
+/* Where a piece lies: its box of sample centres (R10) and its edge functions (R12). */
+#ifndef E3D_COVERAGE_H
+#define E3D_COVERAGE_H
+
+#include "pipeline/frame.h"
+
+static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], const e3d_viewport *viewport)
+{
+    int32_t xlo = x[0], xhi = x[0], ylo = y[0], yhi = y[0];
+    for (int k = 1; k < 3; k++) {
+        xlo = xlo < x[k] ? xlo : x[k];
+        xhi = xhi > x[k] ? xhi : x[k];
+        ylo = ylo < y[k] ? ylo : y[k];
+        yhi = yhi > y[k] ? yhi : y[k];
+    }
+    e3d_box box = {(xlo + 127) >> 8, (ylo + 127) >> 8, (xhi - 128) >> 8, (yhi - 128) >> 8};
+    box.x0 = box.x0 > 0 ? box.x0 : 0;
+    box.y0 = box.y0 > 0 ? box.y0 : 0;
+    box.x1 = box.x1 < viewport->width - 1 ? box.x1 : viewport->width - 1;
+    box.y1 = box.y1 < viewport->height - 1 ? box.y1 : viewport->height - 1;
+    return box;
+}
+
+/* Edge function k at a sample, floor(E / 256) with the top-left rule inside. */
+typedef struct e3d_edge {
+    int64_t e;
+    int32_t a, b;
+} e3d_edge;
+
+static inline e3d_edge e3d_edge_at(const e3d_record *r, int k, int32_t x, int32_t y)
+{
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    e3d_edge edge = {0, r->y[i] - r->y[j], r->x[j] - r->x[i]};
+    int64_t value = (int64_t)edge.a * (256 * (int64_t)x + 128 - r->x[i]) +
+                    (int64_t)edge.b * (256 * (int64_t)y + 128 - r->y[i]);
+    int top_left = edge.a > 0 || (edge.a == 0 && edge.b > 0);
+    edge.e = (value - !top_left) >> 8;
+    return edge;
+}
+
+#endif

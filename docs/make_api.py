@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 
 import engine3d
+from engine3d.attributes import CheckedAttribute
 
 PAGE = Path(__file__).resolve().parent / "api.md"
 INTRODUCTION = """\
@@ -106,31 +107,29 @@ def entry(name: str, thing) -> str:
 
 def members(owner: type) -> list[str]:
     """Return the documented properties and methods of a class, in the order of the source."""
-    properties, methods = [], []
-    for name, member in public_members(owner).items():
+    properties, methods, checked = [], [], []
+    for name, member in vars(owner).items():
+        if name.startswith("_"):
+            continue
         if isinstance(member, (classmethod, staticmethod)) or inspect.isfunction(member):
             function = getattr(owner, name)
             heading = wrapped(f"{owner.__name__}.{name}{signature(function)}")
             methods.append(f"```text\n{heading}\n```\n\n{docstring(function)}\n")
         elif is_documented_property(member):
-            properties.append(f"- `{name}` : {docstring(member)}")
+            text = docstring(member).replace("\n", "\n  ").replace("\n  \n", "\n\n")
+            properties.append(f"- `{name}` : {text}")
+        elif isinstance(member, CheckedAttribute):
+            checked.append(f"`{name}`")
+    if checked:
+        methods.insert(0, f"To read and to assign at any time, as above: {', '.join(checked)}.\n")
     return (["\n".join(properties) + "\n"] if properties else []) + methods
-
-
-def public_members(owner: type) -> dict[str, object]:
-    """Return what a class and its bases of engine3d define, the derived class first."""
-    found: dict[str, object] = {}
-    for base in owner.__mro__:
-        if base.__module__.startswith("engine3d"):
-            for name, member in vars(base).items():
-                if not name.startswith("_"):
-                    found.setdefault(name, member)
-    return found
 
 
 def is_documented_property(member) -> bool:
     """Whether a descriptor has a docstring of its own (the fields of a named tuple don't)."""
     text = getattr(member, "__doc__", None) or ""
+    if text == type(member).__doc__:
+        return False
     return hasattr(type(member), "__get__") and text and not text.startswith("Alias for field")
 
 
@@ -149,7 +148,7 @@ def wrapped(heading: str) -> str:
     if len(heading) <= 96:
         return heading
     lines, room = [""], 96
-    for piece in re.split(r"(?<=, )", heading):
+    for piece in re.split(r"(?<=, )(?=[a-z_*])", heading):
         if len(lines[-1]) + len(piece) > room:
             lines.append("    ")
         lines[-1] += piece

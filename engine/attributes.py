@@ -33,7 +33,13 @@ class CheckedAttribute:
         self._name = name
 
     def __get__(self, owner, owner_type=None):
-        return self if owner is None else owner.__dict__[self._name]
+        if owner is None:
+            return self
+        try:
+            return owner.__dict__[self._name]
+        except KeyError:
+            kind = type(owner).__name__
+            raise AttributeError(f"{kind!r} object has no attribute {self._name!r}") from None
 
     def __set__(self, owner, value) -> None:
         owner.__dict__[self._name] = self._check(value, self._name)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .attributes import choose
 from .colors import COLOR_SPACES
 from .errors import InvalidArgumentError
 
@@ -75,7 +76,7 @@ class Texture:
 
     @color_space.setter
     def color_space(self, value: str) -> None:
-        self._color_space = _one_of(value, COLOR_SPACES, "color_space")
+        self._color_space = choose(value, COLOR_SPACES, "color_space")
         self.version += 1
 
     @property
@@ -84,7 +85,7 @@ class Texture:
 
     @filter.setter
     def filter(self, value: str) -> None:
-        self._filter = _one_of(value, FILTERS, "filter")
+        self._filter = choose(value, FILTERS, "filter")
         self.version += 1
 
     @property
@@ -93,7 +94,7 @@ class Texture:
 
     @wrap.setter
     def wrap(self, value: str) -> None:
-        self._wrap = _one_of(value, WRAPS, "wrap")
+        self._wrap = choose(value, WRAPS, "wrap")
         self.version += 1
 
     @property
@@ -137,9 +138,3 @@ def as_rgba(pixels) -> np.ndarray:
 def _is_frozen(image: np.ndarray) -> bool:
     """An array that nobody can write to any more needs no copy."""
     return image.base is None and image.flags.c_contiguous and not image.flags.writeable
-
-
-def _one_of(value, allowed: tuple[str, ...], what: str) -> str:
-    if value not in allowed:
-        raise InvalidArgumentError(f"{what} must be one of {', '.join(allowed)}: {value!r}")
-    return value

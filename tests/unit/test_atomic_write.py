@@ -1,3 +1,5 @@
+"""Files appear whole or not at all, and keep their permissions."""
+
 import os
 import stat
 

@@ -62,6 +62,7 @@ def test_camera_of_a_matrix():
     camera = e3d.Camera(matrix)
     np.testing.assert_array_equal(camera.projection(7, 5), matrix)
     assert not camera.matrix.flags.writeable
+    assert not hasattr(e3d.PerspectiveCamera(), "matrix")
 
 
 def test_assigning_counts_versions():

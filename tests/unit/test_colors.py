@@ -1,3 +1,5 @@
+"""The sRGB table against exact arithmetic; which numbers are colours, and in which space."""
+
 from decimal import Decimal, getcontext
 
 import numpy as np

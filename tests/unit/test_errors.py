@@ -1,3 +1,5 @@
+"""The exceptions: the built-ins they inherit, their texts, pickling."""
+
 import pickle
 
 import pytest

@@ -1,3 +1,5 @@
+"""Materials: defaults, what they refuse, versions."""
+
 import numpy as np
 import pytest
 

@@ -1,3 +1,5 @@
+"""Meshes: checks of every array, derived arrays, versions, joining."""
+
 import numpy as np
 import pytest
 

@@ -1,3 +1,5 @@
+"""Computed normals: weights, seams, degenerate and curved polygons."""
+
 import numpy as np
 
 from engine3d.mesh import Mesh

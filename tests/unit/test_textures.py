@@ -1,3 +1,5 @@
+"""Textures: which images are pixels, copying, versions."""
+
 import numpy as np
 import pytest
 

@@ -6,9 +6,9 @@ is called. A format is one module of this package that defines ``READERS``; `reg
 
 from __future__ import annotations
 
-from .api import load_document, load_mesh, load_texture
 from .companions import companion_texture
 from .documents import CameraRecord, Document, LightRecord
+from .loading import load_document, load_mesh, load_texture
 from .registry import formats
 
 __all__ = [

@@ -115,6 +115,6 @@ def _library_path(name: str, files: LinkedFiles, line: int, warnings: WarningLis
 
 
 def _load_texture(path: str, wrap: str) -> Texture:
-    from .api import load_texture
+    from .loading import load_texture
 
     return load_texture(path, wrap=wrap)

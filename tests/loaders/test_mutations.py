@@ -1,0 +1,127 @@
+"""Small files, damaged at random: each loads or raises an error of the project's own."""
+
+import random
+import warnings
+
+import numpy as np
+import pytest
+
+from engine3d.errors import Engine3DError
+from engine3d.loaders import load_document, load_mesh, load_texture
+
+OBJ = b"""# a house
+mtllib house.mtl
+o walls
+v 0 0 0 1 .5 0
+v 1 0 0 1 .5 0
+v 1 1 0 1 .5 0
+v .5 1.5 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt .5 1
+vn 0 0 1
+g front a
+usemtl brick
+s 1
+f 1/1/1 2/2/1 3/3/1 4/1/1 5/2/1
+s off
+f -1 -2 \\
+ -3
+l 1 2 3
+p 1 -1
+"""
+MTL = b"""newmtl brick
+Kd .8 .2 .1
+Ks 1 1 1
+Ns 20
+d .5
+map_Kd -s 2 2 1 -o .5 0 house.tga
+map_Bump -bm 2 house.tga
+"""
+ASC = b"""Ambient light color: Red=0.3 Green=0.3 Blue=0.3
+
+Named object: "Lamp"
+Direct light
+Position:  X:1 Y:2 Z:3
+Light color: Red=1 Green=1 Blue=1
+
+Named object: "Eye"
+Camera (50.0mm)
+Position:  X:0 Y:-5 Z:1
+Target:  X:0 Y:0 Z:0
+
+Named object: "Square"
+Tri-mesh, Vertices: 4     Faces: 2
+Mapped
+Vertex list:
+Vertex 0:  X:0     Y:0     Z:0     U:0     V:0
+Vertex 1:  X:2     Y:0     Z:0     U:1     V:0
+Vertex 2:  X:2     Y:2     Z:0     U:1     V:1
+Vertex 3:  X:0     Y:2     Z:0     U:0     V:1
+Face list:
+Face 0:    A:0 B:1 C:2 AB:1 BC:1 CA:0
+Material:"r255g128b0a0"
+Smoothing:  1, 3
+Face 1:    A:0 B:2 C:3 AB:0 BC:1 CA:1
+Smoothing:  2
+"""
+TGA = bytes([2, 1, 9, 1, 0, 2, 0, 24, 0, 0, 0, 0, 4, 0, 2, 0, 8, 0x20]) + b"id"
+TGA += bytes([1, 2, 3, 4, 5, 6, 0x82, 1, 0x04, 1, 2, 1, 2, 1])
+
+WORDS = [b"f ", b"v ", b"vt", b"/", b"-", b"\n", b"1e999", b"nan", b"\\\n", b"#", b"s 3\n"]
+WORDS += [b"usemtl q\n", b"mtllib .\n", b"99999999999", b"\xff", b"\0", b'"', b"o x\n"]
+WORDS += [b"Face 0:", b"Vertex 9:"]
+
+
+def mutated(data, choice):
+    data = bytearray(data)
+    for _ in range(choice.randint(1, 6)):
+        at = choice.randrange(len(data) + 1)
+        kind = choice.random()
+        if kind < 0.3:
+            data[at : at + 1] = bytes([choice.randrange(256)])
+        elif kind < 0.5:
+            del data[at : at + choice.randint(1, 20)]
+        elif kind < 0.8:
+            data[at:at] = choice.choice(WORDS)
+        elif kind < 0.95:
+            data[at:at] = data[max(0, at - choice.randint(1, 80)) : at]
+        else:
+            del data[at:]
+    return bytes(data)
+
+
+def check_mesh(path):
+    mesh = load_mesh(path)
+    for array in (mesh.normals, mesh.face_normals, mesh.bounds):
+        assert np.isfinite(array).all()
+    assert mesh.uvs is None or np.isfinite(mesh.uvs).all()
+    assert len(mesh.polygons) == len(mesh.faces)
+    assert mesh.edges().max(initial=0) < max(len(mesh.positions), 1)
+    load_document(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "data"), [("house.obj", OBJ), ("house.mtl", MTL), ("a.asc", ASC), ("house.tga", TGA)]
+)
+def test_damaged_files_load_or_raise_our_own_error(write, name, data):
+    whole = {"house.obj": OBJ, "house.mtl": MTL, "a.asc": ASC, "house.tga": TGA}
+    for other, content in whole.items():
+        write(other, content)
+    loaded = 0
+    choice = random.Random(name)
+    for _ in range(300):
+        path = write(name, mutated(data, choice))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                if name.endswith("tga"):
+                    load_texture(path)
+                else:
+                    check_mesh(path.with_name("house.obj") if name.endswith("mtl") else path)
+                loaded += 1
+            except Engine3DError as error:
+                assert name in str(error)
+                assert "\n" not in str(error)
+    assert loaded > 0

@@ -69,6 +69,7 @@ int main(int count, char **arguments)
     for (int k = 0; k < E3D_BACKEND_COUNT; k++)
         if (o.plan.backends[k])
             fprintf(stderr, "backend %s\n", e3d_backend_name((e3d_backend)k));
+    setvbuf(stdout, NULL, _IOLBF, 0); /* after a crash the last line tells where */
     int failures = 0;
     for (long i = o.first; i < o.first + o.scenes; i++) {
         char title[32];

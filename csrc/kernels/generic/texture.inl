@@ -173,6 +173,14 @@ static inline texel_lanes texture_nearest(const e3d_level *level, vf32 s, vf32 t
     return texture_fetch(level->texels, v_addi(v_muli(y, v_seti(level->width)), x));
 }
 
+/* Lanes after the last sample hold levels of an earlier batch, perhaps of a texture with more of them:
+ * unlike coordinates, which are wrapped, those would index beyond the table of levels. */
+static inline vi32 load_level(const e3d_batch *batch, int i, int level_count)
+{
+    vi32 last = v_seti((level_count - 1) * 256);
+    return v_mini(v_maxi(v_loadi(batch->lod + i), v_seti(0)), last);
+}
+
 static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view)
 {
     texture_levels levels = texture_tabulate(view);
@@ -185,7 +193,7 @@ static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view)
         else if (view->filter == E3D_BILINEAR)
             texel = texture_at_level(view, &levels, v_seti(0), s, t);
         else
-            texel = texture_trilinear(view, &levels, v_loadi(batch->lod + i), s, t);
+            texel = texture_trilinear(view, &levels, load_level(batch, i, view->level_count), s, t);
         for (int k = 0; k < 3; k++) {
             vf32 value = v_mul(v_float(texel.c[k]), v_setf(E3D_UNORM16));
             float *color = batch->color[k] + i;

@@ -1,7 +1,8 @@
-"""setup against R4–R7, R9 and R10: which triangles of a cluster stay.
+"""setup against R4–R7, R9, R10 and R12: which triangles of a cluster stay.
 
-It may keep what only 64 bits can decide (boxes wider than 32767 steps of 1/256 sample), nothing
-else that the rules drop; and it must keep all that they keep.
+It may keep what only 64 bits can decide (boxes wider than 32767 steps of 1/256 sample), and what
+covers none of the more than 2 x 2 samples of its box; nothing else that the rules drop. It must
+keep all that they keep.
 """
 
 import numpy as np
@@ -32,11 +33,31 @@ def random_codes(rng):
     return (flags << np.arange(10)).sum(axis=-1).astype(np.int32)
 
 
-def no_sample(low, high, size):
-    """R10, in 64 bits."""
+def sample_span(low, high, size):
+    """R10, in 64 bits: the first and the last sample along one axis."""
     first = np.maximum(-((128 - low) // 256), 0)  # ceil((low - 128) / 256)
-    last = np.minimum((high - 128) // 256, size[:, None] - 1)
-    return first > last
+    return first, np.minimum((high - 128) // 256, size[:, None] - 1)
+
+
+def covers(x, y, area, column, row):
+    """R12, in 64 bits, for triangles of either winding."""
+    inside = np.ones(area.shape, bool)
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        a, b = np.sign(area) * (y[i] - y[j]), np.sign(area) * (x[j] - x[i])
+        edge = a * (256 * column + 128 - x[i]) + b * (256 * row + 128 - y[i])
+        inside &= (edge > 0) | ((edge == 0) & ((a > 0) | ((a == 0) & (b > 0))))
+    return inside
+
+
+def uncovered(x, y, area, across, down):
+    """Which boxes of at most 2 x 2 samples have none that is covered."""
+    few = (across[1] - across[0] <= 1) & (down[1] - down[0] <= 1)
+    none = np.ones(area.shape, bool)
+    for column in across:
+        for row in down:
+            none &= ~covers(x, y, area, column, row)
+    return few & none
 
 
 def survivors(x, y, code, viewport, cull):
@@ -50,9 +71,10 @@ def survivors(x, y, code, viewport, cull):
     area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
     known = np.maximum(width, height) <= WIDE
     wrong_side = (area == 0) | (np.sign(area) == np.where(cull == 0, 9, cull)[:, None])
-    drop = known & wrong_side
-    drop |= no_sample(x.min(axis=0), x.max(axis=0), viewport["width"].astype(np.int64))
-    drop |= no_sample(y.min(axis=0), y.max(axis=0), viewport["height"].astype(np.int64))
+    across = sample_span(x.min(axis=0), x.max(axis=0), viewport["width"].astype(np.int64))
+    down = sample_span(y.min(axis=0), y.max(axis=0), viewport["height"].astype(np.int64))
+    drop = known & (wrong_side | uncovered(x, y, area, across, down))
+    drop |= (across[0] > across[1]) | (down[0] > down[1])
     drop |= (some & layouts.BAD_SCREEN) != 0
     return keep & ~clip & ~drop, clip
 

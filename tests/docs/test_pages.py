@@ -7,9 +7,12 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "data" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-FOLDERS = [ROOT, ROOT / "docs", ROOT / "data", ROOT / "engine", ROOT / "tests"]
-FOLDERS += [ROOT / "csrc", *(path for path in (ROOT / "csrc").rglob("*") if path.is_dir())]
-FOLDERS += [path for path in (ROOT / "engine").iterdir() if path.is_dir()]
+FOLDERS = [ROOT, *(ROOT / name for name in ("benchmarks", "data", "docs"))]
+FOLDERS += [
+    path
+    for name in ("csrc", "engine", "tests")
+    for path in (ROOT / name, *(ROOT / name).glob("**/"))
+]
 FILE_NAME = re.compile(r"`((?:[\w.-]+/)*[\w-]+\.(?:py|pyx|c|h|inl|md|pxd))`")
 
 
@@ -28,8 +31,17 @@ def test_links_lead_somewhere(page):
 @pytest.mark.parametrize("name", ["architecture.md", "hacking.md", "canvas.md"])
 def test_files_that_pages_name_exist(name):
     names = FILE_NAME.findall((ROOT / "docs" / name).read_text(encoding="utf-8"))
-    folders = [*FOLDERS, ROOT / "benchmarks", ROOT / "tests" / "unit"]
     assert names
     for file in names:
         if "NAME" not in file:
-            assert any((folder / file).exists() for folder in folders), f"{name}: {file}"
+            assert any((folder / file).exists() for folder in FOLDERS), f"{name}: {file}"
+
+
+@pytest.mark.parametrize("page", PAGES[1:], ids=page_id)
+def test_python_examples_run(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for block in re.findall(
+        r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S
+    ):
+        exec(compile(block, page.name, "exec"), names)

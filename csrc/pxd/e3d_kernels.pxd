@@ -48,6 +48,9 @@ cdef extern from "kernels/kernels.h" nogil:
         int32_t *slot
         const uint32_t *orders
 
+    ctypedef struct e3d_run:
+        pass
+
     ctypedef struct e3d_surface:
         pass
 
@@ -72,6 +75,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+        int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
         void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted)
         void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,
                              const e3d_texture_view *texture)

@@ -48,6 +48,7 @@ STRUCT_SIZES = {
     "vertices": sizeof(e3d_vertices),
     "survivors": sizeof(e3d_survivors),
     "piece": sizeof(e3d_piece),
+    "run": sizeof(e3d_run),
     "surface": sizeof(e3d_surface),
     "batch": sizeof(e3d_batch),
     "light": sizeof(e3d_light),
@@ -143,6 +144,11 @@ cdef class Kernels:
         cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
         check_size(piece, sizeof(e3d_piece))
         self.table.raster_mark(<const e3d_piece *>&piece[0], &tile)
+
+    def find_runs(self, const int32_t[::1] slot, int width, int height, uint8_t[::1] out):
+        """``out`` has room for as many runs as the tile has samples, and one; returns how many."""
+        check_size(out, (E3D_TILE_SAMPLES + 1) * sizeof(e3d_run))
+        return self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
 
     def interpolate(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted):
         check_size(batch, sizeof(e3d_batch))

@@ -46,6 +46,7 @@ PIECE = np.dtype(
     + [(name, "f4") for name in ("z0", "gx", "gy", "zmin", "zmax")]
     + [("base_x", "i4"), ("base_y", "i4"), ("slot", "u4"), ("order", "u4")]
 )
+RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
 SURFACE = np.dtype(
     [
         ("p", "f4", 3),
@@ -59,9 +60,7 @@ SURFACE = np.dtype(
         ("color", "f4", (3, 3)),
         ("instance_color", "f4", 3),
         ("back", "i4"),
-        ("numbers", "i4", 4),
-        ("group", "i4"),
-        ("spare", "i4", 11),
+        ("not_read", "i4", 16),  # identities, and what the pipeline sorts by
     ]
 )
 _LANES = BATCH + PAD
@@ -96,6 +95,7 @@ STRUCTS = {
     "vertices": VERTICES,
     "survivors": SURVIVORS,
     "piece": PIECE,
+    "run": RUN,
     "surface": SURFACE,
     "batch": BATCH_RECORD,
     "light": LIGHT,

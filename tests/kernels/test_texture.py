@@ -143,7 +143,7 @@ def random_coordinates(rng, shape, sizes):
 @pytest.mark.parametrize("filter_name", FILTERS)
 @pytest.mark.parametrize("wrap", WRAPS)
 def test_texture(kernels, filter_name, wrap):
-    for seed in range(ROUNDS):
+    for seed in range(list(WRAPS).index(wrap), ROUNDS, len(WRAPS)):
         rng = np.random.default_rng(seed)
         batches = random_batches(rng)
         sizes = chain_sizes(*SIZES[seed], levels=16 if filter_name == "trilinear" else 1)

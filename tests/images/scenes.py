@@ -1,0 +1,12 @@
+"""The table of pictures: name -> function that makes the Picture. One module a subject fills it."""
+
+from images import (  # noqa: F401
+    scenes_geometry,
+    scenes_lights,
+    scenes_looks,
+    scenes_textures,
+    scenes_views,
+)
+from images.picture import SCENES
+
+__all__ = ["SCENES"]

@@ -7,6 +7,7 @@ or only poses changed costs a comparison a node.
 
 from __future__ import annotations
 
+import math
 import weakref
 
 import numpy as np
@@ -111,7 +112,7 @@ class DrawList:
             eight_bit = colors is not None and colors.dtype == np.uint8
             self.native.set_instances(
                 index,
-                obj.poses.reshape(len(obj.poses), -1),
+                obj.poses.reshape(len(obj.poses), math.prod(obj.poses.shape[1:])),
                 colors if eight_bit else None,
                 None if eight_bit else colors,
             )

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 GOLDEN = Path(__file__).with_name("golden.json")
-COLUMNS, ROWS, CELL, CAPTION = 5, 5, (200, 150), 12
+COLUMNS, ROWS, CELL, CAPTION = 5, 5, (200, 150), 14
 
 
 def load():

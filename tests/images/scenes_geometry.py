@@ -228,10 +228,16 @@ def slivers():
 def giant_triangles():
     """Corners up to 10^12 away, whose edges still end where they should."""
     rng = np.random.default_rng(6)
-    scales = 10.0 ** rng.integers(0, 13, (24, 1, 1))
-    corners = rng.uniform(-1, 1, (24, 3, 3)) * scales
-    corners[..., 2] = rng.uniform(-1, 1, (24, 1))
-    mesh = e3d.Mesh(corners.reshape(-1, 3), np.arange(72).reshape(-1, 3))
+    corners = np.empty((60, 3, 3))
+    corners[:, 0, :2] = rng.uniform(-1, 1, (60, 2))
+    angles = rng.uniform(-3, 3, 60)
+    scales = 10.0 ** rng.integers(0, 13, (60, 2))
+    for k in (1, 2):  # wedges from a corner in the picture to two far away
+        far = angles + 0.15 * k
+        away = np.array([(math.cos(angle), math.sin(angle)) for angle in far])
+        corners[:, k, :2] = corners[:, 0, :2] + away * scales[:, k - 1, None]
+    corners[..., 2] = rng.uniform(-1, 1, (60, 1))
+    mesh = e3d.Mesh(corners.reshape(-1, 3), np.arange(180).reshape(-1, 3))
     scene = e3d.Scene()
     scene.add(mesh)
     return Picture(scene, clip_camera(), options={"mode": "random", "cull": "none"})

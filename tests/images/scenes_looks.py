@@ -37,7 +37,7 @@ variant("wireframe_only_hidden_lines", look, wireframe="only", hidden_lines=True
 variant("wireframe_only_painter", look, wireframe="only", hidden_surfaces="painter")
 variant("wireframe_only_overdraw", look, wireframe="only", mode="overdraw", line_width=2.0)
 variant("wireframe_samples_4", look, wireframe="overlay", samples=4, line_width=1.5)
-variant("wireframe_samples_16_transparent", look, wireframe="only", samples=16)
+variant("wireframe_samples_16", look, wireframe="only", samples=16)
 
 variant("cull_front", look, cull="front")
 variant("cull_none", look, cull="none")

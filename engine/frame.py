@@ -14,6 +14,7 @@ import numpy as np
 
 from .atomic_write import atomic_write
 from .errors import InvalidArgumentError, MissingOutputError
+from .png import encode_png
 
 # Every output: dtype and number of channels (0: no third axis).
 OUTPUTS: dict[str, tuple[type, int]] = {
@@ -35,7 +36,7 @@ OUTPUTS: dict[str, tuple[type, int]] = {
 
 # File name suffix -> (Pillow's format, what it is saved with).
 _FORMATS = {
-    "png": ("PNG", {"compress_level": 6}),
+    "png": ("PNG", {}),
     "jpg": ("JPEG", {"quality": 95, "subsampling": 0}),
     "jpeg": ("JPEG", {"quality": 95, "subsampling": 0}),
     "tga": ("TGA", {"compression": "tga_rle"}),
@@ -134,7 +135,8 @@ class Frame:
         path : str or path-like
             The suffix decides the format: .png, .jpg, .jpeg (no alpha), .tga or .webp (lossless).
         **options
-            Passed to Pillow's writer, such as ``quality=80``.
+            Passed to Pillow's writer, such as ``quality=80``. A PNG without any is written here,
+            fast; ``compress_level=9`` makes it smaller.
 
         Raises
         ------
@@ -155,7 +157,7 @@ class Frame:
         ----------
         format : {"png", "jpg", "jpeg", "tga", "webp"}
         **options
-            Passed to Pillow's writer.
+            As for `save`.
 
         Raises
         ------
@@ -166,6 +168,8 @@ class Frame:
             raise InvalidArgumentError(
                 f"an image format is one of {', '.join(_FORMATS)}, not {format!r}"
             )
+        if format == "png" and not options:
+            return encode_png(self.color)
         name, defaults = _FORMATS[format]
         image = self.image()
         if name == "JPEG":

@@ -29,6 +29,8 @@ def main(argv: list[str] | None = None) -> int:
     int
         The exit status.
     """
+    # NumPy's linear algebra, which draws nothing here, would start a thread for each CPU.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from .options import join_values
     from .parser import make_parser
 

@@ -182,7 +182,9 @@ def _vertices_for(used, of_position, position_count):
     """A vertex for each used position: one that the faces have, or a new one at the end."""
     vertex = np.full(position_count, -1, np.int32)
     vertex[of_position[::-1]] = np.arange(len(of_position), dtype=np.int32)[::-1]
-    new = np.unique(used[vertex[used] < 0])
+    is_new = np.zeros(position_count, bool)
+    is_new[used[vertex[used] < 0]] = True
+    new = np.flatnonzero(is_new)
     vertex[new] = len(of_position) + np.arange(len(new), dtype=np.int32)
     return vertex[used], np.concatenate([of_position, new]), len(new)
 

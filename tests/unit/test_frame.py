@@ -56,6 +56,11 @@ def test_save_is_lossless(frame, tmp_path, suffix):
         np.testing.assert_array_equal(np.asarray(image.convert("RGBA")), frame.color)
 
 
+def test_png_passes_options_on(frame):
+    with Image.open(io.BytesIO(frame.encode("png", compress_level=9))) as image:
+        np.testing.assert_array_equal(np.asarray(image), frame.color)
+
+
 @pytest.mark.parametrize("suffix", ["jpg", "jpeg"])
 def test_jpeg_has_no_alpha(frame, tmp_path, suffix):
     path = tmp_path / f"frame.{suffix}"
@@ -72,7 +77,7 @@ def test_unknown_suffix(frame, tmp_path, name):
 
 
 def test_a_failed_save_leaves_what_was_there(frame, tmp_path, monkeypatch):
-    path = tmp_path / "frame.png"
+    path = tmp_path / "frame.webp"
     path.write_bytes(b"before")
     monkeypatch.setattr(
         Image.Image, "save", lambda *_, **__: (_ for _ in ()).throw(OSError("full"))

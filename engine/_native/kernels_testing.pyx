@@ -3,7 +3,7 @@
 
 In:  plain numbers, arrays, and the kernels' C structs as their bytes (uint8 arrays whose size is
      checked: `STRUCT_SIZES`). tests/kernels/layouts.py has them as NumPy record types.
-Out: what one call of one kernel wrote, in the same arrays.
+Out: what the calls of one kernel wrote, in the same arrays.
 Always: nothing but the sizes of structs is checked. What a kernel expects of its arguments
      (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
 """
@@ -86,6 +86,9 @@ cdef int check_size(const uint8_t[::1] struct, size_t size) except -1:
 cdef class Kernels:
     """The kernels of one backend, by the number that `rasterizer.BACKENDS` gives it.
 
+    Every method calls its kernel `rounds` times with the same arguments: once, unless a benchmark
+    sets it otherwise.
+
     Raises
     ------
     LookupError
@@ -93,8 +96,10 @@ cdef class Kernels:
     """
 
     cdef const e3d_kernels *table
+    cdef public int rounds
 
     def __cinit__(self, int backend):
+        self.rounds = 1
         self.table = e3d_kernels_for(<e3d_backend>backend)
         if self.table == NULL:
             raise LookupError("this build or CPU lacks the backend")
@@ -103,73 +108,76 @@ cdef class Kernels:
                   const uint8_t[::1] viewport, uint8_t[::1] out):
         check_size(viewport, sizeof(e3d_viewport))
         check_size(out, sizeof(e3d_vertices))
-        self.table.transform(&positions[0], stride, count, &matrix[0],
-                             <const e3d_viewport *>&viewport[0], <e3d_vertices *>&out[0])
+        for _ in range(self.rounds):
+            self.table.transform(&positions[0], stride, count, &matrix[0],
+                                 <const e3d_viewport *>&viewport[0], <e3d_vertices *>&out[0])
 
     def take_clip(self, const float[::1] positions, int stride, int count,
                   const uint8_t[::1] viewport, uint8_t[::1] out):
         check_size(viewport, sizeof(e3d_viewport))
         check_size(out, sizeof(e3d_vertices))
-        self.table.take_clip(&positions[0], stride, count, <const e3d_viewport *>&viewport[0],
-                             <e3d_vertices *>&out[0])
+        for _ in range(self.rounds):
+            self.table.take_clip(&positions[0], stride, count, <const e3d_viewport *>&viewport[0],
+                                 <e3d_vertices *>&out[0])
 
     def setup(self, const uint8_t[::1] vertices, const uint8_t[::1] indices, int triangles, int cull,
               const uint8_t[::1] viewport, uint8_t[::1] out):
         check_size(vertices, sizeof(e3d_vertices))
         check_size(viewport, sizeof(e3d_viewport))
         check_size(out, sizeof(e3d_survivors))
-        self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull,
-                         <const e3d_viewport *>&viewport[0], <e3d_survivors *>&out[0])
+        for _ in range(self.rounds):
+            self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull,
+                             <const e3d_viewport *>&viewport[0], <e3d_survivors *>&out[0])
 
-    def raster_depth(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+    def raster_depth(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                      const uint32_t[::1] orders):
-        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
-        check_size(piece, sizeof(e3d_piece))
-        self.table.raster_depth(<const e3d_piece *>&piece[0], &tile)
+        """Here and in the next three, one piece after the other."""
+        raster(self.table.raster_depth, self.rounds, pieces, z, slot, orders)
 
-    def raster_overwrite(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+    def raster_overwrite(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                          const uint32_t[::1] orders):
-        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
-        check_size(piece, sizeof(e3d_piece))
-        self.table.raster_overwrite(<const e3d_piece *>&piece[0], &tile)
+        raster(self.table.raster_overwrite, self.rounds, pieces, z, slot, orders)
 
-    def raster_count(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+    def raster_count(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                      const uint32_t[::1] orders):
-        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
-        check_size(piece, sizeof(e3d_piece))
-        self.table.raster_count(<const e3d_piece *>&piece[0], &tile)
+        raster(self.table.raster_count, self.rounds, pieces, z, slot, orders)
 
-    def raster_mark(self, const uint8_t[::1] piece, float[::1] z, int32_t[::1] slot,
+    def raster_mark(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                     const uint32_t[::1] orders):
-        cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
-        check_size(piece, sizeof(e3d_piece))
-        self.table.raster_mark(<const e3d_piece *>&piece[0], &tile)
+        raster(self.table.raster_mark, self.rounds, pieces, z, slot, orders)
 
     def find_runs(self, const int32_t[::1] slot, int width, int height, uint8_t[::1] out):
         """``out`` has room for as many runs as the tile has samples, and one; returns how many."""
+        cdef int count = 0
         check_size(out, (E3D_TILE_SAMPLES + 1) * sizeof(e3d_run))
-        return self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
+        for _ in range(self.rounds):
+            count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
+        return count
 
     def interpolate(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted):
         check_size(batch, sizeof(e3d_batch))
-        self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], wanted)
+        for _ in range(self.rounds):
+            self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], wanted)
 
     def select_level(self, uint8_t[::1] batch, const uint8_t[::1] surfaces,
                      const uint16_t[::1] texels, const int32_t[:, ::1] sizes, int filter, int wrap):
         cdef e3d_texture_view view = texture_view(texels, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
-        self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], &view)
+        for _ in range(self.rounds):
+            self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], &view)
 
     def texture(self, uint8_t[::1] batch, const uint16_t[::1] texels, const int32_t[:, ::1] sizes,
                 int filter, int wrap):
         cdef e3d_texture_view view = texture_view(texels, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
-        self.table.texture(<e3d_batch *>&batch[0], &view)
+        for _ in range(self.rounds):
+            self.table.texture(<e3d_batch *>&batch[0], &view)
 
     def tint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, bint by_vertex, bint by_instance):
         check_size(batch, sizeof(e3d_batch))
-        self.table.tint(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], by_vertex,
-                        by_instance)
+        for _ in range(self.rounds):
+            self.table.tint(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], by_vertex,
+                            by_instance)
 
     def light(self, uint8_t[::1] batch, const uint8_t[::1] lights, const float[::1] ambient,
               const float[::1] clamp, const float[::1] eye, float shininess):
@@ -180,17 +188,37 @@ cdef class Kernels:
         memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
         memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
         memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
-        self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)
+        for _ in range(self.rounds):
+            self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)
 
     def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive):
         """``specular`` may be None."""
         check_size(batch, sizeof(e3d_batch))
-        self.table.combine(<e3d_batch *>&batch[0], NULL if specular is None else &specular[0],
-                           &emissive[0])
+        for _ in range(self.rounds):
+            self.table.combine(<e3d_batch *>&batch[0], NULL if specular is None else &specular[0],
+                               &emissive[0])
 
     def encode(self, const float[::1] red, const float[::1] green, const float[::1] blue, int count,
                bint srgb, uint32_t[::1] rgba):
-        self.table.encode(&red[0], &green[0], &blue[0], count, srgb, &rgba[0])
+        for _ in range(self.rounds):
+            self.table.encode(&red[0], &green[0], &blue[0], count, srgb, &rgba[0])
+
+
+ctypedef void (*raster_kernel)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+
+
+cdef int raster(raster_kernel kernel, int rounds, const uint8_t[::1] pieces, float[::1] z,
+                int32_t[::1] slot, const uint32_t[::1] orders) except -1:
+    cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
+    cdef Py_ssize_t count = pieces.shape[0] // <Py_ssize_t>sizeof(e3d_piece), number
+    check_size(pieces, <size_t>count * sizeof(e3d_piece))
+    if not count:
+        return 0
+    cdef const e3d_piece *first = <const e3d_piece *>&pieces[0]
+    for _ in range(rounds):
+        for number in range(count):
+            kernel(first + number, &tile)
+    return 0
 
 
 cdef e3d_texture_view texture_view(const uint16_t[::1] texels, const int32_t[:, ::1] sizes,

@@ -25,7 +25,9 @@ _Static_assert((long long)(E3D_TILE - 1) * 2 * E3D_SUBPIXEL * (2 * E3D_GUARD + E
                "edge functions of a tile fit 32-bit lanes");
 
 #define E3D_W_MIN 0x1p-20f      /* behind this the eye is too near: clipped away */
-#define E3D_WIRE_PULL 0x1p-12f  /* z_ndc by which wireframe edges are pulled towards the viewer */
+/* z_ndc by which wireframe edges are pulled towards the viewer: some times what rounding may part an edge
+ * from its own face (the face's slope is R36's affair); more would let hidden edges show through. */
+#define E3D_WIRE_PULL 0x1p-18f
 #define E3D_UNORM16 0x1.0001p-16f /* 1 / 65535 */
 #define E3D_UNORM8 0x1.010102p-8f /* 1 / 255 */
 

@@ -20,6 +20,10 @@ import numpy as np
 
 import engine3d as e3d
 from engine3d import linalg
+from engine3d.demos import load_demo
+from engine3d.display.opening import open_model
+from engine3d.display.settings import Settings
+from engine3d.display.studio import Studio
 
 FOLDER = Path(__file__).resolve().parent
 MODELS = files("engine3d.data") / "models"
@@ -151,7 +155,30 @@ def filters() -> np.ndarray:
     return sheet(tiles, 3)
 
 
-PICTURES = {"models": models, "modes": modes, "filters": filters}
+def scenes() -> np.ndarray:
+    """Three of the scenes of ``--scene``: point lights, the edges of a cube, its faces."""
+    tiles = []
+    for name, time in (("shapes", 1.1), ("edges", 0.9), ("faces", 2.1)):
+        with Studio(load_demo(name), Settings(look={}), (420, 280), samples=SAMPLES) as studio:
+            tiles.append((f"--scene {name}", studio.draw(studio.view(), time).color))
+    return sheet(tiles, 3)
+
+
+def viewer() -> np.ndarray:
+    """What the viewer's window shows: a model with its edges, grid, axes, what the file holds."""
+    settings = Settings(look={"wireframe": "overlay"}, grid=True, axes=True, metadata=True)
+    subject = open_model(MODELS / "train.asc")
+    with Studio(subject, settings, (1260, 600), samples=SAMPLES) as studio:
+        return studio.draw(studio.view()).color
+
+
+PICTURES = {
+    "models": models,
+    "modes": modes,
+    "filters": filters,
+    "scenes": scenes,
+    "viewer": viewer,
+}
 
 
 def save(picture: np.ndarray, path: Path) -> None:

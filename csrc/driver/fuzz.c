@@ -8,7 +8,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
-    run_plan plan = {.threads = {1, 2}, .thread_counts = 2};
+    run_plan plan = {.threads = {2}, .thread_counts = 1};
     for (int k = 0; k < E3D_BACKEND_COUNT; k++)
         plan.backends[k] = e3d_backend_available((e3d_backend)k);
     random_stream r = {.bytes = bytes, .byte_count = count};

@@ -23,6 +23,14 @@ class WorkBudget:
     def __init__(self, tests: int = 1_000_000) -> None:
         self.tests = tests
 
+    @classmethod
+    def for_file(cls, size: int) -> WorkBudget:
+        """Return the budget of a file of so many bytes.
+
+        One of up to a megabyte loads within two seconds, a larger one within ten.
+        """
+        return cls(1_000_000 if size <= 1 << 20 else 6_000_000)
+
     @property
     def is_spent(self) -> bool:
         return self.tests <= 0

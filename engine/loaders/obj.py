@@ -26,12 +26,6 @@ from .text import text_lines
 from .triangulation import Triangulation, triangulate
 from .warning_list import WarningList
 
-# The work that concave polygons may take: a file of up to a megabyte loads within two seconds, a
-# larger one within ten.
-_LARGE_FILE = 1 << 20
-_WORK = 1_000_000
-_WORK_FOR_LARGE_FILES = 6_000_000
-
 
 def read_obj(source: Source, split: bool = False) -> Document:
     """Read an OBJ file.
@@ -74,8 +68,7 @@ def _cut(source, statements, vertices: Vertices, faces: Elements, warnings) -> T
             f"{len(short)} faces of fewer than three corners are left out",
             statements.line(faces.statements[short[0]]),
         )
-    is_large = len(source.data) > _LARGE_FILE
-    budget = WorkBudget(_WORK_FOR_LARGE_FILES if is_large else _WORK)
+    budget = WorkBudget.for_file(len(source.data))
     cut = triangulate(faces.sizes, vertices.positions[faces.positions], budget)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")

@@ -1,6 +1,7 @@
 """Small files, damaged at random: each loads or raises an error of the project's own."""
 
 import random
+import struct
 import warnings
 
 import numpy as np
@@ -68,6 +69,38 @@ Smoothing:  2
 """
 TGA = bytes([2, 1, 9, 1, 0, 2, 0, 24, 0, 0, 0, 0, 4, 0, 2, 0, 8, 0x20]) + b"id"
 TGA += bytes([1, 2, 3, 4, 5, 6, 0x82, 1, 0x04, 1, 2, 1, 2, 1])
+PLY = b"""ply
+format ascii 1.0
+comment TextureFile house.tga
+element vertex 4
+property float x
+property float y
+property float z
+property uchar red
+property uchar green
+property uchar blue
+element face 2
+property list uchar int vertex_indices
+property list uchar float texcoord
+element edge 1
+property int vertex1
+property int vertex2
+end_header
+0 0 0 255 0 0
+1 0 0 255 0 0
+1 1 0 255 0 9
+0 1 0 255 0 9
+3 0 1 2 6 0 0 1 0 1 1
+4 0 1 2 3 8 0 0 1 0 1 1 0 1
+0 2
+"""
+BINARY_PLY = PLY[: PLY.index(b"end_header")].replace(b"ascii", b"binary_big_endian")
+BINARY_PLY += b"end_header\n" + b"".join(
+    struct.pack(">3f3B", *row)
+    for row in [(0, 0, 0, 9, 9, 9), (1, 0, 0, 9, 9, 9), (1, 1, 0, 9, 9, 9), (0, 1, 0, 9, 9, 9)]
+)
+BINARY_PLY += struct.pack(">B3iB6f", 3, 0, 1, 2, 6, 0, 0, 1, 0, 1, 1)
+BINARY_PLY += struct.pack(">B4iB8f2i", 4, 0, 1, 2, 3, 8, 0, 0, 1, 0, 1, 1, 0, 1, 0, 2)
 
 WORDS = [b"f ", b"v ", b"vt", b"/", b"-", b"\n", b"1e999", b"nan", b"\\\n", b"#", b"s 3\n"]
 WORDS += [b"usemtl q\n", b"mtllib .\n", b"99999999999", b"\xff", b"\0", b'"', b"o x\n"]
@@ -103,7 +136,15 @@ def check_mesh(path):
 
 
 @pytest.mark.parametrize(
-    ("name", "data"), [("house.obj", OBJ), ("house.mtl", MTL), ("a.asc", ASC), ("house.tga", TGA)]
+    ("name", "data"),
+    [
+        ("house.obj", OBJ),
+        ("house.mtl", MTL),
+        ("a.asc", ASC),
+        ("house.tga", TGA),
+        ("a.ply", PLY),
+        ("binary.ply", BINARY_PLY),
+    ],
 )
 def test_damaged_files_load_or_raise_our_own_error(write, name, data):
     whole = {"house.obj": OBJ, "house.mtl": MTL, "a.asc": ASC, "house.tga": TGA}

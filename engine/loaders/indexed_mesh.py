@@ -1,0 +1,144 @@
+"""A mesh from faces whose corners name one vertex each.
+
+In: vertices with their attributes, triangles of vertex indices, and what differs from corner to
+corner (texture coordinates) or from face to face (colours). Out: a `Mesh`, its vertices split where
+their corners differ; triangles keep their order. Vertices that nothing uses are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..mesh import Mesh
+from .smoothing import join_seams
+
+
+@dataclass
+class IndexedGeometry:
+    """What a mesh is made of.
+
+    Attributes
+    ----------
+    positions : (V, 3) float
+    corners : (T, 3) int
+        Vertex indices.
+    normals : (V, 3) float32 or None
+    uvs : (V, 2) float32 or None
+    colors : (V, 4) uint8 or float32, or None
+    corner_uvs : (T, 3, 2) float32 or None
+        Take the place of ``uvs``.
+    face_colors : (T, 4) uint8 or float32, or None
+        Count only without ``colors``.
+    lines : (L, 2) int or None
+    edge_visible : (T, 3) bool or None
+    """
+
+    positions: np.ndarray
+    corners: np.ndarray
+    normals: np.ndarray | None = None
+    uvs: np.ndarray | None = None
+    colors: np.ndarray | None = None
+    corner_uvs: np.ndarray | None = None
+    face_colors: np.ndarray | None = None
+    lines: np.ndarray | None = None
+    edge_visible: np.ndarray | None = None
+
+
+def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
+    """Return the mesh; vertices alone are a point cloud."""
+    corners, count = geometry.corners, len(geometry.positions)
+    lines = np.zeros((0, 2), np.int32) if geometry.lines is None else geometry.lines
+    if not len(corners) and not len(lines):
+        return Mesh(
+            geometry.positions,
+            normals=geometry.normals,
+            uvs=geometry.uvs,
+            colors=geometry.colors,
+            points=np.arange(count),
+            name=name,
+        )
+    of_corner = _corner_attributes(geometry)
+    faces, vertices, first_corner = _split(corners, of_corner, count)
+    split_count = len(vertices)
+    vertex_of, vertices = _vertices_for(lines.ravel(), vertices, count)
+    uvs, colors = (
+        None if array is None else array[vertices] for array in (geometry.uvs, geometry.colors)
+    )
+    added = len(vertices) - split_count
+    if "uvs" in of_corner:
+        uvs = _padded(of_corner["uvs"][first_corner], added, 0)
+    if "colors" in of_corner:
+        white = 255 if of_corner["colors"].dtype == np.uint8 else 1
+        colors = _padded(of_corner["colors"][first_corner], added, white)
+    mesh = Mesh(
+        geometry.positions[vertices],
+        faces,
+        normals=None if geometry.normals is None else geometry.normals[vertices],
+        uvs=uvs,
+        colors=colors,
+        lines=vertex_of.reshape(-1, 2),
+        edge_visible=geometry.edge_visible,
+        position_ids=vertices if of_corner else None,
+        name=name,
+    )
+    if not mesh.has_normals:
+        join_seams(mesh)
+    return mesh
+
+
+def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
+    """Attributes of all corners (3T, ...) that may split vertices."""
+    found = {}
+    if geometry.corner_uvs is not None:
+        found["uvs"] = geometry.corner_uvs.reshape(-1, 2)
+    if geometry.face_colors is not None and geometry.colors is None:
+        found["colors"] = np.repeat(geometry.face_colors, 3, axis=0)
+    return found
+
+
+def _split(corners: np.ndarray, of_corner: dict[str, np.ndarray], count: int):
+    """Faces, the old vertex of each new one, and a corner that each new one stands at."""
+    if not of_corner:
+        is_used = np.zeros(count, bool)
+        is_used[corners.ravel()] = True
+        if is_used.all():
+            return corners, np.arange(count), None
+        number = np.cumsum(is_used, dtype=np.int32) - 1
+        return number[corners], np.flatnonzero(is_used), None
+    keys = corners.ravel().astype(np.int64)
+    for attribute in of_corner.values():
+        kinds, number = _numbered_rows(attribute)
+        # Numbered anew each time, so that the product cannot overflow.
+        _, keys = np.unique(keys * kinds + number, return_inverse=True)
+        keys = keys.reshape(-1)
+    _, first, faces = np.unique(keys, return_index=True, return_inverse=True)
+    return faces.reshape(-1, 3), corners.ravel()[first], first
+
+
+def _numbered_rows(rows: np.ndarray) -> tuple[int, np.ndarray]:
+    """How many different rows there are, and the number of each row."""
+    if rows.dtype != np.uint8:
+        rows = rows + np.float32(0)  # -0 becomes 0
+    bits = np.ascontiguousarray(rows).view(np.uint8 if rows.itemsize == 1 else np.uint32)
+    number = np.zeros(len(rows), np.int64)
+    for column in bits.T:
+        values, index = np.unique(column, return_inverse=True)
+        _, number = np.unique(number * len(values) + index.reshape(-1), return_inverse=True)
+        number = number.reshape(-1)
+    return int(number.max(initial=0)) + 1, number
+
+
+def _vertices_for(used: np.ndarray, vertices: np.ndarray, count: int):
+    """For each old vertex in use a new one, and the list of new ones with those it lacked."""
+    vertex_of = np.full(count, -1, np.int32)
+    vertex_of[vertices[::-1]] = np.arange(len(vertices), dtype=np.int32)[::-1]
+    lacking = np.unique(used[vertex_of[used] < 0])
+    vertex_of[lacking] = len(vertices) + np.arange(len(lacking), dtype=np.int32)
+    return vertex_of[used], np.concatenate([vertices, lacking])
+
+
+def _padded(rows: np.ndarray, added: int, value) -> np.ndarray:
+    """Rows with some more of one value at the end."""
+    return np.concatenate([rows, np.full((added, *rows.shape[1:]), value, rows.dtype)])

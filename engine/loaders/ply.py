@@ -1,0 +1,96 @@
+"""Stanford PLY: meshes, point clouds and line segments, as text or binary of either byte order.
+
+In: the bytes of a file. Out: a `Document` of one object. The order of work: header, rows, vertices,
+faces, materials, and the vertices split where corners of one vertex differ in texture coordinate or
+colour. Elements and properties of no meaning here are skipped.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import FileFormatError
+from ..mesh import Mesh
+from .documents import Document, DocumentObject
+from .ear_clipping import WorkBudget
+from .indexed_mesh import IndexedGeometry, build_indexed_mesh
+from .ply_faces import PlyFaces, read_edges, read_faces, read_strips
+from .ply_header import is_ply, read_header
+from .ply_materials import material_ids, read_materials
+from .ply_stores import open_store
+from .ply_tables import PlyTable, read_tables
+from .ply_vertices import PlyVertices, read_vertices, usable_normals
+from .registry import Reader
+from .sources import Source
+from .warning_list import WarningList
+
+
+def read_ply(source: Source, split: bool = False) -> Document:
+    """Read a PLY file.
+
+    Parameters
+    ----------
+    source : Source
+    split : bool
+        Of no effect: the format knows one object.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    warnings = WarningList(source.path)
+    header = read_header(source, warnings)
+    tables = read_tables(source, header, open_store(source, header))
+    table = tables.get("vertex")
+    if table is None or not len(table):
+        raise FileFormatError("no vertices in this PLY file", source.path)
+    if not table.has("x", "y", "z"):
+        raise FileFormatError("the vertices have no x, y and z", source.path)
+    vertices = read_vertices(table)
+    count = len(table)
+    budget = WorkBudget.for_file(len(source.data))
+    faces = read_faces(tables.get("face"), vertices.positions, budget, warnings)
+    strips = read_strips(tables.get("tristrips"), count)
+    lines = read_edges(tables.get("edge"), count)
+    if len(strips) and not len(faces.corners):
+        faces = PlyFaces(strips)
+    has_uvs = vertices.uvs is not None or faces.uvs is not None
+    mesh = _mesh(vertices, faces, lines, source.stem)
+    mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
+    mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
+    counts = _counts(tables, vertices, faces, lines)
+    entry = DocumentObject(source.stem, mesh)
+    return Document("ply", [entry], counts=counts, warnings=warnings.messages())
+
+
+def _mesh(vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, name: str) -> Mesh:
+    geometry = IndexedGeometry(
+        vertices.positions,
+        faces.corners,
+        normals=usable_normals(vertices.normals, vertices.positions, faces.corners),
+        uvs=vertices.uvs,
+        colors=vertices.colors,
+        corner_uvs=faces.uvs,
+        face_colors=faces.colors,
+        lines=lines,
+        edge_visible=faces.edge_visible,
+    )
+    return build_indexed_mesh(geometry, name)
+
+
+def _counts(
+    tables: dict[str, PlyTable], vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray
+) -> dict:
+    given = (("uvs", vertices.uvs), ("normals", vertices.normals), ("colors", vertices.colors))
+    return {
+        "vertices": len(vertices.positions),
+        **{what: 0 if array is None else len(array) for what, array in given},
+        "faces": len(tables["face"]) if "face" in tables else 0,
+        "triangles": len(faces.corners),
+        "lines": len(lines),
+        "points": 0,
+        "elements": list(tables),
+    }
+
+
+READERS = (Reader("ply", "Stanford PLY", "mesh", (".ply",), read_ply, signature=is_ply),)

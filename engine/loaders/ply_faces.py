@@ -1,0 +1,154 @@
+"""The triangles and line segments of a PLY file.
+
+In: the tables of its elements. Out: arrays of checked vertex indices. Faces may have any number of
+corners, and texture coordinates for each corner; triangle strips and edges are read as well.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .ear_clipping import WorkBudget
+from .ply_tables import PlyList, PlyTable
+from .ply_vertices import finite_uvs, read_colors
+from .triangulation import triangulate
+from .warning_list import WarningList
+
+_INDEX_LISTS = ("vertex_indices", "vertex_index")
+_RESTART = -1
+
+
+class PlyFaces(NamedTuple):
+    """Triangles.
+
+    Attributes
+    ----------
+    corners : (T, 3) int32
+        Vertex indices.
+    uvs : (T, 3, 2) float32 or None
+        Texture coordinates of each corner.
+    colors : (T, 4) uint8 or float32, or None
+    textures : (T,) int64 or None
+        The number of each triangle's image.
+    edge_visible : (T, 3) bool or None
+    """
+
+    corners: np.ndarray
+    uvs: np.ndarray | None = None
+    colors: np.ndarray | None = None
+    textures: np.ndarray | None = None
+    edge_visible: np.ndarray | None = None
+
+
+def read_faces(
+    table: PlyTable | None, positions: np.ndarray, budget: WorkBudget, warnings: WarningList
+) -> PlyFaces:
+    """Read the element ``face``, polygons cut into triangles.
+
+    Raises
+    ------
+    FileFormatError
+        An index of a vertex that does not exist.
+    """
+    name = _index_list(table)
+    if name is None:
+        return PlyFaces(np.zeros((0, 3), np.int32))
+    outlines = table.list(name)
+    indices = _checked(table, outlines, len(positions))
+    short = np.flatnonzero(outlines.sizes < 3)
+    if len(short):
+        warnings.add(f"{len(short)} faces of fewer than three corners are left out")
+    cut = triangulate(outlines.sizes, positions[indices], budget)
+    if not cut.is_complete:
+        warnings.add("too many concave polygons: some are cut as if they were convex")
+    colors = read_colors(table)
+    textures = None
+    if table.has("texnumber"):
+        textures = np.nan_to_num(table.column("texnumber").astype(np.float64))[cut.polygons]
+    uvs = _corner_uvs(table, outlines.sizes, warnings)
+    return PlyFaces(
+        indices[cut.corners],
+        None if uvs is None else uvs[cut.corners],
+        None if colors is None else colors[cut.polygons],
+        textures,
+        cut.edge_visible,
+    )
+
+
+def read_strips(table: PlyTable | None, count: int) -> np.ndarray:
+    """Read the element ``tristrips``: triangles (T, 3) int32, those without area left out.
+
+    Every strip begins anew behind an index of -1, and winds its first triangle as it stands.
+    """
+    name = _index_list(table)
+    if name is None:
+        return np.zeros((0, 3), np.int32)
+    strips = table.list(name)
+    indices = _checked(table, strips, count, (_RESTART,))
+    number = np.arange(len(indices))
+    begins = np.zeros(len(indices), bool)
+    begins[(np.cumsum(strips.sizes) - strips.sizes)[strips.sizes > 0]] = True
+    begins[1:] |= indices[:-1] == _RESTART
+    within = number - np.maximum.accumulate(np.where(begins, number, 0))
+    first = np.flatnonzero((within >= 2) & (indices != _RESTART)) - 2
+    a, b, c = indices[first], indices[first + 1], indices[first + 2]
+    is_odd = within[first] % 2 == 1
+    triangles = np.stack([a, np.where(is_odd, c, b), np.where(is_odd, b, c)], axis=1)
+    return triangles[(a != b) & (b != c) & (c != a)]
+
+
+def read_edges(table: PlyTable | None, count: int) -> np.ndarray:
+    """Read the element ``edge``: line segments (L, 2) int32."""
+    if table is None or not table.has("vertex1", "vertex2"):
+        return np.zeros((0, 2), np.int32)
+    ends = table.columns("vertex1", "vertex2")
+    both = PlyList(np.full(len(ends), 2), ends.ravel())
+    return _checked(table, both, count).reshape(-1, 2)
+
+
+def _index_list(table: PlyTable | None) -> str | None:
+    if table is None or not len(table):
+        return None
+    for name in _INDEX_LISTS:
+        if table.has(name, lists=True):
+            return name
+    return None
+
+
+def _checked(table: PlyTable, found: PlyList, count: int, others: tuple = ()) -> np.ndarray:
+    """Vertex indices as int32; those in ``others`` are let through."""
+    values = found.values
+    wrong = ~((values >= 0) & (values < count))
+    for other in others:
+        wrong &= values != other
+    if values.dtype.kind == "f":
+        wrong |= values != np.floor(values)
+    if wrong.any():
+        item = int(wrong.argmax())
+        row = int(np.searchsorted(np.cumsum(found.sizes), item, side="right"))
+        value = values[item].item()
+        value = int(value) if float(value).is_integer() else value
+        table.fail(row, f"vertex index {value} is out of range, there are {count} vertices")
+    return values.astype(np.int32)
+
+
+def _corner_uvs(table: PlyTable, sizes: np.ndarray, warnings: WarningList) -> np.ndarray | None:
+    """The property ``texcoord`` of faces: two numbers a corner, (C, 2); None without it.
+
+    A face with another number of them has none, which counts as zero.
+    """
+    if not table.has("texcoord", lists=True):
+        return None
+    found = table.list("texcoord")
+    given = found.sizes == 2 * sizes
+    if given.all():
+        return finite_uvs(found.values.reshape(-1, 2))
+    if not (given & (sizes > 0)).any():
+        return None
+    warnings.add(f"{int((~given).sum())} faces without texture coordinates for all corners")
+    uvs = np.zeros((int(sizes.sum()), 2), np.float32)
+    values = found.values[np.repeat(given, found.sizes)].reshape(-1, 2)
+    uvs[np.repeat(given, sizes)] = finite_uvs(values)
+    return uvs

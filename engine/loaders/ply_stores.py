@@ -1,0 +1,159 @@
+"""The numbers in the body of a PLY file, reached by their place.
+
+In: the bytes of a file. Out: arrays of the numbers at given places. A place is a byte offset in a
+binary body, and the number of a word in a text body; everything else about the two is alike, so
+that `ply_tables` reads both in one way.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+import warnings
+from array import array
+
+import numpy as np
+
+from ..errors import FileFormatError
+from .number_arrays import parse_float
+from .ply_header import PlyHeader
+from .sources import Source
+from .text import shown
+
+_COMMENT = re.compile(rb"^[ \t]*(?:comment|obj_info)\b[^\r\n]*", re.MULTILINE)
+_WORD = re.compile(rb"\S+")
+_BLANKS = b" \t\r\n\v\f"
+
+
+class BinaryStore:
+    """The numbers of a binary body.
+
+    Attributes
+    ----------
+    start, end : int
+        The first place, and the one behind the last.
+    """
+
+    def __init__(self, source: Source, header: PlyHeader) -> None:
+        self._data = source.data
+        self._order = header.byte_order
+        self.start, self.end = header.body_start, len(source.data)
+
+    def size(self, code: str) -> int:
+        """Return how many places a number of a type takes."""
+        return int(code[1])
+
+    def counter(self, code: str):
+        """Return ``count(place) -> int``, which reads the length of a list."""
+        if code == "u1":
+            return self._data.__getitem__
+        unpack = struct.Struct(self._order + np.dtype(code).char).unpack_from
+        data = self._data
+        return lambda place: unpack(data, place)[0]
+
+    def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
+        """Return the numbers at ``places`` (any shape), all of which are inside."""
+        if not len(places):
+            return np.zeros(places.shape, code)
+        # A view of all numbers that begin at any byte.
+        count = self.end - self.size(code) + 1
+        every = np.ndarray((count,), self._order + code, self._data, 0, (1,))
+        return every[places].astype(code, copy=False)
+
+    def grid(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
+        """Return neighbouring numbers of rows that are ``stride`` apart, as a view."""
+        if 0 in shape:
+            return np.zeros(shape, code)
+        strides = (stride, self.size(code))
+        return np.ndarray(shape, self._order + code, self._data, start, strides)
+
+    def line(self, place: int) -> None:
+        """Binary files have no lines."""
+        return None
+
+    def describe(self, place: int) -> str:
+        """Return words for a place in a message."""
+        return f" at byte {place}"
+
+
+class TextStore:
+    """The numbers of a text body; comments may stand between its lines."""
+
+    def __init__(self, source: Source, header: PlyHeader) -> None:
+        body = source.data[header.body_start :]
+        if b"comment" in body or b"obj_info" in body:
+            body = _COMMENT.sub(b"", body)
+        self._body = body
+        self._first_line = header.body_line
+        self._path = source.path
+        self._values = self._parsed()
+        self._view = memoryview(self._values)
+        self.start, self.end = 0, len(self._values)
+
+    def _parsed(self) -> np.ndarray:
+        if not self._body.strip(_BLANKS):
+            return np.zeros(0, np.float64)
+        try:
+            # NumPy before 2.4 warns where later ones raise.
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", DeprecationWarning)
+                return np.fromstring(self._body, np.float64, sep=" ")
+        except (ValueError, DeprecationWarning):
+            return self._parsed_word_by_word()
+
+    def _parsed_word_by_word(self) -> np.ndarray:
+        """Read what else than NumPy's syntax is a number, or say where something isn't."""
+        values = array("d")
+        for match in _WORD.finditer(self._body):
+            word = match[0]
+            try:
+                values.append(parse_float(word.replace(b"_", b"?")))
+            except ValueError:
+                raise FileFormatError(
+                    f"not a number: {shown(word)}", self._path, self._line_at(match.start())
+                ) from None
+        return np.frombuffer(values, np.float64)
+
+    def size(self, code: str) -> int:
+        return 1
+
+    def counter(self, code: str):
+        view = self._view
+
+        def count(place: int) -> int:
+            value = view[place]
+            if not value.is_integer():
+                raise ValueError
+            return int(value)
+
+        return count
+
+    def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
+        return self._values[places]
+
+    def grid(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
+        if 0 in shape:
+            return np.zeros(shape, np.float64)
+        return np.ndarray(shape, np.float64, self._values, 8 * start, (8 * stride, 8))
+
+    def line(self, place: int) -> int:
+        """Return the line that a word stands in; the last one for places behind the end."""
+        position = len(self._body.rstrip(_BLANKS))
+        for number, match in enumerate(_WORD.finditer(self._body)):
+            if number == place:
+                position = match.start()
+                break
+        return self._line_at(position)
+
+    def describe(self, place: int) -> str:
+        return ""
+
+    def _line_at(self, position: int) -> int:
+        before = self._body[:position]
+        feeds, returns, pairs = (before.count(mark) for mark in (b"\n", b"\r", b"\r\n"))
+        return self._first_line + feeds + returns - pairs
+
+
+def open_store(source: Source, header: PlyHeader) -> BinaryStore | TextStore:
+    """Return the store for a file's body."""
+    return BinaryStore(source, header) if header.byte_order else TextStore(source, header)

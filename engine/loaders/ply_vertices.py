@@ -1,0 +1,110 @@
+"""The vertices of a PLY file: positions, normals, colours and texture coordinates.
+
+In: the table of the element ``vertex``. Out: arrays as a `Mesh` takes them. The names are those
+that programs in use write; properties with other names are left alone.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..normals import vertex_normals
+from .ply_tables import PlyTable
+
+_COLORS = (
+    ("red", "green", "blue"),
+    ("r", "g", "b"),
+    ("diffuse_red", "diffuse_green", "diffuse_blue"),
+)
+_ALPHAS = ("alpha", "a", "diffuse_alpha")
+_UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
+# Normals whose largest component is outside have no direction that float32 could tell.
+_SHORTEST, _LONGEST = 1e-15, 1e15
+
+
+class PlyVertices(NamedTuple):
+    """What a file says about its vertices.
+
+    Attributes
+    ----------
+    positions : (V, 3) float64
+    normals : (V, 3) float32 or None
+    colors : (V, 4) uint8 or float32, or None
+    uvs : (V, 2) float32 or None
+    """
+
+    positions: np.ndarray
+    normals: np.ndarray | None
+    colors: np.ndarray | None
+    uvs: np.ndarray | None
+
+
+def read_vertices(table: PlyTable) -> PlyVertices:
+    """Read the vertices; the table has ``x``, ``y`` and ``z``."""
+    positions = table.columns("x", "y", "z")
+    normals = None
+    if table.has("nx", "ny", "nz"):
+        with np.errstate(over="ignore"):
+            normals = table.columns("nx", "ny", "nz").astype(np.float32)
+    uvs = None
+    for names in _UVS:
+        if table.has(*names):
+            uvs = finite_uvs(table.columns(*names))
+            break
+    return PlyVertices(positions, normals, read_colors(table), uvs)
+
+
+def read_colors(table: PlyTable) -> np.ndarray | None:
+    """Read the colours of an element.
+
+    Returns
+    -------
+    colors : (N, 4) uint8 or float32, or None
+        Integers are display values and become sRGB bytes (16-bit ones are scaled), floats are
+        linear light. None if there are no colours.
+    """
+    names = next((names for names in _COLORS if table.has(*names)), None)
+    if names is None:
+        return None
+    alpha = next((name for name in _ALPHAS if table.has(name)), None)
+    values = table.columns(*names, *([alpha] if alpha else []))
+    kinds = {table.type(name) for name in names}
+    if any(kind.startswith("f") for kind in kinds):
+        with np.errstate(over="ignore"):
+            colors = np.ones((len(values), 4), np.float32)
+            colors[:, : values.shape[1]] = np.nan_to_num(values, nan=1.0)
+        return np.clip(colors, 0, np.finfo(np.float32).max, out=colors)
+    if kinds == {"u2"}:
+        values /= 257
+    colors = np.full((len(values), 4), 255, np.uint8)
+    scaled = np.clip(np.nan_to_num(values, nan=255.0), 0, 255)
+    colors[:, : values.shape[1]] = np.floor(scaled + 0.5)
+    return colors
+
+
+def finite_uvs(values: np.ndarray) -> np.ndarray:
+    """Return texture coordinates as float32, zero for what is not finite."""
+    with np.errstate(over="ignore"):
+        uvs = values.astype(np.float32)
+    uvs[~np.isfinite(uvs)] = 0
+    return uvs
+
+
+def usable_normals(
+    normals: np.ndarray | None, positions: np.ndarray, faces: np.ndarray
+) -> np.ndarray | None:
+    """Return normals with computed ones for those without a direction; None if all are."""
+    if normals is None:
+        return None
+    with np.errstate(invalid="ignore"):
+        largest = np.abs(normals).max(axis=1)
+        usable = (largest >= _SHORTEST) & (largest <= _LONGEST)
+    if usable.all():
+        return normals
+    if not usable.any():
+        return None
+    filled = normals.copy()
+    filled[~usable] = vertex_normals(positions.astype(np.float32), faces)[~usable]
+    return filled

@@ -10,8 +10,6 @@
 
 enum { ENCODE_SHIFT = 16, ENCODE_FIRST = 14592, ENCODE_BUCKETS = 1665, ENCODE_STEPS = 1 };
 
-/* SRGB_THRESHOLDS, and one that is never reached. */
-extern const float ENCODE_THRESHOLDS[256];
 extern const int32_t ENCODE_GUESS[ENCODE_BUCKETS];
 
 #endif

@@ -1,7 +1,7 @@
 /* encode: colours in [0, 1] to 8 bits (R34).
  *
  * The sRGB code is the number of thresholds <= v. A guess from the float's exponent and first mantissa
- * bits is at most two too small (encode_tables.h is made so), and is then counted up.
+ * bits is at most ENCODE_STEPS too small (encode_tables.h is made so), and is then counted up.
  */
 
 static inline vi32 encode_srgb(vf32 v)
@@ -10,7 +10,7 @@ static inline vi32 encode_srgb(vf32 v)
     bucket = v_mini(v_maxi(bucket, v_seti(0)), v_seti(ENCODE_BUCKETS - 1));
     vi32 code = v_gatheri(ENCODE_GUESS, bucket), one = v_seti(1), zero = v_seti(0);
     for (int step = 0; step < ENCODE_STEPS; step++) {
-        vf32 next = v_gatherf(ENCODE_THRESHOLDS, code);
+        vf32 next = v_gatherf(SRGB_THRESHOLDS, code);
         code = v_addi(code, v_seli(v_ge(v, next), one, zero));
     }
     return code;

@@ -4,6 +4,7 @@
 
 #include "core/fpenv.h"
 #include "core/encode_tables.h"
+#include "core/srgb_tables.h"
 #include "kernels/kernels.h"
 
 #include "kernels/generic/transform.inl"

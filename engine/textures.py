@@ -16,7 +16,7 @@ from .errors import InvalidArgumentError
 
 FILTERS = ("trilinear", "bilinear", "nearest")
 WRAPS = ("repeat", "clamp", "mirror")
-MAX_SIDE = 32768
+MAX_SIDE = 16384
 
 
 class Texture:
@@ -26,7 +26,7 @@ class Texture:
     ----------
     pixels : array-like of uint8
         (H, W) or (H, W, 1) grey, (H, W, 2) grey and alpha, (H, W, 3) RGB or (H, W, 4) RGBA; the
-        top row first. Sides from 1 to 32768.
+        top row first. Sides from 1 to 16384.
     color_space : {"srgb", "linear"}
         How the RGB bytes encode light; alpha is always linear.
     filter : {"trilinear", "bilinear", "nearest"}

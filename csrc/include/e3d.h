@@ -92,7 +92,7 @@ typedef struct e3d_level {
     int32_t width, height;
 } e3d_level;
 
-enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 32768 };
+enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 16384 };
 
 typedef struct e3d_texture_view {
     e3d_level levels[E3D_MAX_LEVELS];

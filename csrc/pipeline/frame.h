@@ -228,10 +228,14 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* The whole tile is background, without supersampling. */
+void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* outputs.c: the G-buffer */
 void e3d_outputs_begin(const e3d_context *context, const e3d_tile *tile);
 void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* ndc_depth of a tile without anything in it. */
+void e3d_outputs_no_depth(const e3d_context *context, const e3d_tile *tile);
 void e3d_outputs_depth(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile);
 
 static inline int64_t e3d_tile_count(const e3d_context *c) { return (int64_t)c->tiles_x * c->tiles_y; }

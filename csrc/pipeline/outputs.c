@@ -136,6 +136,15 @@ void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker, const e3d
     scatter_all(t->barycentric, batch, at, 3, batch->b);
 }
 
+void e3d_outputs_no_depth(const e3d_context *context, const e3d_tile *tile)
+{
+    float *target = context->targets->ndc_depth;
+    pixel_box box = pixels_of(context, tile);
+    for (int32_t y = 0; target && y < box.height; y++)
+        for (int32_t x = 0; x < box.width; x++)
+            target[(size_t)(box.y + y) * context->frame->width + box.x + x] = INFINITY;
+}
+
 void e3d_outputs_depth(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile)
 {
     float *target = context->targets->ndc_depth;

@@ -156,12 +156,15 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
+/* Writes whole fours, past the run's end: the next run, or padding, is written there afterwards. */
 static void append_run(e3d_batch *batch, const e3d_run *run)
 {
-    for (int i = 0; i < run->length; i++) {
-        batch->sample[batch->count + i] = run->sample + i;
-        batch->surface[batch->count + i] = run->owner;
-    }
+    int32_t *sample = batch->sample + batch->count, *surface = batch->surface + batch->count;
+    for (int i = 0; i < run->length; i += 4)
+        for (int k = 0; k < 4; k++) {
+            sample[i + k] = run->sample + i + k;
+            surface[i + k] = run->owner;
+        }
     batch->count += run->length;
 }
 

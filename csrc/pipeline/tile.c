@@ -268,6 +268,18 @@ static int draw_marks(tile_job *job)
     return 1;
 }
 
+static int is_empty(const tile_job *job)
+{
+    const e3d_renderer *renderer = job->context->renderer;
+    for (int32_t w = 0; w < renderer->threads; w++)
+        for (int pass = 0; pass < E3D_PASSES; pass++) {
+            const e3d_bin *bins = renderer->workers[w]->pass[pass].bins.data;
+            if (bins[job->number].first != E3D_NO_BLOCK)
+                return 0;
+        }
+    return 1;
+}
+
 static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
 {
     tile_job job = {.context = context, .worker = worker, .number = number};
@@ -276,6 +288,10 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     int32_t width = context->viewport.width - job.tile.x, height = context->viewport.height - job.tile.y;
     job.tile.width = width < E3D_TILE ? width : E3D_TILE;
     job.tile.height = height < E3D_TILE ? height : E3D_TILE;
+    if (context->frame->samples_axis == 1 && is_empty(&job)) {
+        e3d_resolve_empty(context, &job.tile);
+        return 1;
+    }
     e3d_resolve_begin(context, worker, &job.tile);
     if (!draw_scene(&job) || !draw_marks(&job))
         return 0;

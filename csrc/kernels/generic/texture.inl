@@ -144,23 +144,35 @@ static inline texture_levels texture_tabulate(const e3d_texture_view *view)
     return t;
 }
 
-static inline texel_lanes texture_at_level(const e3d_texture_view *view, const texture_levels *levels,
-                                           vi32 level, vf32 s, vf32 t)
+static inline texel_lanes texture_at_one(const e3d_texture_view *view, const texture_levels *levels,
+                                         int level, vf32 s, vf32 t)
 {
+    return texture_bilinear(view->levels[0].texels, v_seti(levels->start[level]),
+                            v_seti(levels->width[level]), v_seti(levels->height[level]), s, t,
+                            view->wrap);
+}
+
+/* Each lane at its own level; mostly all are at `guess`, and looking up is slow. */
+static inline texel_lanes texture_at_level(const e3d_texture_view *view, const texture_levels *levels,
+                                           vi32 level, int guess, vf32 s, vf32 t)
+{
+    if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
+        return texture_at_one(view, levels, guess, s, t);
     return texture_bilinear(view->levels[0].texels, v_gatheri(levels->start, level),
                             v_gatheri(levels->width, level), v_gatheri(levels->height, level), s, t,
                             view->wrap);
 }
 
 static inline texel_lanes texture_trilinear(const e3d_texture_view *view, const texture_levels *levels,
-                                            vi32 lod, vf32 s, vf32 t)
+                                            vi32 lod, int guess, vf32 s, vf32 t)
 {
+    int last = view->level_count - 1, next = guess < last ? guess + 1 : last;
     vi32 near = v_shr(lod, 8), weight = v_andi(lod, v_seti(255));
-    vi32 far = v_mini(v_addi(near, v_seti(1)), v_seti(view->level_count - 1));
-    texel_lanes a = texture_at_level(view, levels, near, s, t);
+    vi32 far = v_mini(v_addi(near, v_seti(1)), v_seti(last));
+    texel_lanes a = texture_at_level(view, levels, near, guess, s, t);
     if (!v_any(v_gti(weight, v_seti(0)))) /* (256 a + 128) >> 8 = a */
         return a;
-    texel_lanes b = texture_at_level(view, levels, far, s, t);
+    texel_lanes b = texture_at_level(view, levels, far, next, s, t);
     for (int k = 0; k < 3; k++)
         a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
     return a;
@@ -191,9 +203,10 @@ static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view)
         if (view->filter == E3D_NEAREST)
             texel = texture_nearest(&view->levels[0], s, t);
         else if (view->filter == E3D_BILINEAR)
-            texel = texture_at_level(view, &levels, v_seti(0), s, t);
+            texel = texture_at_one(view, &levels, 0, s, t);
         else
-            texel = texture_trilinear(view, &levels, load_level(batch, i, view->level_count), s, t);
+            texel = texture_trilinear(view, &levels, load_level(batch, i, view->level_count),
+                                      batch->lod[i] >> 8, s, t);
         for (int k = 0; k < 3; k++) {
             vf32 value = v_mul(v_float(texel.c[k]), v_setf(E3D_UNORM16));
             float *color = batch->color[k] + i;

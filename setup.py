@@ -78,6 +78,7 @@ def static_libraries():
         "e3d_core": ["csrc/core/*.c", "csrc/pipeline/*.c", "csrc/kernels/dispatch.c"],
         "e3d_reference": ["csrc/reference/*.c"],
         "e3d_canvas": ["csrc/canvas/*.c"],
+        "e3d_images": ["csrc/images/*.c"],
     }
     sources["e3d_core"].append("csrc/kernels/isa_portable.c")
     isa_flags = {}

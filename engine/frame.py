@@ -12,9 +12,9 @@ import os
 
 import numpy as np
 
+from ._native.images import encode_png
 from .atomic_write import atomic_write
 from .errors import InvalidArgumentError, MissingOutputError
-from .png import encode_png
 
 # Every output: dtype and number of channels (0: no third axis).
 OUTPUTS: dict[str, tuple[type, int]] = {
@@ -135,8 +135,8 @@ class Frame:
         path : str or path-like
             The suffix decides the format: .png, .jpg, .jpeg (no alpha), .tga or .webp (lossless).
         **options
-            Passed to Pillow's writer, such as ``quality=80``. A PNG without any is written here,
-            fast; ``compress_level=9`` makes it smaller.
+            Passed to Pillow's writer, such as ``quality=80``. A PNG without any is written by
+            the engine: fast, and the same bytes everywhere.
 
         Raises
         ------

@@ -10,11 +10,11 @@ packets across lines, maps of 15 and 16 bits, grey with alpha.
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from .._native.images import unpack_tga
 from ..errors import FileFormatError
 from .images import check_image_size
 from .registry import Reader
@@ -83,8 +83,9 @@ def read_tga(source: Source) -> np.ndarray:
     _check_length(source, header, start)
     pixels = np.empty((header.height, header.width, 4), np.uint8)
     flat = pixels.reshape(-1, 4)
-    done = 0
-    for block in _blocks(source, header, start):
+    stored = _stored_pixels(source, header, start, flat)
+    for done in range(0, len(flat), _BLOCK):
+        block = stored[done : done + _BLOCK]
         if header.kind == _MAPPED:
             rgba = _look_up(block, color_map, header, source.path)
         elif header.kind == _GREY:
@@ -92,7 +93,6 @@ def read_tga(source: Source) -> np.ndarray:
         else:
             rgba = _rgba(block, header.bits, has_alpha)
         flat[done : done + len(block)] = rgba
-        done += len(block)
     if attributes is None and not pixels[:, :, 3].any():
         pixels[:, :, 3] = 255
     _turn_upright(pixels, header)
@@ -177,65 +177,21 @@ def _check_length(source: Source, header: _Header, start: int) -> None:
         )
 
 
-def _blocks(source: Source, header: _Header, start: int) -> Iterator[np.ndarray]:
-    """The pixels as they are stored, (N, bytes a pixel) uint8, block by block."""
-    data = np.frombuffer(source.data, np.uint8)
-    size = header.pixel_bytes
-    count = header.width * header.height
+def _stored_pixels(source: Source, header: _Header, start: int, room: np.ndarray) -> np.ndarray:
+    """The pixels as they are stored, (N, bytes a pixel) uint8.
+
+    Run-length packets are unpacked to the end of ``room``, (N, 4). Pixels can take their place in
+    it from the first to the last: none lands behind the bytes that it is made of.
+    """
+    size, count = header.pixel_bytes, len(room)
     if not header.run_length:
-        stored = data[start : start + count * size].reshape(count, size)
-        for first in range(0, count, _BLOCK):
-            yield stored[first : first + _BLOCK]
-        return
-    packets = _find_packets(source, start, size, count)
-    lengths = (data[packets] & 127).astype(np.int64) + 1
-    ends = np.cumsum(lengths)
-    lengths[-1] -= ends[-1] - count
-    ends[-1] = count
-    first = 0
-    while first < len(packets):
-        done = ends[first - 1] if first else 0
-        last = max(int(np.searchsorted(ends, done + _BLOCK)), first + 1)
-        yield _expand(data, packets[first:last], lengths[first:last], size)
-        first = last
-
-
-def _find_packets(source: Source, start: int, size: int, count: int) -> np.ndarray:
-    """Offsets of the packets that hold ``count`` pixels; a last one that holds more may end so."""
-    data = source.data
-    packets: list[int] = []
-    note = packets.append
-    position, done, step = start, 0, 1 + size
-    try:
-        while done < count:
-            head = data[position]
-            note(position)
-            if head > 127:
-                position += step
-                done += head - 127
-            else:
-                position += step + head * size
-                done += head + 1
-    except IndexError:
-        raise FileFormatError(
-            f"cut short: {done} of {count} pixels are there", source.path
-        ) from None
-    # The bytes that the surplus pixels of the last packet would take need not be there.
-    surplus = 0 if data[packets[-1]] & 128 else (done - count) * size
-    if position - surplus > len(data):
-        raise FileFormatError("cut short inside a run-length packet", source.path)
-    return np.array(packets, np.int64)
-
-
-def _expand(data: np.ndarray, packets: np.ndarray, lengths: np.ndarray, size: int) -> np.ndarray:
-    """The pixels of some packets: the offset of each pixel's bytes, then the bytes."""
-    is_raw = data[packets] < 128
-    within = np.arange(lengths.sum()) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-    offsets = np.repeat(packets + 1, lengths) + within * np.repeat(is_raw * size, lengths)
-    pixels = np.empty((len(offsets), size), np.uint8)
-    for byte in range(size):
-        pixels[:, byte] = data[offsets + byte]
-    return pixels
+        data = np.frombuffer(source.data, np.uint8, count * size, start)
+        return data.reshape(count, size)
+    stored = room.reshape(-1)[count * (4 - size) :].reshape(count, size)
+    done = unpack_tga(memoryview(source.data)[start:], stored)
+    if done < count:
+        raise FileFormatError(f"cut short: {done} of {count} pixels are there", source.path)
+    return stored
 
 
 def _rgba(stored: np.ndarray, bits: int, has_alpha: bool) -> np.ndarray:

@@ -164,7 +164,7 @@ def test_a_large_run_length_image_equals_its_plain_form(pixels):
         (tga(1, 1, 1, 8, b"\x01", color_map=b"abc", map_of=(9, 1, 24)), "value 1 is outside"),
         (tga(2, 1, 1, 24, bytes(3), flags=0x40), "interleaved"),
         (tga(11, 4, 1, 8, bytes([0x81, 1])), "cut short: 2 of 4"),
-        (tga(11, 4, 1, 8, bytes([0x03, 1, 2, 3])), "inside a run-length packet"),
+        (tga(11, 4, 1, 8, bytes([0x03, 1, 2, 3])), "cut short: 3 of 4 pixels"),
     ],
 )
 def test_damaged_files_are_clear_errors(pixels, data, message):

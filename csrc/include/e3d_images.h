@@ -1,0 +1,28 @@
+/* Image files: the loops over bytes that Python is too slow for.
+ *
+ * In:  pixels, or the bytes of a file.
+ * Out: the bytes of a file, or pixels.
+ * Always: integers only, so the same pixels give the same file on every machine; nothing is read or
+ *      written outside the arrays given, whatever the bytes.
+ */
+#ifndef E3D_IMAGES_H
+#define E3D_IMAGES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Encodes RGBA pixels, top row first, as a PNG file.
+ *
+ * In:  width and height from 1 to 16384; the rows lie `stride` bytes apart.
+ * Out: *file is to be freed with free(); false, and nothing to free, if memory runs out. */
+bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
+                    uint8_t **file, size_t *size);
+
+/* Unpacks the run-length packets of a TGA file until `count` pixels of `pixel_bytes` (1 to 4) are
+ * there, into pixels[count * pixel_bytes]. Returns how many pixels the data held, at most `count`:
+ * fewer if it ends early. */
+size_t e3d_tga_unpack(const uint8_t *data, size_t length, int32_t pixel_bytes, uint8_t *pixels,
+                      size_t count);
+
+#endif

@@ -1,0 +1,48 @@
+# cython: boundscheck=False, wraparound=False, initializedcheck=False
+"""The gateway to the loops over image files in C: checks shapes, releases the GIL, makes one call.
+
+In:  pixels, or the bytes of a file.
+Out: the bytes of a file, or pixels.
+"""
+
+from cpython.bytes cimport PyBytes_FromStringAndSize
+from e3d_images cimport *
+from libc.stdint cimport int32_t, uint8_t
+from libc.stdlib cimport free
+
+from ..errors import InvalidArgumentError, OutOfMemoryError
+
+cdef int32_t MAX_SIDE = 16384
+
+
+def encode_png(const uint8_t[:, :, :] pixels not None):
+    """Return a PNG file of (H, W, 4) uint8 RGBA pixels, each side from 1 to 16384."""
+    cdef int32_t height = <int32_t>pixels.shape[0], width = <int32_t>pixels.shape[1]
+    if not (0 < pixels.shape[0] <= MAX_SIDE and 0 < pixels.shape[1] <= MAX_SIDE):
+        raise InvalidArgumentError(f"a side is from 1 to {MAX_SIDE} pixels")
+    if pixels.shape[2] != 4 or pixels.strides[2] != 1 or pixels.strides[1] != 4:
+        raise InvalidArgumentError("pixels must be (height, width, 4), each row contiguous")
+    cdef uint8_t *file = NULL
+    cdef size_t size = 0
+    cdef bint done
+    with nogil:
+        done = e3d_png_encode(&pixels[0, 0, 0], width, height, pixels.strides[0], &file, &size)
+    if not done:
+        raise OutOfMemoryError("no memory for a PNG file")
+    try:
+        return PyBytes_FromStringAndSize(<const char *>file, <Py_ssize_t>size)
+    finally:
+        free(file)
+
+
+def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None):
+    """Unpack run-length packets into (N, 1 to 4) uint8 pixels; return how many were there."""
+    cdef size_t count = pixels.shape[0], length = data.shape[0], done
+    if not 0 < pixels.shape[1] <= 4:
+        raise InvalidArgumentError("a pixel has 1 to 4 bytes")
+    if count == 0 or length == 0:
+        return 0
+    cdef int32_t pixel_bytes = <int32_t>pixels.shape[1]
+    with nogil:
+        done = e3d_tga_unpack(&data[0], length, pixel_bytes, &pixels[0, 0], count)
+    return done

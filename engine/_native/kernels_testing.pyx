@@ -193,10 +193,12 @@ cdef class Kernels:
 
     def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive):
         """``specular`` may be None."""
+        cdef const float *highlight = NULL
         check_size(batch, sizeof(e3d_batch))
+        if specular is not None:
+            highlight = &specular[0]
         for _ in range(self.rounds):
-            self.table.combine(<e3d_batch *>&batch[0], NULL if specular is None else &specular[0],
-                               &emissive[0])
+            self.table.combine(<e3d_batch *>&batch[0], highlight, &emissive[0])
 
     def encode(self, const float[::1] red, const float[::1] green, const float[::1] blue, int count,
                bint srgb, uint32_t[::1] rgba):

@@ -26,6 +26,18 @@ def test_lines():
         assert row["dda_ns_per_line"] > 0 and row["bresenham_ns_per_line"] > 0
 
 
+@pytest.mark.parametrize("suffix", ["svg", "png"])
+def test_simd_vs_scalar(tmp_path, suffix):
+    chart = tmp_path / f"chart.{suffix}"
+    quick = ["--repeats", "1", "--resolution", "32x18", "--plot", str(chart)]
+    backends = ["--backend", "scalar", "--backend", "portable"]
+    rows = report("simd_vs_scalar.py", *quick, *backends)["rows"]
+    assert len(rows) > 15 and chart.stat().st_size > 1000
+    for row in rows:
+        assert all(taken > 0 for taken in row["time"].values())
+        assert row["over"]["portable"]["portable"] == 1
+
+
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
 def test_compiler_flags():
     pytest.importorskip("setuptools")

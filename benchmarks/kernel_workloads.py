@@ -1,0 +1,186 @@
+"""Calls of single kernels to measure, made from fixed random numbers.
+
+In:  a `Kernels` object of engine3d._native.kernels_testing, with `rounds` calls at a time.
+Out: KERNEL_WORKLOADS, name -> (unit, maker); a maker returns (elements a round, function), and the
+     function takes a Kernels object and makes its rounds.
+
+The records of the kernels' structs, and the pieces of triangles, are those of the tests.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from engine3d._native.rasterizer import FILTERS, WRAPS
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "tests"))
+from kernels.layouts import (
+    BATCH,
+    BATCH_RECORD,
+    CLUSTER_TRIANGLES,
+    CLUSTER_VERTICES,
+    LIGHT,
+    PAD,
+    PIECE,
+    RUN,
+    SURFACE,
+    SURVIVORS,
+    TILE,
+    VERTICES,
+    viewport_of,
+)
+from kernels.pieces import Triangle, piece_of
+
+LANES = BATCH + PAD
+COLORS = 4096
+BEYOND_FAR = np.float32(1.0000001)
+
+
+def transform():
+    rng = np.random.default_rng(0)
+    positions = rng.uniform(-1, 1, 3 * CLUSTER_VERTICES).astype(np.float32)
+    matrix = np.array([1, 0.1, 0, 0, 0, 1, 0.2, 0, 0, 0, 1, 2, 0, 0.1, 1, 4], np.float32)
+    viewport, out = viewport_of(1280, 720).view(np.uint8), np.zeros(1, VERTICES).view(np.uint8)
+    arguments = (positions, CLUSTER_VERTICES, CLUSTER_VERTICES, matrix, viewport, out)
+    return CLUSTER_VERTICES, lambda kernels: kernels.transform(*arguments)
+
+
+def setup():
+    """Small triangles, half of which look away."""
+    rng = np.random.default_rng(1)
+    vertices = np.zeros(1, VERTICES)
+    for name, side in (("sx", 1280), ("sy", 720)):
+        vertices[name] = 128 * side + rng.integers(-2000, 2000, CLUSTER_VERTICES)
+    indices = rng.integers(0, CLUSTER_VERTICES, 3 * CLUSTER_TRIANGLES, np.uint8)
+    viewport, out = viewport_of(1280, 720).view(np.uint8), np.zeros(1, SURVIVORS).view(np.uint8)
+    arguments = (vertices.view(np.uint8), indices, CLUSTER_TRIANGLES, 1, viewport, out)
+    return CLUSTER_TRIANGLES, lambda kernels: kernels.setup(*arguments)
+
+
+def aligned(count, dtype):
+    """An array of 4-byte elements that starts at a cache line, as a tile's buffers do."""
+    room = np.empty(4 * count + 64, np.uint8)
+    start = -room.ctypes.data % 64
+    return room[start : start + 4 * count].view(dtype)
+
+
+def random_piece(rng, extent, least):
+    """A triangle of about `extent` samples somewhere in a tile, and how many it covers."""
+    rows, columns = np.mgrid[0:TILE, 0:TILE]
+    while True:
+        centre = rng.uniform(0, TILE, 2)
+        corners = (256 * (centre + rng.uniform(-extent, extent, (3, 2)))).astype(np.int64)
+        triangle = Triangle(corners[:, 0], corners[:, 1], TILE, TILE)
+        piece = None if triangle.empty else piece_of(triangle, 0, 0)
+        if piece is None:
+            continue
+        covered = int(triangle.covers(columns, rows).sum())
+        if covered >= least:
+            break
+    piece["z0"], piece["gx"], piece["gy"] = rng.random(), *rng.uniform(-0.01, 0.01, 2)
+    piece["zmin"], piece["zmax"] = -1, 1
+    return piece, covered
+
+
+def raster(extent, least, pieces_made, counted):
+    """Triangles over each other in a tile that is cleared first; `counted` are the elements."""
+    rng = np.random.default_rng(2)
+    made = [random_piece(rng, extent, least) for _ in range(pieces_made)]
+    pieces = np.concatenate([piece for piece, _ in made]).astype(PIECE)
+    pieces["slot"] = pieces["order"] = np.arange(pieces_made)
+    orders = np.arange(pieces_made, dtype=np.uint32)
+    z, slot = aligned(TILE * TILE + PAD, np.float32), aligned(TILE * TILE + PAD, np.int32)
+
+    def run(kernels):
+        rounds, kernels.rounds = kernels.rounds, 1
+        for _ in range(rounds):
+            z.fill(BEYOND_FAR)
+            slot.fill(-1)
+            kernels.raster_depth(pieces.view(np.uint8), z, slot, orders)
+        kernels.rounds = rounds
+
+    covered = sum(samples for _, samples in made)
+    return (covered if counted == "samples" else pieces_made), run
+
+
+def find_runs():
+    rng = np.random.default_rng(3)
+    slot = np.repeat(rng.integers(-1, 9, 700), 6)[: TILE * TILE + PAD].astype(np.int32)
+    out = np.zeros(TILE * TILE + 1, RUN).view(np.uint8)
+    return TILE * TILE, lambda kernels: kernels.find_runs(slot, TILE, TILE, out)
+
+
+def shading_inputs():
+    """A full batch of samples in runs of 16, and its surfaces."""
+    rng = np.random.default_rng(4)
+    surfaces = np.zeros(BATCH // 16 + 1, SURFACE)
+    for name in ("p", "position", "normal", "uv", "color", "instance_color"):
+        surfaces[name] = rng.uniform(0.1, 1, surfaces[name].shape)
+    for name in ("px", "py"):
+        surfaces[name] = rng.uniform(-1e-3, 1e-3, surfaces[name].shape)
+    batch = np.zeros(1, BATCH_RECORD)
+    batch["count"] = BATCH
+    batch["sample"] = np.arange(LANES)
+    batch["surface"] = np.arange(LANES) // 16
+    for name in ("b", "position", "normal", "uv", "energy", "shine"):
+        batch[name] = rng.uniform(0.05, 1, batch[name].shape)
+    batch["r"] = batch["color"] = 1
+    return rng, batch.view(np.uint8), surfaces.view(np.uint8)
+
+
+def interpolate():
+    _, batch, surfaces = shading_inputs()
+    return BATCH, lambda kernels: kernels.interpolate(batch, surfaces, 7)
+
+
+def textured(filter_name):
+    """Rough noise, read along a line as surfaces do."""
+    rng, batch, _ = shading_inputs()
+    sizes = np.array([(256, 256), (128, 128), (64, 64)], np.int32)
+    texels = rng.integers(0, 65536, 4 * 256 * 256 * 2, np.uint16)
+    fields = batch.view(BATCH_RECORD)
+    fields["uv"][0] = np.linspace(0.1, 1.3, LANES) + np.array([[0], [0.4]])
+    fields["lod"] = rng.integers(0, 512, LANES)
+    levels = sizes if filter_name == "trilinear" else sizes[:1]
+    arguments = (texels, levels, FILTERS[filter_name], WRAPS["repeat"])
+
+    def run(kernels):
+        fields["color"] = 1  # a product of thousands would be made of denormals
+        kernels.texture(batch, *arguments)
+
+    return BATCH, run
+
+
+def light():
+    rng, batch, _ = shading_inputs()
+    lights = np.zeros(3, LIGHT)
+    lights["kind"] = [0, 1, 1]
+    lights["color"], lights["range"] = 0.5, 100
+    lights["to_light"] = (0.36, 0.48, 0.8)
+    lights["position"] = rng.uniform(-4, 4, (3, 3))
+    ambient, clamp = np.full(3, 0.1, np.float32), np.array([0, np.inf], np.float32)
+    arguments = (batch, lights.view(np.uint8), ambient, clamp, np.float32([0, 0, 5, 1]), 32.0)
+    return BATCH, lambda kernels: kernels.light(*arguments)
+
+
+def encode():
+    rng = np.random.default_rng(5)
+    planes = [rng.random(COLORS + PAD, np.float32) for _ in range(3)]
+    rgba = np.empty(COLORS + PAD, np.uint32)
+    return COLORS, lambda kernels: kernels.encode(*planes, COLORS, True, rgba)
+
+
+KERNEL_WORKLOADS = {
+    "transform": ("vertex", transform),
+    "setup": ("triangle", setup),
+    "raster, whole tiles": ("sample", lambda: raster(4000.0, TILE * TILE, 100, "samples")),
+    "raster, big triangles": ("sample", lambda: raster(64.0, 400, 300, "samples")),
+    "raster, small triangles": ("triangle", lambda: raster(4.0, 0, 2000, "triangles")),
+    "runs": ("sample", find_runs),
+    "interpolate": ("sample", interpolate),
+    "texture, bilinear": ("sample", lambda: textured("bilinear")),
+    "texture, trilinear": ("sample", lambda: textured("trilinear")),
+    "light, 3 lights": ("sample", light),
+    "encode": ("pixel", encode),
+}

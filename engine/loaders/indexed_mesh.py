@@ -13,6 +13,7 @@ import numpy as np
 
 from ..mesh import Mesh
 from .smoothing import join_seams
+from .welding import number_rows
 
 
 @dataclass
@@ -109,25 +110,12 @@ def _split(corners: np.ndarray, of_corner: dict[str, np.ndarray], count: int):
         return number[corners], np.flatnonzero(is_used), None
     keys = corners.ravel().astype(np.int64)
     for attribute in of_corner.values():
-        kinds, number = _numbered_rows(attribute)
+        number, first = number_rows(attribute)
         # Numbered anew each time, so that the product cannot overflow.
-        _, keys = np.unique(keys * kinds + number, return_inverse=True)
+        _, keys = np.unique(keys * len(first) + number, return_inverse=True)
         keys = keys.reshape(-1)
     _, first, faces = np.unique(keys, return_index=True, return_inverse=True)
     return faces.reshape(-1, 3), corners.ravel()[first], first
-
-
-def _numbered_rows(rows: np.ndarray) -> tuple[int, np.ndarray]:
-    """How many different rows there are, and the number of each row."""
-    if rows.dtype != np.uint8:
-        rows = rows + np.float32(0)  # -0 becomes 0
-    bits = np.ascontiguousarray(rows).view(np.uint8 if rows.itemsize == 1 else np.uint32)
-    number = np.zeros(len(rows), np.int64)
-    for column in bits.T:
-        values, index = np.unique(column, return_inverse=True)
-        _, number = np.unique(number * len(values) + index.reshape(-1), return_inverse=True)
-        number = number.reshape(-1)
-    return int(number.max(initial=0)) + 1, number
 
 
 def _vertices_for(used: np.ndarray, vertices: np.ndarray, count: int):

@@ -7,6 +7,8 @@ column with NumPy; floats by Python's own conversion, which rounds correctly wha
 from __future__ import annotations
 
 import re
+import warnings
+from array import array
 
 import numpy as np
 
@@ -50,6 +52,54 @@ def parse_integers(
         values = np.where(inside, values * 10 + digit, values)
     values[count > _MAX_DIGITS] = OUT_OF_RANGE
     return np.where(is_negative, -values, values), sound
+
+
+_WORD = re.compile(rb"\S+")
+_BLANKS = b" \t\r\n\v\f"
+
+
+class NotANumberError(ValueError):
+    """Something else than a number stands in a text.
+
+    Attributes
+    ----------
+    word : bytes
+    position : int
+        Its offset in the text.
+    """
+
+    def __init__(self, word: bytes, position: int) -> None:
+        super().__init__(word, position)
+        self.word, self.position = word, position
+
+
+def parse_text(text: bytes) -> np.ndarray:
+    """Read a text of nothing but numbers and blanks: (N,) float64.
+
+    Raises
+    ------
+    NotANumberError
+    """
+    if not text.strip(_BLANKS):
+        return np.zeros(0, np.float64)
+    try:
+        # NumPy before 2.4 warns where later ones raise.
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", DeprecationWarning)
+            return np.fromstring(text, np.float64, sep=" ")
+    except (ValueError, DeprecationWarning):
+        # Either one of the few words that only Python takes for a number, or none at all.
+        return _parse_words(text)
+
+
+def _parse_words(text: bytes) -> np.ndarray:
+    values, match = array("d"), None
+    try:
+        for match in _WORD.finditer(text):
+            values.append(parse_float(match[0].replace(b"_", b"?")))
+    except ValueError:
+        raise NotANumberError(match[0], match.start()) from None
+    return np.frombuffer(values, np.float64)
 
 
 def parse_floats(words: list[bytes]) -> np.ndarray:

@@ -9,13 +9,11 @@ from __future__ import annotations
 
 import re
 import struct
-import warnings
-from array import array
 
 import numpy as np
 
 from ..errors import FileFormatError
-from .number_arrays import parse_float
+from .number_arrays import NotANumberError, parse_text
 from .ply_header import PlyHeader
 from .sources import Source
 from .text import shown
@@ -85,34 +83,14 @@ class TextStore:
             body = _COMMENT.sub(b"", body)
         self._body = body
         self._first_line = header.body_line
-        self._path = source.path
-        self._values = self._parsed()
+        try:
+            self._values = parse_text(body)
+        except NotANumberError as error:
+            raise FileFormatError(
+                f"not a number: {shown(error.word)}", source.path, self._line_at(error.position)
+            ) from None
         self._view = memoryview(self._values)
         self.start, self.end = 0, len(self._values)
-
-    def _parsed(self) -> np.ndarray:
-        if not self._body.strip(_BLANKS):
-            return np.zeros(0, np.float64)
-        try:
-            # NumPy before 2.4 warns where later ones raise.
-            with warnings.catch_warnings():
-                warnings.simplefilter("error", DeprecationWarning)
-                return np.fromstring(self._body, np.float64, sep=" ")
-        except (ValueError, DeprecationWarning):
-            return self._parsed_word_by_word()
-
-    def _parsed_word_by_word(self) -> np.ndarray:
-        """Read what else than NumPy's syntax is a number, or say where something isn't."""
-        values = array("d")
-        for match in _WORD.finditer(self._body):
-            word = match[0]
-            try:
-                values.append(parse_float(word.replace(b"_", b"?")))
-            except ValueError:
-                raise FileFormatError(
-                    f"not a number: {shown(word)}", self._path, self._line_at(match.start())
-                ) from None
-        return np.frombuffer(values, np.float64)
 
     def size(self, code: str) -> int:
         return 1

@@ -102,6 +102,20 @@ BINARY_PLY += b"end_header\n" + b"".join(
 BINARY_PLY += struct.pack(">B3iB6f", 3, 0, 1, 2, 6, 0, 0, 1, 0, 1, 1)
 BINARY_PLY += struct.pack(">B4iB8f2i", 4, 0, 1, 2, 3, 8, 0, 0, 1, 0, 1, 1, 0, 1, 0, 2)
 
+_FACET = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+_FACET += b"vertex 0 %d 0\nendloop\nendfacet\n"
+STL = b"solid roof\n" + _FACET % 1 + _FACET % 2 + b"endsolid roof\n"
+BINARY_STL = b"solid".ljust(80) + struct.pack("<I24fH", 1, *range(24), 0)[:54]
+OFF = b"""COFF
+4 2 0 # a roof
+0 0 0 255 0 0
+1 0 0 255 0 0
+1 1 0 255 0 9
+0 1 0 255 0 9
+3 0 1 2 .5 1 0
+4 0 1 2 3
+"""
+
 WORDS = [b"f ", b"v ", b"vt", b"/", b"-", b"\n", b"1e999", b"nan", b"\\\n", b"#", b"s 3\n"]
 WORDS += [b"usemtl q\n", b"mtllib .\n", b"99999999999", b"\xff", b"\0", b'"', b"o x\n"]
 WORDS += [b"Face 0:", b"Vertex 9:"]
@@ -144,6 +158,9 @@ def check_mesh(path):
         ("house.tga", TGA),
         ("a.ply", PLY),
         ("binary.ply", BINARY_PLY),
+        ("a.stl", STL),
+        ("binary.stl", BINARY_STL),
+        ("a.off", OFF),
     ],
 )
 def test_damaged_files_load_or_raise_our_own_error(write, name, data):

@@ -16,8 +16,8 @@ MIB = 1 << 20
 
 def test_formats_are_listed():
     names = {entry.name for entry in formats()}
-    assert {"obj", "asc", "ply", "tga", "png", "jpeg"} <= names
-    assert {entry.name for entry in formats("mesh")} >= {"obj", "asc", "ply"}
+    assert {"obj", "asc", "ply", "stl", "off", "tga", "png", "jpeg"} <= names
+    assert {entry.name for entry in formats("mesh")} >= {"obj", "asc", "ply", "stl", "off"}
     assert all(extension.startswith(".") for f in formats() for extension in f.extensions)
 
 

@@ -1,0 +1,36 @@
+"""Equal rows get equal numbers, also where the fast way to find them fails."""
+
+import numpy as np
+
+from engine3d.loaders import welding
+
+
+def expected(rows):
+    seen = {}
+    return [seen.setdefault(tuple(row), len(seen)) for row in (rows + 0).tolist()]
+
+
+def test_numbers_follow_the_first_appearance():
+    rows = np.random.default_rng(1).integers(0, 3, (500, 3)).astype(np.float32)
+    numbers, first = welding.number_rows(rows)
+    assert numbers.tolist() == expected(rows)
+    assert (rows[first][numbers] == rows).all()
+    assert (np.diff(first) > 0).all()
+
+
+def test_zeros_are_equal_and_nan_equals_itself():
+    rows = np.array([[0, np.nan], [-0.0, np.nan], [0, 1]], np.float32)
+    assert welding.number_rows(rows)[0].tolist() == [0, 0, 1]
+
+
+def test_colliding_keys(monkeypatch):
+    monkeypatch.setattr(welding, "_MIXERS", (0, 0, 0))
+    rows = np.random.default_rng(2).integers(0, 4, (200, 3)).astype(np.float32)
+    numbers, first = welding.number_rows(rows)
+    assert numbers.tolist() == expected(rows)
+    assert (rows[first][numbers] == rows).all()
+
+
+def test_nothing():
+    numbers, first = welding.number_rows(np.zeros((0, 4), np.uint8))
+    assert len(numbers) == len(first) == 0

@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import os
 import stat
-import tempfile
 from collections.abc import Iterator
 from typing import BinaryIO
 
@@ -53,7 +52,8 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
 @contextlib.contextmanager
 def _replaced_when_done(target: str) -> Iterator[BinaryIO]:
     folder, name = os.path.split(target)
-    handle, temporary = tempfile.mkstemp(prefix=f".{name[:64]}.", suffix=".part", dir=folder)
+    temporary = os.path.join(folder, f".{name[:64]}.{os.urandom(8).hex()}.part")
+    handle = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
     try:
         with os.fdopen(handle, "wb") as file:
             yield file

@@ -5,9 +5,9 @@ In: what ``-o`` was given. Out: the path, or a usage error that lists the extens
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 
 from .usage import UsageError
 
@@ -16,14 +16,14 @@ STANDARD_OUTPUT = "-"
 FEW_FRAMES = 8
 
 
-def check_extension(output: str, formats: Iterable[str], what: str) -> Path:
-    """Return ``output`` as a path, or raise `UsageError` if its extension names no format."""
-    path = Path(output)
-    if path.suffix.lower() not in tuple(formats):
-        named = f"{path.suffix!r} in {output!r}" if path.suffix else f"{output!r} has none and"
+def check_extension(output: str, formats: Iterable[str], what: str) -> str:
+    """Return the extension of ``output``, or raise `UsageError` if it names no format."""
+    extension = os.path.splitext(output)[1]
+    if extension.lower() not in tuple(formats):
+        named = f"{extension!r} in {output!r}" if extension else f"{output!r} has none and"
         known = ", ".join(formats)
         raise UsageError(f"{what} needs one of the extensions {known}; {named} is not one of them")
-    return path
+    return extension
 
 
 def check_standard_output() -> None:

@@ -67,9 +67,9 @@ def _check(args: argparse.Namespace) -> None:
     if args.output == STANDARD_OUTPUT:
         check_standard_output()
         return
-    path = check_extension(args.output, PICTURE_SUFFIXES, "a picture")
-    if args.no_background and path.suffix.lower() in OPAQUE_SUFFIXES:
-        raise UsageError(f"--no-background needs transparency, which {path.suffix} lacks")
+    extension = check_extension(args.output, PICTURE_SUFFIXES, "a picture")
+    if args.no_background and extension.lower() in OPAQUE_SUFFIXES:
+        raise UsageError(f"--no-background needs transparency, which {extension} lacks")
 
 
 def _write_turntable(args: argparse.Namespace, studio: Studio, view) -> None:

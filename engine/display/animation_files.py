@@ -7,12 +7,16 @@ renamed when complete. Pillow encodes; it loads when something is written. Pictu
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..atomic_write import atomic_write
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 #: The extensions of pictures, which `Frame.save` writes.
 PICTURE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tga", ".webp")
@@ -42,7 +46,7 @@ def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float)
     FileAccessError
         The file cannot be written.
     """
-    image_format = ANIMATION_FORMATS[Path(path).suffix.lower()]
+    image_format = ANIMATION_FORMATS[os.path.splitext(path)[1].lower()]
     images = (_image(pixels) for pixels in pictures)
     if image_format == "GIF":
         images = (_with_palette(image) for image in images)
@@ -60,7 +64,7 @@ def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float)
 def numbered_path(folder: Path, stem: str, suffix: str) -> Path:
     """Return ``folder/stem-NNN.suffix`` with the first number that no file bears."""
     number = 1
-    while (path := Path(folder) / f"{stem}-{number:03d}{suffix}").exists():
+    while (path := folder / f"{stem}-{number:03d}{suffix}").exists():
         number += 1
     return path
 

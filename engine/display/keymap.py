@@ -6,11 +6,10 @@ live in `fps`. Digits also answer by position, for keyboards that type them with
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True)
-class Binding:
+class Binding(NamedTuple):
     """Keys that call one action of `viewer_actions`, and the words the help shows for it."""
 
     keys: tuple[str, ...]

@@ -6,7 +6,7 @@ neutral background, the up direction usual for the format, and the file's counts
 
 from __future__ import annotations
 
-from pathlib import Path
+import os
 
 from ..loaders import companion_texture, load_document, load_texture
 from ..materials import Material
@@ -40,7 +40,7 @@ def open_model(path, *, texture=None, color=None) -> Subject:
     FileFormatError, FileAccessError
         The file (or the texture asked for) cannot be read.
     """
-    path = Path(path)
+    path = os.fspath(path)
     document = load_document(path)
     bare = [mesh for _, mesh, _ in document.objects if not has_materials(mesh)]
     if bare:
@@ -50,8 +50,8 @@ def open_model(path, *, texture=None, color=None) -> Subject:
     scene.background = BACKGROUND
     return Subject(
         scene,
-        path.name,
-        up="+Z" if path.suffix.lower() in Z_UP_SUFFIXES else "+Y",
+        os.path.basename(path),
+        up="+Z" if path.lower().endswith(Z_UP_SUFFIXES) else "+Y",
         path=path,
         details=document_lines(document),
         warnings=list(document.warnings),

@@ -5,8 +5,6 @@ In: a `Subject`, a size, a `Look`, a `Viewpoint`. Out: a `Frame`, with guides an
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from .. import linalg
@@ -15,7 +13,6 @@ from .extent import turning_outline
 from .guides import grid
 from .lighting import Lighting, PlacedLight
 from .look import Look
-from .overlay import draw_axes, draw_block
 from .settings import Settings
 from .subject import Subject
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
@@ -152,19 +149,23 @@ class Studio:
         camera = view.camera(self._clip_bounds())
         frame = self.renderer.render(self.subject.scene, (camera, pose), **self.look.arguments())
         if self.settings.axes or self.settings.metadata:
-            canvas = frame.canvas()
-            if self.settings.axes:
-                draw_axes(canvas, view)
-            if self.settings.metadata:
-                draw_block(canvas, self.metadata(), corner="top right")
+            self._draw_overlays(frame.canvas(), view)
         return frame
+
+    def _draw_overlays(self, canvas, view: Viewpoint) -> None:
+        from .overlay import draw_axes, draw_block
+
+        if self.settings.axes:
+            draw_axes(canvas, view)
+        if self.settings.metadata:
+            draw_block(canvas, self.metadata(), corner="top right")
 
     def _clip_bounds(self) -> Sphere:
         """Return what the clip planes must enclose: animated parts and the grid included."""
         margin = 1.0 if self.subject.update is None else 1.6
         if self.settings.grid:
             margin = max(margin, 3.2)
-        return replace(self.bounds, radius=self.bounds.radius * margin)
+        return self.bounds._replace(radius=self.bounds.radius * margin)
 
     def metadata(self) -> list[str]:
         """Return what the subject's file holds, line by line."""

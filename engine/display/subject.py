@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 
@@ -45,7 +44,7 @@ class Subject:
         Points that the first view shows, in world space; by default all of the scene.
     look : dict
         Fields of `Look` that this scene wants unless the user says otherwise.
-    path : Path or None
+    path : str or None
         The file it came from.
     details : list of str
         What the file holds, line by line, for the metadata overlay.
@@ -63,7 +62,7 @@ class Subject:
     plays: bool = False
     focus: np.ndarray | None = None
     look: dict = field(default_factory=dict)
-    path: Path | None = None
+    path: str | None = None
     details: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,8 +42,7 @@ NEAR_SHARE = 0.05
 MINIMUM_STEPS = 18
 
 
-@dataclass(frozen=True)
-class Sphere:
+class Sphere(NamedTuple):
     """A bounding sphere: ``center`` (3,) and ``radius`` > 0, in world space."""
 
     center: tuple[float, float, float]

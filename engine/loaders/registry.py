@@ -2,7 +2,8 @@
 
 A format is a module of this package with a tuple ``READERS``; adding the file registers it. The
 choice goes by the first bytes where a format has a signature, then by the extension, then by a look
-at the text of a file whose extension says nothing.
+at the text of a file whose extension says nothing. A module that bears the name of the extension is
+tried alone before all are imported.
 """
 
 from __future__ import annotations
@@ -10,9 +11,7 @@ from __future__ import annotations
 import functools
 import importlib
 import os
-import pkgutil
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..errors import FileFormatError
@@ -21,8 +20,7 @@ from .sources import Source
 SNIFFED_BYTES = 4096
 
 
-@dataclass(frozen=True)
-class Reader:
+class Reader(NamedTuple):
     """One format that can be read.
 
     Attributes
@@ -63,6 +61,8 @@ class Format(NamedTuple):
 @functools.cache
 def readers() -> tuple[Reader, ...]:
     """Return all readers of this package, sorted by name."""
+    import pkgutil
+
     package = importlib.import_module(__package__)
     found: list[Reader] = []
     for module in pkgutil.iter_modules(package.__path__, __package__ + "."):
@@ -95,6 +95,9 @@ def find_reader(source: Source, kind: str) -> Reader:
     """
     head = source.data[:SNIFFED_BYTES]
     extension = os.path.splitext(source.path)[1].lower()
+    namesake = _namesake(extension, kind)
+    if namesake is not None and _recognises(namesake, head):
+        return namesake
     candidates = [reader for reader in readers() if reader.kind == kind]
     for reader in candidates:
         if reader.signature is not None and reader.signature(head):
@@ -107,3 +110,22 @@ def find_reader(source: Source, kind: str) -> Reader:
             return reader
     known = ", ".join(sorted(e for reader in candidates for e in reader.extensions))
     raise FileFormatError(f"unknown {kind} format {extension!r} (known: {known})", source.path)
+
+
+def _namesake(extension: str, kind: str) -> Reader | None:
+    """The reader of an extension in the module of that name, without importing the others."""
+    if not extension[1:].isidentifier():
+        return None
+    try:
+        module = importlib.import_module(extension, __package__)
+    except ModuleNotFoundError:
+        return None
+    for reader in getattr(module, "READERS", ()):
+        if reader.kind == kind and extension in reader.extensions:
+            return reader
+    return None
+
+
+def _recognises(reader: Reader, head: bytes) -> bool:
+    looks = (reader.signature, reader.resembles)
+    return any(look is not None and look(head) for look in looks)

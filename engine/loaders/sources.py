@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import os
 import stat
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..errors import FileAccessError
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """A file's content.
 
     Attributes

@@ -8,6 +8,7 @@ and the core, loads only when it runs.
 from __future__ import annotations
 
 import argparse
+import gc
 import os
 import sys
 
@@ -51,7 +52,8 @@ def _run(args: argparse.Namespace) -> int:
 
     try:
         with _short_warnings():
-            status = args.command(args)
+            command = _load(args)
+            status = command(args)
         sys.stdout.flush()
         return status
     except BrokenPipeError:
@@ -64,6 +66,18 @@ def _run(args: argparse.Namespace) -> int:
         return _fail(_one_line(error))
     except MemoryError:
         return _fail("out of memory")
+
+
+def _load(args: argparse.Namespace):
+    """Import the command; what is imported stays, so no garbage is looked for meanwhile."""
+    if "numpy" in sys.modules:
+        return args.load_command()
+    gc.disable()
+    try:
+        return args.load_command()
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 def _one_line(error: Exception) -> str:

@@ -1,6 +1,6 @@
-"""The parser of the command line: commands, and the functions that run them.
+"""The parser of the command line: commands, and where the functions are that run them.
 
-The functions here only import the command's module and call it, so that ``--help`` is quick.
+A command's module is imported only when it runs, so that ``--help`` is quick.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from . import options
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """Return the parser of ``engine3d``; a parsed command has its function in ``command``."""
+    """Return the parser; ``load_command()`` of what it parsed returns the command's function."""
     parser = argparse.ArgumentParser(
         prog="engine3d",
         description="Draw 3D models on the CPU: in a window, or to a file where there is none.",
@@ -36,7 +36,7 @@ def _add_run(commands) -> None:
         description="Show a model or a scene in a window. H in the window lists the keys.",
         allow_abbrev=False,
     )
-    command.set_defaults(command=_run)
+    command.set_defaults(load_command=_load_run)
     options.add_subject(command)
     options.add_run(command)
     _add_shared(command)
@@ -50,7 +50,7 @@ def _add_render(commands) -> None:
         "--turntable, to an animation (GIF, WebP, APNG).",
         allow_abbrev=False,
     )
-    command.set_defaults(command=_render)
+    command.set_defaults(load_command=_load_render)
     options.add_subject(command)
     options.add_render(command)
     _add_shared(command)
@@ -70,27 +70,27 @@ def _add_info(commands) -> None:
         description="Print the lists that a model file holds, its bounds and its warnings.",
         allow_abbrev=False,
     )
-    command.set_defaults(command=_info)
+    command.set_defaults(load_command=_load_info)
     command.add_argument("model", metavar="MODEL", help="the file")
     command.add_argument("--json", action="store_true", help="print JSON")
 
 
-def _run(args: argparse.Namespace) -> int:
+def _load_run():
     from .run import run
 
-    return run(args)
+    return run
 
 
-def _render(args: argparse.Namespace) -> int:
+def _load_render():
     from .render import render
 
-    return render(args)
+    return render
 
 
-def _info(args: argparse.Namespace) -> int:
+def _load_info():
     from .info import info
 
-    return info(args)
+    return info
 
 
 class _ListReaders(argparse.Action):

@@ -8,6 +8,7 @@ rolls) is translated here.
 from __future__ import annotations
 
 import os
+from typing import BinaryIO
 
 import numpy as np
 
@@ -19,13 +20,15 @@ from .loaders import CameraRecord, Document, LightRecord, load_document
 from .scene import Scene
 
 
-def load_scene(path: str | os.PathLike) -> Scene:
+def load_scene(path: str | os.PathLike | bytes | BinaryIO, *, format: str | None = None) -> Scene:
     """Read a file with all its objects, lights and cameras.
 
     Parameters
     ----------
-    path : str or path-like
-        A file of any mesh format.
+    path : str, path-like, bytes or binary file object
+        A file of any mesh format; as in `load_mesh`.
+    format : str, optional
+        The format's name, such as ``"asc"``. Left out, it is told by the content and the name.
 
     Returns
     -------
@@ -34,9 +37,9 @@ def load_scene(path: str | os.PathLike) -> Scene:
 
     Raises
     ------
-    FileFormatError, FileAccessError
+    FileFormatError, FileAccessError, InvalidArgumentError
     """
-    return scene_from_document(load_document(path))
+    return scene_from_document(load_document(path, format=format))
 
 
 def scene_from_document(document: Document) -> Scene:

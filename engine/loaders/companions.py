@@ -9,6 +9,7 @@ import os
 
 from .linked_files import LinkedFileError, LinkedFiles
 from .registry import formats
+from .sources import stem_and_extension
 
 _SUFFIXES = ("", "_diffuse", "_texture", "_color", "_albedo", "_basecolor")
 _PREFERRED = (".tga", ".png", ".jpg", ".jpeg")
@@ -28,8 +29,8 @@ def companion_texture(path: str | os.PathLike) -> str | None:
         The first that exists of ``head``, ``head_diffuse``, ``head_texture``, ``head_color``,
         ``head_albedo``, ``head_basecolor``, each as TGA, PNG, JPEG and then the other formats.
     """
-    folder, name = os.path.split(os.fspath(path))
-    stem = os.path.splitext(name)[0]
+    folder = os.path.dirname(os.fspath(path))
+    stem = stem_and_extension(os.fspath(path))[0]
     try:
         present = {entry.lower(): entry for entry in sorted(os.listdir(folder or "."))}
     except OSError:

@@ -25,13 +25,13 @@ class LinkedFiles:
 
     Parameters
     ----------
-    root : str
-        The model's folder, which no name may leave.
+    root : str or None
+        The model's folder, which no name may leave; None if it has none, being no file.
     """
 
-    def __init__(self, root: str) -> None:
+    def __init__(self, root: str | None) -> None:
         self.root = root
-        self._real_root = os.path.realpath(root)
+        self._real_root = None if root is None else os.path.realpath(root)
         self._listings: dict[str, dict[str, str]] = {}
         self._failures = 0
 
@@ -50,6 +50,8 @@ class LinkedFiles:
         ------
         LinkedFileError
         """
+        if self.root is None:
+            raise LinkedFileError("not looked for, the model is in no folder")
         if self._failures >= _MAX_FAILURES:
             raise LinkedFileError("not looked for, too many files are missing")
         try:

@@ -4,22 +4,29 @@ from __future__ import annotations
 
 import os
 import warnings
+from typing import BinaryIO
 
 from ..errors import Engine3DWarning, FileFormatError
 from ..mesh import Mesh
 from ..textures import Texture
 from .documents import Document
 from .registry import find_reader
-from .sources import read_source
+from .sources import Source, read_source
+
+File = str | os.PathLike | bytes | BinaryIO
 
 
-def load_mesh(path: str | os.PathLike) -> Mesh:
+def load_mesh(path: File, *, format: str | None = None) -> Mesh:
     """Load a model as one mesh with its materials, in the file's coordinates.
 
     Parameters
     ----------
-    path : str or path-like
-        See `engine3d.loaders.formats` for what can be read.
+    path : str, path-like, bytes or binary file object
+        See `engine3d.loaders.formats` for what can be read. Files compressed by gzip are unpacked.
+        Bytes are the content itself; what is not in a folder finds no material libraries and
+        textures.
+    format : str, optional
+        The format's name, such as ``"obj"``. Left out, it is told by the content and the name.
 
     Returns
     -------
@@ -34,30 +41,35 @@ def load_mesh(path: str | os.PathLike) -> Mesh:
         The file cannot be read.
     FileFormatError
         It is damaged or in a format that is not known; the message names file and line.
+    InvalidArgumentError
+        There is no such ``format``, or ``path`` is none of these things.
     """
-    document = _read_document(path, split=False)
+    source = read_source(path)
+    document = _read_document(source, format, split=False)
     meshes = [entry.mesh for entry in document.objects]
     mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
-    mesh.name = mesh.name or os.path.splitext(os.path.basename(os.fspath(path)))[0]
+    mesh.name = mesh.name or source.stem
     mesh.warnings = list(document.warnings)
     return mesh
 
 
-def load_document(path: str | os.PathLike) -> Document:
+def load_document(path: File, *, format: str | None = None) -> Document:
     """Load everything that a model file holds: its objects one by one, lights and cameras.
 
     Parameters and exceptions are those of `load_mesh`.
     """
-    return _read_document(path, split=True)
+    return _read_document(read_source(path), format, split=True)
 
 
-def load_texture(path: str | os.PathLike, **options) -> Texture:
+def load_texture(path: File, *, format: str | None = None, **options) -> Texture:
     """Load an image as a texture.
 
     Parameters
     ----------
-    path : str or path-like
-        TGA, PNG, JPEG and whatever else Pillow reads.
+    path : str, path-like, bytes or binary file object
+        TGA, PNG, JPEG and whatever else Pillow reads. Bytes are the content itself.
+    format : str, optional
+        The format's name, such as ``"tga"``. Left out, it is told by the content and the name.
     **options
         Passed on to `Texture`: ``color_space``, ``filter``, ``wrap``, ``name``.
 
@@ -67,16 +79,17 @@ def load_texture(path: str | os.PathLike, **options) -> Texture:
         The file cannot be read.
     FileFormatError
         It is damaged, too large, or no image.
+    InvalidArgumentError
+        There is no such ``format``, or ``path`` is none of these things.
     """
     source = read_source(path)
-    pixels = find_reader(source, "image").read(source)
-    options.setdefault("name", os.path.basename(source.path))
+    pixels = find_reader(source, "image", format).read(source)
+    options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
     return Texture(pixels, **options)
 
 
-def _read_document(path, *, split: bool) -> Document:
-    source = read_source(path)
-    reader = find_reader(source, "mesh")
+def _read_document(source: Source, format: str | None, *, split: bool) -> Document:
+    reader = find_reader(source, "mesh", format)
     try:
         document = reader.read(source, split=split)
     except MemoryError as error:

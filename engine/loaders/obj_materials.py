@@ -80,7 +80,7 @@ def give_companion_texture(
     source: Source, materials: list[Material], warnings: WarningList
 ) -> None:
     """Paint materials with the image that bears the model's name, if there is one."""
-    path = companion_texture(source.path)
+    path = companion_texture(source.path) if source.has_name else None
     if path is None:
         return
     try:

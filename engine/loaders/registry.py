@@ -10,11 +10,10 @@ from __future__ import annotations
 
 import functools
 import importlib
-import os
 from collections.abc import Callable
 from typing import NamedTuple
 
-from ..errors import FileFormatError
+from ..errors import FileFormatError, InvalidArgumentError
 from .sources import Source
 
 SNIFFED_BYTES = 4096
@@ -85,31 +84,43 @@ def formats(kind: str | None = None) -> list[Format]:
     ]
 
 
-def find_reader(source: Source, kind: str) -> Reader:
+def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
     """Return the reader for a file.
+
+    Parameters
+    ----------
+    source : Source
+    kind : {"mesh", "image"}
+    name : str, optional
+        The format, whatever the file looks like.
 
     Raises
     ------
     FileFormatError
         No format of this kind fits.
+    InvalidArgumentError
+        No format of this kind has that name.
     """
     head = source.data[:SNIFFED_BYTES]
-    extension = os.path.splitext(source.path)[1].lower()
-    namesake = _namesake(extension, kind)
-    if namesake is not None and _recognises(namesake, head):
+    namesake = _namesake(source.extension, kind)
+    if name is None and namesake is not None and _recognises(namesake, head):
         return namesake
     candidates = [reader for reader in readers() if reader.kind == kind]
+    if name is not None:
+        return _by_name(candidates, name, kind)
     for reader in candidates:
         if reader.signature is not None and reader.signature(head):
             return reader
     for reader in candidates:
-        if extension in reader.extensions:
+        if source.extension in reader.extensions:
             return reader
     for reader in candidates:
         if reader.resembles is not None and reader.resembles(head):
             return reader
     known = ", ".join(sorted(e for reader in candidates for e in reader.extensions))
-    raise FileFormatError(f"unknown {kind} format {extension!r} (known: {known})", source.path)
+    raise FileFormatError(
+        f"unknown {kind} format {source.extension!r} (known: {known})", source.path
+    )
 
 
 def _namesake(extension: str, kind: str) -> Reader | None:
@@ -129,3 +140,12 @@ def _namesake(extension: str, kind: str) -> Reader | None:
 def _recognises(reader: Reader, head: bytes) -> bool:
     looks = (reader.signature, reader.resembles)
     return any(look is not None and look(head) for look in looks)
+
+
+def _by_name(candidates: list[Reader], name: str, kind: str) -> Reader:
+    wanted = str(name).lower().removeprefix(".")
+    for reader in candidates:
+        if wanted == reader.name or "." + wanted in reader.extensions:
+            return reader
+    known = ", ".join(reader.name for reader in candidates)
+    raise InvalidArgumentError(f"format={name!r} is no {kind} format (known: {known})")

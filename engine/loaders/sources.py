@@ -1,6 +1,7 @@
-"""The bytes of a file, read whole, and the name they go by in messages.
+"""The content of a file, read whole, and the name it goes by in messages.
 
-Only regular files are read: a FIFO or a device could block for ever or never end.
+In: a path, bytes, or a binary file object. Out: a `Source`, unpacked if it was compressed by gzip.
+Of paths only regular files are read: a FIFO or a device could block for ever or never end.
 """
 
 from __future__ import annotations
@@ -9,7 +10,16 @@ import os
 import stat
 from typing import NamedTuple
 
-from ..errors import FileAccessError
+from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
+
+# A compressed file may unpack to this many bytes, and so many times its own size besides. Assign
+# other values to change it.
+MAX_UNPACKED_BASE = 16 << 20
+MAX_UNPACKED_RATIO = 50
+
+_GZIP = b"\x1f\x8b\x08"
+_GZIP_WINDOW = 16 + 15
+_CHUNK = 1 << 20
 
 
 class Source(NamedTuple):
@@ -18,7 +28,7 @@ class Source(NamedTuple):
     Attributes
     ----------
     path : str
-        As the caller gave it; messages name it.
+        As the caller gave it; messages name it. In angle brackets for what has no name.
     data : bytes
     """
 
@@ -26,25 +36,68 @@ class Source(NamedTuple):
     data: bytes
 
     @property
-    def folder(self) -> str:
-        """The folder that files named inside this one are looked for in."""
-        return os.path.dirname(self.path) or "."
+    def has_name(self) -> bool:
+        """Whether there is a path, rather than bytes or a stream without a name."""
+        return not self.path.startswith("<")
+
+    @property
+    def folder(self) -> str | None:
+        """The folder that files named inside this one are looked for in; None without a path."""
+        return (os.path.dirname(self.path) or ".") if self.has_name else None
 
     @property
     def stem(self) -> str:
-        """The file's name without folder and extension."""
-        return os.path.splitext(os.path.basename(self.path))[0]
+        """The file's name without folder and extension; empty without a path."""
+        return stem_and_extension(self.path)[0] if self.has_name else ""
+
+    @property
+    def extension(self) -> str:
+        """The extension in lower case, that of ``a.obj.gz`` being ``.obj``."""
+        return stem_and_extension(self.path)[1] if self.has_name else ""
 
 
-def read_source(path: str | os.PathLike) -> Source:
-    """Read a regular file whole.
+def stem_and_extension(path: str) -> tuple[str, str]:
+    """Return a file's name without folder and extension, and the extension in lower case.
+
+    A ``.gz`` at the end is taken off before.
+    """
+    stem, extension = os.path.splitext(os.path.basename(path))
+    if extension.lower() == ".gz":
+        stem, extension = os.path.splitext(stem)
+    return stem, extension.lower()
+
+
+def read_source(file) -> Source:
+    """Read a file whole.
+
+    Parameters
+    ----------
+    file : str, path-like, bytes-like or binary file object
+        Bytes are the content itself. A file object is read from where it stands.
 
     Raises
     ------
     FileAccessError
         It does not exist, cannot be read, or is no regular file.
+    FileFormatError
+        It is compressed and damaged, or far larger than its size lets expect.
+    InvalidArgumentError
+        It is none of these things.
     """
-    path = os.fspath(path)
+    if isinstance(file, (bytes, bytearray, memoryview)):
+        source = Source("<bytes>", bytes(file))
+    elif isinstance(file, (str, os.PathLike)):
+        source = _read_path(os.fspath(file))
+    elif hasattr(file, "read"):
+        source = _read_stream(file)
+    else:
+        raise InvalidArgumentError(f"not a path, bytes or a file object: {type(file).__name__}")
+    if source.data.startswith(_GZIP):
+        return Source(source.path, _unpacked(source))
+    return source
+
+
+def _read_path(path: str) -> Source:
     try:
         # Without O_NONBLOCK, opening a FIFO that nobody writes to would wait for ever.
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | os.O_CLOEXEC)
@@ -59,3 +112,41 @@ def read_source(path: str | os.PathLike) -> Source:
         raise FileAccessError(f"cannot read: {reason}", path) from error
     except MemoryError as error:
         raise FileAccessError("cannot read: too large for this machine's memory", path) from error
+
+
+def _read_stream(file) -> Source:
+    name = getattr(file, "name", None)
+    path = name if isinstance(name, str) and os.path.exists(name) else f"<{type(file).__name__}>"
+    try:
+        data = file.read()
+    except (OSError, ValueError, EOFError) as error:
+        raise FileAccessError(f"cannot read: {error}", path) from error
+    if not isinstance(data, (bytes, bytearray)):
+        raise InvalidArgumentError(f"{path}: a file object must be opened in binary mode")
+    return Source(path, bytes(data))
+
+
+def _unpacked(source: Source) -> bytes:
+    """Unpack all members of a gzip file; what stands behind them is left out."""
+    import zlib
+
+    limit = MAX_UNPACKED_BASE + MAX_UNPACKED_RATIO * len(source.data)
+    rest, parts, total = source.data, [], 0
+    try:
+        while rest.startswith(_GZIP):
+            member = zlib.decompressobj(_GZIP_WINDOW)
+            while not member.eof:
+                part = member.decompress(rest, _CHUNK)
+                rest = member.unconsumed_tail
+                parts.append(part)
+                total += len(part)
+                if total > limit:
+                    raise FileFormatError(
+                        f"unpacks to more than {limit} bytes, the limit for its size", source.path
+                    )
+                if not part and not rest and not member.eof:
+                    raise FileFormatError("the compressed file is cut off", source.path)
+            rest = member.unused_data
+    except zlib.error as error:
+        raise FileFormatError(f"damaged compressed file: {error}", source.path) from error
+    return b"".join(parts)

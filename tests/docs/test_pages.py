@@ -37,6 +37,15 @@ def test_files_that_pages_name_exist(name):
             assert any((folder / file).exists() for folder in FOLDERS), f"{name}: {file}"
 
 
+@pytest.mark.parametrize(
+    "pattern", ["csrc/pipeline/*.c", "csrc/kernels/generic/*.inl", "engine/[a-z]*.py"]
+)
+def test_the_architecture_names_every_file(pattern):
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    missing = [path.name for path in ROOT.glob(pattern) if f"{path.name}`" not in text]
+    assert missing == [], "say in docs/architecture.md what these are for"
+
+
 @pytest.mark.parametrize("page", PAGES[1:], ids=page_id)
 def test_python_examples_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -24,6 +24,9 @@ def random_surfaces(rng):
     for name in ("base_x", "base_y"):
         surfaces[name] = rng.choice([0, 5, 63, -1, -64, -1000, -65536], SURFACES)
     surfaces["p"][:3] = surfaces["px"][:3] = surfaces["py"][:3] = 0  # no barycentrics at all
+    tiny = 2.0 ** rng.integers(-130, -123, (20, 3))  # sums around the least that has an inverse
+    surfaces["p"][9:29] = tiny
+    surfaces["px"][9:29] = surfaces["py"][9:29] = 0
     surfaces["normal"][3:6] = 0
     surfaces["normal"][6:9] = np.float32(3e38)  # of infinite length
     surfaces["back"] = rng.integers(0, 2, SURFACES)

@@ -84,7 +84,8 @@ def test_light(kernels, shininess):
         position = hostile(rng, batches.fields["position"].shape, 3.0, 0.03)
         normal = random_normals(rng, batches)
         lights = random_lights(rng, (6, 1)[seed])
-        position[:, :, 5] = lights["position"][-1]  # on a light
+        near = lights["position"][-1][:, None] + rng.integers(-5, 6, (3, 40)) * np.float32(2.0**-22)
+        position[:, :, :40] = near  # on a light, and less than 2^-20 from it
         fill(batches, "position", position)
         fill(batches, "normal", normal)
         ambient = rng.random(3).astype(np.float32)

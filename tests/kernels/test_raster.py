@@ -157,7 +157,7 @@ def draw_tile(kernels, rng, use, kind):
     shown = (columns < width - tile_x) & (rows < height - tile_y)
     z, slot = first_contents(rng, use)
     tile = Tile(z, slot)
-    orders = rng.permutation(PIECES_A_TILE).astype(np.uint32)
+    orders = rng.permutation(PIECES_A_TILE).astype(np.uint32) // 3  # a few of one primitive
     kernel, expect, drawn = getattr(kernels, use), EXPECTATIONS[use], 0
     for number in range(PIECES_A_TILE):
         corners = random_corners(rng, kind, tile_x, tile_y)
@@ -219,14 +219,14 @@ def test_every_box(kernels, use):
     rows, columns = np.mgrid[0:TILE, 0:TILE]
     expect, kernel = EXPECTATIONS[use], getattr(kernels, use)
     everywhere = np.ones((TILE, TILE), bool)
-    orders = np.zeros(1, np.uint32)
+    orders = np.zeros(8, np.uint32)
     rng = np.random.default_rng(5)
     for x0 in range(0, TILE, 3):
         for x1 in [*range(x0, min(x0 + 18, TILE)), TILE - 1]:
             y0, y1 = sorted(rng.integers(0, TILE, 2))
             for triangle in rectangle(x0, y0, x1, y1):
                 piece = piece_of(triangle, 0, 0)
-                piece["zmin"], piece["zmax"], piece["gx"] = -1, 1, 1 / 64
+                piece["zmin"], piece["zmax"], piece["gx"], piece["slot"] = -1, 1, 1 / 64, 7
                 z, slot = first_contents(rng, use)
                 tile = Tile(z, slot)
                 kernel(piece.view(np.uint8), *tile.buffers, orders)

@@ -11,11 +11,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InvalidArgumentError
+from . import single
 from .quaternions import matrix_to_quaternion, quaternion_from_axis_angle, quaternion_to_matrix
 from .trigonometry import cos, sin
 from .vectors import as_vectors, cross, dot, length
 
 FloatArray = npt.NDArray[np.float64]
+
+_SINGULAR = "the matrix has no inverse: it is singular or not finite"
 
 
 def as_matrices(name: str, values: npt.ArrayLike) -> FloatArray:
@@ -115,6 +118,9 @@ def multiply(a: npt.ArrayLike, b: npt.ArrayLike, *more: npt.ArrayLike) -> FloatA
     product = as_matrices("a", a)
     for factor in (b, *more):
         factor = as_matrices("b", factor)
+        if product.ndim == factor.ndim == 2:
+            product = np.array(single.multiply(product.tolist(), factor.tolist()))
+            continue
         left = product
         product = left[..., :, 0:1] * factor[..., 0:1, :]
         for k in range(1, 4):
@@ -150,6 +156,11 @@ def inverse(m: npt.ArrayLike) -> FloatArray:
         If a matrix is singular or not finite.
     """
     m = as_matrices("m", m)
+    if m.ndim == 2:
+        rows = single.inverse(m.tolist())
+        if rows is None:
+            raise InvalidArgumentError(_SINGULAR)
+        return np.array(rows)
     with np.errstate(all="ignore"):  # what overflows is reported below
         top, bottom = _pair_determinants(m, 0), _pair_determinants(m, 2)
         adjugate = np.empty_like(m)
@@ -170,7 +181,7 @@ def inverse(m: npt.ArrayLike) -> FloatArray:
             determinant = determinant + m[..., 3, k] * adjugate[..., k, 3]
         result = adjugate / determinant[..., np.newaxis, np.newaxis] + 0.0
     if not np.all(np.isfinite(result)):
-        raise InvalidArgumentError("the matrix has no inverse: it is singular or not finite")
+        raise InvalidArgumentError(_SINGULAR)
     return result
 
 

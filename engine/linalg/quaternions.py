@@ -11,10 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InvalidArgumentError
+from . import single
 from .trigonometry import cos, sin
 from .vectors import as_vectors, normalize
 
 FloatArray = npt.NDArray[np.float64]
+
+_NO_LENGTH = "a quaternion must have a finite length greater than zero"
 
 
 def _unit(q: FloatArray) -> FloatArray:
@@ -22,7 +25,7 @@ def _unit(q: FloatArray) -> FloatArray:
     square = q[..., 0] * q[..., 0] + q[..., 1] * q[..., 1]
     square = square + q[..., 2] * q[..., 2] + q[..., 3] * q[..., 3]
     if not np.all((square > 0.0) & np.isfinite(square)):
-        raise InvalidArgumentError("a quaternion must have a finite length greater than zero")
+        raise InvalidArgumentError(_NO_LENGTH)
     return q / np.sqrt(square)[..., np.newaxis]
 
 
@@ -100,7 +103,10 @@ def quaternion_to_matrix(q: npt.ArrayLike) -> FloatArray:
     InvalidArgumentError
         If a quaternion is null or not finite.
     """
-    q = _unit(as_vectors("q", q, 4))
+    q = as_vectors("q", q, 4)
+    if q.ndim == 1:
+        return _single_to_matrix(q.tolist())
+    q = _unit(q)
     x, y, z, w = (q[..., k] for k in range(4))
     x2, y2, z2 = x + x, y + y, z + z
     matrix = np.zeros((*q.shape[:-1], 4, 4))
@@ -115,6 +121,13 @@ def quaternion_to_matrix(q: npt.ArrayLike) -> FloatArray:
     matrix[..., 2, 2] = 1.0 - (x * x2 + y * y2)
     matrix[..., 3, 3] = 1.0
     return matrix
+
+
+def _single_to_matrix(q: list[float]) -> FloatArray:
+    rows = single.rotation(q)
+    if rows is None:
+        raise InvalidArgumentError(_NO_LENGTH)
+    return np.array([[*row, 0.0] for row in rows] + [[0.0, 0.0, 0.0, 1.0]])
 
 
 def matrix_to_quaternion(m: npt.ArrayLike) -> FloatArray:

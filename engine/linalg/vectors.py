@@ -6,10 +6,13 @@ Sums run in the order x, y, z, so that the result does not depend on NumPy's sum
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import InvalidArgumentError
+from . import single
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -99,6 +102,8 @@ def normalize(v: npt.ArrayLike) -> FloatArray:
         If the last axis isn't 3 long.
     """
     v = as_vectors("v", v)
+    if v.ndim == 1 and math.isfinite(sum(v.tolist())):
+        return np.array(single.normalize(v.tolist()))
     largest = np.max(np.abs(v), axis=-1, keepdims=True)
     scaled = v / np.where(largest == 0.0, 1.0, largest)
     norm = length(scaled)[..., np.newaxis]

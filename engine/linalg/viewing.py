@@ -12,8 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InvalidArgumentError
+from . import single
 from .trigonometry import tan
-from .vectors import as_vectors, cross, length, normalize
+from .vectors import as_vectors
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -43,20 +44,26 @@ def look_at(
     InvalidArgumentError
         If eye and target coincide, or a position isn't finite.
     """
-    eye, target, up = as_vectors("eye", eye), as_vectors("target", target), as_vectors("up", up)
-    backward = normalize(eye - target)
-    if not np.any(backward) or not np.all(np.isfinite(backward)):
+    eye, target, up = _position("eye", eye), _position("target", target), _position("up", up)
+    offset = [e - t for e, t in zip(eye, target, strict=True)]
+    if not any(offset) or not all(map(math.isfinite, offset)):
         raise InvalidArgumentError("eye and target must be two finite, different positions")
-    right = cross(normalize(up), backward)
-    if not length(right) > _PARALLEL:
-        right = cross(np.eye(3)[np.argmin(np.abs(backward))], backward)
-    right = normalize(right)
-    pose = np.eye(4)
-    pose[:3, 0] = right
-    pose[:3, 1] = cross(backward, right)
-    pose[:3, 2] = backward
-    pose[:3, 3] = eye
-    return pose
+    backward = single.normalize(offset)
+    right = single.cross(single.normalize(up), backward)
+    if not single.length(right) > _PARALLEL:
+        smallest = min(range(3), key=lambda axis: abs(backward[axis]))
+        right = single.cross([float(axis == smallest) for axis in range(3)], backward)
+    right = single.normalize(right)
+    upward = single.cross(backward, right)
+    rows = [list(row) for row in zip(right, upward, backward, eye, strict=True)]
+    return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])
+
+
+def _position(name: str, value: npt.ArrayLike) -> list[float]:
+    vector = as_vectors(name, value)
+    if vector.ndim != 1:
+        raise InvalidArgumentError(f"{name} must have shape (3,), not {vector.shape}")
+    return vector.tolist()
 
 
 def perspective(yfov: float, aspect: float, znear: float, zfar: float | None = None) -> FloatArray:

@@ -1,5 +1,6 @@
 """linalg against numpy.linalg, math and known values; conventions; argument errors."""
 
+import contextlib
 import math
 from fractions import Fraction
 
@@ -364,3 +365,78 @@ def test_perspective_argument_errors(arguments):
 def test_orthographic_argument_errors(arguments):
     with pytest.raises(InvalidArgumentError):
         linalg.orthographic(*arguments)
+
+
+# --- one thing in plain floats, many in arrays --------------------------------------------------
+
+# Zeros of both signs, tiny and huge numbers among ordinary ones.
+ODD_NUMBERS = np.array([0.0, -0.0, 1.0, -1.0, 1e-308, -5e-324, 1e154, -1e200, 0.1, 3.0, -7.5])
+
+
+def odd(*shape):
+    numbers = RNG.normal(size=shape) * 10.0 ** RNG.integers(-3, 4, shape)
+    return np.where(RNG.random(shape) < 0.3, RNG.choice(ODD_NUMBERS, shape), numbers)
+
+
+def same_bits(single, among_others):
+    return np.asarray(single).tobytes() == np.asarray(among_others).tobytes()
+
+
+def invertible(m):
+    with np.errstate(all="ignore"), contextlib.suppress(InvalidArgumentError):
+        return linalg.inverse(m[np.newaxis])[0]
+
+
+def test_one_matrix_has_the_bits_it_has_among_many():
+    poses = [random_pose() for _ in range(500)]
+    for m in (*poses, *odd(500, 4, 4), *(np.triu(m) for m in odd(500, 4, 4))):
+        expected = invertible(m)
+        if expected is not None:
+            assert same_bits(linalg.inverse(m), expected)
+        else:
+            with pytest.raises(InvalidArgumentError):
+                linalg.inverse(m)
+    with np.errstate(all="ignore"):
+        for a, b in odd(1000, 2, 4, 4):
+            product, expected = linalg.multiply(a, b), linalg.multiply(a[np.newaxis], b)[0]
+            is_number = ~np.isnan(expected)  # the bits of NaN tell nothing
+            np.testing.assert_array_equal(~np.isnan(product), is_number)
+            assert same_bits(product[is_number], expected[is_number])
+
+
+def test_one_vector_has_the_bits_it_has_among_many():
+    for v in (*odd(2000, 3), *RNG.normal(size=(1000, 3)), np.zeros(3), np.array([-0.0, 0, -0.0])):
+        assert same_bits(linalg.normalize(v), linalg.normalize(v[np.newaxis])[0])
+    with np.errstate(all="ignore"):
+        for v in ([math.nan, 1, 2], [1, math.inf, 2], [1, 2, -math.inf]):
+            np.testing.assert_array_equal(linalg.normalize(v), linalg.normalize([v])[0])
+
+
+def test_one_quaternion_has_the_bits_it_has_among_many():
+    for q in (*odd(1000, 4), *RNG.normal(size=(1000, 4))):
+        with np.errstate(all="ignore"):
+            if 0.0 < q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] < math.inf:
+                expected = linalg.quaternion_to_matrix(q[np.newaxis])[0]
+                assert same_bits(linalg.quaternion_to_matrix(q), expected)
+    for q in (np.zeros(4), [1e200, 0, 0, 0], [math.nan, 0, 0, 1]):
+        with pytest.raises(InvalidArgumentError), np.errstate(all="ignore"):
+            linalg.quaternion_to_matrix(q)
+
+
+def test_one_angle_has_the_bits_it_has_among_many():
+    angles = [*ODD_NUMBERS, *RNG.uniform(-7, 7, 3000), *RNG.uniform(-3e6, 3e6, 3000)]
+    angles += [k * math.pi / 4 for k in range(-20, 20)] + [2.0**20, -(2.0**20), 2.0**20 + 0.5]
+    for angle in map(float, angles):
+        for function in (linalg.sin, linalg.cos, linalg.tan):
+            single, among_others = function(angle), function(np.array([angle]))[0]
+            assert type(single) is float
+            assert same_bits(single, among_others), angle
+
+
+def test_look_at_has_the_bits_of_its_formula():
+    for eye, target, up in RNG.normal(size=(500, 3, 3)):
+        backward = linalg.normalize((eye - target)[np.newaxis])
+        right = linalg.normalize(linalg.cross(linalg.normalize(up[np.newaxis]), backward))
+        upward = linalg.cross(backward, right)
+        pose = linalg.look_at(eye, target, up)
+        assert same_bits(pose[:3, :3].T.copy(), np.concatenate([right, upward, backward]))

@@ -25,6 +25,18 @@ static int indices_fit(const int32_t *indices, size_t count, int32_t vertices)
     return 1;
 }
 
+/* -1 if one is negative. */
+static int32_t greatest_material(const e3d_mesh_desc *d)
+{
+    int32_t most = 0;
+    for (int32_t f = 0; d->material_ids && f < d->faces_count; f++) {
+        if (d->material_ids[f] < 0)
+            return -1;
+        most = d->material_ids[f] > most ? d->material_ids[f] : most;
+    }
+    return most;
+}
+
 static int desc_is_valid(const e3d_mesh_desc *d)
 {
     if (d->vertices < 0 || d->faces_count < 0 || d->lines_count < 0 || d->points_count < 0 ||
@@ -182,12 +194,13 @@ static void bound_mesh(e3d_mesh *mesh)
 e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out)
 {
     *out = NULL;
-    if (!desc_is_valid(desc))
+    if (!desc_is_valid(desc) || greatest_material(desc) < 0)
         return E3D_INVALID_ARGUMENT;
     e3d_mesh *mesh = calloc(1, sizeof *mesh);
     if (!mesh)
         return E3D_OUT_OF_MEMORY;
     mesh->desc = *desc;
+    mesh->material_most = greatest_material(desc);
     builder b = {.mesh = mesh};
     int enough = allocate(&b);
     if (enough) {

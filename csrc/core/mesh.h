@@ -24,6 +24,7 @@ struct e3d_mesh {
     uint8_t *indices;
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */
     int32_t any_finite;
+    int32_t material_most; /* the greatest material ID; 0 without faces */
 };
 
 #endif

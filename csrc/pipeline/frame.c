@@ -95,18 +95,6 @@ void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *us
 
 /* ---- arguments ---- */
 
-static int material_range_is_valid(const e3d_frame *frame, const e3d_draw *draw)
-{
-    const e3d_mesh_desc *desc = e3d_mesh_view(draw->mesh);
-    int32_t most = 0;
-    for (int32_t f = 0; desc->material_ids && f < desc->faces_count; f++) {
-        if (desc->material_ids[f] < 0)
-            return 0;
-        most = desc->material_ids[f] > most ? desc->material_ids[f] : most;
-    }
-    return draw->material_base >= 0 && (int64_t)draw->material_base + most < frame->material_count;
-}
-
 static int frame_is_valid(const e3d_frame *f)
 {
     if (f->width < 1 || f->height < 1 || f->width > E3D_MAX_SIZE || f->height > E3D_MAX_SIZE ||
@@ -121,7 +109,8 @@ static int frame_is_valid(const e3d_frame *f)
         if (!draw->mesh || draw->instances < 0 ||
             (draw->pose_kind == E3D_POSE_NONE ? draw->instances != 1
                                               : draw->instances && !draw->poses) ||
-            !material_range_is_valid(f, draw))
+            draw->material_base < 0 ||
+            (int64_t)draw->material_base + draw->mesh->material_most >= f->material_count)
             return 0;
     }
     return 1;

@@ -184,7 +184,7 @@ int e3d_clip_triangle(const float corner[3][4], const e3d_viewport *viewport,
 int e3d_clip_line(const float end[2][4], const e3d_viewport *viewport, e3d_clip_vertex out[2]);
 int e3d_outcode(const float v[4], const e3d_viewport *viewport);
 
-/* emit.c */
+/* setup.c */
 typedef struct e3d_corner {
     int32_t x, y;
     float zn, iw;

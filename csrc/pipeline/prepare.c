@@ -113,7 +113,6 @@ static e3d_status prepare_draws(e3d_context *context)
         *s = (e3d_draw_state){.draw = draw, .mesh = draw->mesh, .order_base = orders,
                               .unit_base = units, .instance_base = (int32_t)instances,
                               .any_two_sided = two_sided};
-        s->primitives = desc->faces_count + desc->lines_count + desc->points_count;
         s->cluster_units = context->draw_faces ? draw->mesh->cluster_count : 0;
         s->line_units = units_of(desc->lines_count);
         s->point_units = units_of(desc->points_count);
@@ -125,6 +124,7 @@ static e3d_status prepare_draws(e3d_context *context)
             return E3D_TOO_MANY_PRIMITIVES;
         orders += all * draw->instances;
         instances += draw->instances;
+        s->primitives = (int32_t)all;
         units += (int64_t)s->units * draw->instances;
     }
     context->instance_count = (int32_t)instances;

@@ -1,6 +1,6 @@
 /* setup: which triangles of a cluster may show (R4-R7, R9, R10), a vector of triangles at a time.
  *
- * Conservative where 32 bits do not hold the area: such a triangle stays, and emit.c decides.
+ * Conservative where 32 bits do not hold the area: such a triangle stays, and pipeline/setup.c decides.
  */
 
 static inline vi32 setup_fetch(const int32_t *table, const uint8_t *indices, int i)

@@ -40,7 +40,7 @@ CHAPTERS = {
     ),
     "Meshes": ("Mesh", "Material", "Texture"),
     "Primitives": ("box", "plane", "quad", "uv_sphere", "icosphere", "cylinder", "torus"),
-    "Files": ("load_mesh", "load_texture", "load_scene"),
+    "Files": ("load_mesh", "load_texture", "load_scene", "save_mesh"),
     "The canvas": ("Canvas",),
     "The low-level door": ("rasterize", "RasterizeResult"),
     "Errors": (

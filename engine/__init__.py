@@ -40,6 +40,7 @@ _PUBLIC = {
     "load_mesh": "loaders",
     "load_texture": "loaders",
     "load_scene": "scene_loading",
+    "save_mesh": "writers",
     "look_at": "linalg",
     "Camera": "cameras",
     "IntrinsicsCamera": "cameras",

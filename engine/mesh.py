@@ -9,6 +9,7 @@ coordinates have their origin at the bottom left.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -202,6 +203,12 @@ class Mesh:
         from .mesh_concatenation import concatenate
 
         return concatenate(cls, list(meshes), name)
+
+    def save(self, path: str | os.PathLike, *, format: str | None = None, **options) -> None:
+        """Write the mesh to an OBJ, PLY or STL file; parameters and exceptions of `save_mesh`."""
+        from .writers import save_mesh
+
+        save_mesh(self, path, format=format, **options)
 
     def __repr__(self) -> str:
         parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]

@@ -26,6 +26,7 @@ def make_parser() -> argparse.ArgumentParser:
     _add_run(commands)
     _add_render(commands)
     _add_info(commands)
+    _add_convert(commands)
     return parser
 
 
@@ -75,6 +76,20 @@ def _add_info(commands) -> None:
     command.add_argument("--json", action="store_true", help="print JSON")
 
 
+def _add_convert(commands) -> None:
+    command = commands.add_parser(
+        "convert",
+        help="write a model in another format",
+        description="Write a model as OBJ with MTL, PLY or STL, as the extension of OUT says. What "
+        "that format does not hold is warned of.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_convert)
+    command.add_argument("model", metavar="IN", help="the file to read, of any format")
+    command.add_argument("output", metavar="OUT", help="the file to write")
+    command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")
+
+
 def _load_run():
     from .run import run
 
@@ -91,6 +106,12 @@ def _load_info():
     from .info import info
 
     return info
+
+
+def _load_convert():
+    from .convert import convert
+
+    return convert
 
 
 class _ListReaders(argparse.Action):

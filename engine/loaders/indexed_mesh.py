@@ -33,6 +33,8 @@ class IndexedGeometry:
     face_colors : (T, 4) uint8 or float32, or None
         Count only without ``colors``.
     lines : (L, 2) int or None
+    position_ids : (V,) number or None
+        Vertices with the same number are one point of the surface.
     edge_visible : (T, 3) bool or None
     """
 
@@ -44,6 +46,7 @@ class IndexedGeometry:
     corner_uvs: np.ndarray | None = None
     face_colors: np.ndarray | None = None
     lines: np.ndarray | None = None
+    position_ids: np.ndarray | None = None
     edge_visible: np.ndarray | None = None
 
 
@@ -81,12 +84,20 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         colors=colors,
         lines=vertex_of.reshape(-1, 2),
         edge_visible=geometry.edge_visible,
-        position_ids=vertices if of_corner else None,
+        position_ids=_position_ids(geometry, vertices, bool(of_corner)),
         name=name,
     )
-    if not mesh.has_normals:
+    if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)
     return mesh
+
+
+def _position_ids(geometry: IndexedGeometry, vertices: np.ndarray, is_split: bool):
+    """The points of the surface, numbered from 0 without gaps."""
+    ids = geometry.position_ids
+    if ids is None and not is_split:
+        return None
+    return np.unique(vertices if ids is None else ids[vertices], return_inverse=True)[1].reshape(-1)
 
 
 def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:

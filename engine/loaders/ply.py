@@ -73,6 +73,7 @@ def _mesh(vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, name: str) 
         corner_uvs=faces.uvs,
         face_colors=faces.colors,
         lines=lines,
+        position_ids=vertices.position_ids,
         edge_visible=faces.edge_visible,
     )
     return build_indexed_mesh(geometry, name)

@@ -33,12 +33,15 @@ class PlyVertices(NamedTuple):
     normals : (V, 3) float32 or None
     colors : (V, 4) uint8 or float32, or None
     uvs : (V, 2) float32 or None
+    position_ids : (V,) number or None
+        What our own writer says of vertices that are one point of the surface.
     """
 
     positions: np.ndarray
     normals: np.ndarray | None
     colors: np.ndarray | None
     uvs: np.ndarray | None
+    position_ids: np.ndarray | None
 
 
 def read_vertices(table: PlyTable) -> PlyVertices:
@@ -53,7 +56,8 @@ def read_vertices(table: PlyTable) -> PlyVertices:
         if table.has(*names):
             uvs = finite_uvs(table.columns(*names))
             break
-    return PlyVertices(positions, normals, read_colors(table), uvs)
+    position_ids = table.column("position_id") if table.has("position_id") else None
+    return PlyVertices(positions, normals, read_colors(table), uvs, position_ids)
 
 
 def read_colors(table: PlyTable) -> np.ndarray | None:

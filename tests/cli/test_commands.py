@@ -405,3 +405,19 @@ def test_a_render_loads_neither_sdl_nor_rich(model):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_convert(model, tmp_path, capfd):
+    assert main(["convert", str(model), "out.ply"]) == 0
+    mesh = e3d.load_mesh("out.ply")
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert main(["convert", "out.ply", "out.stl", "--ascii"]) == 0
+    assert "do not hold texture coordinates" in capfd.readouterr().err
+    assert (tmp_path / "out.stl").read_text().count("vertex") == 6
+    assert main(["convert", "out.stl", "missing/out.obj"]) == 1
+
+
+@pytest.mark.parametrize("arguments", [["out.png"], ["out"], ["out.obj", "--ascii"]])
+def test_convert_refuses_what_it_cannot_write(model, capfd, arguments):
+    assert main(["convert", str(model), *arguments]) == 2
+    assert "engine3d: error:" in capfd.readouterr().err

@@ -1,0 +1,23 @@
+"""``engine3d convert``: a model file written in another format."""
+
+from __future__ import annotations
+
+import argparse
+
+from ..loaders import load_mesh
+from ..writers import formats, save_mesh
+from .outputs import check_extension
+from .usage import UsageError
+
+BINARY_FORMATS = (".ply", ".stl")
+
+
+def convert(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    extensions = [extension for item in formats() for extension in item.extensions]
+    extension = check_extension(args.output, extensions, "a model")
+    options = {"ascii": True} if args.ascii else {}
+    if options and extension.lower() not in BINARY_FORMATS:
+        raise UsageError(f"--ascii is for {' and '.join(BINARY_FORMATS)} files")
+    save_mesh(load_mesh(args.model), args.output, **options)
+    return 0

@@ -1,0 +1,174 @@
+"""Wavefront OBJ: everything that a mesh holds, with its materials in a library beside it.
+
+Each vertex has its own ``vt`` and ``vn``; vertices that are one point of the surface share a ``v``.
+So a reader that numbers the combinations finds the vertices in their old order. Faces are written
+as the polygons that they were cut from.
+"""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+
+from ..atomic_write import atomic_write
+from ..colors import srgb_to_linear_table
+from ..loaders.welding import number_rows
+from ..mesh import Mesh
+from .mtl import is_plain, material_names, write_library
+from .outlines import Outlines, polygon_outlines
+from .registry import Writer
+from .rows import write_floats, write_integers
+
+_POINTS_A_LINE = 16
+
+
+def write_obj(mesh: Mesh, path: str) -> list[str]:
+    """Write an OBJ file and its library; what it does not hold is nothing."""
+    library = None
+    names: list[str] = []
+    if not is_plain(mesh.materials):
+        library = os.path.splitext(path)[0] + ".mtl"
+        names = material_names(mesh.materials)
+        write_library(mesh.materials, names, library)
+    with atomic_write(path) as file:
+        file.write(b"# written by engine3d\n")
+        if library is not None:
+            file.write(f"mtllib {os.path.basename(library)}\n".encode())
+        if mesh.name:
+            file.write(f"o {' '.join(mesh.name.split())}\n".encode())
+        position_of = _write_vertices(mesh, file)
+        _write_faces(mesh, file, position_of, names)
+        _write_lines_and_points(mesh, file, position_of)
+    return []
+
+
+def _write_vertices(mesh: Mesh, file) -> np.ndarray:
+    """Write the lists; returns the number of each vertex's position, from 1."""
+    numbers, first = _positions(mesh)
+    colors = _srgb_bytes(mesh.colors)
+    positions = mesh.positions[first]
+    if colors is None:
+        write_floats(file, "v ", positions)
+    else:
+        channels = 4 if (colors[:, 3] != 255).any() else 3
+        rows = np.concatenate([positions, np.round(colors[first, :channels] / 255, 4)], axis=1)
+        write_floats(file, "v ", rows)
+    if mesh.uvs is not None:
+        write_floats(file, "vt ", mesh.uvs)
+    if mesh.has_normals:
+        write_floats(file, "vn ", mesh.normals)
+    return numbers + 1
+
+
+def _positions(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """The number of each vertex's position, and the first vertex of each number."""
+    count = len(mesh.positions)
+    if mesh.position_ids is None or (mesh.uvs is None and not mesh.has_normals):
+        return np.arange(count), np.arange(count)
+    # Vertices of one point may still differ in position or colour.
+    parts = [mesh.position_ids, number_rows(mesh.positions)[0]]
+    if mesh.colors is not None:
+        parts.append(number_rows(mesh.colors)[0])
+    keys = np.stack(parts, axis=1).astype(np.uint32)
+    if mesh.has_normals:
+        return number_rows(keys.view(np.float32))
+    # Readers join the points along seams again; here only neighbours are sure to be one point of
+    # the file, and sharing no more than that keeps the vertices in their order.
+    is_new = np.r_[True, (keys[1:] != keys[:-1]).any(axis=1)][:count]
+    return np.cumsum(is_new) - 1, np.flatnonzero(is_new)
+
+
+def _srgb_bytes(colors: np.ndarray | None) -> np.ndarray | None:
+    """Vertex colours as an OBJ file has them: display values."""
+    if colors is None or colors.dtype == np.uint8:
+        return colors
+    table = srgb_to_linear_table()
+    middles = (table[1:] + table[:-1]) / 2
+    encoded = np.searchsorted(middles, colors).astype(np.uint8)
+    encoded[:, 3] = np.floor(np.clip(colors[:, 3], 0, 1) * 255 + 0.5)
+    return encoded
+
+
+def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) -> None:
+    outlines = polygon_outlines(mesh)
+    first = outlines.first_faces
+    if not len(first):
+        return
+    groups, labels = _group_sets(mesh)
+    is_flat = np.array([material.flat_shading for material in mesh.materials])
+    smooth = ~is_flat[mesh.material_ids] | mesh.has_normals
+    if names:
+        _declare_materials(mesh, file, names)
+    states = np.stack([mesh.material_ids, groups, smooth], axis=1)[first]
+    starts = np.flatnonzero(np.r_[True, (states[1:] != states[:-1]).any(axis=1)])
+    ends = np.cumsum(outlines.sizes)
+    old = (-1, 0, True)
+    for start, end in zip(starts.tolist(), [*starts[1:].tolist(), len(first)], strict=True):
+        new = tuple(states[start].tolist())
+        if names and new[0] != old[0]:
+            file.write(f"usemtl {names[new[0]]}\n".encode())
+        if new[1] != old[1]:
+            file.write(" ".join(["g", *labels[new[1]]]).encode() + b"\n")
+        if new[2] != old[2]:
+            file.write(b"s 1\n" if new[2] else b"s off\n")
+        old = new
+        corners = outlines.corners[ends[start] - outlines.sizes[start] : ends[end - 1]]
+        part = Outlines(outlines.sizes[start:end], corners, first[start:end])
+        _write_polygons(mesh, file, part, position_of)
+
+
+def _declare_materials(mesh: Mesh, file, names: list[str]) -> None:
+    """Name all materials in their order, unless the faces do; readers number them by first use."""
+    used, first = np.unique(mesh.material_ids, return_index=True)
+    in_order = len(used) == len(names) and (np.diff(first) > 0).all()
+    if not in_order:
+        file.write("".join(f"usemtl {name}\n" for name in names).encode())
+
+
+def _group_sets(mesh: Mesh) -> tuple[np.ndarray, list[list[str]]]:
+    """The set of groups that each face is in, and the names in each set."""
+    sets = np.zeros(len(mesh.faces), np.int64)
+    labels: list[list[str]] = [[]]
+    for name, faces in mesh.groups.items():
+        label = "_".join(name.split()) or "group"
+        old, number = np.unique(sets[faces], return_inverse=True)
+        sets[faces] = len(labels) + number.reshape(-1)
+        labels += [[*labels[k], label] for k in old.tolist()]
+    return sets, labels
+
+
+def _write_polygons(mesh: Mesh, file, outlines: Outlines, position_of: np.ndarray) -> None:
+    """Write faces, runs of equal size at a time."""
+    columns = [position_of[outlines.corners]]
+    corner = "%d"
+    if mesh.uvs is not None:
+        columns.append(outlines.corners + 1)
+        corner += "/%d"
+    if mesh.has_normals:
+        columns.append(outlines.corners + 1)
+        corner += "/%d" if mesh.uvs is not None else "//%d"
+    rows = np.stack(columns, axis=1)
+    sizes = outlines.sizes
+    starts = np.flatnonzero(np.r_[True, sizes[1:] != sizes[:-1]])
+    ends = np.append(starts[1:], len(sizes))
+    offsets = np.cumsum(sizes) - sizes
+    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+        size = int(sizes[start])
+        begin = int(offsets[start])
+        run = rows[begin : begin + size * (end - start)].reshape(end - start, -1)
+        write_integers(file, " ".join(["f", *[corner] * size]), run)
+
+
+def _write_lines_and_points(mesh: Mesh, file, position_of: np.ndarray) -> None:
+    if len(mesh.lines):
+        write_integers(file, "l %d %d", position_of[mesh.lines])
+    is_cloud = not len(mesh.faces) and not len(mesh.lines)
+    if is_cloud and np.array_equal(mesh.points, np.arange(len(mesh.positions))):
+        return
+    for start in range(0, len(mesh.points), _POINTS_A_LINE):
+        numbers = position_of[mesh.points[start : start + _POINTS_A_LINE]].tolist()
+        file.write(f"p {' '.join(map(str, numbers))}\n".encode())
+
+
+WRITERS = (Writer("obj", "Wavefront OBJ with MTL", (".obj",), write_obj),)

@@ -1,0 +1,73 @@
+"""The one list of writers, and the choice among them by extension or name.
+
+A format is a module of this package with a tuple ``WRITERS``; adding the file registers it.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import os
+from collections.abc import Callable
+from typing import NamedTuple
+
+from ..errors import InvalidArgumentError
+from ..loaders.registry import Format
+
+
+class Writer(NamedTuple):
+    """One format that can be written.
+
+    Attributes
+    ----------
+    name : str
+        Short name, such as ``"obj"``.
+    description : str
+    extensions : tuple of str
+        Lower case, with the dot.
+    write : callable
+        ``write(mesh, path, **options) -> list of str``: what the format could not hold.
+    options : tuple of str
+        The names of the options that it takes.
+    """
+
+    name: str
+    description: str
+    extensions: tuple[str, ...]
+    write: Callable
+    options: tuple[str, ...] = ()
+
+
+@functools.cache
+def writers() -> tuple[Writer, ...]:
+    """Return all writers of this package, sorted by name."""
+    import pkgutil
+
+    package = importlib.import_module(__package__)
+    found: list[Writer] = []
+    for module in pkgutil.iter_modules(package.__path__, __package__ + "."):
+        found += getattr(importlib.import_module(module.name), "WRITERS", ())
+    return tuple(sorted(found, key=lambda writer: writer.name))
+
+
+def formats() -> list[Format]:
+    """Return the formats that can be written."""
+    return [Format(w.name, w.description, "mesh", w.extensions) for w in writers()]
+
+
+def find_writer(path: str, name: str | None = None) -> Writer:
+    """Return the writer for a file.
+
+    Raises
+    ------
+    InvalidArgumentError
+        No format has this extension, or this name.
+    """
+    wanted = name.lower().removeprefix(".") if name is not None else None
+    extension = os.path.splitext(path)[1].lower() if wanted is None else "." + wanted
+    for writer in writers():
+        if wanted == writer.name or extension in writer.extensions:
+            return writer
+    known = ", ".join(e for writer in writers() for e in writer.extensions)
+    what = f"format={name!r}" if name is not None else f"{path}: the extension {extension!r}"
+    raise InvalidArgumentError(f"{what} is none of those that can be written ({known})")

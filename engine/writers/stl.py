@@ -1,0 +1,43 @@
+"""STL: the triangles of a mesh and their normals, binary or as text."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..atomic_write import atomic_write
+from ..mesh import Mesh
+from ..normals import face_area_vectors, unit_vectors
+from .losses import lost_parts
+from .registry import Writer
+from .rows import float_words
+
+_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_HEADER = b"STL written by engine3d".ljust(80)
+_BLOCK = 1 << 14
+_TEXT = (
+    b"facet normal %s %s %s\nouter loop\n"
+    b"vertex %s %s %s\nvertex %s %s %s\nvertex %s %s %s\nendloop\nendfacet\n"
+)
+
+
+def write_stl(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
+    """Write an STL file; returns what it does not hold."""
+    facets = np.zeros(len(mesh.faces), _FACET)
+    facets["normal"] = unit_vectors(face_area_vectors(mesh.positions, mesh.faces))
+    facets["corners"] = mesh.positions[mesh.faces]
+    with atomic_write(path) as file:
+        if ascii:
+            name = " ".join(mesh.name.split()).encode()
+            file.write(b"solid " + name + b"\n")
+            for start in range(0, len(facets), _BLOCK):
+                block = facets[start : start + _BLOCK]
+                numbers = np.concatenate([block["normal"], block["corners"].reshape(-1, 9)], axis=1)
+                file.write(_TEXT * len(block) % tuple(float_words(numbers)))
+            file.write(b"endsolid " + name + b"\n")
+        else:
+            file.write(_HEADER + len(facets).to_bytes(4, "little"))
+            file.write(facets.tobytes())
+    return lost_parts(mesh, "uvs", "colors", "materials", "lines", "points")
+
+
+WRITERS = (Writer("stl", "STL", (".stl",), write_stl, ("ascii",)),)

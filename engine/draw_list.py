@@ -7,13 +7,16 @@ or only poses changed costs a comparison a node.
 
 from __future__ import annotations
 
+import itertools
 import math
+import operator
 import weakref
 
 import numpy as np
 
 from ._native.rasterizer import FALLOFFS, NativeDrawList
 from .colors import linear_color
+from .display_colors import shading_color
 from .instances import InstancedMesh
 from .lights import DirectionalLight, PointLight
 from .linalg import normalize
@@ -32,6 +35,12 @@ class DrawList:
     ----------
     color_space : {"srgb", "linear"}
         How 8-bit colours of materials and lights are read.
+
+    Attributes
+    ----------
+    native : NativeDrawList
+    changes : int
+        Grows whenever `update` finds that something else is to be drawn, or elsewhere.
     """
 
     def __init__(self, color_space: str) -> None:
@@ -46,6 +55,8 @@ class DrawList:
         self._watched: list[tuple[object, int]] = []
         self._material_lists: list[tuple[Mesh, list[Material]]] = []
         self.has_lights = False
+        self._lights_listed: list | None = None
+        self.changes = 0
 
     def update(self, scene: Scene, needs: MeshNeeds, normals: str, headlight) -> None:
         """Make the native list draw ``scene``.
@@ -60,28 +71,32 @@ class DrawList:
         headlight : tuple of two vectors, or None
             Colour and direction towards the light, for a scene that has no light.
         """
-        if not self._is_current(scene, needs, normals):
+        if self._needs != needs or self._normals != normals or not self._lists(scene):
             self._rebuild(scene, needs, normals)
         elif self._pose_version != scene._pose_version:
             self._move(scene)
-        self._set_lights(headlight)
+        self._list_lights(headlight)
 
-    def _is_current(self, scene: Scene, needs: MeshNeeds, normals: str) -> bool:
+    def shows(self, scene: Scene) -> bool:
+        """Whether everything in the scene is still as and where it was at the last update."""
+        return self._pose_version == scene._pose_version and self._lists(scene)
+
+    def _lists(self, scene: Scene) -> bool:
+        """Whether the list is that of the scene but for poses."""
         return (
             self._scene() is scene
             and self._structure_version == scene._structure_version
-            and self._needs == needs
-            and self._normals == normals
             and all(thing.version == version for thing, version in self._watched)
             and all(mesh.materials == materials for mesh, materials in self._material_lists)
         )
 
     def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
         self._scene = lambda: None  # if anything below raises, the list is not current
+        self.changes += 1
         self.native.clear()
         self._draws, self._lights = [], []
         self._watched, self._material_lists = [], []
-        self.has_lights = False
+        self.has_lights, self._lights_listed = False, None
         bases: dict[Mesh, int] = {}
         for node in scene.nodes:
             obj = node.object
@@ -143,32 +158,41 @@ class DrawList:
 
     def _move(self, scene: Scene) -> None:
         """Renew the poses that changed: a node makes a new array for each pose."""
+        self.changes += 1
         for index, (node, drawn) in enumerate(self._draws):
-            pose = node.world_pose
-            if pose is not drawn:
+            if node._world_pose is not drawn:  # spares a thousand nodes a call each
+                pose = node.world_pose
                 self.native.set_pose(index, pose)
                 self._draws[index] = (node, pose)
         self._pose_version = scene._pose_version
 
-    def _set_lights(self, headlight) -> None:
-        self.native.clear_lights()
-        if not self.has_lights:
-            if headlight is not None:
+    def _list_lights(self, headlight) -> None:
+        """List the lights anew unless all are the objects they were, at the poses they were."""
+        if self.has_lights:
+            marks = [(node.object, node.object.version, node.world_pose) for node in self._lights]
+            marks = list(itertools.chain(*marks))
+        else:
+            marks = list(headlight or ())
+        listed, self._lights_listed = self._lights_listed, None  # for if anything below raises
+        if listed is None or len(listed) != len(marks) or not all(map(operator.is_, listed, marks)):
+            self.native.clear_lights()
+            for node in self._lights:
+                self._add_light(node.object, node.world_pose)
+            if headlight is not None and not self.has_lights:
                 self.native.add_directional_light(*headlight)
-            return
-        for node in self._lights:
-            self._add_light(node.object, node.world_pose)
+        self._lights_listed = marks
 
     def _add_light(self, light, pose: np.ndarray) -> None:
-        color = linear_color(light.color, self._color_space)
-        color = [float(component) * light.intensity for component in color]
+        color = shading_color(light.color, self._color_space)
+        color = [component * light.intensity for component in color]
         if isinstance(light, DirectionalLight):
-            x, y, z = light.direction
-            towards = -(pose[:3, 0] * x + pose[:3, 1] * y + pose[:3, 2] * z)
-            self.native.add_directional_light(color, normalize(towards))
+            x, y, z = light.direction.tolist()
+            towards = [-(a * x + b * y + c * z) for a, b, c, _ in pose[:3].tolist()]
+            self.native.add_directional_light(color, normalize(towards).tolist())
         else:
             light.check()
-            self.native.add_point_light(color, pose[:3, 3], light.range, FALLOFFS[light.falloff])
+            position = pose[:3, 3].tolist()
+            self.native.add_point_light(color, position, light.range, FALLOFFS[light.falloff])
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:

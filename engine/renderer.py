@@ -7,30 +7,26 @@ gives the same bytes on every backend and every number of threads.
 
 from __future__ import annotations
 
-import math
-import numbers
 import threading
 from collections.abc import Iterable
+
+import numpy as np
 
 from ._native import rasterizer as _native
 from .attributes import choose
 from .backend_selection import resolve_backend, resolve_threads
-from .colors import COLOR_SPACES, check_color
-from .display_colors import display_color, shading_color
+from .cameras import Camera, frame_bounds
+from .colors import COLOR_SPACES
 from .draw_list import DrawList
 from .errors import InvalidArgumentError
 from .frame import OUTPUTS, Frame
-from .native_handles import MeshNeeds
+from .frame_options import OptionsCache
 from .output_pool import OutputPool
 from .rasterization import check_size
 from .scene import Scene
 from .view import View, find_camera
 
 _SAMPLES = {1: 1, 4: 2, 16: 4}  # samples a pixel -> samples along an axis
-_MAX_LINE = 256.0
-_NO_CLAMP = (0.0, math.inf)
-# Modes whose colours go through the sRGB encoder; the others give display values.
-_ENCODED_MODES = ("lit", "unlit")
 
 
 class Renderer:
@@ -85,8 +81,11 @@ class Renderer:
         self._backend = list(_native.BACKENDS)[number]
         self._native = _native.NativeRenderer(number, resolve_threads(threads))
         self._draw_list = DrawList(self._color_space)
+        self._options = OptionsCache(self._color_space)
         self._pool = OutputPool()
         self._view: View | None = None
+        self._framing: tuple[Camera, np.ndarray] | None = None
+        self._framed = ()
         self._lock = threading.Lock()
 
     @property
@@ -193,38 +192,40 @@ class Renderer:
         """
         if not isinstance(scene, Scene):
             raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
-        choices = {
-            "mode": _native.MODES[choose(mode, _native.MODES, "mode")],
-            "wireframe": _native.WIREFRAMES[choose(wireframe, _native.WIREFRAMES, "wireframe")],
-            "cull": _native.CULLS[choose(cull, _native.CULLS, "cull")],
-            "shading": _native.SHADINGS[choose(shading, _native.SHADINGS, "shading")],
-            "normals": _native.NORMALS[choose(normals, _native.NORMALS, "normals")],
-            "hidden": _native.HIDDEN_SURFACES[
-                choose(hidden_surfaces, _native.HIDDEN_SURFACES, "hidden_surfaces")
-            ],
-            "remove_hidden_lines": not hidden_lines,
-            "line_width": _line_size(line_width, "line_width"),
-            "point_size": _line_size(point_size, "point_size"),
-        }
-        line_color = check_color(line_color, "line_color")
         with self._lock:
             if self._native is None:
                 raise InvalidArgumentError("the renderer is closed")
+            options = self._options.get(
+                scene,
+                line_color,
+                mode,
+                wireframe,
+                cull,
+                shading,
+                normals,
+                hidden_surfaces,
+                bool(hidden_lines),
+                line_width,
+                point_size,
+            )
             frame = self._new_frame(outputs) if out is None else self._check_out(out)
-            self._look(scene, camera)
-            self._list_draws(scene, mode, normals, wireframe, frame)
+            view = self._look(scene, camera)
+            headlight = options.headlight_color, view.towards_viewer
+            needs = options.needs(frame.outputs)
+            self._draw_list.update(scene, needs, options.normals, headlight)
+            near, far = view.depth_range(scene.bounds) if options.mode == "depth" else (0.0, 1.0)
             frame.stats = self._native.render(
                 self._draw_list.native,
                 frame._outputs,
-                width=self._width,
-                height=self._height,
-                samples_axis=_SAMPLES[self._samples],
-                clip_from_world=self._view.clip_from_world,
-                view_from_world=self._view.view_from_world,
-                eye=self._view.eye,
-                **choices,
-                **self._colors(scene, mode, line_color),
-                **self._depth_range(scene, mode),
+                options.native,
+                self._width,
+                self._height,
+                _SAMPLES[self._samples],
+                view.clip_from_world,
+                view.view_from_world,
+                view.eye,
+                near,
+                far,
             )
         return frame
 
@@ -249,48 +250,21 @@ class Renderer:
             )
         return out
 
-    def _look(self, scene: Scene, camera) -> None:
+    def _look(self, scene: Scene, camera) -> View:
         """Find the camera; a view that has not changed is used again."""
-        camera, pose = find_camera(scene, camera, self._width, self._height)
-        if self._view is None or not self._view.is_of(camera, pose, self._width, self._height):
-            self._view = View(camera, pose, self._width, self._height, self._view)
+        camera, pose = find_camera(scene, camera) or self._frame_scene(scene)
+        view = self._view
+        if view is None or not view.is_of(camera, pose, self._width, self._height):
+            view = self._view = View(camera, pose, self._width, self._height, view)
+        return view
 
-    def _list_draws(self, scene: Scene, mode: str, normals: str, wireframe, frame: Frame) -> None:
-        outputs = frame._outputs
-        shaded = "color" in outputs
-        reads_normals = "normal" in outputs or "world_normal" in outputs
-        reads_normals = reads_normals or (shaded and mode in ("lit", "normal"))
-        needs = MeshNeeds(
-            vertex_normals=reads_normals and normals != "flat",
-            face_normals=reads_normals and normals != "smooth",
-            edges=shaded and wireframe is not None,
-        )
-        self._draw_list.update(scene, needs, normals, self._headlight(scene))
-
-    def _headlight(self, scene: Scene):
-        """A light at the camera for scenes without lights; with the ambient it adds up to white."""
-        ambient = shading_color(scene.ambient, self._color_space)
-        return [max(0.0, 1.0 - component) for component in ambient], self._view.towards_viewer
-
-    def _colors(self, scene: Scene, mode: str, line_color) -> dict:
-        encoded = mode in _ENCODED_MODES and self._color_space == "srgb"
-        convert = shading_color if encoded else display_color
-        if scene.background is None:
-            background = (0.0, 0.0, 0.0, 0.0)
-        else:
-            background = (*convert(scene.background, self._color_space), 1.0)
-        return {
-            "line_color": convert(line_color, self._color_space),
-            "background": background,
-            "encode_srgb": encoded,
-            "decode_srgb": self._color_space == "srgb",
-            "ambient": shading_color(scene.ambient, self._color_space),
-            "light_clamp": scene.light_clamp or _NO_CLAMP,
-        }
-
-    def _depth_range(self, scene: Scene, mode: str) -> dict:
-        near, far = self._view.depth_range(scene.bounds) if mode == "depth" else (0.0, 1.0)
-        return {"depth_near": near, "depth_far": far}
+    def _frame_scene(self, scene: Scene) -> tuple[Camera, np.ndarray]:
+        """A camera that shows the whole scene, kept until something in it changes or moves."""
+        state = self._draw_list.changes, self._width, self._height
+        if self._framing is None or self._framed != state or not self._draw_list.shows(scene):
+            self._framing = frame_bounds(scene.bounds, aspect=self._width / self._height)
+            self._framed = state
+        return self._framing
 
     def __repr__(self) -> str:
         return f"<Renderer {self._width}x{self._height}, {self._backend}>"
@@ -336,9 +310,3 @@ def render(
     settings.update(color_space=color_space, samples=samples)
     with Renderer(width, height, **settings) as renderer:
         return renderer.render(scene, camera, **options)
-
-
-def _line_size(value, what: str) -> float:
-    if not isinstance(value, numbers.Real) or not 0 < value <= _MAX_LINE:
-        raise InvalidArgumentError(f"{what} must be more than 0 and at most 256, not {value!r}")
-    return float(value)

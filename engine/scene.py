@@ -88,7 +88,7 @@ class Node:
     @pose.setter
     def pose(self, value) -> None:
         matrix = matrix4(value, "pose")
-        if not (matrix[3] == _IDENTITY[3]).all():
+        if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
             raise InvalidArgumentError("pose must be affine: its last row is 0 0 0 1")
         self._place(matrix, None)
 
@@ -229,6 +229,8 @@ class Scene:
         self._numbers = itertools.count()
         self._structure_version = 0
         self._pose_version = 0
+        self._first_camera: Node | None = None
+        self._camera_version = -1
         self.warnings: list[str] = []
         self.background = background
         self.ambient = ambient
@@ -352,6 +354,14 @@ class Scene:
     def nodes(self) -> tuple[Node, ...]:
         """All nodes, in the order they were added."""
         return tuple(self._nodes.values())
+
+    def _camera_node(self) -> Node | None:
+        """The first visible node that holds a camera: what is drawn through by default."""
+        if self._camera_version != self._structure_version:
+            cameras = (node for node in self._nodes.values() if isinstance(node._object, Camera))
+            self._first_camera = next((node for node in cameras if node.shown), None)
+            self._camera_version = self._structure_version
+        return self._first_camera
 
     def find(self, name: str) -> Node | None:
         """Return the first node of that name, or None."""

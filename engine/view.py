@@ -10,7 +10,7 @@ import numpy as np
 
 from . import linalg
 from .attributes import matrix4
-from .cameras import Camera, frame_bounds
+from .cameras import Camera
 from .errors import InvalidArgumentError
 from .scene import Node, Scene
 
@@ -21,8 +21,6 @@ class View:
     Attributes
     ----------
     camera : Camera
-    pose : (4, 4) float64
-        world-from-camera.
     projection, clip_from_world, view_from_world : (4, 4) float64
     eye : tuple of 4 float
         The camera's world position and 1; without perspective the direction to the viewer and 0.
@@ -43,19 +41,19 @@ class View:
             projection = camera.projection(width, height)
         self.projection = projection
         self.camera = camera
-        self.pose = pose
+        self._pose_bytes = pose.tobytes()
         self.view_from_world = linalg.inverse(pose)
         self.clip_from_world = linalg.multiply(projection, self.view_from_world)
         self.towards_viewer = tuple(linalg.normalize(pose[:3, 2]).tolist())
-        if projection[3, 0] == projection[3, 1] == projection[3, 2] == 0:
-            self.eye = (*self.towards_viewer, 0.0)
-        else:
+        if any(projection[3].tolist()[:3]):
             self.eye = (*pose[:3, 3].tolist(), 1.0)
+        else:
+            self.eye = (*self.towards_viewer, 0.0)
 
     def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
         """Whether the view is still that of this camera, pose and image."""
         return self._lens == (camera, camera.version, width, height) and (
-            self.pose is pose or np.array_equal(self.pose, pose)
+            self._pose_bytes == pose.tobytes()
         )
 
     def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
@@ -73,25 +71,27 @@ class View:
         return near, far
 
 
-def find_camera(scene: Scene, camera, width: int, height: int) -> tuple[Camera, np.ndarray]:
+def find_camera(scene: Scene, camera) -> tuple[Camera, np.ndarray] | None:
     """Return the camera to draw with, and its pose.
 
     Parameters
     ----------
     scene : Scene
     camera : None, Node or (Camera, pose)
-        None is the scene's first visible camera; if it has none, one that shows the whole scene.
-    width, height : int
+        None is the scene's first visible camera.
+
+    Returns
+    -------
+    camera, pose : Camera, (4, 4) float64
+        None if the scene has to be framed automatically.
 
     Raises
     ------
     InvalidArgumentError
     """
     if camera is None:
-        for node in scene.nodes:
-            if isinstance(node.object, Camera) and node.shown:
-                return node.object, node.world_pose
-        return frame_bounds(scene.bounds, aspect=width / height)
+        node = scene._camera_node()
+        return None if node is None else (node.object, node.world_pose)
     if isinstance(camera, Node):
         if not isinstance(camera.object, Camera):
             raise InvalidArgumentError(f"camera must be a node that holds a camera, not {camera!r}")

@@ -88,19 +88,10 @@ class NativeDrawList:
         falloff: int,
     ) -> None: ...
 
-class NativeRenderer:
-    def __init__(self, backend: int, threads: int) -> None: ...
-    def render(
+class NativeOptions:
+    def __init__(
         self,
-        draw_list: NativeDrawList,
-        targets: dict[str, np.ndarray],
         *,
-        width: int,
-        height: int,
-        samples_axis: int,
-        clip_from_world: _Doubles,
-        view_from_world: _Doubles,
-        eye: Sequence[float],
         mode: int,
         cull: int,
         wireframe: int,
@@ -114,10 +105,25 @@ class NativeRenderer:
         background: Sequence[float],
         encode_srgb: bool,
         decode_srgb: bool,
-        depth_near: float,
-        depth_far: float,
         ambient: Sequence[float],
         light_clamp: Sequence[float],
+    ) -> None: ...
+
+class NativeRenderer:
+    def __init__(self, backend: int, threads: int) -> None: ...
+    def render(
+        self,
+        draw_list: NativeDrawList,
+        targets: dict[str, np.ndarray],
+        options: NativeOptions,
+        width: int,
+        height: int,
+        samples_axis: int,
+        clip_from_world: _Doubles,
+        view_from_world: _Doubles,
+        eye: Sequence[float],
+        depth_near: float,
+        depth_far: float,
     ) -> dict[str, int | float | str]: ...
 
 def rasterize(

@@ -361,6 +361,49 @@ cdef int run_signal_handlers(void *renderer) noexcept with gil:
     return 0
 
 
+cdef class NativeOptions:
+    """How frames are drawn: all of a frame's settings but its size, its view and the scene."""
+
+    cdef e3d_frame frame
+
+    def __cinit__(
+        self,
+        *,
+        int mode,
+        int cull,
+        int wireframe,
+        int hidden,
+        int shading,
+        int normals,
+        bint remove_hidden_lines,
+        float line_width,
+        float point_size,
+        line_color,
+        background,
+        bint encode_srgb,
+        bint decode_srgb,
+        ambient,
+        light_clamp,
+    ):
+        cdef e3d_frame *frame = &self.frame
+        memset(frame, 0, sizeof(e3d_frame))
+        frame.mode = <e3d_mode>mode
+        frame.cull = <e3d_cull>cull
+        frame.wireframe = <e3d_wireframe>wireframe
+        frame.hidden = <e3d_hidden>hidden
+        frame.shading = <e3d_shading>shading
+        frame.normals = <e3d_normals>normals
+        frame.remove_hidden_lines = remove_hidden_lines
+        frame.line_width = line_width
+        frame.point_size = point_size
+        copy_vector(frame.line_color, line_color, 3)
+        copy_vector(frame.background, background, 4)
+        frame.encode_srgb = encode_srgb
+        frame.decode_srgb = decode_srgb
+        copy_vector(frame.ambient, ambient, 3)
+        copy_vector(frame.light_clamp, light_clamp, 2)
+
+
 cdef class NativeRenderer:
     """A renderer of the core: one backend, a number of threads. One thread's at a time."""
 
@@ -381,30 +424,15 @@ cdef class NativeRenderer:
         self,
         NativeDrawList draw_list not None,
         dict targets not None,
-        *,
+        NativeOptions options not None,
         int width,
         int height,
         int samples_axis,
         const double[:, ::1] clip_from_world not None,
         const double[:, ::1] view_from_world not None,
         eye,
-        int mode,
-        int cull,
-        int wireframe,
-        int hidden,
-        int shading,
-        int normals,
-        bint remove_hidden_lines,
-        float line_width,
-        float point_size,
-        line_color,
-        background,
-        bint encode_srgb,
-        bint decode_srgb,
         float depth_near,
         float depth_far,
-        ambient,
-        light_clamp,
     ):
         """Draw one frame into the arrays of `targets`; return its statistics.
 
@@ -417,31 +445,16 @@ cdef class NativeRenderer:
         cdef e3d_status status
         require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
         require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
-        memset(&frame, 0, sizeof(frame))
         memset(&stats, 0, sizeof(stats))
+        frame = options.frame
         frame.width = width
         frame.height = height
         frame.samples_axis = samples_axis
         memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
         memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
         copy_vector(frame.eye, eye, 4)
-        frame.mode = <e3d_mode>mode
-        frame.cull = <e3d_cull>cull
-        frame.wireframe = <e3d_wireframe>wireframe
-        frame.hidden = <e3d_hidden>hidden
-        frame.shading = <e3d_shading>shading
-        frame.normals = <e3d_normals>normals
-        frame.remove_hidden_lines = remove_hidden_lines
-        frame.line_width = line_width
-        frame.point_size = point_size
-        copy_vector(frame.line_color, line_color, 3)
-        copy_vector(frame.background, background, 4)
-        frame.encode_srgb = encode_srgb
-        frame.decode_srgb = decode_srgb
         frame.depth_near = depth_near
         frame.depth_far = depth_far
-        copy_vector(frame.ambient, ambient, 3)
-        copy_vector(frame.light_clamp, light_clamp, 2)
         frame.materials = draw_list.materials
         frame.material_count = draw_list.material_count
         frame.lights = draw_list.lights

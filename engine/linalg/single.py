@@ -7,6 +7,7 @@ thing NumPy spends ten times as long on calls as on numbers.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 
@@ -46,7 +47,7 @@ def inverse(m: Rows) -> list[list[float]] | None:
     if determinant == 0.0:
         return None
     result = [[entry / determinant + 0.0 for entry in row] for row in adjugate]
-    return result if all(math.isfinite(entry) for row in result for entry in row) else None
+    return result if all(map(math.isfinite, itertools.chain(*result))) else None
 
 
 def _pair_determinants(upper, lower) -> tuple[float, ...]:

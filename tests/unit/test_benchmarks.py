@@ -55,3 +55,10 @@ def test_profile():
     for row in rows:
         assert abs(sum(row["milliseconds"].values()) - row["wall"]) < 0.5 * row["wall"]
         assert row["pixels_shaded"] > 0
+
+
+def test_overhead():
+    figures = report("overhead.py", "--calls", "2", "--starts", "1")
+    assert len(figures["calls"]) == 9 and len(figures["starts"]) == 5
+    assert all(row["microseconds"] > row["core_microseconds"] > 0 for row in figures["calls"])
+    assert all(row["milliseconds"] > 0 for row in figures["starts"])

@@ -1,0 +1,162 @@
+"""Long lives: what is made, drawn and dropped ten thousand times leaves nothing behind."""
+
+import gc
+import os
+import resource
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d import native_handles
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+
+ROUNDS = 10_000
+ATTEMPTS = 4
+# The allocator keeps what it likes, but not 200 bytes of each round.
+ALLOWED_BYTES = 2_000_000
+POSITIONS = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, 1]], np.float32)
+FACES = np.array([[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)
+UVS = np.array([[0, 0], [1, 0], [0, 1], [1, 1]], np.float32)
+PIXELS = np.random.default_rng(1).integers(0, 256, (8, 8, 3), np.uint8)
+CAMERA = e3d.PerspectiveCamera()
+POSE = e3d.look_at((1, 2, 3), (0, 0, 0))
+# What makes the core hold other things: the options of each round in turn.
+OPTIONS = (
+    {},
+    {"outputs": ("color", "depth", "normal", "uv"), "shading": "forward"},
+    {"wireframe": "overlay", "line_width": 2},
+    {"mode": "depth", "hidden_surfaces": "painter"},
+    {"normals": "flat", "outputs": ("triangle_id", "barycentric")},
+    {"wireframe": "only"},
+)
+
+
+def resident_bytes():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * resource.getpagesize()
+
+
+def held():
+    """Threads of the process, and its open files."""
+    return len(os.listdir("/proc/self/task")), len(os.listdir("/proc/self/fd"))
+
+
+def live_once(number, threads=1):
+    """Make a texture, a mesh, instances, a light, a scene and a renderer; draw; drop them all."""
+    mesh = e3d.Mesh(POSITIONS, FACES, uvs=UVS)
+    mesh.materials = [e3d.Material(texture=e3d.Texture(PIXELS))]
+    scene = e3d.Scene()
+    scene.add(mesh)
+    if number % 3 == 0:
+        scene.add(e3d.InstancedMesh(mesh, [[1, 0, 0, 0.5], [-1, 0, 0, 0.5]]))
+        scene.add(e3d.PointLight(), translation=(1, 1, 1))
+    with e3d.Renderer(9, 7, threads=threads, samples=4 if number % 5 == 0 else 1) as renderer:
+        frame = renderer.render(scene, (CAMERA, POSE), **OPTIONS[number % len(OPTIONS)])
+    return frame
+
+
+def grows(live, warm_up):
+    """Whether the process grows each time it lives, once it has warmed up.
+
+    The allocator's own holdings go up and down by a megabyte or two, between threads above all; a
+    leak makes every life grow.
+    """
+    warm_up()
+    gc.collect()
+    for _ in range(ATTEMPTS):
+        before = resident_bytes()
+        live()
+        gc.collect()
+        if resident_bytes() - before < ALLOWED_BYTES:
+            return False
+    return True
+
+
+@pytest.mark.slow
+def test_ten_thousand_rounds_leave_nothing():
+    def live(rounds):
+        for number in range(rounds):
+            live_once(number, threads=1 + number % 2)
+
+    threads_and_files = None
+
+    def warm_up():
+        nonlocal threads_and_files
+        live(500)
+        threads_and_files = held()
+
+    assert not grows(lambda: live(ROUNDS), warm_up)
+    assert held() == threads_and_files
+
+
+def test_renderers_that_die_in_threads_leave_nothing():
+    """Among them some that were made elsewhere, and frames that outlive thread and renderer."""
+    kept = []
+
+    def live_in_a_thread(renderer):
+        for number in range(3):
+            live_once(number, threads=2)
+        renderer.render(e3d.Scene())
+        kept[:] = [live_once(4)]
+
+    def live(rounds):
+        for _ in range(rounds):
+            renderers = [e3d.Renderer(9, 7, threads=2) for _ in range(4)]
+            threads = [threading.Thread(target=live_in_a_thread, args=(r,)) for r in renderers]
+            del renderers
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+
+    assert not grows(lambda: live(100), lambda: live(50))
+    assert kept[0].triangle_id.shape == (7, 9)
+
+
+def test_a_renderer_that_changes_forever_keeps_nothing():
+    """One renderer, one scene: sizes, scenes' contents and arrays that come and go."""
+    renderer = e3d.Renderer(9, 7, threads=1)
+    scene = e3d.Scene()
+
+    def live(rounds):
+        for number in range(rounds):
+            mesh = e3d.Mesh(POSITIONS, FACES, uvs=UVS)
+            node = scene.add(mesh)
+            renderer.resize(5 + number % 7, 5 + number % 11)
+            renderer.render(scene, (CAMERA, POSE), **OPTIONS[number % len(OPTIONS)])
+            mesh.positions = POSITIONS * 2
+            mesh.materials[0].texture = e3d.Texture(PIXELS)
+            renderer.render(scene)
+            scene.remove(node)
+
+    assert not grows(lambda: live(2000), lambda: live(200))
+
+
+def test_pictures_and_files_in_memory_leave_nothing():
+    frame = live_once(0)
+    png = frame.encode("png")
+
+    def encode(rounds):
+        assert all(frame.encode("png") == png for _ in range(rounds))
+
+    assert not grows(lambda: encode(2000), lambda: encode(100))
+
+
+def test_native_handles_go_with_their_objects():
+    scene = e3d.Scene()
+    texture = e3d.Texture(np.zeros((2, 2, 3), np.uint8))
+    mesh = e3d.box()
+    mesh.materials = [e3d.Material(texture=texture)]
+    scene.add(mesh)
+    e3d.render(scene, size=(4, 4))
+    assert mesh in native_handles._meshes
+    assert texture in native_handles._textures
+    meshes, textures = len(native_handles._meshes), len(native_handles._textures)
+    del scene, mesh, texture
+    gc.collect()
+    assert len(native_handles._meshes) < meshes
+    assert len(native_handles._textures) < textures

@@ -12,9 +12,16 @@ typedef struct raster_constants {
     vi32 slot;
 } raster_constants;
 
-static inline vf32 raster_z(const raster_constants *c, vf32 dx, vf32 dy)
+/* R14, the part that a column of vectors shares. */
+static inline vf32 raster_column(const raster_constants *c, int32_t from)
 {
-    vf32 z = v_add(v_add(c->z0, v_mul(dx, c->gx)), v_mul(dy, c->gy));
+    vf32 dx = v_float(v_addi(v_iota(), v_seti(from)));
+    return v_add(c->z0, v_mul(dx, c->gx));
+}
+
+static inline vf32 raster_z(const raster_constants *c, vf32 column, int32_t dy)
+{
+    vf32 z = v_add(column, v_mul(v_setf((float)dy), c->gy));
     return v_min(v_max(z, c->zmin), c->zmax);
 }
 
@@ -46,11 +53,14 @@ static inline void raster_write(int use, vmask inside, vf32 z, int at, const ras
     vf32 old = v_loadf(depth);
     vf32 limit = use == RASTER_OVERWRITE ? v_setf(E3D_BEYOND_FAR) : old;
     vmask pass = v_mand(inside, v_lt(z, limit));
+    vmask equal_lanes = v_mand(inside, v_eq(z, old));
+    if (!v_any(use == RASTER_DEPTH ? v_mor(pass, equal_lanes) : pass))
+        return;
     vi32 before = v_loadi(slot);
     if (use == RASTER_COUNT) {
         v_storei(slot, v_seli(pass, v_addi(before, v_seti(1)), before));
     } else if (use == RASTER_DEPTH) {
-        uint32_t equal = v_bits(v_mand(inside, v_eq(z, old)));
+        uint32_t equal = v_bits(equal_lanes);
         v_storef(depth, v_self(pass, z, old));
         v_storei(slot, v_seli(pass, c->slot, before));
         if (equal)
@@ -67,8 +77,6 @@ static inline vi32 raster_step(int32_t per_sample)
     return v_muli(v_iota(), v_seti(per_sample));
 }
 
-static inline vf32 raster_offset(int32_t from) { return v_float(v_addi(v_iota(), v_seti(from))); }
-
 /* A box at most one vector wide. */
 static inline void raster_narrow(int use, const e3d_piece *p, const raster_constants *c,
                                  const e3d_tile_buffers *tile)
@@ -77,11 +85,11 @@ static inline void raster_narrow(int use, const e3d_piece *p, const raster_const
     vi32 e[3];
     for (int k = 0; k < 3; k++)
         e[k] = v_addi(v_seti(p->e[k] + p->a[k] * x + p->b[k] * p->y0), raster_step(p->a[k]));
-    vf32 dx = raster_offset(x - p->base_x);
+    vf32 column = raster_column(c, x - p->base_x);
     for (int y = p->y0; y <= p->y1; y++) {
         vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
         if (v_any(inside)) {
-            vf32 z = raster_z(c, dx, v_setf((float)(y - p->base_y)));
+            vf32 z = raster_z(c, column, y - p->base_y);
             raster_write(use, inside, z, y * E3D_TILE + x, c, p, tile);
         }
         for (int k = 0; k < 3; k++)
@@ -104,11 +112,10 @@ static inline void raster_full_block(int use, const e3d_piece *p, int x, int y0,
                                      const raster_constants *c, const e3d_tile_buffers *tile)
 {
     vmask all = v_eqi(c->slot, c->slot);
-    for (int y = y0; y <= y1; y++) {
-        vf32 dy = v_setf((float)(y - p->base_y));
-        for (int i = 0; i < RASTER_COLUMNS; i += V_LANES)
-            raster_write(use, all, raster_z(c, raster_offset(x + i - p->base_x), dy),
-                         y * E3D_TILE + x + i, c, p, tile);
+    for (int i = x; i < x + RASTER_COLUMNS; i += V_LANES) {
+        vf32 column = raster_column(c, i - p->base_x);
+        for (int y = y0; y <= y1; y++)
+            raster_write(use, all, raster_z(c, column, y - p->base_y), y * E3D_TILE + i, c, p, tile);
     }
 }
 
@@ -117,7 +124,7 @@ static inline void raster_edge_block(int use, const e3d_piece *p, const int32_t 
                                      const e3d_tile_buffers *tile)
 {
     for (int i = 0; i < RASTER_COLUMNS; i += V_LANES) {
-        vf32 dx = raster_offset(x + i - p->base_x);
+        vf32 column = raster_column(c, x + i - p->base_x);
         vi32 e[3];
         for (int k = 0; k < 3; k++)
             e[k] = v_addi(v_seti(corner[k] + p->a[k] * i + p->b[k] * (y0 - top)),
@@ -125,7 +132,7 @@ static inline void raster_edge_block(int use, const e3d_piece *p, const int32_t 
         for (int y = y0; y <= y1; y++) {
             vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
             if (v_any(inside)) {
-                vf32 z = raster_z(c, dx, v_setf((float)(y - p->base_y)));
+                vf32 z = raster_z(c, column, y - p->base_y);
                 raster_write(use, inside, z, y * E3D_TILE + x + i, c, p, tile);
             }
             for (int k = 0; k < 3; k++)

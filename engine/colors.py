@@ -90,6 +90,27 @@ def linear_color(value, color_space: str = "srgb") -> np.ndarray:
     return srgb_to_linear_table()[list(components)]
 
 
+def srgb_bytes(colors: np.ndarray) -> np.ndarray:
+    """Return vertex colours as 8-bit display values.
+
+    Parameters
+    ----------
+    colors : (N, 4) uint8 or float32
+        As a mesh holds them: bytes are sRGB, floats linear light.
+
+    Returns
+    -------
+    colors : (N, 4) uint8
+        Bytes unchanged; of floats the nearest ones, alpha scaled.
+    """
+    if colors.dtype == np.uint8:
+        return colors
+    table = srgb_to_linear_table()
+    encoded = np.searchsorted((table[1:] + table[:-1]) / 2, colors).astype(np.uint8)
+    encoded[:, 3] = np.floor(np.clip(colors[:, 3], 0, 1) * 255 + 0.5)
+    return encoded
+
+
 def is_8bit(components) -> bool:
     """Tell whether a colour of Python or NumPy scalars is meant as 8-bit values."""
     if not all(isinstance(c, numbers.Integral) for c in components):

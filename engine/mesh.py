@@ -204,6 +204,48 @@ class Mesh:
 
         return concatenate(cls, list(meshes), name)
 
+    @classmethod
+    def from_trimesh(cls, geometry) -> Mesh:
+        """Return the mesh of what the package trimesh holds.
+
+        Parameters
+        ----------
+        geometry : trimesh.Trimesh, PointCloud, Path3D or Scene
+            The parts of a scene are joined, each at its place.
+
+        Returns
+        -------
+        mesh : Mesh
+            With texture coordinates, colours, materials and textures. Normals only if the geometry
+            was given some.
+
+        Raises
+        ------
+        InvalidArgumentError
+            It is none of these.
+        """
+        from .trimesh_conversion import mesh_from_trimesh
+
+        return mesh_from_trimesh(geometry)
+
+    def to_trimesh(self):
+        """Return the mesh for the package trimesh, which must be installed.
+
+        Returns
+        -------
+        geometry : trimesh.Trimesh, PointCloud or Scene
+            A point cloud if there are no faces; a scene of one geometry for each material if faces
+            have several. Lines are left out.
+
+        Raises
+        ------
+        ImportError
+            There is no trimesh: ``pip install engine3d[formats]``.
+        """
+        from .trimesh_conversion import mesh_to_trimesh
+
+        return mesh_to_trimesh(self)
+
     def save(self, path: str | os.PathLike, *, format: str | None = None, **options) -> None:
         """Write the mesh to an OBJ, PLY or STL file; parameters and exceptions of `save_mesh`."""
         from .writers import save_mesh

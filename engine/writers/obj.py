@@ -12,7 +12,7 @@ import os
 import numpy as np
 
 from ..atomic_write import atomic_write
-from ..colors import srgb_to_linear_table
+from ..colors import srgb_bytes
 from ..loaders.welding import number_rows
 from ..mesh import Mesh
 from .mtl import is_plain, material_names, write_library
@@ -46,7 +46,7 @@ def write_obj(mesh: Mesh, path: str) -> list[str]:
 def _write_vertices(mesh: Mesh, file) -> np.ndarray:
     """Write the lists; returns the number of each vertex's position, from 1."""
     numbers, first = _positions(mesh)
-    colors = _srgb_bytes(mesh.colors)
+    colors = None if mesh.colors is None else srgb_bytes(mesh.colors)
     positions = mesh.positions[first]
     if colors is None:
         write_floats(file, "v ", positions)
@@ -77,17 +77,6 @@ def _positions(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     # the file, and sharing no more than that keeps the vertices in their order.
     is_new = np.r_[True, (keys[1:] != keys[:-1]).any(axis=1)][:count]
     return np.cumsum(is_new) - 1, np.flatnonzero(is_new)
-
-
-def _srgb_bytes(colors: np.ndarray | None) -> np.ndarray | None:
-    """Vertex colours as an OBJ file has them: display values."""
-    if colors is None or colors.dtype == np.uint8:
-        return colors
-    table = srgb_to_linear_table()
-    middles = (table[1:] + table[:-1]) / 2
-    encoded = np.searchsorted(middles, colors).astype(np.uint8)
-    encoded[:, 3] = np.floor(np.clip(colors[:, 3], 0, 1) * 255 + 0.5)
-    return encoded
 
 
 def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) -> None:

@@ -22,8 +22,10 @@ def test_formats_are_listed():
 
 
 def test_an_unknown_format_is_a_clear_error(write):
-    with pytest.raises(FileFormatError, match=r"a\.xyz: unknown mesh format '\.xyz' \(known: \.as"):
-        load_mesh(write("a.xyz", "1 2 3\n"))
+    with pytest.raises(
+        FileFormatError, match=r"a\.what: unknown mesh format '\.what' \(known: \.3dxml"
+    ):
+        load_mesh(write("a.what", "1 2 3\n"))
 
 
 @pytest.mark.parametrize("extension", ["txt", "3d", ""])

@@ -1,0 +1,153 @@
+"""To trimesh and back, and the formats that it reads."""
+
+import json
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d.errors import FileFormatError, InvalidArgumentError
+from engine3d.loaders import load_document, load_mesh
+from engine3d.trimesh_conversion import posed_mesh
+
+trimesh = pytest.importorskip("trimesh")
+
+GREY = np.full((2, 2, 4), 128, np.uint8)
+
+
+def same(a, b):
+    return a is b is None or np.array_equal(a, b)
+
+
+@pytest.mark.parametrize("make", [e3d.box, e3d.torus, e3d.icosphere])
+def test_there_and_back(make):
+    mesh = make()
+    mesh.materials = [e3d.Material(color=(1.0, 0.0, 0.0), texture=e3d.Texture(GREY))]
+    again = e3d.Mesh.from_trimesh(mesh.to_trimesh())
+    for name in ("positions", "faces", "uvs", "colors"):
+        assert same(getattr(mesh, name), getattr(again, name)), name
+    assert np.allclose(mesh.normals, again.normals, atol=1e-6)
+    assert again.materials[0].color == (1, 0, 0)
+    assert np.array_equal(again.materials[0].texture.pixels, GREY)
+
+
+def test_colors():
+    triangle = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=np.arange(12, dtype=np.uint8).reshape(3, 4))
+    assert same(e3d.Mesh.from_trimesh(triangle.to_trimesh()).colors, triangle.colors)
+    linear = e3d.Mesh(np.eye(3), [[0, 1, 2]], colors=np.full((3, 4), 0.5, np.float32))
+    assert e3d.Mesh.from_trimesh(linear.to_trimesh()).colors[0].tolist() == [188, 188, 188, 128]
+    box = trimesh.creation.box()
+    box.visual.face_colors = np.arange(48, dtype=np.uint8).reshape(12, 4)
+    mesh = e3d.Mesh.from_trimesh(box)
+    assert (mesh.colors[mesh.faces] == box.visual.face_colors[:, np.newaxis]).all()
+    assert np.array_equal(mesh.positions[mesh.faces], box.triangles.astype(np.float32))
+
+
+def test_points_and_paths():
+    cloud = e3d.Mesh(np.eye(3), points=[0, 2])
+    assert e3d.Mesh.from_trimesh(cloud.to_trimesh()).positions.tolist() == [[1, 0, 0], [0, 0, 1]]
+    ends = np.array([[0, 0, 0], [1, 0, 0], [5, 5, 5], [6, 5, 5]], float)
+    runs = [SimpleNamespace(discrete=lambda v, k=k: v[k : k + 2]) for k in (0, 2)]
+    path = SimpleNamespace(vertices=ends, entities=runs)
+    mesh = e3d.Mesh.from_trimesh(path)
+    ends = mesh.positions[mesh.lines]
+    assert np.sort(ends[:, 0, 0]).tolist() == [0, 5]
+    assert (ends[:, 1] - ends[:, 0]).tolist() == [[1, 0, 0]] * 2
+
+
+def test_several_materials_are_a_scene():
+    mesh = e3d.Mesh(
+        np.eye(4, 3),
+        [[0, 1, 2], [0, 2, 3]],
+        materials=[e3d.Material(name="a", color=(1.0, 0.0, 0.0)), e3d.Material(name="b")],
+        material_ids=[0, 1],
+    )
+    scene = mesh.to_trimesh()
+    assert sorted(scene.geometry) == ["a", "b"]
+    assert len(e3d.Mesh.from_trimesh(scene).faces) == 2
+
+
+def test_a_mirroring_pose_turns_faces_over():
+    mesh = e3d.box()
+    posed = posed_mesh(mesh, np.diag([-1.0, 2.0, 1.0, 1.0]))
+    outward = posed.face_normals * posed.positions[posed.faces].mean(axis=1)
+    assert (outward.sum(axis=1) > 0).all()
+    assert np.allclose((posed.normals**2).sum(axis=1), 1)
+    assert len(posed.edges()) == len(mesh.edges())
+
+
+def test_what_is_no_geometry():
+    with pytest.raises(InvalidArgumentError, match="not a geometry of trimesh: int"):
+        e3d.Mesh.from_trimesh(3)
+
+
+def test_binary_gltf(tmp_path):
+    scene = trimesh.Scene()
+    pose = np.eye(4)
+    pose[:3, 3] = 7, 0, 0
+    scene.add_geometry(trimesh.creation.box(), node_name="left")
+    scene.add_geometry(
+        trimesh.creation.icosphere(subdivisions=1), node_name="right", transform=pose
+    )
+    path = tmp_path / "two.glb"
+    path.write_bytes(scene.export(file_type="glb"))
+    document = load_document(path)
+    assert sorted(entry.name for entry in document.objects) == ["left", "right"]
+    assert document.format == "glb"
+    mesh = load_mesh(path.read_bytes())
+    assert mesh.bounds[:, 0].tolist() == [-0.5, 8]
+    assert len(mesh.faces) == 12 + 80
+
+
+def test_textures_come_along(tmp_path):
+    mesh = e3d.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
+    mesh.materials = [e3d.Material(texture=e3d.Texture(GREY))]
+    path = tmp_path / "a.glb"
+    path.write_bytes(mesh.to_trimesh().export(file_type="glb"))
+    again = load_mesh(path)
+    assert np.array_equal(again.materials[0].texture.pixels, GREY)
+    assert np.allclose(again.uvs[again.faces], mesh.uvs[mesh.faces])
+
+
+def test_named_files_stay_in_the_folder(tmp_path):
+    parts = trimesh.creation.box().export(file_type="gltf")
+    folder = tmp_path / "model"
+    folder.mkdir()
+    for name, data in parts.items():
+        (folder / name).write_bytes(data)
+    path = folder / "model.gltf"
+    assert len(load_mesh(path).faces) == 12
+    tree = json.loads(path.read_text())
+    name = tree["buffers"][0]["uri"]
+    (folder / name).rename(tmp_path / name)
+    tree["buffers"][0]["uri"] = f"../{name}"
+    path.write_text(json.dumps(tree))
+    with pytest.raises(FileFormatError, match=r"model\.gltf: trimesh cannot read it.*refused"):
+        load_mesh(path)
+
+
+@pytest.mark.parametrize("name", ["a.glb", "a.gltf", "a.dxf", "a.xyz"])
+@pytest.mark.parametrize("content", [b"", b"glTF\2\0\0\0\xff\0\0\0", b"{}", b"nonsense"])
+def test_damaged_files_are_our_own_errors(write, name, content):
+    with pytest.raises(FileFormatError, match=name.replace(".", r"\.")) as caught:
+        load_mesh(write(name, content))
+    assert "\n" not in str(caught.value)
+
+
+def test_without_trimesh(write):
+    path = write("a.glb", b"glTF")
+    code = (
+        "import sys; sys.modules['trimesh'] = None\n"
+        "import engine3d as e3d\n"
+        f"try: e3d.load_mesh({str(path)!r})\n"
+        "except e3d.FileFormatError as error: print(error)\n"
+        "try: e3d.box().to_trimesh()\n"
+        "except ImportError as error: print(error)\n"
+    )
+    found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    lines = found.stdout.splitlines()
+    assert "a.glb: .glb files need the package trimesh" in lines[0]
+    assert "engine3d[formats]" in lines[1]

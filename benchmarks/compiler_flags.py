@@ -26,6 +26,7 @@ BACKENDS = ["portable", *(SETUP["ISA_FLAGS"] if SETUP["IS_X86_64"] else {})]
 LEVELS = ["-O0", "-O1", "-O2", "-O3"]
 BASELINE = ("portable", "-O3")
 # The name of an instruction set for __builtin_cpu_supports.
+LEANS_ON = {"avx512": ["avx512", "avx2"]}  # narrow pieces are rastered by the other table
 CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
 CPU_LACKS_IT = 3  # exit status of the timer
 TIMER_SOURCES = ["benchmarks/kernel_timer.c"]
@@ -56,22 +57,23 @@ def builds(backends, levels):
 def build_timer(compiler, backend, flags, folder):
     """Compile the kernels with `flags`, link them with the timer, return the program's path."""
     exact = [*SETUP["EXACT"], *SETUP["HYGIENE"], "-w"]
-    isa = SETUP["ISA_FLAGS"].get(backend, [])
     common = [f"-I{ROOT / path}" for path in SETUP["INCLUDE_DIRS"]]
     baseline = ["-march=x86-64", "-mtune=generic"] if SETUP["IS_X86_64"] else []
-    kernels = Path(folder) / "kernels.o"
-    source = ROOT / "csrc" / "kernels" / f"isa_{backend}.c"
-    command = [compiler, *common, *baseline, *exact, *isa, *flags, "-c", source, "-o", kernels]
-    subprocess.run(command, check=True)
+    x86 = ["-DE3D_HAVE_X86=1"] if SETUP["IS_X86_64"] else []
+    objects = []
+    for name in LEANS_ON.get(backend, [backend]):
+        isa = SETUP["ISA_FLAGS"].get(name, [])
+        source = ROOT / "csrc" / "kernels" / f"isa_{name}.c"
+        objects.append(Path(folder) / f"{name}.o")
+        command = [compiler, *common, *baseline, *exact, *isa, *flags, *x86, "-c", source]
+        subprocess.run([*command, "-o", objects[-1]], check=True)
 
     program = Path(folder) / "timer"
-    macros = [f"-DE3D_TABLE=e3d_kernels_{backend}"]
-    if SETUP["IS_X86_64"]:
-        macros.append("-DE3D_HAVE_X86=1")
+    macros = [*x86, f"-DE3D_TABLE=e3d_kernels_{backend}"]
     if backend in CPU_FEATURES:
         macros.append(f'-DCPU_FEATURE="{CPU_FEATURES[backend]}"')
     sources = [ROOT / path for path in TIMER_SOURCES]
-    command = [compiler, *common, *baseline, *exact, "-O2", *macros, *sources, kernels]
+    command = [compiler, *common, *baseline, *exact, "-O2", *macros, *sources, *objects]
     subprocess.run([*command, "-lm", "-o", program], check=True)
     return program
 

@@ -5,5 +5,6 @@
 #endif
 #include "kernels/simd/vec_avx512.h"
 
+#define E3D_NARROW_TABLE e3d_kernels_avx2 /* every such CPU has AVX2 */
 #define E3D_TABLE e3d_kernels_avx512
 #include "kernels/generic/table.inl"

@@ -160,11 +160,16 @@ static inline void raster_block(int use, const e3d_piece *p, int x, int top, con
         raster_edge_block(use, p, corner, x, y0, y1, top, c, tile);
 }
 
+static inline int raster_is_narrow(const e3d_piece *p)
+{
+    return p->x1 - p->x0 < V_LANES && p->x1 - p->x0 < RASTER_BLOCK;
+}
+
 static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buffers *tile)
 {
     raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
                           v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
-    if (p->x1 - p->x0 < V_LANES && p->x1 - p->x0 < RASTER_BLOCK) {
+    if (raster_is_narrow(p)) {
         raster_narrow(use, p, &c, tile);
         return;
     }
@@ -173,19 +178,25 @@ static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buff
             raster_block(use, p, x, top, &c, tile);
 }
 
-static void kernel_raster_depth(const e3d_piece *piece, const e3d_tile_buffers *tile)
-{
-    raster_piece(RASTER_DEPTH, piece, tile);
-}
-static void kernel_raster_overwrite(const e3d_piece *piece, const e3d_tile_buffers *tile)
-{
-    raster_piece(RASTER_OVERWRITE, piece, tile);
-}
-static void kernel_raster_count(const e3d_piece *piece, const e3d_tile_buffers *tile)
-{
-    raster_piece(RASTER_COUNT, piece, tile);
-}
-static void kernel_raster_mark(const e3d_piece *piece, const e3d_tile_buffers *tile)
-{
-    raster_piece(RASTER_MARK, piece, tile);
-}
+/* Narrow pieces would leave most of a wide vector empty: an ISA file may name the table that takes them. */
+#ifdef E3D_NARROW_TABLE
+#define RASTER_NARROW(name)                    \
+    if (raster_is_narrow(piece)) {             \
+        E3D_NARROW_TABLE.raster_##name(piece, tile); \
+        return;                                \
+    }
+#else
+#define RASTER_NARROW(name)
+#endif
+
+#define RASTER_KERNEL(name, use)                                                            \
+    static void kernel_raster_##name(const e3d_piece *piece, const e3d_tile_buffers *tile)  \
+    {                                                                                       \
+        RASTER_NARROW(name)                                                                 \
+        raster_piece(use, piece, tile);                                                     \
+    }
+
+RASTER_KERNEL(depth, RASTER_DEPTH)
+RASTER_KERNEL(overwrite, RASTER_OVERWRITE)
+RASTER_KERNEL(count, RASTER_COUNT)
+RASTER_KERNEL(mark, RASTER_MARK)

@@ -26,7 +26,6 @@ from .triangulation import triangulate
 from .warning_list import WarningList
 
 _KEYWORD = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF\b")
-_COMMENT = re.compile(rb"#[^\n]*")
 
 
 def read_off(source: Source, split: bool = False) -> Document:
@@ -65,11 +64,10 @@ class _OffReader:
         self._budget = WorkBudget.for_file(len(source.data))
         if b"BINARY" in source.data[:20]:
             self._fail("binary OFF files are not read")
-        text = _COMMENT.sub(b"", text_lines(source))
-        self._has = self._keyword(text)
-        text = _KEYWORD.sub(lambda match: b" " * len(match[0]), text, count=1)
-        self._lines = text.split(b"\n")
-        self._filled = [k for k, line in enumerate(self._lines) if line and not line.isspace()]
+        self._lines = [line.partition(b"#")[0] for line in text_lines(source).split(b"\n")]
+        filled = (k for k, line in enumerate(self._lines) if line and not line.isspace())
+        self._filled = np.fromiter(filled, np.int64)
+        self._has = self._take_keyword()
         self._next = 0
         self.face_count = 0
 
@@ -86,23 +84,29 @@ class _OffReader:
             )
         return geometry
 
-    def _keyword(self, text: bytes) -> dict[str, bool]:
-        match = _KEYWORD.match(text.lstrip())
+    def _take_keyword(self) -> dict[str, bool]:
+        """Take the keyword, if there is one, off the first line that holds anything."""
+        first = self._filled[0] if len(self._filled) else 0
+        line = self._lines[first].lstrip()
+        match = _KEYWORD.match(line)
         if match is None:
             return dict.fromkeys(("uvs", "colors", "normals"), False)
         if match[4] or match[5]:
-            self._fail("only three-dimensional OFF files are read", 1)
+            self._fail("only three-dimensional OFF files are read", int(first) + 1)
+        self._lines[first] = line[match.end() :]
+        if not self._lines[first].strip():
+            self._filled = self._filled[1:]
         return {"uvs": bool(match[1]), "colors": bool(match[2]), "normals": bool(match[3])}
 
     def _counts(self) -> list[int]:
         """Vertices and faces; the number of edges, the third, says nothing and may be missing."""
-        if not self._filled:
+        if not len(self._filled):
             self._fail("no counts of vertices and faces")
         line = self._lines[self._filled[0]]
         words = line.split()
         self._next = 1
         if not 2 <= len(words) <= 3 or not all(w.isdigit() and len(w) < 19 for w in words[:2]):
-            self._fail(f"not counts of vertices and faces: {shown(line)}", self._filled[0] + 1)
+            self._fail(f"not counts of vertices and faces: {shown(line)}", int(self._filled[0]) + 1)
         counts = [int(word) for word in words[:2]]
         if counts[0] == 0:
             self._fail("no vertices in this OFF file")
@@ -117,13 +121,15 @@ class _OffReader:
 
     def _numbers(self, rows: slice) -> tuple[np.ndarray, np.ndarray]:
         """The numbers of some lines, and how many each line holds."""
-        lines = [self._lines[k] for k in self._filled[rows]]
+        lines = [self._lines[k] for k in self._filled[rows].tolist()]
+        text = b"\n".join(lines)
         try:
-            values = parse_text(b"\n".join(lines))
+            values = parse_text(text)
         except NotANumberError as error:
-            row = b"\n".join(lines).count(b"\n", 0, error.position)
+            row = text.count(b"\n", 0, error.position)
             self._fail(f"not a number: {shown(error.word)}", self._line(rows.start + row))
-        return values, np.array([len(line.split()) for line in lines], np.int64)
+        widths = np.fromiter((len(line.split()) for line in lines), np.int64, len(lines))
+        return values, widths
 
     def _vertex_table(self, rows: slice) -> np.ndarray:
         values, widths = self._numbers(rows)
@@ -188,7 +194,7 @@ class _OffReader:
             self._fail(f"{reason}: {text}", self._line(number))
 
     def _line(self, filled: int) -> int:
-        return self._filled[filled] + 1
+        return int(self._filled[filled]) + 1
 
     def _fail(self, message: str, line: int | None = None):
         raise FileFormatError(message, self._path, line)

@@ -87,14 +87,15 @@ def read_strips(table: PlyTable | None, count: int) -> np.ndarray:
         return np.zeros((0, 3), np.int32)
     strips = table.list(name)
     indices = _checked(table, strips, count, (_RESTART,))
-    number = np.arange(len(indices))
     begins = np.zeros(len(indices), bool)
     begins[(np.cumsum(strips.sizes) - strips.sizes)[strips.sizes > 0]] = True
     begins[1:] |= indices[:-1] == _RESTART
-    within = number - np.maximum.accumulate(np.where(begins, number, 0))
+    number = np.arange(len(indices), dtype=np.int32)
+    within = number - np.maximum.accumulate(np.where(begins, number, np.int32(0)))
     first = np.flatnonzero((within >= 2) & (indices != _RESTART)) - 2
     a, b, c = indices[first], indices[first + 1], indices[first + 2]
     is_odd = within[first] % 2 == 1
+    del begins, number, within, first
     triangles = np.stack([a, np.where(is_odd, c, b), np.where(is_odd, b, c)], axis=1)
     return triangles[(a != b) & (b != c) & (c != a)]
 

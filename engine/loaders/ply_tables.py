@@ -216,7 +216,7 @@ def _layout(count: int, stride: int | None, walked, end: int) -> _Layout:
     starts, sizes, _, rows = walked
     rows = np.frombuffer(rows, np.int64)
     starts, sizes = (
-        np.array(numbers, np.int64).reshape(len(rows), len(numbers) // len(rows))
+        np.frombuffer(numbers, np.int64).reshape(len(rows), len(numbers) // len(rows))
         for numbers in (starts, sizes)
     )
     return _Layout(count, stride, rows, starts, sizes, end)

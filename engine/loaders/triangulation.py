@@ -17,6 +17,10 @@ from .ear_clipping import WorkBudget, clip_ears
 # A corner counts as reflex if it turns back by more than this share of the polygon's area: flat
 # corners, and those bent by rounding, are left to the fan.
 _FLAT = 1e-9
+# Corners worked on at a time, which bounds the memory for intermediate results.
+_BLOCK = 1 << 17
+# Polygons of more corners are cut as fans, whatever they look like.
+_MOST_CORNERS = 1 << 18
 
 
 class Triangulation(NamedTuple):
@@ -72,8 +76,11 @@ def triangulate(
     # Which sizes occur; np.unique would import numpy.ma for it, a tenth of a small picture's time.
     for size in (np.flatnonzero(np.bincount(sizes)[3:]) + 3).tolist():
         members = np.flatnonzero(sizes == size)
-        rows = first_triangle[members, np.newaxis] + np.arange(size - 2)
-        corners[rows] = _cut_polygons(size, positions, first_corner[members], budget)
+        step = max(_BLOCK // size, 1)
+        for start in range(0, len(members), step):
+            block = members[start : start + step]
+            rows = first_triangle[block, np.newaxis] + np.arange(size - 2)
+            corners[rows] = _cut_polygons(size, positions, first_corner[block], budget)
     last = (1 - sizes[polygons]).astype(np.int32)
     edge_visible = np.empty(corners.shape, bool)
     for edge in range(3):
@@ -86,10 +93,12 @@ def triangulate(
 
 def _cut_polygons(size, positions, first_corner, budget) -> np.ndarray:
     """Cut polygons of one size: (P, size - 2, 3) corner numbers within each polygon."""
-    spokes = np.arange(1, size - 1)
-    fan = np.stack([np.zeros_like(spokes), spokes, spokes + 1], axis=1).astype(np.int32)
-    cut = np.repeat(fan[np.newaxis], len(first_corner), axis=0)
-    if size == 3:
+    cut = np.zeros((len(first_corner), size - 2, 3), np.int32)
+    cut[:, :, 1] = np.arange(1, size - 1, dtype=np.int32)
+    cut[:, :, 2] = cut[:, :, 1] + 1
+    if size > _MOST_CORNERS:
+        budget.tests = 0
+    if size == 3 or size > _MOST_CORNERS:
         return cut
     outlines = positions[first_corner[:, np.newaxis] + np.arange(size)]
     area = _area_vectors(outlines)

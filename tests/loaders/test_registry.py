@@ -60,3 +60,34 @@ def test_memory_stays_within_its_limit(kinds):
             assert tracemalloc.get_traced_memory()[1] - before <= limit, case["file"]
     finally:
         tracemalloc.stop()
+
+
+_VERTICES = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n" + "".join(
+    f"property uchar {axis}\n" for axis in "xyz"
+)
+_LIST = "property list uchar uchar vertex_indices\n"
+_COUNT = 300_000
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("empty.ply", f"element face {_COUNT}\n{_LIST}end_header\n" + "\0" * (9 + _COUNT)),
+        ("mixed.ply", f"element face {_COUNT}\n{_LIST}end_header\n" + "\0" * 9 + "\0\1\0" * _COUNT),
+        ("a.off", f"OFF\n3 {_COUNT} 0\n" + "0 0 0\n" * 3 + "0\n" * _COUNT),
+        ("comments.off", "OFF\n" + "#\n" * _COUNT),
+        ("a.stl", "solid\n" + "endloop\n" * _COUNT),
+        ("b.stl", "solid\n" + "vertex 0 0 0\n" * _COUNT + "endloop\n"),
+    ],
+)
+def test_memory_for_rows_of_next_to_nothing(write, name, content):
+    content = _VERTICES + content if name.endswith("ply") else content
+    path = write(name, content)
+    tracemalloc.start()
+    try:
+        with contextlib.suppress(Engine3DError):
+            load_mesh(path)
+        assert tracemalloc.get_traced_memory()[1] <= 64 * MIB + 40 * len(content)
+    finally:
+        tracemalloc.stop()

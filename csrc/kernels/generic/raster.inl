@@ -1,7 +1,7 @@
 /* raster: the samples of a tile that a piece covers, and its depth there (R12, R14-R17).
  *
- * Four uses of one loop: depth test, overwrite, count, mark. Narrow pieces take one unaligned vector a
- * row; wider ones go block by block, and a block inside all edges skips them.
+ * Four uses of one loop: depth test, overwrite, count, mark. Narrow pieces take strips of unaligned
+ * vectors; wider ones go block by block, and a block inside all edges skips them.
  */
 
 enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
@@ -77,11 +77,10 @@ static inline vi32 raster_step(int32_t per_sample)
     return v_muli(v_iota(), v_seti(per_sample));
 }
 
-/* A box at most one vector wide. */
-static inline void raster_narrow(int use, const e3d_piece *p, const raster_constants *c,
-                                 const e3d_tile_buffers *tile)
+/* One column of vectors, from x on, over the rows of the box. */
+static inline void raster_strip(int use, const e3d_piece *p, int x, const raster_constants *c,
+                                const e3d_tile_buffers *tile)
 {
-    int x = p->x0 < E3D_TILE - V_LANES ? p->x0 : E3D_TILE - V_LANES;
     vi32 e[3];
     for (int k = 0; k < 3; k++)
         e[k] = v_addi(v_seti(p->e[k] + p->a[k] * x + p->b[k] * p->y0), raster_step(p->a[k]));
@@ -95,6 +94,16 @@ static inline void raster_narrow(int use, const e3d_piece *p, const raster_const
         for (int k = 0; k < 3; k++)
             e[k] = v_addi(e[k], v_seti(p->b[k]));
     }
+}
+
+/* A box narrower than a block: strips from its own first column on, as far as the tile allows. */
+static inline void raster_narrow(int use, const e3d_piece *p, const raster_constants *c,
+                                 const e3d_tile_buffers *tile)
+{
+    int strips = (p->x1 - p->x0) / V_LANES + 1, most = E3D_TILE - strips * V_LANES;
+    int x = p->x0 < most ? p->x0 : most;
+    for (int i = 0; i < strips; i++)
+        raster_strip(use, p, x + i * V_LANES, c, tile);
 }
 
 /* Edge function at the block's corner where it is greatest (least). */
@@ -162,7 +171,7 @@ static inline void raster_block(int use, const e3d_piece *p, int x, int top, con
 
 static inline int raster_is_narrow(const e3d_piece *p)
 {
-    return p->x1 - p->x0 < V_LANES && p->x1 - p->x0 < RASTER_BLOCK;
+    return p->x1 - p->x0 < RASTER_BLOCK;
 }
 
 static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buffers *tile)

@@ -8,7 +8,9 @@ import sys
 import warnings
 
 from ..errors import Engine3DWarning
+from ..linalg import transform_points
 from ..loaders import load_document
+from ..mesh import Mesh
 
 
 def info(args: argparse.Namespace) -> int:
@@ -45,7 +47,7 @@ def describe(path) -> dict:
         "file": str(path),
         "format": document.format,
         "counts": dict(document.counts),
-        "bounds": _bounds(meshes),
+        "bounds": _bounds(document.objects),
         "objects": [
             {
                 "name": name,
@@ -67,15 +69,21 @@ def describe(path) -> dict:
     }
 
 
-def _bounds(meshes) -> dict | None:
-    """Return the box round the meshes in file coordinates."""
-    boxes = [mesh.bounds.tolist() for mesh in meshes if len(mesh.positions)]
+def _bounds(objects) -> dict | None:
+    """Return the box round the objects in file coordinates."""
+    boxes = [_box(mesh, pose) for _, mesh, pose in objects if len(mesh.positions)]
     if not boxes:
         return None
     low = [min(box[0][axis] for box in boxes) for axis in range(3)]
     high = [max(box[1][axis] for box in boxes) for axis in range(3)]
     size = [b - a for a, b in zip(low, high, strict=True)]
     return {"min": low, "max": high, "size": size}
+
+
+def _box(mesh, pose) -> list[list[float]]:
+    if pose is not None:
+        mesh = Mesh(transform_points(pose, mesh.positions))
+    return mesh.bounds.tolist()
 
 
 def report_lines(report: dict) -> list[str]:

@@ -65,7 +65,7 @@ def has_materials(mesh) -> bool:
 
 
 def _dress(meshes, image, color) -> None:
-    """Give the meshes one material with the image and the colour."""
+    """Give the meshes a material with the image and the colour."""
     if image is None and color is None:
         return
     surface = {}
@@ -73,9 +73,9 @@ def _dress(meshes, image, color) -> None:
         surface["texture"] = load_texture(image)
     if color is not None:
         surface["color"] = color
-    material = Material(**surface)
     for mesh in meshes:
-        mesh.materials = [material]
+        # The facets of an STL file stay flat.
+        mesh.materials = [Material(**surface, flat_shading=mesh.materials[0].flat_shading)]
 
 
 def document_lines(document) -> list[str]:

@@ -60,7 +60,9 @@ def read_faces(
     short = np.flatnonzero(outlines.sizes < 3)
     if len(short):
         warnings.add(f"{len(short)} faces of fewer than three corners are left out")
-    cut = triangulate(outlines.sizes, positions[indices], budget)
+    are_triangles = outlines.sizes.min() == 3 == outlines.sizes.max()
+    # Triangles are not looked at: no need to gather their corners.
+    cut = triangulate(outlines.sizes, positions if are_triangles else positions[indices], budget)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     colors = read_colors(table)
@@ -69,7 +71,7 @@ def read_faces(
         textures = np.nan_to_num(table.column("texnumber").astype(np.float64))[cut.polygons]
     uvs = _corner_uvs(table, outlines.sizes, warnings)
     return PlyFaces(
-        indices[cut.corners],
+        indices.reshape(-1, 3) if are_triangles else indices[cut.corners],
         None if uvs is None else uvs[cut.corners],
         None if colors is None else colors[cut.polygons],
         textures,

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
+from engine3d.cli.info import describe
 from engine3d.errors import FileFormatError, InvalidArgumentError
 from engine3d.loaders import load_document, load_mesh
 from engine3d.trimesh_conversion import posed_mesh
@@ -97,6 +98,7 @@ def test_binary_gltf(tmp_path):
     document = load_document(path)
     assert sorted(entry.name for entry in document.objects) == ["left", "right"]
     assert document.format == "glb"
+    assert describe(path)["bounds"]["max"][0] == 8
     mesh = load_mesh(path.read_bytes())
     assert mesh.bounds[:, 0].tolist() == [-0.5, 8]
     assert len(mesh.faces) == 12 + 80

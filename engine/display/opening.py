@@ -51,7 +51,7 @@ def open_model(path, *, texture=None, color=None) -> Subject:
     return Subject(
         scene,
         os.path.basename(path),
-        up="+Z" if path.lower().endswith(Z_UP_SUFFIXES) else "+Y",
+        up="+Z" if path.lower().removesuffix(".gz").endswith(Z_UP_SUFFIXES) else "+Y",
         path=path,
         details=document_lines(document),
         warnings=list(document.warnings),

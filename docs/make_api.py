@@ -37,6 +37,7 @@ CHAPTERS = {
         "Camera",
         "look_at",
         "frame_bounds",
+        "frame_scene",
     ),
     "Meshes": ("Mesh", "Material", "Texture"),
     "Primitives": ("box", "plane", "quad", "uv_sphere", "icosphere", "cylinder", "torus"),

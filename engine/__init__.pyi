@@ -9,7 +9,6 @@ from .cameras import Camera as Camera
 from .cameras import IntrinsicsCamera as IntrinsicsCamera
 from .cameras import OrthographicCamera as OrthographicCamera
 from .cameras import PerspectiveCamera as PerspectiveCamera
-from .cameras import frame_bounds as frame_bounds
 from .canvas import Canvas as Canvas
 from .errors import BackendError as BackendError
 from .errors import DisplayError as DisplayError
@@ -21,6 +20,8 @@ from .errors import InvalidArgumentError as InvalidArgumentError
 from .errors import MissingOutputError as MissingOutputError
 from .errors import OutOfMemoryError as OutOfMemoryError
 from .frame import Frame as Frame
+from .framing import frame_bounds as frame_bounds
+from .framing import frame_scene as frame_scene
 from .instances import InstancedMesh as InstancedMesh
 from .lights import DirectionalLight as DirectionalLight
 from .lights import PointLight as PointLight

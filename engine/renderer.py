@@ -15,12 +15,13 @@ import numpy as np
 from ._native import rasterizer as _native
 from .attributes import choose
 from .backend_selection import resolve_backend, resolve_threads
-from .cameras import Camera, frame_bounds
+from .cameras import Camera
 from .colors import COLOR_SPACES
 from .draw_list import DrawList
 from .errors import InvalidArgumentError
 from .frame import OUTPUTS, Frame
 from .frame_options import OptionsCache
+from .framing import frame_scene
 from .output_pool import OutputPool
 from .rasterization import check_size
 from .scene import Scene
@@ -262,7 +263,7 @@ class Renderer:
         """A camera that shows the whole scene, kept until something in it changes or moves."""
         state = self._draw_list.changes, self._width, self._height
         if self._framing is None or self._framed != state or not self._draw_list.shows(scene):
-            self._framing = frame_bounds(scene.bounds, aspect=self._width / self._height)
+            self._framing = frame_scene(scene, aspect=self._width / self._height)
             self._framed = state
         return self._framing
 

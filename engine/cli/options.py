@@ -286,22 +286,27 @@ def settings(args: argparse.Namespace):
     )
 
 
-def place_view(args: argparse.Namespace, studio):
-    """Return the studio's view of its subject, moved as the camera options say."""
+def place_view(args: argparse.Namespace, studio, *, turns: bool = True):
+    """Return the studio's view of its subject, as the camera options say.
+
+    Where they leave it open, all of the subject shows: however it turns, or filling the picture.
+    """
     if args.camera_view_angle is None:
         view = studio.view()
     else:
         view = studio.view(math.radians(args.camera_view_angle))
+    view.orthographic = args.camera_orthographic
     if args.camera_view_up is not None:
         view.up = args.camera_view_up
     if args.camera_position is not None:
         view.look_from(args.camera_position, args.camera_focal_point or studio.bounds.center)
-    elif args.camera_focal_point is not None:
-        view.target[:] = args.camera_focal_point
     view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
     view.elevation += math.radians(args.camera_elevation_angle or 0.0)
+    if args.camera_position is None:
+        (studio.frame if turns else studio.fill)(view)
+        if args.camera_focal_point is not None:
+            view.target[:] = args.camera_focal_point
     view.distance /= args.camera_zoom_factor or 1.0
-    view.orthographic = args.camera_orthographic
     return view
 
 

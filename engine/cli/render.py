@@ -43,7 +43,7 @@ def render(args: argparse.Namespace) -> int:
         samples=args.samples or 1,
         transparent=args.no_background,
     ) as studio:
-        view = options.place_view(args, studio)
+        view = options.place_view(args, studio, turns=args.turntable is not None)
         if args.turntable is not None:
             _write_turntable(args, studio, view)
             return 0

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import linalg
+from ..reach import scene_reach
 from ..renderer import Renderer
 from .extent import turning_outline
 from .guides import grid
@@ -78,6 +79,7 @@ class Studio:
         self._outline = subject.focus
         if self._outline is None:
             self._outline = turning_outline(subject.scene, UP_DIRECTIONS[self.up])
+        self._reach = scene_reach(subject.scene) if subject.focus is None else None
         self._grid = None
         if self._transparent:
             subject.scene.background = None
@@ -139,6 +141,16 @@ class Studio:
     def frame(self, view: Viewpoint) -> None:
         """Move a view along its direction to where all of the subject shows."""
         view.frame(self._outline, self.aspect)
+
+    def fill(self, view: Viewpoint) -> None:
+        """Move a view to where the subject, as it first stands, fills the picture.
+
+        That is nearer than `frame`, which leaves room for the subject to turn.
+        """
+        if self._reach is None:
+            self.frame(view)
+        else:
+            view.fit(self._reach, np.array(self.bounds.center), self.aspect)
 
     def draw(self, view: Viewpoint, time: float = 0.0):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""

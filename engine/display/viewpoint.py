@@ -10,7 +10,6 @@ cases; sines are rounded to 14 decimals, which makes right angles exact.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -19,6 +18,8 @@ import numpy as np
 from .. import linalg
 from ..cameras import OrthographicCamera, PerspectiveCamera
 from ..errors import InvalidArgumentError
+from ..framing import fit_frustum, frustum_reach
+from ..reach import Reach, points_reach
 
 #: What ``up`` may be, as the command line spells it.
 UP_DIRECTIONS = {
@@ -38,8 +39,8 @@ QUARTER_TURN = math.pi / 2
 FRAMING_MARGIN = 1.06
 #: The near plane's distance as a share of that of the scene's middle.
 NEAR_SHARE = 0.05
-#: Each narrows the place of a minimum by a third: to a thousandth of where it began.
-MINIMUM_STEPS = 18
+#: Seen steeper than this from above or below, a step upward hardly shows.
+STEEPEST = 1e-6
 
 
 class Sphere(NamedTuple):
@@ -153,27 +154,53 @@ class Viewpoint:
         low, high = points.min(axis=0), points.max(axis=0)
         middle = (low + high) / 2
         up = home_axes(self.up)[1]
-        coordinates = self._camera_coordinates(points - middle)
-        rise = self._camera_coordinates(up)
-
-        def distance(height: float) -> float:
-            return self._distance_that_shows(coordinates - rise * height, aspect)
-
-        half = float(linalg.dot(high - low, np.abs(up))) / 2
-        height = _minimum(distance, -half, half)
+        axes = self.rotation().T
+        reach, slopes = points_reach(points), self._slopes(aspect)
+        edges = frustum_reach(reach, axes, middle, *slopes)
+        # What a step of the target upward is on the screen, and towards the camera.
+        rise, approach = _dot(up, axes[1]), _dot(up, axes[2])
+        half = _dot(high - low, np.abs(up)) / 2
+        height = max(-half, min(half, edges.y / rise)) if rise > STEEPEST else 0.0
+        y = height * rise
+        side = max(edges.right, edges.left) / slopes[0]
+        distance = max(side, (edges.top - y) / slopes[1], (edges.bottom + y) / slopes[1])
+        right, left, top, bottom = self._sides(reach, middle)
+        parallel = max(right / slopes[0], left / slopes[0], (top - y) / slopes[1])
+        parallel = max(parallel, (bottom + y) / slopes[1])
         self.target = middle + up * height
-        self.distance = FRAMING_MARGIN * distance(height) or 1.0
+        self.distance = FRAMING_MARGIN * max(distance - height * approach, parallel) or 1.0
 
-    def _camera_coordinates(self, vectors: np.ndarray) -> np.ndarray:
-        """Return world vectors (..., 3) along the camera's axes: right, up, back."""
-        return np.stack([linalg.dot(vectors, axis) for axis in self.rotation().T], axis=-1)
+    def fit(self, reach: Reach, center: np.ndarray, aspect: float) -> None:
+        """Show something as large as possible, as it stands and from this direction.
 
-    def _distance_that_shows(self, coordinates: np.ndarray, aspect: float) -> float:
-        """Return the least distance that shows points (N, 3), in camera axes round the target."""
+        Parameters
+        ----------
+        reach : callable
+            What to show; see `engine3d.reach`.
+        center : (3,) ndarray of float64
+            About the middle of it.
+        aspect : float
+            Width over height of the picture.
+        """
+        axes, slopes = self.rotation().T, self._slopes(aspect)
+        if self.orthographic:
+            right, left, top, bottom = self._sides(reach, center)
+            x, y = (right - left) / 2, (top - bottom) / 2
+            distance = max((right + left) / slopes[0], (top + bottom) / slopes[1]) / 2
+        else:
+            x, y, distance, _ = fit_frustum(reach, axes, center, *slopes)
+        self.target = center + axes[0] * x + axes[1] * y
+        self.distance = FRAMING_MARGIN * distance or 1.0
+
+    def _slopes(self, aspect: float) -> tuple[float, float]:
         slope = math.tan(self.yfov / 2)
-        right, up = np.abs(coordinates[:, 0]), np.abs(coordinates[:, 1])
-        nearer = np.maximum(coordinates[:, 2], 0.0)
-        return float((np.maximum(right / aspect, up) / slope + nearer).max())
+        return slope * aspect, slope
+
+    def _sides(self, reach: Reach, center: np.ndarray) -> tuple[float, float, float, float]:
+        """How far something reaches to the right, left, top and bottom of ``center``."""
+        right, up, _ = self.rotation().T
+        directions = np.array([right, -right, up, -up])
+        return tuple((reach(directions) - linalg.dot(directions, center)).tolist())
 
     def look_from(self, position, focal_point) -> None:
         """Stand at ``position`` and look at ``focal_point`` (both (3,), world space)."""
@@ -200,17 +227,6 @@ def clip_planes(position, bounds: Sphere) -> tuple[float, float]:
     zfar = (distance + bounds.radius) * 1.01
     znear = max(min((distance - bounds.radius) * 0.99, distance * NEAR_SHARE), zfar * 5e-4)
     return znear, zfar
-
-
-def _minimum(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return where a convex function is least between two numbers, by thirds."""
-    for _ in range(MINIMUM_STEPS):
-        third = (high - low) / 3
-        if function(low + third) <= function(high - third):
-            high -= third
-        else:
-            low += third
-    return (low + high) / 2
 
 
 def sine(angle: float) -> float:

@@ -14,6 +14,7 @@ from engine3d.display.viewpoint import (
     clip_planes,
     home_axes,
 )
+from engine3d.reach import points_reach
 
 
 @pytest.mark.parametrize("up", UP_DIRECTIONS.values())
@@ -83,6 +84,25 @@ def test_framing_shows_all_points_and_wastes_no_room(aspect, orthographic, eleva
     ndc = project(view, points, round(500 * aspect), 500)
     assert np.abs(ndc[:, :2]).max() < 1.0
     assert np.abs(ndc[:, :2]).max() > 0.7
+
+
+@pytest.mark.parametrize("aspect", [0.4, 1.8])
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("elevation", [0.6, -1.2, math.pi / 2])
+def test_fitting_fills_the_picture_in_its_middle(aspect, orthographic, elevation):
+    points = np.random.default_rng(1).normal(size=(500, 3)) * (1.0, 2.0, 0.5) + (3.0, -2.0, 1.0)
+    view = Viewpoint(np.zeros(3), 1.0, elevation=elevation, orthographic=orthographic)
+    view.fit(points_reach(points), np.array((3.0, -2.0, 1.0)), aspect)
+    ndc = project(view, points, round(500 * aspect), 500)[:, :2]
+    assert 0.9 < np.abs(ndc).max() < 1.0
+    np.testing.assert_allclose(ndc.min(axis=0), -ndc.max(axis=0), atol=0.03)
+
+
+def test_framing_keeps_the_middle_of_what_is_wide_in_the_middle():
+    points = np.array([[x, y, z] for x in (-9, 9) for y in (-1, 1) for z in (-1, 1)], np.float64)
+    view = Viewpoint(np.zeros(3), 1.0, azimuth=0.0, elevation=0.0)
+    view.frame(points, 1.0)
+    np.testing.assert_allclose(view.target, (0, 0, 0), atol=1e-12)
 
 
 def test_clip_planes_enclose_the_sphere_and_stay_positive_inside_it():

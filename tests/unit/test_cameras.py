@@ -1,4 +1,4 @@
-"""Projections, their arguments, and the camera that shows a whole box."""
+"""Projections and their arguments."""
 
 import math
 
@@ -94,42 +94,3 @@ def test_assigning_counts_versions():
 def test_invalid_arguments(make, message):
     with pytest.raises(e3d.InvalidArgumentError, match=message):
         make()
-
-
-@pytest.mark.parametrize("aspect", [0.25, 1.0, 3.0])
-@pytest.mark.parametrize("direction", [(0, 0, -1), (1, -2, 0.5), (0, -1, 0)])
-def test_frame_bounds_fits_the_box_tightly(aspect, direction):
-    bounds = np.array([[-1.0, 2.0, 3.0], [4.0, 2.5, 9.0]])
-    camera, pose = e3d.frame_bounds(bounds, aspect=aspect, direction=direction, margin=1.0)
-    corners = np.array(
-        [[x, y, z] for x in bounds[:, 0] for y in bounds[:, 1] for z in bounds[:, 2]]
-    )
-    clip_from_world = camera.projection(round(400 * aspect), 400) @ np.linalg.inv(pose)
-    clip = np.c_[corners, np.ones(8)] @ clip_from_world.T
-    ndc = clip[:, :3] / clip[:, 3:]
-    assert np.abs(ndc).max() <= 1 + 1e-9
-    assert np.abs(ndc[:, :2]).max() == pytest.approx(1)
-    forward = -pose[:3, 2]
-    np.testing.assert_allclose(forward, np.array(direction) / np.linalg.norm(direction), atol=1e-12)
-
-
-def test_frame_bounds_of_nothing_has_a_view():
-    camera, pose = e3d.frame_bounds(np.zeros((2, 3)))
-    assert 0 < camera.znear < camera.zfar
-    assert np.isfinite(pose).all()
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"bounds": [[0, 0, 0]]}, "bounds"),
-        ({"bounds": [[1, 0, 0], [0, 1, 1]]}, "first corner"),
-        ({"aspect": 0}, "aspect"),
-        ({"direction": (0, 0, 0)}, "direction"),
-        ({"margin": -1}, "margin"),
-        ({"yfov": 4}, "yfov"),
-    ],
-)
-def test_frame_bounds_arguments(options, message):
-    with pytest.raises(e3d.InvalidArgumentError, match=message):
-        e3d.frame_bounds(**{"bounds": [[0, 0, 0], [1, 1, 1]], **options})

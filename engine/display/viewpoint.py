@@ -37,8 +37,6 @@ DEFAULT_ELEVATION = math.radians(18.0)
 QUARTER_TURN = math.pi / 2
 #: Space left round what is framed.
 FRAMING_MARGIN = 1.06
-#: The near plane's distance as a share of that of the scene's middle.
-NEAR_SHARE = 0.05
 #: Seen steeper than this from above or below, a step upward hardly shows.
 STEEPEST = 1e-6
 
@@ -133,9 +131,7 @@ class Viewpoint:
         znear, zfar = clip_planes(self.position(), bounds)
         if self.orthographic:
             ymag = self.distance * math.tan(self.yfov / 2)
-            return OrthographicCamera(
-                ymag, znear=-zfar / NEAR_SHARE / 2, zfar=zfar / NEAR_SHARE / 2
-            )
+            return OrthographicCamera(ymag, znear=-zfar, zfar=zfar)  # what is behind shows too
         return PerspectiveCamera(self.yfov, znear=znear, zfar=zfar)
 
     def frame(self, points: np.ndarray, aspect: float = 1.0) -> None:
@@ -217,15 +213,11 @@ class Viewpoint:
 
 
 def clip_planes(position, bounds: Sphere) -> tuple[float, float]:
-    """Return the near and far distances that enclose ``bounds`` as seen from ``position``.
-
-    The near plane is nearer than it need be: wireframe edges are pulled towards the viewer by a
-    constant in normalised depth, which the tightest planes would make too short a way.
-    """
+    """Return the near and far distances that enclose ``bounds`` as seen from ``position``."""
     offset = np.asarray(position, dtype=np.float64) - np.array(bounds.center)
     distance = float(linalg.length(offset))
     zfar = (distance + bounds.radius) * 1.01
-    znear = max(min((distance - bounds.radius) * 0.99, distance * NEAR_SHARE), zfar * 5e-4)
+    znear = max((distance - bounds.radius) * 0.99, zfar * 5e-4)
     return znear, zfar
 
 

@@ -4,6 +4,7 @@ import ctypes
 import os
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from engine3d.display.settings import Settings
 from engine3d.display.studio import Studio
 from engine3d.display.subject import Subject
 from engine3d.display.viewer import Viewer
-from engine3d.display.window import Window, find_screen, load_sdl
+from engine3d.display.window import Window, _is_opengl_on_the_cpu, find_screen, load_sdl
 
 sdl2 = load_sdl()
 
@@ -136,3 +137,45 @@ def test_loading_sdl_prints_nothing():
         check=True,
     )
     assert "pysdl2" not in done.stderr.lower()
+
+
+class OpenGL:
+    """As much of SDL as tells which OpenGL it uses."""
+
+    def __init__(self, name):
+        self._get_string = ctypes.CFUNCTYPE(ctypes.c_char_p, ctypes.c_uint)(lambda _: name)
+
+    def SDL_GL_GetCurrentContext(self):
+        return 1
+
+    def SDL_GL_GetProcAddress(self, name):
+        assert name == b"glGetString"
+        return ctypes.cast(self._get_string, ctypes.c_void_p).value
+
+
+@pytest.mark.parametrize(
+    ("name", "on_the_cpu"),
+    [
+        (b"llvmpipe (LLVM 15.0.6, 256 bits)", True),
+        (b"Google SwiftShader", True),
+        (b"NVIDIA GeForce RTX 3060/PCIe/SSE2", False),
+        (b"Mesa Intel(R) UHD Graphics 620 (KBL GT2)", False),
+        (None, False),
+    ],
+)
+def test_opengl_without_a_graphics_card_is_told_by_its_name(monkeypatch, name, on_the_cpu):
+    monkeypatch.delenv("SDL_RENDER_DRIVER", raising=False)
+    assert _is_opengl_on_the_cpu(OpenGL(name)) is on_the_cpu
+    monkeypatch.setenv("SDL_RENDER_DRIVER", "opengl")
+    assert not _is_opengl_on_the_cpu(OpenGL(name))
+
+
+def test_vertical_sync_keeps_the_screens_rhythm(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    pixels = np.zeros((64, 64, 4), np.uint8)
+    with Window("test", 64, 64, vsync=True) as window:
+        window.present(pixels)
+        start = time.perf_counter()
+        for _ in range(12):
+            window.present(pixels)
+        assert time.perf_counter() - start > 11 / window.refresh_rate * 0.9

@@ -143,7 +143,9 @@ class OpenGL:
     """As much of SDL as tells which OpenGL it uses."""
 
     def __init__(self, name):
-        self._get_string = ctypes.CFUNCTYPE(ctypes.c_char_p, ctypes.c_uint)(lambda _: name)
+        self._name = None if name is None else ctypes.create_string_buffer(name)
+        address = None if name is None else ctypes.addressof(self._name)
+        self._get_string = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_uint)(lambda _: address)
 
     def SDL_GL_GetCurrentContext(self):
         return 1

@@ -45,6 +45,26 @@ def test_import_loads_only_numpy_and_the_core(run_python, tmp_path):
     assert not HEAVY.intersection(added)
 
 
+PICTURE = """
+import sys
+from importlib.resources import files
+from engine3d.cli import main
+model = files("engine3d.data") / "models" / "teapot.obj"
+before = set(sys.modules)
+assert main(["render", str(model), "-o", "teapot.png", "--resolution", "32x18"]) == 0
+print(*sorted(set(sys.modules) - before))
+"""
+# What a picture of an OBJ with a TGA can do without; each takes a noticeable part of its time.
+DISPENSABLE = {"PIL", "numpy.ma", "sdl2", "rich", "tempfile", "engine3d.loaders.asc"}
+
+
+def test_a_picture_imports_what_it_needs(run_python, tmp_path):
+    added = set(run_python("-c", PICTURE, cwd=tmp_path).split())
+    assert "engine3d.loaders.obj" in added
+    assert not DISPENSABLE & added
+    assert (tmp_path / "teapot.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_package_refuses_another_name(run_python, source_tree, tmp_path):
     code = f"""
 import sys

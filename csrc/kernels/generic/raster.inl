@@ -100,7 +100,8 @@ static inline void raster_strip(int use, const e3d_piece *p, int x, const raster
 static inline void raster_narrow(int use, const e3d_piece *p, const raster_constants *c,
                                  const e3d_tile_buffers *tile)
 {
-    int strips = (p->x1 - p->x0) / V_LANES + 1, most = E3D_TILE - strips * V_LANES;
+    int strips = V_LANES >= RASTER_BLOCK ? 1 : (p->x1 - p->x0) / V_LANES + 1;
+    int most = E3D_TILE - strips * V_LANES;
     int x = p->x0 < most ? p->x0 : most;
     for (int i = 0; i < strips; i++)
         raster_strip(use, p, x + i * V_LANES, c, tile);

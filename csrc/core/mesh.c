@@ -194,13 +194,14 @@ static void bound_mesh(e3d_mesh *mesh)
 e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out)
 {
     *out = NULL;
-    if (!desc_is_valid(desc) || greatest_material(desc) < 0)
+    int32_t material_most = greatest_material(desc);
+    if (!desc_is_valid(desc) || material_most < 0)
         return E3D_INVALID_ARGUMENT;
     e3d_mesh *mesh = calloc(1, sizeof *mesh);
     if (!mesh)
         return E3D_OUT_OF_MEMORY;
     mesh->desc = *desc;
-    mesh->material_most = greatest_material(desc);
+    mesh->material_most = material_most;
     builder b = {.mesh = mesh};
     int enough = allocate(&b);
     if (enough) {

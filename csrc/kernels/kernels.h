@@ -107,7 +107,8 @@ _Static_assert(sizeof(e3d_surface) == 64 * 4, "a surface is four cache lines");
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 
-/* Samples of one material on their way to a colour; those of one surface stand together. */
+/* Samples of one material on their way to a colour; those of one surface stand together. `sample` and `surface` go on
+ * being valid for E3D_PAD elements past the last: whole vectors read them. */
 typedef struct e3d_batch {
     int count;
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */

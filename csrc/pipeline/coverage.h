@@ -21,6 +21,12 @@ static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], con
     return box;
 }
 
+/* Twice the area in 1/256 sample squared (R9). */
+static inline int64_t e3d_doubled_area(const int32_t x[3], const int32_t y[3])
+{
+    return (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
+}
+
 /* Edge function k at a sample, floor(E / 256) with the top-left rule inside. */
 typedef struct e3d_edge {
     int64_t e;

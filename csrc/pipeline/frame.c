@@ -2,18 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/fpenv.h"
 #include "pipeline/frame.h"
 #include "reference/reference.h"
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
 
 /* ---- renderers ---- */
 
@@ -173,7 +165,7 @@ static void add_counters(const e3d_context *context, e3d_stats *stats)
 
 static e3d_status run(e3d_context *context, e3d_stats *stats)
 {
-    double start = now_ms();
+    int64_t start = e3d_now_ns();
     e3d_status status = e3d_prepare(context);
     if (status != E3D_OK)
         return status;
@@ -182,14 +174,14 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
     e3d_geometry(context);
     if (any_failed(context->renderer) || (context->sorted && !e3d_sort_records(context)))
         return E3D_OUT_OF_MEMORY;
-    double binned = now_ms();
+    int64_t binned = e3d_now_ns();
     e3d_tiles(context);
     if (any_failed(context->renderer))
         return E3D_OUT_OF_MEMORY;
     count_submitted(context, stats);
     add_counters(context, stats);
-    stats->ms_geometry = binned - start;
-    stats->ms_total = now_ms() - start;
+    stats->ms_geometry = (double)(binned - start) * 1e-6;
+    stats->ms_total = (double)(e3d_now_ns() - start) * 1e-6;
     return context->cancelled ? E3D_CANCELLED : E3D_OK;
 }
 

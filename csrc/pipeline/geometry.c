@@ -6,7 +6,7 @@
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
-enum { UNITS_A_TASK = 8, LINES_A_UNIT = 256 };
+enum { UNITS_A_TASK = 8 };
 
 /* Where a thread stands: one instance of one draw. */
 typedef struct walker {
@@ -206,13 +206,14 @@ static void draw_point(walker *w, int32_t vertex, uint32_t order)
 
 static int32_t unit_end(int32_t unit, int32_t count)
 {
-    return count - unit * LINES_A_UNIT < LINES_A_UNIT ? count : (unit + 1) * LINES_A_UNIT;
+    int32_t first = unit * E3D_LINES_A_UNIT;
+    return count - first < E3D_LINES_A_UNIT ? count : first + E3D_LINES_A_UNIT;
 }
 
 static void run_lines(walker *w, int32_t unit)
 {
     const e3d_mesh_desc *d = &w->draw->mesh->desc;
-    for (int32_t i = unit * LINES_A_UNIT; i < unit_end(unit, d->lines_count); i++)
+    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->lines_count); i++)
         draw_line(w, d->lines + 2 * (size_t)i, w->order + (uint32_t)(d->faces_count + i),
                   E3D_PASS_SCENE);
 }
@@ -220,14 +221,14 @@ static void run_lines(walker *w, int32_t unit)
 static void run_points(walker *w, int32_t unit)
 {
     const e3d_mesh_desc *d = &w->draw->mesh->desc;
-    for (int32_t i = unit * LINES_A_UNIT; i < unit_end(unit, d->points_count); i++)
+    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->points_count); i++)
         draw_point(w, d->points[i], w->order + (uint32_t)(d->faces_count + d->lines_count + i));
 }
 
 static void run_edges(walker *w, int32_t unit)
 {
     const e3d_mesh_desc *d = &w->draw->mesh->desc;
-    for (int32_t i = unit * LINES_A_UNIT; i < unit_end(unit, d->edges_count); i++)
+    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->edges_count); i++)
         draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_PASS_WIRE);
 }
 

@@ -5,8 +5,6 @@
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
-enum { LINES_A_UNIT = 256 };
-
 static void multiply(const double a[16], const double b[16], double out[16])
 {
     for (int r = 0; r < 4; r++)
@@ -90,7 +88,7 @@ static void instances_work(void *argument, int worker)
     }
 }
 
-static int32_t units_of(int32_t count) { return (count + LINES_A_UNIT - 1) / LINES_A_UNIT; }
+static int32_t units_of(int32_t count) { return (count + E3D_LINES_A_UNIT - 1) / E3D_LINES_A_UNIT; }
 
 static int has_two_sided(const e3d_frame *frame)
 {

@@ -27,12 +27,6 @@ int e3d_project(const float v[4], int clipped, const e3d_viewport *viewport, e3d
     return 1;
 }
 
-static int64_t doubled_area(const e3d_corner c[3])
-{
-    return (int64_t)(c[1].x - c[0].x) * (c[2].y - c[0].y) -
-           (int64_t)(c[2].x - c[0].x) * (c[1].y - c[0].y);
-}
-
 /* R13 */
 static int depth_plane(const e3d_corner *c0, const e3d_corner *c1, const e3d_corner *c2, int64_t area,
                        const e3d_box *box, e3d_record *out)
@@ -97,7 +91,9 @@ static int is_culled(const e3d_primitive *primitive, int front)
 void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner corner[3],
               const e3d_primitive *primitive)
 {
-    int64_t area = doubled_area(corner);
+    const int32_t x[3] = {corner[0].x, corner[1].x, corner[2].x};
+    const int32_t y[3] = {corner[0].y, corner[1].y, corner[2].y};
+    int64_t area = e3d_doubled_area(x, y);
     int front = (area < 0) != (primitive->mirrored != 0);
     if (area == 0 || is_culled(primitive, front))
         return;

@@ -56,9 +56,7 @@ static void barycentric_planes(const e3d_context *context, const e3d_slot *slot,
     e3d_box box = e3d_sample_box(r->x, r->y, &context->viewport);
     out->base_x = box.x0 - tile->x;
     out->base_y = box.y0 - tile->y;
-    int64_t area = (int64_t)(r->x[1] - r->x[0]) * (r->y[2] - r->y[0]) -
-                   (int64_t)(r->x[2] - r->x[0]) * (r->y[1] - r->y[0]);
-    double ra = 1.0 / (double)area, m = r->iw[0], plane[3][3], corner[3][3];
+    double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
     m = r->iw[1] > m ? r->iw[1] : m;
     m = r->iw[2] > m ? r->iw[2] : m;
     double rm = 1.0 / m;
@@ -74,14 +72,12 @@ static void barycentric_planes(const e3d_context *context, const e3d_slot *slot,
     }
     float *planes[3] = {out->p, out->px, out->py};
     int swapped = (r->meta & E3D_RECORD_SWAPPED) != 0;
+    const float *c = slot->corners;
     for (int row = 0; row < 3; row++)
         for (int j = 0; j < 3; j++) {
-            const float *c = slot->corners;
-            double whole = plane[row][swapped && j ? 3 - j : j];
-            corner[row][j] = c ? (plane[row][0] * c[j] + plane[row][1] * c[3 + j]) +
-                                     plane[row][2] * c[6 + j]
-                               : whole;
-            planes[row][j] = (float)corner[row][j];
+            const double *p = plane[row];
+            planes[row][j] = (float)(c ? (p[0] * c[j] + p[1] * c[3 + j]) + p[2] * c[6 + j]
+                                       : p[swapped && j ? 3 - j : j]);
         }
 }
 

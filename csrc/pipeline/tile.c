@@ -1,16 +1,8 @@
 /* raster, shade and resolve: one tile after another, each by one thread from first to last. */
 #include <math.h>
-#include <time.h>
 
 #include "core/pool.h"
 #include "pipeline/coverage.h"
-
-static int64_t now_ns(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
-}
 
 /* ---- a record in a tile ---- */
 
@@ -224,12 +216,12 @@ static int draw_scene(tile_job *job)
     e3d_tile_memory *memory = job->worker->tile;
     int surfaces = context->wants;
     int forward = surfaces && context->frame->shading == E3D_SHADING_FORWARD;
-    int64_t start = now_ns();
+    int64_t start = e3d_now_ns();
     job->worker->surfaces.count = job->worker->groups.count = 0;
     clear_visibility(memory);
     if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
         return 0;
-    int64_t rastered = now_ns();
+    int64_t rastered = e3d_now_ns();
     job->worker->counters.ns_raster += rastered - start;
     if (surfaces && !forward) {
         int32_t count = context->kernels->find_runs(memory->slot, job->tile.width, job->tile.height,
@@ -237,7 +229,7 @@ static int draw_scene(tile_job *job)
         if (!e3d_shade_runs(context, job->worker, &job->tile, count))
             return 0;
     }
-    job->worker->counters.ns_shade += now_ns() - rastered;
+    job->worker->counters.ns_shade += e3d_now_ns() - rastered;
     return 1;
 }
 
@@ -249,7 +241,7 @@ static int draw_marks(tile_job *job)
         return 1;
     if (frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE)
         return 1;
-    int64_t start = now_ns();
+    int64_t start = e3d_now_ns();
     if (edges_are_tested(frame))
         find_edge_limits(job); /* while the slots are the scene's */
     if (frame->mode == E3D_MODE_OVERDRAW && frame->wireframe != E3D_WIRE_ONLY) {
@@ -264,7 +256,7 @@ static int draw_marks(tile_job *job)
             return 0;
         e3d_resolve_wire(job->context, job->worker, &job->tile);
     }
-    job->worker->counters.ns_raster += now_ns() - start;
+    job->worker->counters.ns_raster += e3d_now_ns() - start;
     return 1;
 }
 
@@ -295,9 +287,9 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     e3d_resolve_begin(context, worker, &job.tile);
     if (!draw_scene(&job) || !draw_marks(&job))
         return 0;
-    int64_t start = now_ns();
+    int64_t start = e3d_now_ns();
     e3d_resolve(context, worker, &job.tile);
-    worker->counters.ns_resolve += now_ns() - start;
+    worker->counters.ns_resolve += e3d_now_ns() - start;
     return 1;
 }
 
@@ -307,7 +299,7 @@ static void poll(e3d_context *context)
     e3d_renderer *renderer = context->renderer;
     if (!renderer->poll)
         return;
-    int64_t now = now_ns();
+    int64_t now = e3d_now_ns();
     if (now - context->last_poll < 20000000)
         return;
     context->last_poll = now;

@@ -52,10 +52,6 @@ class Surface:
             self.positions, self.uvs, self.polygons, self.normals, material, name or self.name
         )
 
-    def with_uvs(self, uvs):
-        """Return the same surface with other texture coordinates."""
-        return Surface(self.positions, uvs, self.polygons, self.normals, self.material, self.name)
-
     def without(self, vertices):
         """Return the surface without the polygons all of whose corners are in a mask."""
         kept = [p for p in self.polygons if not all(vertices[k] for k in p)]

@@ -50,7 +50,7 @@ _PUBLIC = {
     "frame_scene": "framing",
     "DirectionalLight": "lights",
     "PointLight": "lights",
-    "Node": "scene",
+    "Node": "nodes",
     "Scene": "scene",
     "Frame": "frame",
     "Renderer": "renderer",

@@ -30,6 +30,7 @@ from .loaders import load_mesh as load_mesh
 from .loaders import load_texture as load_texture
 from .materials import Material as Material
 from .mesh import Mesh as Mesh
+from .nodes import Node as Node
 from .primitives import box as box
 from .primitives import cylinder as cylinder
 from .primitives import icosphere as icosphere
@@ -41,7 +42,6 @@ from .rasterization import RasterizeResult as RasterizeResult
 from .rasterization import rasterize as rasterize
 from .renderer import Renderer as Renderer
 from .renderer import render as render
-from .scene import Node as Node
 from .scene import Scene as Scene
 from .scene_loading import load_scene as load_scene
 from .textures import Texture as Texture

@@ -1,8 +1,8 @@
 """From a scene to what the core draws: draws, materials and lights, renewed where they changed.
 
 In: a `Scene` and what the picture needs of its meshes. Out: a `NativeDrawList` that is up to date.
-Between frames it keeps the list and the versions it was made from, so that a frame in which nothing
-or only poses changed costs a comparison a node.
+Between frames it keeps the objects' part of the list and the versions it was made from; nodes are
+placed by C, from the scene's arrays. Python looks at every object, never at every node.
 """
 
 from __future__ import annotations
@@ -18,12 +18,13 @@ from ._native.rasterizer import FALLOFFS, NativeDrawList
 from .colors import linear_color
 from .display_colors import shading_color
 from .instances import InstancedMesh
-from .lights import DirectionalLight, PointLight
+from .lights import DirectionalLight
 from .linalg import normalize
 from .materials import Material
 from .mesh import Mesh
 from .native_handles import MeshNeeds, native_mesh, native_texture
-from .scene import Node, Scene
+from .scene import Scene
+from .scene_arrays import NodeArrays
 
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 
@@ -47,14 +48,12 @@ class DrawList:
         self.native = NativeDrawList()
         self._color_space = color_space
         self._scene = lambda: None
-        self._structure_version = self._pose_version = -1
+        self._objects_version = -1
         self._needs: MeshNeeds | None = None
         self._normals = ""
-        self._draws: list[tuple[Node, np.ndarray]] = []
-        self._lights: list[Node] = []
         self._watched: list[tuple[object, int]] = []
         self._material_lists: list[tuple[Mesh, list[Material]]] = []
-        self.has_lights = False
+        self._placed: tuple | None = None
         self._lights_listed: list | None = None
         self.changes = 0
 
@@ -71,56 +70,50 @@ class DrawList:
         headlight : tuple of two vectors, or None
             Colour and direction towards the light, for a scene that has no light.
         """
+        scene._update()
         if self._needs != needs or self._normals != normals or not self._lists(scene):
             self._rebuild(scene, needs, normals)
-        elif self._pose_version != scene._pose_version:
-            self._move(scene)
-        self._list_lights(headlight)
+        arrays = scene._arrays
+        if self._placed != (arrays, arrays.changes):
+            self._place(arrays)
+        self._list_lights(scene, headlight)
 
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
-        return self._pose_version == scene._pose_version and self._lists(scene)
+        arrays = scene._arrays
+        return self._placed == (arrays, arrays.changes) and self._lists(scene)
 
     def _lists(self, scene: Scene) -> bool:
-        """Whether the list is that of the scene but for poses."""
+        """Whether the objects are those of the scene, as they are now."""
         return (
             self._scene() is scene
-            and self._structure_version == scene._structure_version
+            and self._objects_version == scene._objects.version
             and all(thing.version == version for thing, version in self._watched)
             and all(mesh.materials == materials for mesh, materials in self._material_lists)
         )
 
     def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
         self._scene = lambda: None  # if anything below raises, the list is not current
-        self.changes += 1
+        self._placed = self._lights_listed = None
         self.native.clear()
-        self._draws, self._lights = [], []
         self._watched, self._material_lists = [], []
-        self.has_lights, self._lights_listed = False, None
         bases: dict[Mesh, int] = {}
-        for node in scene.nodes:
-            obj = node.object
-            if isinstance(obj, (DirectionalLight, PointLight)):
-                self.has_lights = True
-                if node.shown:
-                    self._lights.append(node)
-            elif isinstance(obj, (Mesh, InstancedMesh)) and node.shown:
-                self._add_draw(node, bases, needs, normals)
-        self._structure_version = scene._structure_version
-        self._pose_version = scene._pose_version
+        for obj in scene._objects.objects:
+            if obj is None:
+                self.native.add_object(None, 0)
+            else:
+                self._add_object(obj, bases, needs, normals)
+        self._objects_version = scene._objects.version
         self._needs, self._normals = needs, normals
         self._scene = weakref.ref(scene)
 
-    def _add_draw(self, node: Node, bases: dict[Mesh, int], needs, normals: str) -> None:
-        obj = node.object
+    def _add_object(self, obj, bases: dict[Mesh, int], needs, normals: str) -> None:
         mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
         if mesh not in bases:
             bases[mesh] = self.native.material_count
             self._watch_mesh(mesh)
         native = native_mesh(mesh, _needs_of(mesh, needs, normals))
-        pose = node.world_pose
-        index = self.native.add_draw(native, pose, node.id, bases[mesh])
-        self._draws.append((node, pose))
+        index = self.native.add_object(native, bases[mesh])
         if obj is not mesh:
             self._watched.append((obj, obj.version))
             colors = obj.colors
@@ -131,6 +124,20 @@ class DrawList:
                 colors if eight_bit else None,
                 None if eight_bit else colors,
             )
+
+    def _place(self, arrays: NodeArrays) -> None:
+        """List the draws of what shows, where it is now."""
+        self.changes += 1
+        columns = arrays.columns
+        self.native.place(
+            arrays.count,
+            columns["flags"],
+            columns["object"],
+            columns["id"],
+            columns["world"],
+            None,
+        )
+        self._placed = (arrays, arrays.changes)
 
     def _watch_mesh(self, mesh: Mesh) -> None:
         """Add the materials of a mesh, and remember what would make them out of date."""
@@ -156,29 +163,19 @@ class DrawList:
             material.flat_shading,
         )
 
-    def _move(self, scene: Scene) -> None:
-        """Renew the poses that changed: a node makes a new array for each pose."""
-        self.changes += 1
-        for index, (node, drawn) in enumerate(self._draws):
-            if node._world_pose is not drawn:  # spares a thousand nodes a call each
-                pose = node.world_pose
-                self.native.set_pose(index, pose)
-                self._draws[index] = (node, pose)
-        self._pose_version = scene._pose_version
-
-    def _list_lights(self, headlight) -> None:
+    def _list_lights(self, scene: Scene, headlight) -> None:
         """List the lights anew unless all are the objects they were, at the poses they were."""
-        if self.has_lights:
-            marks = [(node.object, node.object.version, node.world_pose) for node in self._lights]
-            marks = list(itertools.chain(*marks))
-        else:
-            marks = list(headlight or ())
+        lights = [node for node in scene._lights.values() if node.shown] if scene._lights else ()
+        if scene._lights:
+            headlight = None
+        marks = [(node.object, node.object.version, node.world_pose) for node in lights]
+        marks = list(itertools.chain(*marks, headlight or ()))
         listed, self._lights_listed = self._lights_listed, None  # for if anything below raises
         if listed is None or len(listed) != len(marks) or not all(map(operator.is_, listed, marks)):
             self.native.clear_lights()
-            for node in self._lights:
+            for node in lights:
                 self._add_light(node.object, node.world_pose)
-            if headlight is not None and not self.has_lights:
+            if headlight is not None:
                 self.native.add_directional_light(*headlight)
         self._lights_listed = marks
 

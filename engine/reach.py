@@ -13,9 +13,10 @@ from collections.abc import Callable
 import numpy as np
 
 from . import linalg
+from ._native.scene_graph import SHOWN
 from .instances import InstancedMesh
 from .mesh import Mesh
-from .scene import Node, Scene
+from .scene import Scene
 
 Reach = Callable[[np.ndarray], np.ndarray]
 
@@ -44,9 +45,14 @@ def scene_reach(scene: Scene) -> Reach | None:
     for some of them: nothing ever reaches farther than is said.
     """
     placed = _Placed()
-    for node in scene.nodes:
-        if node.shown:
-            placed.add(node)
+    scene._update()
+    arrays = scene._arrays
+    shown = arrays.columns["flags"][: arrays.count] & SHOWN != 0
+    numbers = arrays.columns["object"][: arrays.count]
+    for number, obj in enumerate(scene._objects.objects):
+        slots = np.flatnonzero(shown & (numbers == number))
+        if obj is not None and len(slots):
+            placed.add(obj, arrays.world_poses(slots))
     return placed.reach if placed.count else None
 
 
@@ -59,17 +65,19 @@ class _Placed:
         self._poses: list[np.ndarray] = []
         self._boxes: list[np.ndarray] = []
 
-    def add(self, node: Node) -> None:
-        thing, pose = node.object, node.world_pose
-        if isinstance(thing, Mesh) and len(thing.positions):
-            self._add(thing, pose[np.newaxis], thing.bounds)
-        elif isinstance(thing, InstancedMesh):
-            box = thing.bounds_in_node()
-            if box is not None and len(thing) > _MAX_INSTANCES:
-                self._add(None, pose[np.newaxis], box)
-            elif box is not None:
-                poses = _instance_poses(thing)
-                self._add(thing.mesh, linalg.multiply(pose, poses), thing.mesh.bounds)
+    def add(self, obj, poses: np.ndarray) -> None:
+        """Add an object at each of the world poses (K, 4, 4)."""
+        if isinstance(obj, Mesh):
+            if len(obj.positions):
+                self._add(obj, poses, obj.bounds)
+            return
+        box = obj.bounds_in_node()
+        if box is not None and len(obj) > _MAX_INSTANCES:
+            self._add(None, poses, box)
+        elif box is not None:
+            instances = _instance_poses(obj)
+            for pose in poses:
+                self._add(obj.mesh, linalg.multiply(pose, instances), obj.mesh.bounds)
 
     def _add(self, mesh: Mesh | None, poses: np.ndarray, box: np.ndarray) -> None:
         self.count += len(poses)

@@ -49,16 +49,23 @@ class NativeTexture:
     def __init__(self, pixels: _Bytes, decode_srgb: bool, filter: int, wrap: int) -> None: ...
 
 class NativeDrawList:
+    object_count: int
     draw_count: int
     material_count: int
     light_count: int
     def __init__(self) -> None: ...
     def clear(self) -> None: ...
     def clear_lights(self) -> None: ...
-    def add_draw(
-        self, mesh: NativeMesh, world_from_node: _Doubles, node_id: int, material_base: int
-    ) -> int: ...
-    def set_pose(self, index: int, world_from_node: _Doubles) -> None: ...
+    def add_object(self, mesh: NativeMesh | None, material_base: int) -> int: ...
+    def place(
+        self,
+        count: int,
+        flags: _Bytes,
+        object: _Integers,
+        id: _Integers,
+        world: _Doubles,
+        selection: npt.NDArray[np.uint64] | None,
+    ) -> None: ...
     def set_instances(
         self,
         index: int,

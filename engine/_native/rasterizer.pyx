@@ -10,12 +10,13 @@ Always: a handle holds the arrays that the core borrows; the GIL is released for
 
 from cpython.exc cimport PyErr_CheckSignals
 from libc.math cimport INFINITY
-from libc.stdint cimport int32_t, uint8_t
+from libc.stdint cimport int32_t, uint8_t, uint64_t
 from libc.stdlib cimport free, realloc
 from libc.string cimport memcpy, memset
 from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
 
 from e3d cimport *
+from e3d_scene cimport e3d_graph_draws
 
 from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError
 
@@ -203,65 +204,85 @@ cdef void *grown(void *items, int count, int *capacity, size_t size) except NULL
     if count < capacity[0]:
         return items
     cdef int wanted = capacity[0] * 2 if capacity[0] else 16
-    cdef void *moved = realloc(items, wanted * size)
-    if moved == NULL:
-        raise OutOfMemoryError("no memory for the list of what to draw")
+    cdef void *moved = resized(items, wanted, size)
     capacity[0] = wanted
     return moved
 
 
-cdef class NativeDrawList:
-    """What a frame draws: meshes at their poses, materials and lights, kept from frame to frame."""
+cdef void *resized(void *items, size_t count, size_t size) except NULL:
+    cdef void *moved = realloc(items, count * size)
+    if moved == NULL:
+        raise OutOfMemoryError("no memory for the list of what to draw")
+    return moved
 
+
+cdef class NativeDrawList:
+    """What a frame draws: objects, drawn wherever nodes place them, materials and lights."""
+
+    cdef e3d_draw *objects
     cdef e3d_draw *draws
     cdef e3d_material *materials
     cdef e3d_light *lights
-    cdef readonly int draw_count, material_count, light_count
-    cdef int draw_capacity, material_capacity, light_capacity
+    cdef readonly int object_count, draw_count, material_count, light_count
+    cdef int object_capacity, draw_capacity, material_capacity, light_capacity
     cdef list borrowed
 
     def __cinit__(self):
         self.borrowed = []
 
     def __dealloc__(self):
+        free(self.objects)
         free(self.draws)
         free(self.materials)
         free(self.lights)
 
     def clear(self):
-        """Forget draws, materials and lights, and let go of their arrays."""
-        self.draw_count = self.material_count = self.light_count = 0
+        """Forget objects, draws, materials and lights, and let go of their arrays."""
+        self.object_count = self.draw_count = self.material_count = self.light_count = 0
         self.borrowed = []
 
     def clear_lights(self):
         self.light_count = 0
 
-    def add_draw(
-        self,
-        NativeMesh mesh not None,
-        const double[:, ::1] world_from_node not None,
-        int32_t node_id,
-        int32_t material_base,
-    ):
-        """Append a mesh at one pose; return its index."""
-        self.draws = <e3d_draw *>grown(
-            self.draws, self.draw_count, &self.draw_capacity, sizeof(e3d_draw)
+    def add_object(self, NativeMesh mesh, int32_t material_base):
+        """Append what nodes refer to by its number, which is returned; None is never drawn."""
+        self.objects = <e3d_draw *>grown(
+            self.objects, self.object_count, &self.object_capacity, sizeof(e3d_draw)
         )
-        cdef e3d_draw *draw = &self.draws[self.draw_count]
-        memset(draw, 0, sizeof(e3d_draw))
-        draw.mesh = mesh.handle
-        draw.instances = 1
-        draw.node_id = node_id
-        draw.material_base = material_base
+        cdef e3d_draw *entry = &self.objects[self.object_count]
+        memset(entry, 0, sizeof(e3d_draw))
+        if mesh is not None:
+            entry.mesh = mesh.handle
+        entry.instances = 1
+        entry.material_base = material_base
         self.borrowed.append(mesh)
-        self.draw_count += 1
-        self.set_pose(self.draw_count - 1, world_from_node)
-        return self.draw_count - 1
+        self.object_count += 1
+        return self.object_count - 1
 
-    def set_pose(self, int index, const double[:, ::1] world_from_node not None):
-        require(0 <= index < self.draw_count, "no such draw")
-        require(world_from_node.shape[0] == 4 and world_from_node.shape[1] == 4, "a pose is 4x4")
-        memcpy(self.draws[index].world_from_node, &world_from_node[0, 0], 16 * sizeof(double))
+    def place(
+        self,
+        int32_t count,
+        const uint8_t[::1] flags not None,
+        const int32_t[::1] object not None,
+        const int32_t[::1] id not None,
+        const double[:, ::1] world not None,
+        const uint64_t[::1] selection,
+    ):
+        """Draw the objects of the first nodes: those that show, or of these those whose bit is set."""
+        require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0]),
+                "the arrays of nodes are too short")
+        require(world.shape[1] == 12, "world must be (nodes, 12)")
+        require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
+        if count > self.draw_capacity:
+            self.draws = <e3d_draw *>resized(self.draws, 2 * count, sizeof(e3d_draw))
+            self.draw_capacity = 2 * count
+        cdef const uint64_t *bits = NULL
+        if selection is not None and count:
+            bits = &selection[0]
+        self.draw_count = 0 if count == 0 else e3d_graph_draws(
+            count, &flags[0], &object[0], &id[0], &world[0, 0], bits, self.objects,
+            self.object_count, self.draws,
+        )
 
     def set_instances(
         self,
@@ -271,8 +292,8 @@ cdef class NativeDrawList:
         const float[:, ::1] colors_f32=None,
     ):
         """Draw the mesh once for each row of `poses`: (N, 16) matrices or (N, 4) offset and scale."""
-        require(0 <= index < self.draw_count, "no such draw")
-        cdef e3d_draw *draw = &self.draws[index]
+        require(0 <= index < self.object_count, "no such object")
+        cdef e3d_draw *draw = &self.objects[index]
         require(poses.shape[1] in (4, 16), "poses must be (N, 16) or (N, 4)")
         draw.pose_kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
         draw.instances = <int32_t>poses.shape[0]

@@ -30,6 +30,7 @@ from .quaternions import (
     quaternion_conjugate,
     quaternion_from_axis_angle,
     quaternion_multiply,
+    quaternion_to_euler,
     quaternion_to_matrix,
 )
 from .trigonometry import atan2, cos, sin, tan, unit_circle
@@ -56,6 +57,7 @@ __all__ = [
     "quaternion_conjugate",
     "quaternion_from_axis_angle",
     "quaternion_multiply",
+    "quaternion_to_euler",
     "quaternion_to_matrix",
     "rotation_axis",
     "rotation_x",

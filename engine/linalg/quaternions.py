@@ -7,16 +7,20 @@ Sources: Shoemake 1985 (products, conversion), Shepperd 1978 (matrix to quaterni
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import InvalidArgumentError
 from . import single
-from .trigonometry import cos, sin
+from .trigonometry import atan2, cos, sin
 from .vectors import as_vectors, normalize
 
 FloatArray = npt.NDArray[np.float64]
 
+# Below this cosine of the second angle, the first and the third turn about the same axis.
+_GIMBAL_LOCK = 1e-9
 _NO_LENGTH = "a quaternion must have a finite length greater than zero"
 
 
@@ -193,11 +197,54 @@ def euler_to_quaternion(angles: npt.ArrayLike, order: str = "XYZ") -> FloatArray
     angles = as_vectors("angles", angles)
     if angles.shape != (3,):
         raise InvalidArgumentError(f"angles must have shape (3,), not {angles.shape}")
-    if sorted(order) != ["X", "Y", "Z"]:
-        raise InvalidArgumentError(f"order must be a permutation of 'XYZ', not {order!r}")
     result = np.array((0.0, 0.0, 0.0, 1.0))
-    for name in order:
-        axis = "XYZ".index(name)
+    for axis in _axes_of(order):
         turn = quaternion_from_axis_angle(np.eye(3)[axis], angles[axis])
         result = quaternion_multiply(result, turn)
     return result
+
+
+def quaternion_to_euler(q: npt.ArrayLike, order: str = "XYZ") -> FloatArray:
+    """Return the three rotations about the object's own axes that make up a quaternion's.
+
+    The inverse of `euler_to_quaternion`: the second angle is between -pi/2 and pi/2; where it is
+    one of these, the third is 0.
+
+    Parameters
+    ----------
+    q : array_like, shape (4,)
+        Quaternion x, y, z, w of any length but zero.
+    order : str
+        A permutation of ``"XYZ"``.
+
+    Returns
+    -------
+    ndarray of float64, shape (3,)
+        Radians about x, y and z, whatever the order in which they are applied.
+
+    Raises
+    ------
+    InvalidArgumentError
+        If the order isn't a permutation of XYZ, or the quaternion is null or of a wrong shape.
+    """
+    i, j, k = _axes_of(order)
+    m = quaternion_to_matrix(q)
+    if m.ndim != 2:
+        raise InvalidArgumentError(f"q must have shape (4,), not {m.shape[:-2] + (4,)}")
+    m = m.tolist()
+    sign = 1.0 if (i + 1) % 3 == j else -1.0
+    cosine = math.sqrt(m[i][i] * m[i][i] + m[i][j] * m[i][j])
+    angles = np.zeros(3)
+    angles[j] = atan2(sign * m[i][k], cosine)
+    if cosine > _GIMBAL_LOCK:
+        angles[i] = atan2(-sign * m[j][k], m[k][k])
+        angles[k] = atan2(-sign * m[i][j], m[i][i])
+    else:
+        angles[i] = atan2(sign * m[k][j], m[j][j])
+    return angles
+
+
+def _axes_of(order: str) -> list[int]:
+    if sorted(order) != ["X", "Y", "Z"]:
+        raise InvalidArgumentError(f"order must be a permutation of 'XYZ', not {order!r}")
+    return ["XYZ".index(name) for name in order]

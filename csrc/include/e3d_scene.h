@@ -1,0 +1,96 @@
+/* The C interface of scenes: trees of nodes in arrays, their poses, boxes and draws.
+ *
+ * In:  arrays that the caller owns, one element or row a slot. A node keeps its slot until the caller
+ *      packs the arrays; slots stand in the order in which the nodes were added.
+ * Out: the same arrays, up to date after e3d_graph_update, and the draws of e3d.h.
+ * Always: f64, one written order of operations (docs/exactness.md, section 1), so that a node's numbers do not
+ *      depend on how many others move with it. One graph is one thread's at a time. Affine matrices
+ *      are three rows of four.
+ */
+#ifndef E3D_SCENE_H
+#define E3D_SCENE_H
+
+#include <stdint.h>
+
+#include "e3d.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    E3D_NODE_ALIVE = 1,   /* not removed */
+    E3D_NODE_VISIBLE = 2, /* the node's own switch */
+    E3D_NODE_SHOWN = 4,   /* alive and visible, like all above it; true once the node is not stale */
+    E3D_NODE_STALE = 8,   /* world and SHOWN are out of date; then so are those of all below */
+    E3D_NODE_LISTED = 16, /* stands in the list of nodes that changed since the last update */
+    E3D_NODE_PARTS = 32,  /* rotation and scale are those of the pose */
+    E3D_NODE_STATIC = 64  /* the caller says that it stays where it is */
+};
+
+typedef struct e3d_graph {
+    int32_t count;             /* slots in use, removed nodes included */
+    int32_t *parent;           /* slots; -1: none */
+    int32_t *first_child, *last_child, *next, *previous; /* children in the order of linking */
+    int32_t *object;           /* number of what the node draws; -1: nothing */
+    int32_t *id;               /* what object_id shows */
+    uint8_t *flags;
+    double *pose;              /* (slots, 12) parent from node */
+    double *rotation, *scale;  /* (slots, 4) quaternion x y z w as given; (slots, 3) */
+    double *world;             /* (slots, 12) world from node */
+    double *bounds;            /* (slots, 6) world AABB, lowest and highest; inf, -inf where nothing shows */
+    uint32_t *pose_version, *world_version; /* grow when pose or world change */
+    int32_t *changed;          /* the slots that are LISTED */
+    int32_t changed_count;
+    int32_t *stack;            /* scratch */
+} e3d_graph;
+
+/* ---- The tree ---- */
+
+/* Makes a node at the identity in slot `count`, for which there must be room; returns its slot. */
+int32_t e3d_graph_add(e3d_graph *graph, int32_t parent, int32_t object, int32_t id);
+/* Says that the first slots hold nodes, of which nothing derived is known. */
+void e3d_graph_adopt(e3d_graph *graph, int32_t count);
+/* Hangs a node under another (-1: none), as its last child; 0 if that one is the node itself or below it. */
+int e3d_graph_link(e3d_graph *graph, int32_t slot, int32_t parent);
+/* Takes a node out of its parent's children and marks it and all below as not alive. */
+void e3d_graph_remove(e3d_graph *graph, int32_t slot);
+/* The node after this one in the walk over all below `top`, parents first; -1 at the end. */
+int32_t e3d_graph_walk(const e3d_graph *graph, int32_t slot, int32_t top);
+/* Switches flags (VISIBLE or STATIC). */
+void e3d_graph_set_flag(e3d_graph *graph, int32_t slot, int flag, int on);
+
+/* ---- Poses ---- */
+
+/* Says that the node's world pose, and those of all below, have to be found anew. */
+void e3d_graph_touch(e3d_graph *graph, int32_t slot);
+void e3d_graph_set_pose(e3d_graph *graph, int32_t slot, const double pose[12]);
+void e3d_graph_set_translation(e3d_graph *graph, int32_t slot, const double translation[3]);
+/* NULL keeps a part. 0, and nothing changes, if the quaternion's length is zero or not finite. */
+int e3d_graph_set_parts(e3d_graph *graph, int32_t slot, const double *rotation, const double *scale);
+/* Finds rotation and scale of a pose that was set as a matrix; shear is lost. */
+void e3d_graph_find_parts(e3d_graph *graph, int32_t slot);
+
+/* ---- Once a frame ---- */
+
+/* Makes one node's world pose true, and with it those above it. */
+void e3d_graph_find_world(e3d_graph *graph, int32_t slot);
+/* Makes all world poses, SHOWN and bounds true. `changed` still lists what was touched, for who has to follow:
+ * the caller then empties it. boxes: (objects, 6), object space; lowest > highest for none. */
+void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects);
+/* Touches the nodes of objects whose box changed: dirty is (objects,). */
+void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects);
+/* The box around the bounds of all that shows; 0 if nothing does. */
+int e3d_graph_bounds(const e3d_graph *graph, double lowest[3], double highest[3]);
+
+/* The draws of what shows, in the order of slots: objects[number] with the node's id and world pose.
+ * selection: a bit a slot, or NULL for all. Returns how many; draws has room for `count`. */
+int32_t e3d_graph_draws(int32_t count, const uint8_t *flags, const int32_t *object, const int32_t *id,
+                        const double *world, const uint64_t *selection, const e3d_draw *objects,
+                        int32_t object_count, e3d_draw *draws);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,57 @@
+# Mirrors csrc/include/e3d_scene.h, which explains every name.
+
+from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
+
+from e3d cimport e3d_draw
+
+
+cdef extern from "e3d_scene.h" nogil:
+    enum:
+        E3D_NODE_ALIVE
+        E3D_NODE_VISIBLE
+        E3D_NODE_SHOWN
+        E3D_NODE_STATIC
+
+    ctypedef struct e3d_graph:
+        int32_t count
+        int32_t *parent
+        int32_t *first_child
+        int32_t *last_child
+        int32_t *next
+        int32_t *previous
+        int32_t *object
+        int32_t *id
+        uint8_t *flags
+        double *pose
+        double *rotation
+        double *scale
+        double *world
+        double *bounds
+        uint32_t *pose_version
+        uint32_t *world_version
+        int32_t *changed
+        int32_t changed_count
+        int32_t *stack
+
+    int32_t e3d_graph_add(e3d_graph *graph, int32_t parent, int32_t object, int32_t id)
+    void e3d_graph_adopt(e3d_graph *graph, int32_t count)
+    bint e3d_graph_link(e3d_graph *graph, int32_t slot, int32_t parent)
+    void e3d_graph_remove(e3d_graph *graph, int32_t slot)
+    int32_t e3d_graph_walk(const e3d_graph *graph, int32_t slot, int32_t top)
+    void e3d_graph_set_flag(e3d_graph *graph, int32_t slot, int flag, bint on)
+    void e3d_graph_touch(e3d_graph *graph, int32_t slot)
+    void e3d_graph_set_pose(e3d_graph *graph, int32_t slot, const double *pose)
+    void e3d_graph_set_translation(e3d_graph *graph, int32_t slot, const double *translation)
+    bint e3d_graph_set_parts(
+        e3d_graph *graph, int32_t slot, const double *rotation, const double *scale
+    )
+    void e3d_graph_find_parts(e3d_graph *graph, int32_t slot)
+    void e3d_graph_find_world(e3d_graph *graph, int32_t slot)
+    void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects)
+    void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects)
+    bint e3d_graph_bounds(const e3d_graph *graph, double *lowest, double *highest)
+    int32_t e3d_graph_draws(
+        int32_t count, const uint8_t *flags, const int32_t *object, const int32_t *id,
+        const double *world, const uint64_t *selection, const e3d_draw *objects,
+        int32_t object_count, e3d_draw *draws,
+    )

@@ -1,0 +1,13 @@
+/* Poses: quaternion, scale and offset to a matrix and back, products, boxes. f64, in the order of
+ * engine/linalg, to the bit. */
+#ifndef E3D_POSE_H
+#define E3D_POSE_H
+
+/* The 3x3 part of a pose; the offset stays. 0 if the quaternion's length is zero or not finite. */
+int e3d_pose_compose(const double rotation[4], const double scale[3], double pose[12]);
+void e3d_pose_decompose(const double pose[12], double rotation[4], double scale[3]);
+void e3d_pose_multiply(const double a[12], const double b[12], double out[12]);
+/* The AABB around a box at a pose. */
+void e3d_pose_box(const double pose[12], const double box[6], double out[6]);
+
+#endif

@@ -1,0 +1,131 @@
+/* update: poses in, world poses, visibility and bounds out, for what was touched and what is below it.
+ *
+ * Method: a node is found from its parent; the list of changed nodes is walked once, and climbs to the
+ * topmost stale ancestor where a child was listed before it. Every node is found once.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "core/fpenv.h"
+#include "e3d_scene.h"
+#include "scene/pose.h"
+
+static void pose_changed(e3d_graph *g, int32_t slot)
+{
+    g->pose_version[slot]++;
+    e3d_graph_touch(g, slot);
+}
+
+void e3d_graph_set_pose(e3d_graph *g, int32_t slot, const double pose[12])
+{
+    memcpy(g->pose + 12 * (size_t)slot, pose, 12 * sizeof *pose);
+    g->flags[slot] &= ~E3D_NODE_PARTS;
+    pose_changed(g, slot);
+}
+
+void e3d_graph_set_translation(e3d_graph *g, int32_t slot, const double translation[3])
+{
+    double *pose = g->pose + 12 * (size_t)slot;
+    for (int k = 0; k < 3; k++)
+        pose[4 * k + 3] = translation[k];
+    pose_changed(g, slot);
+}
+
+void e3d_graph_find_parts(e3d_graph *g, int32_t slot)
+{
+    size_t at = (size_t)slot;
+    if (g->flags[slot] & E3D_NODE_PARTS)
+        return;
+    e3d_fpenv saved = e3d_fpenv_enter();
+    e3d_pose_decompose(g->pose + 12 * at, g->rotation + 4 * at, g->scale + 3 * at);
+    e3d_fpenv_leave(saved);
+    g->flags[slot] |= E3D_NODE_PARTS;
+}
+
+int e3d_graph_set_parts(e3d_graph *g, int32_t slot, const double *rotation, const double *scale)
+{
+    size_t at = (size_t)slot;
+    e3d_graph_find_parts(g, slot);
+    const double *new_rotation = rotation ? rotation : g->rotation + 4 * at;
+    const double *new_scale = scale ? scale : g->scale + 3 * at;
+    e3d_fpenv saved = e3d_fpenv_enter();
+    int done = e3d_pose_compose(new_rotation, new_scale, g->pose + 12 * at);
+    e3d_fpenv_leave(saved);
+    if (!done)
+        return 0;
+    memmove(g->rotation + 4 * at, new_rotation, 4 * sizeof *new_rotation);
+    memmove(g->scale + 3 * at, new_scale, 3 * sizeof *new_scale);
+    pose_changed(g, slot);
+    return 1;
+}
+
+static void find_from_parent(e3d_graph *g, int32_t slot)
+{
+    size_t at = (size_t)slot;
+    int32_t parent = g->parent[slot];
+    int above = parent < 0 ? E3D_NODE_SHOWN : g->flags[parent];
+    int own = E3D_NODE_ALIVE | E3D_NODE_VISIBLE;
+    int shown = (above & E3D_NODE_SHOWN) && (g->flags[slot] & own) == own;
+    if (parent < 0)
+        memcpy(g->world + 12 * at, g->pose + 12 * at, 12 * sizeof(double));
+    else
+        e3d_pose_multiply(g->world + 12 * (size_t)parent, g->pose + 12 * at, g->world + 12 * at);
+    g->flags[slot] &= ~(E3D_NODE_STALE | E3D_NODE_SHOWN);
+    g->flags[slot] |= shown ? E3D_NODE_SHOWN : 0;
+    g->world_version[slot]++;
+}
+
+void e3d_graph_find_world(e3d_graph *g, int32_t slot)
+{
+    int32_t depth = 0;
+    for (int32_t at = slot; at >= 0 && (g->flags[at] & E3D_NODE_STALE); at = g->parent[at])
+        g->stack[depth++] = at;
+    if (!depth)
+        return;
+    e3d_fpenv saved = e3d_fpenv_enter();
+    while (depth)
+        find_from_parent(g, g->stack[--depth]);
+    e3d_fpenv_leave(saved);
+}
+
+static void find_bounds(e3d_graph *g, int32_t slot, const double *boxes, int32_t objects)
+{
+    double *bounds = g->bounds + 6 * (size_t)slot;
+    int32_t object = g->object[slot];
+    if ((g->flags[slot] & E3D_NODE_SHOWN) && object >= 0 && object < objects &&
+        boxes[6 * (size_t)object] <= boxes[6 * (size_t)object + 3]) {
+        e3d_pose_box(g->world + 12 * (size_t)slot, boxes + 6 * (size_t)object, bounds);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        bounds[k] = INFINITY;
+        bounds[3 + k] = -INFINITY;
+    }
+}
+
+void e3d_graph_update(e3d_graph *g, const double *boxes, int32_t objects)
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    for (int32_t i = 0; i < g->changed_count; i++) {
+        int32_t slot = g->changed[i];
+        e3d_graph_find_world(g, slot);
+        find_bounds(g, slot, boxes, objects);
+        g->flags[slot] &= ~E3D_NODE_LISTED;
+    }
+    e3d_fpenv_leave(saved);
+}
+
+int e3d_graph_bounds(const e3d_graph *g, double lowest[3], double highest[3])
+{
+    for (int k = 0; k < 3; k++) {
+        lowest[k] = INFINITY;
+        highest[k] = -INFINITY;
+    }
+    for (int32_t slot = 0; slot < g->count; slot++)
+        for (int k = 0; k < 3; k++) {
+            const double *bounds = g->bounds + 6 * (size_t)slot;
+            lowest[k] = bounds[k] < lowest[k] ? bounds[k] : lowest[k];
+            highest[k] = bounds[3 + k] > highest[k] ? bounds[3 + k] : highest[k];
+        }
+    return lowest[0] <= highest[0];
+}

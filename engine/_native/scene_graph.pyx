@@ -1,0 +1,257 @@
+# cython: boundscheck=False, wraparound=False, initializedcheck=False
+"""The gateway to trees of nodes: csrc/include/e3d_scene.h over arrays that Python owns.
+
+In:  the arrays, by `attach`; then slots, and poses as C-contiguous float64.
+Out: the arrays, changed; single values copied.
+Always: the GIL is held, so that threads take turns; what is asked of a slot that is not there is an
+     error. ``changes`` grows with everything that may show.
+"""
+
+from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
+from libc.string cimport memcpy
+
+from e3d_scene cimport *
+
+from ..errors import InvalidArgumentError
+
+ALIVE = E3D_NODE_ALIVE
+VISIBLE = E3D_NODE_VISIBLE
+SHOWN = E3D_NODE_SHOWN
+STATIC = E3D_NODE_STATIC
+
+
+cdef class NativeGraph:
+    """Nodes in slots 0, 1, 2 … of the attached arrays."""
+
+    cdef e3d_graph graph
+    cdef int32_t room
+    cdef list held
+    cdef public uint64_t changes
+
+    def attach(
+        self,
+        *,
+        int32_t[::1] parent,
+        int32_t[::1] first_child,
+        int32_t[::1] last_child,
+        int32_t[::1] next,
+        int32_t[::1] previous,
+        int32_t[::1] object,
+        int32_t[::1] id,
+        uint8_t[::1] flags,
+        double[:, ::1] pose,
+        double[:, ::1] rotation,
+        double[:, ::1] scale,
+        double[:, ::1] world,
+        double[:, ::1] bounds,
+        uint32_t[::1] pose_version,
+        uint32_t[::1] world_version,
+        int32_t[::1] changed,
+        int32_t[::1] stack,
+    ):
+        """Work on these arrays from now on: equally long, at least 1, and holding all that was."""
+        cdef e3d_graph *g = &self.graph
+        arrays = [
+            parent, first_child, last_child, next, previous, object, id, flags, pose, rotation,
+            scale, world, bounds, pose_version, world_version, changed, stack,
+        ]
+        if len({len(array) for array in arrays}) != 1 or len(flags) < max(g.count, 1):
+            raise InvalidArgumentError("the arrays of a scene are equally long")
+        if [pose.shape[1], rotation.shape[1], scale.shape[1], world.shape[1], bounds.shape[1]] != [
+            12, 4, 3, 12, 6,
+        ]:
+            raise InvalidArgumentError("the arrays of a scene have rows of fixed lengths")
+        self.held = arrays
+        self.room = <int32_t>len(flags)
+        g.parent = &parent[0]
+        g.first_child = &first_child[0]
+        g.last_child = &last_child[0]
+        g.next = &next[0]
+        g.previous = &previous[0]
+        g.object = &object[0]
+        g.id = &id[0]
+        g.flags = &flags[0]
+        g.pose = &pose[0, 0]
+        g.rotation = &rotation[0, 0]
+        g.scale = &scale[0, 0]
+        g.world = &world[0, 0]
+        g.bounds = &bounds[0, 0]
+        g.pose_version = &pose_version[0]
+        g.world_version = &world_version[0]
+        g.changed = &changed[0]
+        g.stack = &stack[0]
+
+    cdef int check(self, int32_t slot) except -1:
+        if not 0 <= slot < self.graph.count:
+            raise InvalidArgumentError("no such slot")
+        return 0
+
+    @property
+    def count(self):
+        return self.graph.count
+
+    @property
+    def room(self):
+        return self.room
+
+    def add(self, int32_t parent, int32_t object, int32_t id):
+        """Make a node in a new slot, for which there must be room; return it."""
+        if self.graph.count >= self.room or not -1 <= parent < self.graph.count:
+            raise InvalidArgumentError("no room for a node")
+        self.changes += 1
+        return e3d_graph_add(&self.graph, parent, object, id)
+
+    def adopt(self, int32_t count):
+        """Say that the first slots of the arrays hold nodes, of which nothing derived is known."""
+        if not 0 <= count <= self.room:
+            raise InvalidArgumentError("no room for the nodes")
+        e3d_graph_adopt(&self.graph, count)
+        self.changes += 1
+
+    def link(self, int32_t slot, int32_t parent):
+        """Hang a node under another, or under none (-1); False if that is itself or below it."""
+        self.check(slot)
+        if parent != -1:
+            self.check(parent)
+        self.changes += 1
+        return e3d_graph_link(&self.graph, slot, parent)
+
+    def remove(self, int32_t slot):
+        """Take out a node; return the slots of it and of all below."""
+        self.check(slot)
+        self.changes += 1
+        e3d_graph_remove(&self.graph, slot)
+        return self.below(slot)
+
+    def below(self, int32_t slot):
+        """Return the slots of a node and of all below it, parents first."""
+        self.check(slot)
+        cdef list slots = []
+        cdef int32_t at = slot
+        while at >= 0:
+            slots.append(at)
+            at = e3d_graph_walk(&self.graph, at, slot)
+        return slots
+
+    def children(self, int32_t slot):
+        """Return the slots of a node's children."""
+        self.check(slot)
+        cdef list slots = []
+        cdef int32_t at = self.graph.first_child[slot]
+        while at >= 0:
+            slots.append(at)
+            at = self.graph.next[at]
+        return slots
+
+    def parent_of(self, int32_t slot):
+        """Return the slot of a node's parent, or -1."""
+        self.check(slot)
+        return self.graph.parent[slot]
+
+    def get_flag(self, int32_t slot, int flag):
+        self.check(slot)
+        return bool(self.graph.flags[slot] & flag)
+
+    def set_flag(self, int32_t slot, int flag, bint on):
+        self.check(slot)
+        if bool(self.graph.flags[slot] & flag) != on:
+            self.changes += 1
+            e3d_graph_set_flag(&self.graph, slot, flag, on)
+
+    def shown(self, int32_t slot):
+        """Whether a node and all above it are visible."""
+        self.check(slot)
+        e3d_graph_find_world(&self.graph, slot)
+        return bool(self.graph.flags[slot] & E3D_NODE_SHOWN)
+
+    def set_pose(self, int32_t slot, const double[:, ::1] pose not None):
+        """Set parent-from-node, (4, 4), of which the last row is not read; return its version."""
+        self.check(slot)
+        if pose.shape[0] != 4 or pose.shape[1] != 4:
+            raise InvalidArgumentError("a pose is 4x4")
+        self.changes += 1
+        e3d_graph_set_pose(&self.graph, slot, &pose[0, 0])
+        return self.graph.pose_version[slot]
+
+    def set_translation(self, int32_t slot, const double[::1] translation not None):
+        self.check(slot)
+        if translation.shape[0] != 3:
+            raise InvalidArgumentError("a translation has 3 numbers")
+        self.changes += 1
+        e3d_graph_set_translation(&self.graph, slot, &translation[0])
+
+    def set_parts(self, int32_t slot, const double[::1] rotation, const double[::1] scale):
+        """Set rotation and scale; None keeps one."""
+        self.check(slot)
+        if rotation is not None and rotation.shape[0] != 4:
+            raise InvalidArgumentError("a rotation has 4 numbers")
+        if scale is not None and scale.shape[0] != 3:
+            raise InvalidArgumentError("a scale has 3 numbers")
+        cdef const double *new_rotation = NULL
+        cdef const double *new_scale = NULL
+        if rotation is not None:
+            new_rotation = &rotation[0]
+        if scale is not None:
+            new_scale = &scale[0]
+        self.changes += 1
+        if not e3d_graph_set_parts(&self.graph, slot, new_rotation, new_scale):
+            raise InvalidArgumentError("a quaternion must have a finite length greater than zero")
+
+    def pose_version(self, int32_t slot):
+        self.check(slot)
+        return self.graph.pose_version[slot]
+
+    def world_version(self, int32_t slot):
+        """Return the version of the world pose, which is made true first."""
+        self.check(slot)
+        e3d_graph_find_world(&self.graph, slot)
+        return self.graph.world_version[slot]
+
+    def copy_pose(self, int32_t slot, double[:, ::1] out not None):
+        self.check(slot)
+        copy_affine(self.graph.pose + 12 * <size_t>slot, out)
+
+    def copy_world(self, int32_t slot, double[:, ::1] out not None):
+        self.check(slot)
+        e3d_graph_find_world(&self.graph, slot)
+        copy_affine(self.graph.world + 12 * <size_t>slot, out)
+
+    def copy_parts(self, int32_t slot, double[::1] rotation not None, double[::1] scale not None):
+        """Copy quaternion (4,) and scale (3,)."""
+        self.check(slot)
+        if rotation.shape[0] != 4 or scale.shape[0] != 3:
+            raise InvalidArgumentError("a rotation has 4 numbers, a scale 3")
+        e3d_graph_find_parts(&self.graph, slot)
+        memcpy(&rotation[0], self.graph.rotation + 4 * <size_t>slot, 4 * sizeof(double))
+        memcpy(&scale[0], self.graph.scale + 3 * <size_t>slot, 3 * sizeof(double))
+
+    def update(self, const double[:, ::1] boxes not None):
+        """Make every world pose, SHOWN and bounds true; boxes: (objects, 6)."""
+        if self.graph.changed_count == 0:
+            return
+        if boxes.shape[1] != 6:
+            raise InvalidArgumentError("a box has 6 numbers")
+        cdef int32_t objects = <int32_t>boxes.shape[0]
+        e3d_graph_update(&self.graph, &boxes[0, 0] if objects else NULL, objects)
+        self.graph.changed_count = 0
+
+    def touch_objects(self, const uint8_t[::1] dirty not None):
+        """Say that the boxes of objects changed."""
+        if dirty.shape[0]:
+            self.changes += 1
+            e3d_graph_touch_objects(&self.graph, &dirty[0], <int32_t>dirty.shape[0])
+
+    def copy_bounds(self, double[:, ::1] out not None):
+        """Copy the box around everything that shows, (2, 3); return whether there is anything."""
+        if out.shape[0] != 2 or out.shape[1] != 3:
+            raise InvalidArgumentError("bounds are (2, 3)")
+        return e3d_graph_bounds(&self.graph, &out[0, 0], &out[1, 0])
+
+
+cdef int copy_affine(const double *pose, double[:, ::1] out) except -1:
+    if out.shape[0] != 4 or out.shape[1] != 4:
+        raise InvalidArgumentError("a pose is 4x4")
+    memcpy(&out[0, 0], pose, 12 * sizeof(double))
+    out[3, 0] = out[3, 1] = out[3, 2] = 0.0
+    out[3, 3] = 1.0
+    return 0

@@ -41,6 +41,7 @@ CHAPTERS = {
     ),
     "Meshes": ("Mesh", "Material", "Texture"),
     "Primitives": ("box", "plane", "quad", "uv_sphere", "icosphere", "cylinder", "torus"),
+    "Worlds": ("city", "World"),
     "Files": ("load_mesh", "load_texture", "load_scene", "save_mesh"),
     "The canvas": ("Canvas",),
     "The low-level door": ("rasterize", "RasterizeResult"),
@@ -59,7 +60,7 @@ CHAPTERS = {
 #: Modules whose functions are written out here; those of the other modules are public names too.
 MODULES = ("linalg", "loaders")
 #: Classes that a user never makes: they come without a constructor.
-MADE_BY_OTHERS = ("Node", "Frame", "RasterizeResult")
+MADE_BY_OTHERS = ("Node", "Frame", "RasterizeResult", "World")
 PLAIN_NAMES = ("__version__", "errors", "primitives")
 
 

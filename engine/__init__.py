@@ -37,6 +37,8 @@ _PUBLIC = {
     "quad": "primitives",
     "torus": "primitives",
     "uv_sphere": "primitives",
+    "World": "worlds",
+    "city": "worlds",
     "load_mesh": "loaders",
     "load_texture": "loaders",
     "load_scene": "scene_loading",

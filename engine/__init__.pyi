@@ -46,4 +46,6 @@ from .scene import Scene as Scene
 from .scene_loading import load_scene as load_scene
 from .textures import Texture as Texture
 from .version import __version__ as __version__
+from .worlds import World as World
+from .worlds import city as city
 from .writers import save_mesh as save_mesh

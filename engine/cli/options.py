@@ -15,7 +15,7 @@ from .usage import UsageError
 
 MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
 BACKENDS = ("auto", "scalar", "portable", "sse41", "avx2", "avx512")
-SCENES = ("default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc")
+SCENES = ("default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc", "city")
 SAMPLES = (1, 4, 16)
 WIREFRAMES = ("overlay", "only")
 #: Options whose value may start with a minus sign, which argparse would take for an option.
@@ -61,6 +61,9 @@ def add_subject(parser) -> None:
     group.add_argument("model", metavar="MODEL", nargs="?", help="a model file")
     group.add_argument(
         "--scene", choices=SCENES, metavar="NAME", help=f"a scene: {', '.join(SCENES)}"
+    )
+    group.add_argument(
+        "--triangles", type=values.count, metavar="N", help="of --scene city: how many, about"
     )
     group.add_argument(
         "--texture",
@@ -314,6 +317,8 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
     """Return the `Subject` that the options name; ``default_scene`` if they name none."""
     if args.model is not None and args.scene is not None:
         raise UsageError("give a MODEL or --scene, not both")
+    if args.triangles is not None and args.scene != "city":
+        raise UsageError("--triangles goes with --scene city")
     if args.model is None:
         if args.texture is not None or args.color is not None:
             raise UsageError("--texture and --color need a MODEL")
@@ -321,7 +326,8 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
             raise UsageError("give a MODEL or --scene NAME")
         from ..demos import load_demo
 
-        return load_demo(args.scene or default_scene)
+        size = {} if args.triangles is None else {"triangles": args.triangles}
+        return load_demo(args.scene or default_scene, **size)
     from ..display.opening import open_model
 
     return open_model(args.model, texture=args.texture, color=args.color)

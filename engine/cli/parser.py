@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 
 from ..version import __version__
-from . import options
+from . import options, values
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -27,6 +27,7 @@ def make_parser() -> argparse.ArgumentParser:
     _add_render(commands)
     _add_info(commands)
     _add_convert(commands)
+    _add_city(commands)
     return parser
 
 
@@ -90,6 +91,28 @@ def _add_convert(commands) -> None:
     command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")
 
 
+def _add_city(commands) -> None:
+    command = commands.add_parser(
+        "city",
+        help="write a city of any size as a model",
+        description="Write a city as OBJ with MTL, PLY or STL, as the extension of OUT says: the "
+        "same bytes for the same numbers, on every machine.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_city)
+    command.add_argument("output", metavar="OUT", help="the file to write")
+    command.add_argument(
+        "--triangles",
+        type=values.count,
+        default=1_000_000,
+        metavar="N",
+        help="how many, about; a million by default",
+    )
+    command.add_argument(
+        "--seed", type=values.integer, default=0, metavar="N", help="another city for each"
+    )
+
+
 def _load_run():
     from .run import run
 
@@ -112,6 +135,12 @@ def _load_convert():
     from .convert import convert
 
     return convert
+
+
+def _load_city():
+    from .city import city
+
+    return city
 
 
 class _ListReaders(argparse.Action):

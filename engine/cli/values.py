@@ -59,6 +59,13 @@ def count(text: str) -> int:
     return int(text)
 
 
+def integer(text: str) -> int:
+    """Parse an integer of up to nine digits."""
+    if not re.fullmatch(r"-?\d{1,9}", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number")
+    return int(text)
+
+
 def thread_count(text: str) -> int:
     """Parse a number of threads, 0 for as many as the process may use."""
     return 0 if text == "0" else count(text)

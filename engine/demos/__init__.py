@@ -20,17 +20,20 @@ _MAKERS = {
     "shapes": ("shapes", "shapes"),
     "textured": ("models", "textured"),
     "asc": ("models", "asc"),
+    "city": ("city", "city"),
 }
 DEMO_NAMES = tuple(_MAKERS)
 
 
-def load_demo(name: str):
+def load_demo(name: str, **options):
     """Return a scene by its name.
 
     Parameters
     ----------
     name : str
         One of `DEMO_NAMES`.
+    **options
+        ``triangles`` : int, of ``"city"``: how many, about.
 
     Returns
     -------
@@ -44,4 +47,4 @@ def load_demo(name: str):
     if name not in _MAKERS:
         raise InvalidArgumentError(f"no scene {name!r}: there are {', '.join(DEMO_NAMES)}")
     module, function = _MAKERS[name]
-    return getattr(import_module(f".{module}", __name__), function)()
+    return getattr(import_module(f".{module}", __name__), function)(**options)

@@ -228,6 +228,9 @@ def test_bad_input_is_one_line_and_status_1(model, tmp_path, capsys, arguments, 
         ["render", "a.obj", "--scene", "cube", "-o", "out.png"],
         ["render", "--scene", "moon", "-o", "out.png"],
         ["render", "--scene", "cube", "--texture", "a.png", "-o", "out.png"],
+        ["render", "--scene", "cube", "--triangles", "50000", "-o", "out.png"],
+        ["city", "out.png"],
+        ["city", "out.obj", "--seed", "x"],
         ["render", "a.obj", "-o", "out.png", "--resolution", "0x0"],
         ["render", "a.obj", "-o", "out.png", "--mode", "pretty"],
         ["render", "a.obj", "-o", "out.png", "--unlit", "--mode", "depth"],
@@ -342,7 +345,7 @@ def test_run_in_a_dummy_window_stops_after_its_frames(model, monkeypatch, capsys
 
 
 @pytest.mark.parametrize(
-    "scene", ["default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc"]
+    "scene", ["default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc", "city"]
 )
 def test_every_scene_draws_something_that_moves(scene, tmp_path):
     path = tmp_path / "out.webp"
@@ -421,3 +424,17 @@ def test_convert(model, tmp_path, capfd):
 def test_convert_refuses_what_it_cannot_write(model, capfd, arguments):
     assert main(["convert", str(model), *arguments]) == 2
     assert "engine3d: error:" in capfd.readouterr().err
+
+
+def test_city_writes_a_model(tmp_path, capfd):
+    assert main(["city", "town.stl", "--triangles", "20000", "--seed", "4"]) == 0
+    assert len(e3d.load_mesh("town.stl").faces) == e3d.city(20_000, seed=4).triangles
+    assert main(["city", "town.obj", "--triangles", "3"]) == 1
+    assert "triangles must be from 20000" in capfd.readouterr().err
+    assert not (tmp_path / "town.obj").exists()
+
+
+def test_the_size_of_the_city_scene(capsys):
+    arguments = ["--triangles", "30000", *SMALL, "-o", "out.png", "--verbose"]
+    assert main(["render", "--scene", "city", *arguments]) == 0
+    assert "triangles" in "".join(capsys.readouterr())

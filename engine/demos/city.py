@@ -1,0 +1,112 @@
+"""A city at dusk: street lamps that light what is round the viewer, and cars that drive.
+
+Of the many lamps only the nearest shine: a fixed number of lights moves along with the viewer.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .. import linalg
+from ..display.subject import Subject
+from ..lights import DirectionalLight, PointLight
+from ..primitives import box
+from ..scene import Scene
+from ..worlds import city as make_city
+from ..worlds.furniture import CARS, car
+from ..worlds.plan import PITCH
+
+TRIANGLES = 500_000
+BACKGROUND = (78, 96, 138)
+PERIOD = 60.0
+#: Lights that shine at a time: one for each car, the others for lamps.
+LIGHTS = 256
+CAR_LIGHTS = 40
+LAMP = {"color": (1.0, 0.74, 0.42), "intensity": 1.5, "range": 17.0, "falloff": "window"}
+HEADLIGHT = {"color": (0.95, 0.95, 1.0), "intensity": 1.2, "range": 14.0, "falloff": "window"}
+#: Metres of street that a car drives before it starts again, at most.
+DRIVE = 600.0
+LANE = 2.4
+VIEW_RADIUS = 150.0
+EYES = (3.0, 1.85, 64.0)
+
+
+def city(triangles: int | None = None) -> Subject:
+    """Return a city of about as many triangles, half a million if left out."""
+    town = make_city(TRIANGLES if triangles is None else triangles)
+    scene = Scene(BACKGROUND, ambient=(0.11, 0.13, 0.20))
+    town.add_to(scene)
+    scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.42))
+    scene.add(DirectionalLight((0.7, -0.25, 0.5), (1.0, 0.62, 0.45), 0.16))
+    lamps = _Lamps(scene, town.lamps, LIGHTS - CAR_LIGHTS)
+    traffic = _Traffic(scene, town)
+
+    def update(time: float) -> None:
+        traffic.drive(time)
+
+    update(0.0)
+    lamps.follow(np.array(EYES))
+    size = (2.0 * VIEW_RADIUS, 40.0, 2.0 * VIEW_RADIUS)
+    return Subject(
+        scene,
+        "city",
+        azimuth=math.radians(32.0),
+        elevation=math.radians(24.0),
+        update=update,
+        period=PERIOD,
+        plays=True,
+        focus=box(size).positions.astype(np.float64) + np.array((-30.0, 10.0, -30.0)),
+    )
+
+
+class _Lamps:
+    """A fixed number of lights, put to the lamps that are nearest to the viewer."""
+
+    def __init__(self, scene: Scene, lamps: np.ndarray, count: int) -> None:
+        self._lamps = lamps
+        self._nodes = [scene.add(PointLight(**LAMP)) for _ in range(min(count, len(lamps)))]
+        self._shining = np.full(len(self._nodes), -1)
+
+    def follow(self, eye: np.ndarray) -> None:
+        """Let the lamps nearest to ``eye`` shine; lights move only from lamps that no longer do."""
+        offsets = self._lamps - eye
+        order = np.argsort(linalg.dot(offsets, offsets), kind="stable")
+        nearest = order[: len(self._nodes)]
+        dark = np.setdiff1d(nearest, self._shining)
+        free = np.flatnonzero(~np.isin(self._shining, nearest))
+        for lamp, number in zip(dark.tolist(), free.tolist(), strict=True):
+            self._shining[number] = lamp
+            self._nodes[number].translation = self._lamps[lamp]
+
+
+class _Traffic:
+    """Cars that drive along the streets, each with a light before it."""
+
+    def __init__(self, scene: Scene, town) -> None:
+        reach = min(DRIVE, float(town.lamps[:, 2].max() - town.lamps[:, 2].min()))
+        self._length = max(reach - 20.0, PITCH)
+        meshes = [car(name, town.materials) for name in CARS]
+        self._cars = []
+        for number in range(CAR_LIGHTS):
+            node = scene.add(meshes[number % len(meshes)])
+            scene.add(PointLight(**HEADLIGHT), parent=node, translation=(0.0, 1.0, 3.4))
+            self._cars.append(node)
+
+    def drive(self, time: float) -> None:
+        """Put each car where it is at a time; right-hand traffic on streets along Z."""
+        for number, node in enumerate(self._cars):
+            street = (number // 2 % 5 - 3) * PITCH
+            way = 1.0 if number % 2 else -1.0
+            start = number * 0.618 % 1.0
+            laps = 1 + number % 2
+            along = ((start + laps * time / PERIOD) % 1.0 - 0.5) * self._length
+            node.pose = _pose(street - LANE * way, along * way, way)
+
+
+def _pose(x: float, z: float, way: float) -> np.ndarray:
+    """A car's pose: its front to +Z, or turned round."""
+    return np.array(
+        [[way, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, way, z], [0.0, 0.0, 0.0, 1.0]]
+    )

@@ -33,7 +33,7 @@ class FrameOptions:
         Its background, ambient light and limits of light count as options.
     color_space : {"srgb", "linear"}
     line_color, mode, wireframe, cull, shading, normals, hidden_surfaces, hidden_lines, line_width,
-    point_size
+    point_size, culling
         As for `Renderer.render`.
 
     Attributes
@@ -61,6 +61,7 @@ class FrameOptions:
         hidden_lines: bool,
         line_width,
         point_size,
+        culling,
     ) -> None:
         self.mode = choose(mode, _native.MODES, "mode")
         self.normals = choose(normals, _native.NORMALS, "normals")
@@ -82,6 +83,7 @@ class FrameOptions:
             hidden=_native.HIDDEN_SURFACES[hidden],
             shading=_native.SHADINGS[choose(shading, _native.SHADINGS, "shading")],
             normals=_native.NORMALS[normals],
+            culling=_native.CULLINGS[choose(culling, _native.CULLINGS, "culling")],
             remove_hidden_lines=not hidden_lines,
             line_width=_line_size(line_width, "line_width"),
             point_size=_line_size(point_size, "point_size"),

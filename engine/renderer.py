@@ -145,6 +145,8 @@ class Renderer:
         line_color=(1.0, 1.0, 1.0),
         hidden_lines: bool = False,
         point_size: float = 1.0,
+        culling: str = "all",
+        culling_camera=None,
     ) -> Frame:
         """Draw a frame.
 
@@ -180,6 +182,13 @@ class Renderer:
             Colour of the wireframe.
         hidden_lines : bool
             With ``wireframe="only"``: show the edges that faces hide as well.
+        culling : {"all", "frustum", "none", "always"}
+            What is left out before it is drawn: what is outside the view frustum and what is
+            behind what was drawn before it (tried where it may pay, or always); what is outside the
+            frustum; or nothing. The picture is the same.
+        culling_camera : Node or (Camera, pose), optional
+            Draw only what this camera's frustum holds, seen from ``camera``: to look at what
+            culling leaves out.
 
         Returns
         -------
@@ -208,6 +217,7 @@ class Renderer:
                 bool(hidden_lines),
                 line_width,
                 point_size,
+                culling,
             )
             frame = self._new_frame(outputs) if out is None else self._check_out(out)
             view = self._look(scene, camera)
@@ -227,8 +237,13 @@ class Renderer:
                 view.eye,
                 near,
                 far,
+                None if culling_camera is None else self._clip_from_world(scene, culling_camera),
             )
         return frame
+
+    def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:
+        camera, pose = find_camera(scene, camera)
+        return View(camera, pose, self._width, self._height).clip_from_world
 
     def _new_frame(self, outputs: Iterable[str]) -> Frame:
         if isinstance(outputs, str):

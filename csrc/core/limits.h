@@ -12,11 +12,13 @@ enum {
     E3D_TILE_SHIFT = 6,
     E3D_TILE = 1 << E3D_TILE_SHIFT, /* samples a side: a tile's depths and slots fill half an L1 cache */
     E3D_TILE_SAMPLES = E3D_TILE * E3D_TILE,
+    E3D_BLOCK = 8,               /* samples a side: what the hierarchical depth bounds */
     E3D_SUBPIXEL = 256,          /* positions are snapped to 1/256 sample */
     E3D_GUARD = 32768,           /* samples from the viewport's centre to the guard band */
     E3D_MAX_LINE_SAMPLES = 1024, /* line width or point size: 256 pixels of 4 samples */
     E3D_CLUSTER_TRIANGLES = 64,  /* a cluster's triangles and vertices: 8-bit local indices */
     E3D_CLUSTER_VERTICES = 128,
+    E3D_GROUP_CLUSTERS = 8,      /* clusters that are culled together first */
     E3D_MAX_THREADS = 256
 };
 

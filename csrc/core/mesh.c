@@ -152,12 +152,13 @@ static int allocate(builder *b)
     e3d_mesh *mesh = b->mesh;
     size_t clusters = cluster_bound(mesh->desc.faces_count);
     mesh->clusters = malloc(clusters * sizeof *mesh->clusters);
+    mesh->groups = malloc((clusters / E3D_GROUP_CLUSTERS + 1) * sizeof *mesh->groups);
     mesh->positions = malloc(positions_bound(&mesh->desc) * sizeof(float));
     mesh->indices = calloc(clusters, 3 * E3D_CLUSTER_TRIANGLES);
     b->indices = mesh->indices;
     b->local = malloc(((size_t)mesh->desc.vertices + 1) * sizeof *b->local);
     b->members = malloc(E3D_CLUSTER_VERTICES * sizeof *b->members);
-    if (!mesh->clusters || !mesh->positions || !mesh->indices || !b->local || !b->members)
+    if (!mesh->clusters || !mesh->groups || !mesh->positions || !mesh->indices || !b->local || !b->members)
         return 0;
     memset(b->local, 0xFF, ((size_t)mesh->desc.vertices + 1) * sizeof *b->local);
     return 1;
@@ -173,6 +174,23 @@ static void shrink(e3d_mesh *mesh)
     float *positions = realloc(mesh->positions, (used + 1) * sizeof(float));
     if (positions)
         mesh->positions = positions;
+}
+
+static void group_clusters(e3d_mesh *mesh)
+{
+    for (int32_t c = 0; c < mesh->cluster_count; c++) {
+        e3d_group_box *group = &mesh->groups[c / E3D_GROUP_CLUSTERS];
+        const e3d_cluster *cluster = &mesh->clusters[c];
+        if (c % E3D_GROUP_CLUSTERS == 0)
+            *group = (e3d_group_box){.first_cluster = c};
+        group->clusters++;
+        group->triangles += cluster->triangles;
+        if (cluster->any_finite) {
+            grow_bounds(cluster->lo, group->lo, group->hi, &group->any_finite);
+            grow_bounds(cluster->hi, group->lo, group->hi, &group->any_finite);
+        }
+    }
+    mesh->group_count = (mesh->cluster_count + E3D_GROUP_CLUSTERS - 1) / E3D_GROUP_CLUSTERS;
 }
 
 static void bound_mesh(e3d_mesh *mesh)
@@ -207,6 +225,7 @@ e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out)
     if (enough) {
         build_clusters(&b);
         shrink(mesh);
+        group_clusters(mesh);
         bound_mesh(mesh);
     }
     free(b.local);
@@ -224,6 +243,7 @@ void e3d_mesh_destroy(e3d_mesh *mesh)
     if (!mesh)
         return;
     free(mesh->clusters);
+    free(mesh->groups);
     free(mesh->positions);
     free(mesh->indices);
     free(mesh);

@@ -16,10 +16,18 @@ typedef struct e3d_cluster {
     int32_t any_finite;
 } e3d_cluster;
 
+/* Neighbouring clusters, which are culled together first. */
+typedef struct e3d_group_box {
+    float lo[3], hi[3];
+    int32_t any_finite;
+    int32_t first_cluster, clusters, triangles;
+} e3d_group_box;
+
 struct e3d_mesh {
     e3d_mesh_desc desc;
     e3d_cluster *clusters;
-    int32_t cluster_count;
+    int32_t cluster_count, group_count;
+    e3d_group_box *groups;
     float *positions;  /* of all clusters */
     uint8_t *indices;
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */

@@ -169,6 +169,14 @@ typedef enum e3d_hidden { E3D_HIDDEN_ZBUFFER = 0, E3D_HIDDEN_PAINTER, E3D_HIDDEN
 typedef enum e3d_shading { E3D_SHADING_DEFERRED = 0, E3D_SHADING_FORWARD } e3d_shading;
 typedef enum e3d_normals { E3D_NORMALS_AUTO = 0, E3D_NORMALS_SMOOTH, E3D_NORMALS_FLAT } e3d_normals;
 
+/* What is left out before it is drawn; the picture is the same. */
+typedef enum e3d_culling {
+    E3D_CULLING_ALL = 0, /* outside the frustum, or behind what is drawn already */
+    E3D_CULLING_FRUSTUM,
+    E3D_CULLING_NONE,
+    E3D_CULLING_ALWAYS /* as ALL, and what is drawn already is tried against even where that cannot pay */
+} e3d_culling;
+
 enum { E3D_MAX_SIZE = 16384 };
 
 typedef struct e3d_frame {
@@ -199,6 +207,8 @@ typedef struct e3d_frame {
     int32_t light_count;
     const e3d_draw *draws;
     int32_t draw_count;
+    e3d_culling culling;
+    const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
 } e3d_frame;
 
 /* Each may be NULL: what is not asked for is not computed. All (height, width[, channels]). */
@@ -220,8 +230,11 @@ typedef struct e3d_targets {
 } e3d_targets;
 
 typedef struct e3d_stats {
-    int64_t draws, instances, clusters, clusters_culled;
+    int64_t draws, instances, clusters;
+    int64_t clusters_culled;    /* outside the frustum */
+    int64_t clusters_occluded;  /* behind what was drawn before */
     int64_t triangles;          /* submitted */
+    int64_t triangles_occluded; /* with an occluded cluster */
     int64_t triangles_culled;   /* with a culled cluster, or rejected before setup */
     int64_t triangles_clipped;
     int64_t triangles_setup;    /* records binned, lines and points included */
@@ -230,7 +243,7 @@ typedef struct e3d_stats {
     double ms_geometry;         /* cull, transform, clip, setup, bin: wall clock */
     double ms_raster, ms_shade, ms_resolve; /* summed over threads, divided by the threads used */
     double ms_total;            /* wall clock */
-    int32_t threads, tiles;
+    int32_t threads, tiles, rounds;
     e3d_backend backend;
 } e3d_stats;
 

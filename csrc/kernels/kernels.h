@@ -71,6 +71,46 @@ enum { E3D_NO_SLOT = -1 };
 /* What an empty sample's depth is: z < this exactly when z <= 1 (R15). */
 #define E3D_BEYOND_FAR 0x1.000002p0f
 
+/* What setup leaves of a piece of a primitive, ready for any tile: a cache line. */
+typedef struct e3d_record {
+    int32_t x[3], y[3]; /* snapped, counter-clockwise in R9's sense */
+    float z0, gx, gy, zmin, zmax;
+    float iw[3];
+    uint32_t order;
+    uint32_t meta; /* flags, and above E3D_RECORD_SHIFT the corners' number or the cover */
+} e3d_record;
+
+_Static_assert(sizeof(e3d_record) == 64, "a record is a cache line");
+
+enum {
+    E3D_RECORD_BACK = 1,    /* not front-facing */
+    E3D_RECORD_SWAPPED = 2, /* vertices 1 and 2 were exchanged (R9) */
+    E3D_RECORD_CUT = 4,     /* has corner barycentrics */
+    E3D_RECORD_FACE = 8,
+    E3D_RECORD_TINY = 16,   /* a box of at most 2 x 2 samples: bit 2 * row + column tells which are covered */
+    E3D_RECORD_SHIFT = 5
+};
+
+/* The records of a frame: those of worker w at records[w], under the IDs number << bits | w. */
+typedef struct e3d_record_table {
+    const e3d_record *const *records;
+    int32_t bits;
+} e3d_record_table;
+
+enum { E3D_TILE_BLOCKS = E3D_TILE_SAMPLES / 64 };
+
+/* The visible surface of a tile, and of its blocks of 8 x 8 samples, row by row. A noted block is covered whole by one
+ * record (or none: ID -1), and its samples are not written yet. zmin and zmax bound a block's depths; the zmax of a
+ * stale one is too large. */
+typedef struct e3d_visible_tile {
+    float z[E3D_TILE_SAMPLES + E3D_PAD];
+    int32_t id[E3D_TILE_SAMPLES + E3D_PAD];
+    float zmin[E3D_TILE_BLOCKS], zmax[E3D_TILE_BLOCKS];
+    int32_t noted_id[E3D_TILE_BLOCKS];
+    uint64_t noted, stale;
+    int32_t x, y; /* first sample */
+} e3d_visible_tile;
+
 typedef struct e3d_tile_buffers {
     float *z;               /* E3D_TILE_SAMPLES, 64-byte aligned */
     int32_t *slot;          /* or counts, or marks */
@@ -148,6 +188,12 @@ typedef struct e3d_kernels {
     void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile);
+    /* Draws records into the tile. */
+    void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count);
+    /* Writes the samples of all noted blocks. */
+    void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table);
+    /* Finds the zmax of all stale blocks. */
+    void (*raster_measure)(e3d_visible_tile *tile);
     /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
     int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
     void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted);

@@ -3,20 +3,33 @@
  * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
  * each thread's own; the raster's rule (R16) makes their order irrelevant.
  */
-#include "pipeline/coverage.h"
+#include "pipeline/frame.h"
 
-int e3d_bins_reset(e3d_record_set *set, int32_t tiles)
+void e3d_bins_clear(e3d_record_set *set, int32_t tiles)
 {
-    set->records.count = set->corners.count = set->keys.count = set->blocks.count = 0;
-    if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
-        return 0;
     e3d_bin *bins = set->bins.data;
+    set->blocks.count = 0;
     for (int32_t t = 0; t < tiles; t++)
         bins[t].first = bins[t].last = E3D_NO_BLOCK;
+}
+
+int e3d_records_reset(e3d_record_set *set, int32_t tiles)
+{
+    set->records.count = set->corners.count = set->keys.count = 0;
+    if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
+        return 0;
+    e3d_bins_clear(set, tiles);
     return 1;
 }
 
-static int push(e3d_record_set *set, e3d_bin *bin, uint32_t record)
+void e3d_tables_set(e3d_context *context)
+{
+    for (int pass = 0; pass < E3D_PASSES; pass++)
+        for (int32_t w = 0; w < context->renderer->threads; w++)
+            context->records[pass][w] = context->renderer->workers[w]->pass[pass].records.data;
+}
+
+static int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
 {
     e3d_bin_block *blocks = set->blocks.data;
     if (bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) {
@@ -33,7 +46,7 @@ static int push(e3d_record_set *set, e3d_bin *bin, uint32_t record)
         bin->last = fresh;
     }
     e3d_bin_block *block = &blocks[bin->last];
-    block->record[block->count++] = record;
+    block->id[block->count++] = id;
     return 1;
 }
 
@@ -55,13 +68,14 @@ int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_se
     const e3d_record *record = (const e3d_record *)set->records.data + number;
     int32_t tx0 = box->x0 >> E3D_TILE_SHIFT, tx1 = box->x1 >> E3D_TILE_SHIFT;
     int32_t ty0 = box->y0 >> E3D_TILE_SHIFT, ty1 = box->y1 >> E3D_TILE_SHIFT;
+    uint32_t id = number << context->tables[0].bits | worker->number;
     int single = tx0 == tx1 && ty0 == ty1;
     e3d_bin *bins = set->bins.data;
     for (int32_t ty = ty0; ty <= ty1; ty++)
         for (int32_t tx = tx0; tx <= tx1; tx++) {
             if (!single && misses_tile(record, tx * E3D_TILE, ty * E3D_TILE))
                 continue;
-            if (!push(set, &bins[(int64_t)ty * context->tiles_x + tx], number))
+            if (!push(set, &bins[(int64_t)ty * context->tiles_x + tx], id))
                 return 0;
             worker->counters.bin_entries++;
         }

@@ -9,7 +9,7 @@
 
 /* ---- renderers ---- */
 
-static e3d_worker *create_worker(void)
+static e3d_worker *create_worker(uint32_t number)
 {
     void *memory = NULL;
     e3d_worker *worker = calloc(1, sizeof *worker);
@@ -17,6 +17,7 @@ static e3d_worker *create_worker(void)
         free(worker);
         return NULL;
     }
+    worker->number = number;
     worker->tile = memory;
     memset(worker->tile, 0, sizeof *worker->tile); /* padding is read, never used */
     for (int i = 0; i < E3D_TILE_SAMPLES + E3D_PAD; i++)
@@ -36,6 +37,8 @@ static void destroy_worker(e3d_worker *worker)
     }
     e3d_array_free(&worker->slots);
     e3d_array_free(&worker->orders);
+    e3d_array_free(&worker->named);
+    e3d_array_free(&worker->items);
     e3d_array_free(&worker->surfaces);
     e3d_array_free(&worker->groups);
     free(worker->tile);
@@ -58,7 +61,7 @@ e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_rendere
     renderer->workers = calloc((size_t)renderer->threads, sizeof *renderer->workers);
     int made = renderer->workers != NULL;
     for (int32_t w = 0; made && w < renderer->threads && backend != E3D_BACKEND_SCALAR; w++)
-        made = (renderer->workers[w] = create_worker()) != NULL;
+        made = (renderer->workers[w] = create_worker((uint32_t)w)) != NULL;
     if (!made) {
         e3d_renderer_destroy(renderer);
         return E3D_OUT_OF_MEMORY;
@@ -75,7 +78,11 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
         destroy_worker(renderer->workers[w]);
     free(renderer->workers);
     e3d_array_free(&renderer->draws);
-    e3d_array_free(&renderer->instances);
+    e3d_array *arrays[] = {&renderer->instances, &renderer->tasks, &renderer->items, &renderer->seen,
+                           &renderer->tile_depths};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        e3d_array_free(arrays[i]);
+    free(renderer->kept);
     free(renderer);
 }
 
@@ -118,7 +125,7 @@ static int reset_workers(e3d_context *context)
         memset(&worker->counters, 0, sizeof worker->counters);
         worker->failed = 0;
         for (int p = 0; p < E3D_PASSES; p++)
-            if (!e3d_bins_reset(&worker->pass[p], (int32_t)e3d_tile_count(context)))
+            if (!e3d_records_reset(&worker->pass[p], (int32_t)e3d_tile_count(context)))
                 return 0;
     }
     return 1;
@@ -149,6 +156,8 @@ static void add_counters(const e3d_context *context, e3d_stats *stats)
     for (int32_t w = 0; w < threads; w++) {
         const e3d_counters *c = &context->renderer->workers[w]->counters;
         stats->clusters_culled += c->clusters_culled;
+        stats->clusters_occluded += c->clusters_occluded;
+        stats->triangles_occluded += c->triangles_occluded;
         stats->triangles_culled += c->triangles_culled;
         stats->triangles_clipped += c->triangles_clipped;
         stats->triangles_setup += c->records;
@@ -163,6 +172,38 @@ static void add_counters(const e3d_context *context, e3d_stats *stats)
     stats->backend = context->renderer->backend;
 }
 
+/* Draws some of the items, and keeps what they cover for the rounds to come. */
+static int draw_round(e3d_context *context, e3d_stats *stats, e3d_round round)
+{
+    context->round = round;
+    e3d_geometry(context);
+    stats->rounds++;
+    if (!round.last)
+        e3d_draw_kept_tiles(context);
+    return !any_failed(context->renderer);
+}
+
+/* Geometry, in as many rounds as pay; the bins of the last are drawn with the tiles. */
+static int draw_rounds(e3d_context *context, e3d_stats *stats)
+{
+    int64_t count = context->item_count, done = 0;
+    if (!e3d_occlusion_pays(context) || !e3d_occlusion_begin(context))
+        return draw_round(context, stats, (e3d_round){.end = count, .last = 1});
+    int remembered = e3d_remember(context);
+    if (remembered < 0)
+        return 0;
+    if (remembered)
+        return draw_round(context, stats, (e3d_round){.choice = E3D_SEEN_ITEMS, .end = count}) &&
+               draw_round(context, stats,
+                          (e3d_round){.choice = E3D_UNSEEN_ITEMS, .end = count, .tested = 1, .last = 1});
+    for (int64_t end = count / 32 + 1; 2 * end < count; end *= 2) {
+        if (!draw_round(context, stats, (e3d_round){.first = done, .end = end, .tested = done > 0}))
+            return 0;
+        done = end;
+    }
+    return draw_round(context, stats, (e3d_round){.first = done, .end = count, .tested = 1, .last = 1});
+}
+
 static e3d_status run(e3d_context *context, e3d_stats *stats)
 {
     int64_t start = e3d_now_ns();
@@ -171,8 +212,8 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
         return status;
     if (!reset_workers(context))
         return E3D_OUT_OF_MEMORY;
-    e3d_geometry(context);
-    if (any_failed(context->renderer) || (context->sorted && !e3d_sort_records(context)))
+    if (!e3d_find_items(context) || !draw_rounds(context, stats) ||
+        (context->sorted && !e3d_sort_records(context)))
         return E3D_OUT_OF_MEMORY;
     int64_t binned = e3d_now_ns();
     e3d_tiles(context);

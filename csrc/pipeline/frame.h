@@ -10,6 +10,7 @@
 
 #include "core/grow.h"
 #include "core/mesh.h"
+#include "kernels/coverage.h"
 #include "kernels/kernels.h"
 
 enum { E3D_LINES_A_UNIT = 256 }; /* lines, points or edges in one unit of work */
@@ -26,47 +27,31 @@ static inline int64_t e3d_now_ns(void)
 
 /* One instance's matrices (R1, R2). */
 typedef struct e3d_instance {
-    double clip_exact[16]; /* for culling */
     float clip[16], world[12], normal[9];
+    float frozen[16]; /* clip matrix of the camera that culls, where another one draws */
     int32_t mirrored;
+    int32_t draw;
+    int32_t shows; /* its mesh's box may be in view */
 } e3d_instance;
 
 /* A draw in the frame: where its instances, primitives and units of work start. */
 typedef struct e3d_draw_state {
     const e3d_draw *draw;
     const e3d_mesh *mesh;
-    int64_t order_base, unit_base;
+    int64_t order_base, unit_base, group_base;
     int32_t instance_base;
     int32_t primitives;  /* an instance */
-    int32_t cluster_units, line_units, point_units, edge_units; /* an instance */
+    int32_t line_units, point_units, edge_units; /* an instance */
     int32_t units;       /* their sum */
     int32_t any_two_sided;
 } e3d_draw_state;
 
 /* ---- left by geometry ---- */
 
-enum {
-    E3D_RECORD_BACK = 1,     /* not front-facing */
-    E3D_RECORD_SWAPPED = 2,  /* vertices 1 and 2 were exchanged (R9) */
-    E3D_RECORD_CUT = 4,      /* has corner barycentrics, at meta >> 4 */
-    E3D_RECORD_FACE = 8
-};
-
-/* One piece of a primitive, ready for any tile: a cache line. */
-typedef struct e3d_record {
-    int32_t x[3], y[3];
-    float z0, gx, gy, zmin, zmax;
-    float iw[3];
-    uint32_t order;
-    uint32_t meta;
-} e3d_record;
-
-_Static_assert(sizeof(e3d_record) == 64, "a record is a cache line");
-
-/* Bins are chains of blocks of record numbers, in order of arrival. */
+/* Bins are chains of blocks of record IDs, in order of arrival. */
 typedef struct e3d_bin_block {
     uint32_t next, count;
-    uint32_t record[30];
+    uint32_t id[30];
 } e3d_bin_block;
 
 enum { E3D_NO_BLOCK = 0xFFFFFFFFu };
@@ -86,8 +71,31 @@ typedef struct e3d_record_set {
 
 enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
 
+/* A box as the camera sees it. */
+enum { E3D_BOX_OUTSIDE = 0, E3D_BOX_CROSSES, E3D_BOX_INSIDE };
+typedef struct e3d_box_view {
+    int32_t state;
+    float near;    /* no z_ndc in the box is less */
+    e3d_box blocks; /* of 8 x 8 samples, inclusive */
+} e3d_box_view;
+#define E3D_NEAREST (-2.0f) /* of a box that reaches the eye */
+
+/* A group of clusters of one instance, in view. */
+typedef struct e3d_item {
+    uint32_t instance, group;
+    int64_t unit; /* its number in the frame */
+    e3d_box_view view;
+} e3d_item;
+
+/* The farthest depths of a kept tile's blocks, and the farthest of them. */
+typedef struct e3d_tile_depths {
+    float most, zmax[E3D_TILE_BLOCKS];
+} e3d_tile_depths;
+#define E3D_NOTHING_KEPT 4.0f /* greater than any depth: nothing was drawn there */
+
 typedef struct e3d_counters {
-    int64_t clusters_culled, triangles_culled, triangles_clipped, records, bin_entries, shaded;
+    int64_t blocks; /* that the boxes of the items in view may touch */
+    int64_t clusters_culled, clusters_occluded, triangles_culled, triangles_occluded, triangles_clipped, records, bin_entries, shaded;
     int64_t ns_raster, ns_shade, ns_resolve;
 } e3d_counters;
 
@@ -101,10 +109,9 @@ typedef struct e3d_group {
 } e3d_group;
 
 typedef struct e3d_tile_memory {
-    float z[E3D_TILE_SAMPLES + E3D_PAD];
+    e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
     float bound[E3D_TILE_SAMPLES + E3D_PAD]; /* E3D_BEYOND_FAR everywhere */
     float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* wireframe: what an edge's depth must be less than */
-    int32_t slot[E3D_TILE_SAMPLES + E3D_PAD];
     int32_t mark[E3D_TILE_SAMPLES + E3D_PAD];  /* overdraw counts, then wireframe marks */
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling: 1 where a sample has its own colour */
     float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling only */
@@ -121,8 +128,12 @@ typedef struct e3d_worker {
     e3d_vertices vertices;
     e3d_survivors survivors;
     e3d_tile_memory *tile;
+    e3d_visible_tile *visible; /* of the tile that is being drawn */
+    uint32_t number;           /* of this worker */
     e3d_array slots;        /* e3d_slot of the tile */
-    e3d_array orders;       /* uint32_t of each slot */
+    e3d_array orders;       /* uint32_t of each slot: forward shading only */
+    e3d_array items;        /* e3d_item, as the groups come */
+    e3d_array named;        /* e3d_named: slots by record ID, a hash table */
     e3d_array surfaces;     /* e3d_surface of the tile's visible slots */
     e3d_array groups;       /* e3d_group of the tile */
     e3d_counters counters;
@@ -138,15 +149,39 @@ typedef struct e3d_slot {
     int32_t surface;      /* or -1 */
 } e3d_slot;
 
+/* Where a record's slot stands in the hash table; id -1: free. */
+typedef struct e3d_named {
+    int32_t id, slot;
+} e3d_named;
+
 struct e3d_renderer {
     e3d_backend backend;
     int32_t threads;
     const e3d_kernels *kernels;
     e3d_worker **workers;
     e3d_array draws, instances;
+    e3d_array tasks, items;     /* e3d_item, near ones first */
+    e3d_array seen;             /* uint8_t for each group of the frame: did the last frame show it? */
+    e3d_array tile_depths;      /* e3d_tile_depths */
+    e3d_visible_tile *kept;     /* over the rounds of a frame */
+    size_t kept_room;
     int (*poll)(void *);
     void *poll_user;
 };
+
+/* Which items are drawn now. */
+typedef enum e3d_choice {
+    E3D_ALL_ITEMS = 0,
+    E3D_SEEN_ITEMS,   /* what the last frame showed */
+    E3D_UNSEEN_ITEMS, /* the others */
+} e3d_choice;
+
+typedef struct e3d_round {
+    e3d_choice choice;
+    int64_t first, end; /* items */
+    int tested;         /* against the kept tiles' depths */
+    int last;           /* lines, points and edges are drawn, too */
+} e3d_round;
 
 typedef struct e3d_context {
     e3d_renderer *renderer;
@@ -157,7 +192,15 @@ typedef struct e3d_context {
     e3d_draw_state *draws;
     e3d_instance *instances;
     int32_t instance_count;
-    int64_t units;
+    int64_t units, groups;
+    const e3d_item *items;
+    int64_t item_count;
+    uint8_t *seen;           /* by e3d_item.unit */
+    e3d_visible_tile *kept;  /* NULL: one round */
+    e3d_tile_depths *depths; /* of the tiles */
+    e3d_round round;
+    const e3d_record *records[E3D_PASSES][E3D_MAX_THREADS];
+    e3d_record_table tables[E3D_PASSES];
     float view[12]; /* rows of view_from_world, f32 */
     e3d_lighting lighting;
     int32_t tiles_x, tiles_y;
@@ -167,7 +210,8 @@ typedef struct e3d_context {
     int wants;         /* E3D_WANT_* and E3D_NEED_* of the visible samples; 0: no shading */
     int32_t line_half, point_half; /* 1/256 sample */
     uint32_t background_rgba, line_rgba;
-    atomic_llong next; /* unit, instance or tile */
+    atomic_llong next; /* instance, task, item or tile */
+    atomic_llong next_unit;
     atomic_int stop;   /* cancelled or out of memory */
     int cancelled;
     int64_t last_poll;
@@ -177,12 +221,27 @@ typedef struct e3d_context {
 e3d_status e3d_prepare(e3d_context *context);
 /* geometry.c */
 void e3d_geometry(e3d_context *context);
-/* cull.c: a box of object space, against the six planes of a clip matrix; 0 only if nothing of it can show */
-typedef struct e3d_planes {
-    double p[6][4];
-} e3d_planes;
-void e3d_planes_from(const double clip_from_object[16], e3d_planes *planes);
-int e3d_box_shows(const e3d_planes *planes, const float lo[3], const float hi[3]);
+/* cull.c */
+int e3d_box_state(const float clip[16], const float lo[3], const float hi[3]);
+/* Only the state is set of a box that is outside. */
+void e3d_view_box(const e3d_viewport *viewport, const float clip[16], const float lo[3], const float hi[3],
+                  e3d_box_view *out);
+/* Lists the frame's items; 0 when memory is out. */
+int e3d_find_items(e3d_context *context);
+const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);
+const e3d_draw_state *e3d_draw_of_unit(const e3d_context *context, int64_t unit);
+const e3d_draw_state *e3d_draw_of_group(const e3d_context *context, int64_t group);
+
+/* occlusion.c */
+int e3d_occlusion_pays(const e3d_context *context);
+int e3d_occlusion_begin(e3d_context *context);
+int e3d_remember(e3d_context *context);
+int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
+void e3d_draw_kept_tiles(e3d_context *context);
+
+/* lines.c: units of 256 lines, then points, then edges of an instance */
+void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
+                   int32_t unit);
 
 /* clip.c */
 typedef struct e3d_clip_vertex {
@@ -212,13 +271,12 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
               const e3d_primitive *primitive);
 
 /* bin.c */
-int e3d_bins_reset(e3d_record_set *set, int32_t tiles);
-/* Samples, inclusive; empty where x0 > x1 or y0 > y1. */
-typedef struct e3d_box {
-    int32_t x0, y0, x1, y1;
-} e3d_box;
+int e3d_records_reset(e3d_record_set *set, int32_t tiles);
+void e3d_bins_clear(e3d_record_set *set, int32_t tiles);
 int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t record,
                    const e3d_box *box);
+/* After the records have their places: the tables that tell a record by its ID. */
+void e3d_tables_set(e3d_context *context);
 
 /* order.c */
 int e3d_sort_records(e3d_context *context);
@@ -229,6 +287,17 @@ typedef struct e3d_tile {
     int32_t width, height; /* samples inside the viewport */
 } e3d_tile;
 void e3d_tiles(e3d_context *context);
+e3d_tile e3d_tile_at(const e3d_context *context, int64_t number);
+/* Whether samples keep slots rather than record IDs. */
+int e3d_keeps_slots(const e3d_context *context);
+/* visible.c: the visible surface by record ID, for whatever shades it afterwards */
+void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
+void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number);
+const e3d_record *e3d_record_of(const e3d_context *context, int pass, uint32_t id);
+/* The runs of what shows, owned by slots; their number, or -1 when memory is out. */
+int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* The next free slot is this record's; 0 when memory is out. */
+int e3d_add_slot(const e3d_context *context, e3d_worker *worker, int pass, uint32_t id);
 /* Shades the first `count` of the tile memory's runs; 0 when memory is out. */
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
 int e3d_surface_of(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t slot);

@@ -1,12 +1,12 @@
-/* geometry: cull, transform, clip, setup and bin, in one walk over units of work.
+/* geometry: cluster by cluster, transform, clip, setup and bin.
  *
- * A unit is a cluster of triangles, or up to 256 lines, points or edges, of one instance. Threads take
- * blocks of units from a counter; each keeps its records and bins to itself.
+ * Items are groups of clusters, the near ones first. Threads take some of them at a time; each keeps its
+ * records and bins to itself.
  */
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
-enum { UNITS_A_TASK = 8 };
+enum { ITEMS_A_TASK = 4, UNITS_A_TASK = 8 };
 
 /* Where a thread stands: one instance of one draw. */
 typedef struct walker {
@@ -14,22 +14,8 @@ typedef struct walker {
     e3d_worker *worker;
     const e3d_draw_state *draw;
     const e3d_instance *instance;
-    int64_t instance_number; /* in the frame; -1: none yet */
-    uint32_t order;          /* of the instance's first primitive */
-    e3d_planes planes;
-    int shows;
+    uint32_t order; /* of the instance's first primitive */
 } walker;
-
-static void position_of(const walker *w, int32_t vertex, float out[4])
-{
-    const e3d_mesh_desc *desc = &w->draw->mesh->desc;
-    const float *p = desc->positions + (size_t)vertex * desc->components;
-    const float *m = w->instance->clip;
-    for (int r = 0; r < 4; r++)
-        out[r] = desc->components == 4
-                     ? p[r]
-                     : ((m[4 * r] * p[0] + m[4 * r + 1] * p[1]) + m[4 * r + 2] * p[2]) + m[4 * r + 3];
-}
 
 /* ---- triangles ---- */
 
@@ -105,20 +91,13 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
         }
 }
 
-static void run_cluster(walker *w, int32_t number)
+static void draw_cluster(walker *w, const e3d_cluster *cluster)
 {
     const e3d_mesh *mesh = w->draw->mesh;
-    const e3d_cluster *cluster = &mesh->clusters[number];
     const e3d_kernels *kernels = w->context->kernels;
     const e3d_viewport *viewport = &w->context->viewport;
     e3d_worker *worker = w->worker;
     const float *positions = mesh->positions + cluster->positions;
-    if (!w->shows || (mesh->desc.components == 3 &&
-                      (!cluster->any_finite || !e3d_box_shows(&w->planes, cluster->lo, cluster->hi)))) {
-        worker->counters.clusters_culled++;
-        worker->counters.triangles_culled += cluster->triangles;
-        return;
-    }
     if (mesh->desc.components == 4)
         kernels->take_clip(positions, cluster->stride, cluster->vertices, viewport, &worker->vertices);
     else
@@ -134,175 +113,105 @@ static void run_cluster(walker *w, int32_t number)
         draw_clipped(w, cluster, indices, s->clip[i]);
 }
 
-/* ---- lines and points ---- */
+/* ---- items ---- */
 
-static void emit_quad(walker *w, const e3d_corner q[4], uint32_t order, int pass)
+/* Whether a cluster may show; counted where it doesn't. */
+static int cluster_shows(const walker *w, const e3d_cluster *cluster, int tested)
 {
-    e3d_primitive primitive = {.order = order, .pass = pass, .cut = 1, .cull = E3D_CULL_NONE};
-    const e3d_corner first[3] = {q[0], q[1], q[2]}, second[3] = {q[0], q[2], q[3]};
-    e3d_emit(w->context, w->worker, first, &primitive);
-    e3d_emit(w->context, w->worker, second, &primitive);
-}
-
-static e3d_corner moved(e3d_corner c, int32_t x, int32_t y)
-{
-    c.x += x;
-    c.y += y;
-    return c;
-}
-
-static int32_t distance(int32_t a, int32_t b) { return a < b ? b - a : a - b; }
-
-/* R11 */
-static void draw_line(walker *w, const int32_t *ends, uint32_t order, int pass)
-{
-    const e3d_viewport *viewport = &w->context->viewport;
-    float v[2][4];
-    e3d_clip_vertex cut[2] = {{{0}, {1, 0, 0}}, {{0}, {0, 1, 0}}};
-    e3d_corner end[2];
-    position_of(w, ends[0], v[0]);
-    position_of(w, ends[1], v[1]);
-    int a = e3d_outcode(v[0], viewport), b = e3d_outcode(v[1], viewport);
-    if (((a | b) & E3D_NONFINITE) || (a & b & (E3D_NEAR | E3D_FAR)))
-        return;
-    for (int k = 0; k < 4; k++) {
-        cut[0].v[k] = v[0][k];
-        cut[1].v[k] = v[1][k];
+    e3d_counters *counters = &w->worker->counters;
+    e3d_box_view view;
+    e3d_view_box(&w->context->viewport, e3d_culling_matrix(w->context->frame, w->instance), cluster->lo, cluster->hi, &view);
+    if (!cluster->any_finite || view.state == E3D_BOX_OUTSIDE) {
+        counters->clusters_culled++;
+        counters->triangles_culled += cluster->triangles;
+        return 0;
     }
-    int clipped = ((a | b) & E3D_CLIP) != 0;
-    if (clipped && !e3d_clip_line(v, viewport, cut))
-        return;
-    for (int i = 0; i < 2; i++) {
-        if (!e3d_project(cut[i].v, clipped, viewport, &end[i]))
-            return;
-        for (int k = 0; k < 3; k++)
-            end[i].c[k] = cut[i].c[k];
-        if (pass == E3D_PASS_WIRE)
-            end[i].zn = end[i].zn - E3D_WIRE_PULL;
+    if (tested && e3d_is_hidden(w->context, &view)) {
+        counters->clusters_occluded++;
+        counters->triangles_occluded += cluster->triangles;
+        return 0;
     }
-    int steep = distance(end[1].x, end[0].x) < distance(end[1].y, end[0].y);
-    int32_t h = w->context->line_half, dx = steep ? h : 0, dy = steep ? 0 : h;
-    const e3d_corner quad[4] = {moved(end[0], -dx, -dy), moved(end[1], -dx, -dy),
-                                moved(end[1], dx, dy), moved(end[0], dx, dy)};
-    emit_quad(w, quad, order, pass);
+    return 1;
 }
 
-static void draw_point(walker *w, int32_t vertex, uint32_t order)
+static void draw_group(walker *w, const e3d_item *item, const e3d_group_box *group)
 {
-    const e3d_viewport *viewport = &w->context->viewport;
-    float v[4];
-    e3d_corner c;
-    position_of(w, vertex, v);
-    if (e3d_outcode(v, viewport) & (E3D_NEAR | E3D_FAR | E3D_BEHIND | E3D_BEYOND_GUARD | E3D_NONFINITE))
+    const e3d_mesh *mesh = w->draw->mesh;
+    int tested = w->context->round.tested;
+    int each = mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE &&
+               (tested || item->view.state == E3D_BOX_CROSSES);
+    for (int32_t c = group->first_cluster; c < group->first_cluster + group->clusters; c++)
+        if (!each || cluster_shows(w, &mesh->clusters[c], tested))
+            draw_cluster(w, &mesh->clusters[c]);
+}
+
+static void run_item(walker *w, const e3d_item *item)
+{
+    e3d_context *context = w->context;
+    const e3d_round *round = &context->round;
+    int seen = context->kept && context->seen[item->unit];
+    if (round->choice == E3D_SEEN_ITEMS && !seen)
         return;
-    if (!e3d_project(v, 0, viewport, &c))
+    w->instance = &context->instances[item->instance];
+    w->draw = &context->draws[w->instance->draw];
+    w->order = (uint32_t)(w->draw->order_base +
+                          (int64_t)(item->instance - (uint32_t)w->draw->instance_base) * w->draw->primitives);
+    const e3d_group_box *group = &w->draw->mesh->groups[item->group];
+    int hidden = round->tested && e3d_is_hidden(context, &item->view);
+    if (context->kept)
+        context->seen[item->unit] = !hidden;
+    if (round->choice == E3D_UNSEEN_ITEMS && seen)
         return;
-    c.c[0] = 1;
-    c.c[1] = c.c[2] = 0;
-    int32_t h = w->context->point_half;
-    const e3d_corner quad[4] = {moved(c, -h, -h), moved(c, h, -h), moved(c, h, h), moved(c, -h, h)};
-    emit_quad(w, quad, order, E3D_PASS_SCENE);
-}
-
-static int32_t unit_end(int32_t unit, int32_t count)
-{
-    int32_t first = unit * E3D_LINES_A_UNIT;
-    return count - first < E3D_LINES_A_UNIT ? count : first + E3D_LINES_A_UNIT;
-}
-
-static void run_lines(walker *w, int32_t unit)
-{
-    const e3d_mesh_desc *d = &w->draw->mesh->desc;
-    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->lines_count); i++)
-        draw_line(w, d->lines + 2 * (size_t)i, w->order + (uint32_t)(d->faces_count + i),
-                  E3D_PASS_SCENE);
-}
-
-static void run_points(walker *w, int32_t unit)
-{
-    const e3d_mesh_desc *d = &w->draw->mesh->desc;
-    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->points_count); i++)
-        draw_point(w, d->points[i], w->order + (uint32_t)(d->faces_count + d->lines_count + i));
-}
-
-static void run_edges(walker *w, int32_t unit)
-{
-    const e3d_mesh_desc *d = &w->draw->mesh->desc;
-    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->edges_count); i++)
-        draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_PASS_WIRE);
+    if (hidden) {
+        w->worker->counters.clusters_occluded += group->clusters;
+        w->worker->counters.triangles_occluded += group->triangles;
+        return;
+    }
+    draw_group(w, item, group);
 }
 
 /* ---- the walk ---- */
 
-static void enter_instance(walker *w, const e3d_draw_state *draw, int32_t instance)
+static void walk_items(walker *w)
 {
-    w->draw = draw;
-    w->instance_number = (int64_t)draw->instance_base + instance;
-    w->instance = &w->context->instances[w->instance_number];
-    w->order = (uint32_t)(draw->order_base + (int64_t)instance * draw->primitives);
-    e3d_planes_from(w->instance->clip_exact, &w->planes);
-    const e3d_mesh *mesh = draw->mesh;
-    w->shows = mesh->desc.components == 4 ||
-               (mesh->any_finite && e3d_box_shows(&w->planes, mesh->lo, mesh->hi));
-}
-
-static void run_unit(walker *w, int32_t unit)
-{
-    const e3d_draw_state *d = w->draw;
-    if (unit < d->cluster_units)
-        run_cluster(w, unit);
-    else if ((unit -= d->cluster_units) < d->line_units)
-        run_lines(w, unit);
-    else if ((unit -= d->line_units) < d->point_units)
-        run_points(w, unit);
-    else
-        run_edges(w, unit - d->point_units);
-}
-
-static const e3d_draw_state *draw_of_unit(const e3d_context *context, int64_t unit)
-{
-    int32_t low = 0, high = context->frame->draw_count - 1;
-    while (low < high) { /* the last draw that starts at or before it */
-        int32_t middle = low + (high - low + 1) / 2;
-        if (context->draws[middle].unit_base <= unit)
-            low = middle;
-        else
-            high = middle - 1;
+    e3d_context *context = w->context;
+    const e3d_round *round = &context->round;
+    while (!w->worker->failed) {
+        int64_t first = round->first + atomic_fetch_add(&context->next, ITEMS_A_TASK);
+        if (first >= round->end)
+            return;
+        for (int64_t i = first; i < first + ITEMS_A_TASK && i < round->end; i++)
+            run_item(w, &context->items[i]);
     }
-    return &context->draws[low];
 }
 
-static void run_task(walker *w, int64_t first, int64_t end)
+static void walk_units(e3d_context *context, e3d_worker *worker)
 {
-    for (int64_t unit = first; unit < end && !w->worker->failed; unit++) {
-        const e3d_draw_state *draw = draw_of_unit(w->context, unit);
-        int32_t instance = (int32_t)((unit - draw->unit_base) / draw->units);
-        if (w->instance_number != draw->instance_base + instance)
-            enter_instance(w, draw, instance);
-        run_unit(w, (int32_t)((unit - draw->unit_base) % draw->units));
+    while (!worker->failed) {
+        int64_t first = atomic_fetch_add(&context->next_unit, UNITS_A_TASK);
+        if (first >= context->units)
+            return;
+        for (int64_t unit = first; unit < first + UNITS_A_TASK && unit < context->units; unit++) {
+            const e3d_draw_state *draw = e3d_draw_of_unit(context, unit);
+            int32_t instance = (int32_t)((unit - draw->unit_base) / draw->units);
+            e3d_draw_unit(context, worker, draw, instance, (int32_t)((unit - draw->unit_base) % draw->units));
+        }
     }
 }
 
 static void geometry_work(void *argument, int number)
 {
     e3d_context *context = argument;
-    walker w = {.context = context,
-                .worker = context->renderer->workers[number],
-                .instance_number = -1};
-    while (!atomic_load(&context->stop)) {
-        int64_t first = atomic_fetch_add(&context->next, UNITS_A_TASK);
-        if (first >= context->units)
-            return;
-        int64_t end = first + UNITS_A_TASK;
-        run_task(&w, first, end < context->units ? end : context->units);
-        if (w.worker->failed)
-            atomic_store(&context->stop, 1);
-    }
+    walker w = {.context = context, .worker = context->renderer->workers[number]};
+    walk_items(&w);
+    if (context->round.last)
+        walk_units(context, w.worker);
 }
 
 void e3d_geometry(e3d_context *context)
 {
+    int64_t work = context->round.end - context->round.first + context->units / UNITS_A_TASK;
     atomic_store(&context->next, 0);
-    e3d_pool_run(context->units > 4 * UNITS_A_TASK ? context->renderer->threads : 1, geometry_work,
-                 context);
+    atomic_store(&context->next_unit, 0);
+    e3d_pool_run(work > 2 * ITEMS_A_TASK ? context->renderer->threads : 1, geometry_work, context);
 }

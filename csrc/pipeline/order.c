@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pipeline/coverage.h"
+#include "pipeline/frame.h"
 
 typedef struct entry {
     float key; /* 0 where only the order counts */
@@ -57,9 +57,10 @@ static int gather(const e3d_context *context, const entry *entries, size_t count
         records[i] = ((const e3d_record *)set->records.data)[entries[i].record];
         if (records[i].meta & E3D_RECORD_CUT) {
             memcpy(corners + 9 * sorted->corners.count,
-                   (const float *)set->corners.data + 9 * (size_t)(records[i].meta >> 4),
+                   (const float *)set->corners.data + 9 * (size_t)(records[i].meta >> E3D_RECORD_SHIFT),
                    9 * sizeof(float));
-            records[i].meta = (records[i].meta & 15u) | (uint32_t)sorted->corners.count++ << 4;
+            const uint32_t flags = (1u << E3D_RECORD_SHIFT) - 1;
+            records[i].meta = (records[i].meta & flags) | (uint32_t)sorted->corners.count++ << E3D_RECORD_SHIFT;
         }
     }
     sorted->records.count = count;

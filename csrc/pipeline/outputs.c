@@ -156,7 +156,7 @@ void e3d_outputs_depth(const e3d_context *context, const e3d_worker *worker, con
         float *row = target + (size_t)(box.y + y) * context->frame->width + box.x;
         for (int32_t x = 0; x < box.width; x++) {
             int at = (y * axis + middle) * E3D_TILE + x * axis + middle;
-            row[x] = worker->tile->slot[at] >= 0 ? worker->tile->z[at] : INFINITY;
+            row[x] = worker->visible->id[at] >= 0 ? worker->visible->z[at] : INFINITY;
         }
     }
 }

@@ -46,7 +46,15 @@ static void normal_matrix(const double m[16], e3d_instance *out)
         out->normal[k] = finite ? (float)(cofactor[k] * (det < 0 ? -scale : scale)) : 0.0f;
 }
 
-static void prepare_instance(const e3d_frame *frame, const e3d_draw *draw, int32_t instance,
+static void clip_matrix(const double clip_from_world[16], const double world[16], float out[16])
+{
+    double clip[16];
+    multiply(clip_from_world, world, clip);
+    for (int k = 0; k < 16; k++)
+        out[k] = (float)clip[k];
+}
+
+static void prepare_instance(const e3d_frame *frame, const e3d_draw *draw, int32_t instance, int units,
                              e3d_instance *out)
 {
     double pose[16], world[16];
@@ -56,9 +64,15 @@ static void prepare_instance(const e3d_frame *frame, const e3d_draw *draw, int32
         pose_matrix(draw, instance, pose);
         multiply(draw->world_from_node, pose, world);
     }
-    multiply(frame->clip_from_world, world, out->clip_exact);
-    for (int k = 0; k < 16; k++)
-        out->clip[k] = (float)out->clip_exact[k];
+    clip_matrix(frame->clip_from_world, world, out->clip);
+    if (frame->frozen_clip_from_world)
+        clip_matrix(frame->frozen_clip_from_world, world, out->frozen);
+    const e3d_mesh *mesh = draw->mesh;
+    const float *cull = e3d_culling_matrix(frame, out);
+    out->shows = mesh->desc.components == 4 || frame->culling == E3D_CULLING_NONE ||
+                 (mesh->any_finite && e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE);
+    if (!out->shows && !units) /* lines and points are wider than the box */
+        return;
     for (int k = 0; k < 12; k++)
         out->world[k] = (float)world[k];
     normal_matrix(world, out);
@@ -82,10 +96,38 @@ static void instances_work(void *argument, int worker)
                    context->draws[draw + 1].instance_base <= i)
                 draw++;
             const e3d_draw_state *state = &context->draws[draw];
-            prepare_instance(context->frame, state->draw, (int32_t)(i - state->instance_base),
+            prepare_instance(context->frame, state->draw, (int32_t)(i - state->instance_base), state->units,
                              &context->instances[i]);
+            context->instances[i].draw = (int32_t)draw;
         }
     }
+}
+
+/* The last draw that starts at or before a unit or a group. */
+const e3d_draw_state *e3d_draw_of_unit(const e3d_context *context, int64_t unit)
+{
+    int32_t low = 0, high = context->frame->draw_count - 1;
+    while (low < high) {
+        int32_t middle = low + (high - low + 1) / 2;
+        if (context->draws[middle].unit_base <= unit)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return &context->draws[low];
+}
+
+const e3d_draw_state *e3d_draw_of_group(const e3d_context *context, int64_t group)
+{
+    int32_t low = 0, high = context->frame->draw_count - 1;
+    while (low < high) {
+        int32_t middle = low + (high - low + 1) / 2;
+        if (context->draws[middle].group_base <= group)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return &context->draws[low];
 }
 
 static int32_t units_of(int32_t count) { return (count + E3D_LINES_A_UNIT - 1) / E3D_LINES_A_UNIT; }
@@ -101,7 +143,7 @@ static int has_two_sided(const e3d_frame *frame)
 static e3d_status prepare_draws(e3d_context *context)
 {
     const e3d_frame *frame = context->frame;
-    int64_t orders = 0, instances = 0, units = 0;
+    int64_t orders = 0, instances = 0, units = 0, groups = 0;
     int two_sided = has_two_sided(frame);
     for (int32_t d = 0; d < frame->draw_count; d++) {
         const e3d_draw *draw = &frame->draws[d];
@@ -109,13 +151,12 @@ static e3d_status prepare_draws(e3d_context *context)
         int edges = frame->wireframe != E3D_WIRE_NONE && context->targets->color != NULL;
         e3d_draw_state *s = &context->draws[d];
         *s = (e3d_draw_state){.draw = draw, .mesh = draw->mesh, .order_base = orders,
-                              .unit_base = units, .instance_base = (int32_t)instances,
+                              .unit_base = units, .group_base = groups, .instance_base = (int32_t)instances,
                               .any_two_sided = two_sided};
-        s->cluster_units = context->draw_faces ? draw->mesh->cluster_count : 0;
         s->line_units = units_of(desc->lines_count);
         s->point_units = units_of(desc->points_count);
         s->edge_units = edges ? units_of(desc->edges_count) : 0;
-        s->units = s->cluster_units + s->line_units + s->point_units + s->edge_units;
+        s->units = s->line_units + s->point_units + s->edge_units;
         int64_t all = (int64_t)desc->faces_count + desc->lines_count + desc->points_count;
         if (all > INT32_MAX || orders + all * draw->instances > INT32_MAX ||
             instances + draw->instances > INT32_MAX)
@@ -124,9 +165,11 @@ static e3d_status prepare_draws(e3d_context *context)
         instances += draw->instances;
         s->primitives = (int32_t)all;
         units += (int64_t)s->units * draw->instances;
+        groups += (int64_t)draw->mesh->group_count * draw->instances;
     }
     context->instance_count = (int32_t)instances;
     context->units = units;
+    context->groups = context->draw_faces ? groups : 0;
     return E3D_OK;
 }
 
@@ -201,6 +244,7 @@ static void prepare_constants(e3d_context *context)
     memcpy(context->lighting.ambient, frame->ambient, sizeof frame->ambient);
     memcpy(context->lighting.clamp, frame->light_clamp, sizeof frame->light_clamp);
     memcpy(context->lighting.eye, frame->eye, sizeof frame->eye);
+    int bits = 0;
     float axis = (float)frame->samples_axis;
     int32_t line = (int32_t)lrintf(frame->line_width * axis * 128.0f);
     int32_t point = (int32_t)lrintf(frame->point_size * axis * 128.0f);
@@ -208,6 +252,10 @@ static void prepare_constants(e3d_context *context)
     context->point_half = point > 1 ? point : 1;
     context->wants = wants_of(frame, context->targets);
     context->srgb = frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
+    while ((1 << bits) < context->renderer->threads)
+        bits++;
+    for (int pass = 0; pass < E3D_PASSES; pass++)
+        context->tables[pass] = (e3d_record_table){context->records[pass], bits};
     context->sorted = frame->hidden != E3D_HIDDEN_ZBUFFER;
     context->background_rgba = encode_one(context, frame->background, frame->background[3]);
     context->line_rgba = encode_one(context, frame->line_color, 1.0f);

@@ -1,7 +1,7 @@
 /* setup, scalar half: a piece's facing, box and depth plane become a record (R8-R13), which is then binned. */
 #include <math.h>
 
-#include "pipeline/coverage.h"
+#include "pipeline/frame.h"
 
 static float clamp(float v, float lo, float hi)
 {
@@ -54,7 +54,7 @@ static int append_corners(e3d_record_set *set, const e3d_corner *corner[3], uint
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < 3; j++)
             c[3 * k + j] = corner[k]->c[j];
-    *meta |= E3D_RECORD_CUT | (uint32_t)set->corners.count++ << 4;
+    *meta |= E3D_RECORD_CUT | (uint32_t)set->corners.count++ << E3D_RECORD_SHIFT;
     return 1;
 }
 
@@ -78,6 +78,8 @@ static e3d_record *next_record(e3d_record_set *set)
 static int accept(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, const e3d_box *box,
                   int sorted)
 {
+    if (set->records.count >> (31 - context->tables[0].bits)) /* IDs are positive */
+        return 0;
     uint32_t number = (uint32_t)set->records.count++;
     worker->counters.records++;
     return sorted || e3d_bin_record(context, worker, set, number, box);

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "core/srgb_tables.h"
-#include "pipeline/coverage.h"
+#include "pipeline/frame.h"
 
 /* Which primitive an order number is. */
 typedef struct primitive {

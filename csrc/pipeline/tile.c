@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "core/pool.h"
-#include "pipeline/coverage.h"
+#include "pipeline/frame.h"
 
 /* ---- a record in a tile ---- */
 
@@ -57,35 +57,30 @@ typedef struct tile_job {
     e3d_worker *worker;
     e3d_tile tile;
     int64_t number;
+    int kept; /* earlier rounds have drawn there */
 } tile_job;
 
 typedef int (*piece_action)(tile_job *job, const e3d_piece *piece);
 
-static int add_slot(e3d_worker *worker, const e3d_record *record, const float *corners)
+static int add_order(e3d_worker *worker, uint32_t order)
 {
     size_t n = worker->slots.count;
-    if (!e3d_array_reserve(&worker->slots, n + 1, sizeof(e3d_slot)) ||
-        !e3d_array_reserve(&worker->orders, n + 1, sizeof(uint32_t)))
+    if (!e3d_array_reserve(&worker->orders, n + 1, sizeof(uint32_t)))
         return 0;
-    ((e3d_slot *)worker->slots.data)[n] = (e3d_slot){record, corners, -1};
-    ((uint32_t *)worker->orders.data)[n] = record->order;
-    worker->slots.count++;
+    ((uint32_t *)worker->orders.data)[n] = order;
     return 1;
 }
 
-static int run_block(tile_job *job, const e3d_record_set *set, const e3d_bin_block *block,
-                     piece_action action)
+static int run_block(tile_job *job, int pass, const e3d_bin_block *block, piece_action action)
 {
     e3d_worker *worker = job->worker;
     for (uint32_t i = 0; i < block->count; i++) {
-        const e3d_record *record = (const e3d_record *)set->records.data + block->record[i];
+        const e3d_record *record = e3d_record_of(job->context, pass, block->id[i]);
         e3d_piece piece;
         if (!prepare_piece(job->context, record, &job->tile, (uint32_t)worker->slots.count, &piece))
             continue;
-        const float *corners = record->meta & E3D_RECORD_CUT
-                                   ? (const float *)set->corners.data + 9 * (size_t)(record->meta >> 4)
-                                   : NULL;
-        if (!add_slot(worker, record, corners) || !action(job, &piece))
+        if (!add_order(worker, record->order) || !e3d_add_slot(job->context, worker, pass, block->id[i]) ||
+            !action(job, &piece))
             return 0;
     }
     return 1;
@@ -100,7 +95,7 @@ static int run_bins(tile_job *job, int pass, piece_action action)
         const e3d_bin_block *blocks = set->blocks.data;
         uint32_t next = ((const e3d_bin *)set->bins.data)[job->number].first;
         for (; next != E3D_NO_BLOCK; next = blocks[next].next)
-            if (!run_block(job, set, &blocks[next], action))
+            if (!run_block(job, pass, &blocks[next], action))
                 return 0;
     }
     return 1;
@@ -113,8 +108,8 @@ static e3d_tile_buffers buffers_of(const tile_job *job, float *z, int32_t *slot)
 
 static int act_visible(tile_job *job, const e3d_piece *piece)
 {
-    e3d_tile_memory *memory = job->worker->tile;
-    e3d_tile_buffers buffers = buffers_of(job, memory->z, memory->slot);
+    e3d_visible_tile *visible = job->worker->visible;
+    e3d_tile_buffers buffers = buffers_of(job, visible->z, visible->id);
     if (job->context->sorted)
         job->context->kernels->raster_overwrite(piece, &buffers);
     else
@@ -132,6 +127,13 @@ static int act_count(tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
+static int is_forward(const e3d_context *context)
+{
+    return context->wants && context->frame->shading == E3D_SHADING_FORWARD;
+}
+
+int e3d_keeps_slots(const e3d_context *context) { return context->sorted || is_forward(context); }
+
 static int edges_are_tested(const e3d_frame *frame)
 {
     return frame->hidden == E3D_HIDDEN_ZBUFFER &&
@@ -142,15 +144,18 @@ static int edges_are_tested(const e3d_frame *frame)
 static void find_edge_limits(tile_job *job)
 {
     e3d_tile_memory *memory = job->worker->tile;
+    const e3d_visible_tile *visible = job->worker->visible;
     const e3d_slot *slots = job->worker->slots.data;
     float reach = (float)job->context->line_half * (1.0f / 256.0f) + 0.5f;
     for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
         memory->edge_limit[i] = E3D_BEYOND_FAR;
-        if (memory->slot[i] < 0)
+        if (visible->id[i] < 0)
             continue;
-        const e3d_record *kept = slots[memory->slot[i]].record;
+        const e3d_record *kept = e3d_keeps_slots(job->context)
+                                     ? slots[visible->id[i]].record
+                                     : e3d_record_of(job->context, E3D_PASS_SCENE, (uint32_t)visible->id[i]);
         float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
-        float limit = memory->z[i] + (slope < range ? slope : range);
+        float limit = visible->z[i] + (slope < range ? slope : range);
         if (limit < E3D_BEYOND_FAR)
             memory->edge_limit[i] = limit;
     }
@@ -168,12 +173,13 @@ static int act_mark(tile_job *job, const e3d_piece *piece)
 }
 
 /* The runs of one slot in a box. */
-static int32_t runs_of_slot(e3d_tile_memory *memory, int32_t slot, const e3d_box *box)
+static int32_t runs_of_slot(const e3d_worker *worker, int32_t slot, const e3d_box *box)
 {
+    e3d_tile_memory *memory = worker->tile;
     int32_t count = 0;
     for (int32_t y = box->y0; y <= box->y1; y++)
         for (int32_t x = box->x0, first = x; x <= box->x1; x++, first = x) {
-            while (x <= box->x1 && memory->slot[y * E3D_TILE + x] == slot)
+            while (x <= box->x1 && worker->visible->id[y * E3D_TILE + x] == slot)
                 x++;
             if (x > first)
                 memory->runs[count++] = (e3d_run){slot, (uint16_t)(y * E3D_TILE + first),
@@ -189,18 +195,18 @@ static int act_forward(tile_job *job, const e3d_piece *piece)
     e3d_box box = {piece->x0, piece->y0, piece->x1, piece->y1};
     box.x1 = box.x1 < job->tile.width - 1 ? box.x1 : job->tile.width - 1;
     box.y1 = box.y1 < job->tile.height - 1 ? box.y1 : job->tile.height - 1;
-    int32_t count = runs_of_slot(job->worker->tile, (int32_t)piece->slot, &box);
+    int32_t count = runs_of_slot(job->worker, (int32_t)piece->slot, &box);
     job->worker->surfaces.count = job->worker->groups.count = 0; /* no slot is shaded twice */
     return e3d_shade_runs(job->context, job->worker, &job->tile, count);
 }
 
 /* ---- stages of a tile ---- */
 
-static void clear_visibility(e3d_tile_memory *memory)
+static void clear_samples(e3d_visible_tile *visible)
 {
     for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
-        memory->z[i] = E3D_BEYOND_FAR;
-        memory->slot[i] = E3D_NO_SLOT;
+        visible->z[i] = E3D_BEYOND_FAR;
+        visible->id[i] = E3D_NO_SLOT;
     }
 }
 
@@ -210,27 +216,52 @@ static void clear_marks(e3d_tile_memory *memory)
         memory->mark[i] = 0;
 }
 
-static int draw_scene(tile_job *job)
+/* Piece after piece, each with a slot of its own: forward shading, and where the last in order wins. */
+static int draw_pieces(tile_job *job)
 {
     e3d_context *context = job->context;
-    e3d_tile_memory *memory = job->worker->tile;
-    int surfaces = context->wants;
-    int forward = surfaces && context->frame->shading == E3D_SHADING_FORWARD;
+    e3d_worker *worker = job->worker;
+    int forward = is_forward(context);
     int64_t start = e3d_now_ns();
-    job->worker->surfaces.count = job->worker->groups.count = 0;
-    clear_visibility(memory);
+    clear_samples(worker->visible);
     if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
         return 0;
     int64_t rastered = e3d_now_ns();
-    job->worker->counters.ns_raster += rastered - start;
-    if (surfaces && !forward) {
-        int32_t count = context->kernels->find_runs(memory->slot, job->tile.width, job->tile.height,
-                                                    memory->runs);
-        if (!e3d_shade_runs(context, job->worker, &job->tile, count))
+    worker->counters.ns_raster += rastered - start;
+    if (context->wants && !forward) {
+        int32_t count = context->kernels->find_runs(worker->visible->id, job->tile.width, job->tile.height,
+                                                    worker->tile->runs);
+        if (!e3d_shade_runs(context, worker, &job->tile, count))
             return 0;
     }
-    job->worker->counters.ns_shade += e3d_now_ns() - rastered;
+    worker->counters.ns_shade += e3d_now_ns() - rastered;
     return 1;
+}
+
+static int draw_visible(tile_job *job)
+{
+    e3d_context *context = job->context;
+    e3d_worker *worker = job->worker;
+    int64_t start = e3d_now_ns();
+    if (!job->kept)
+        e3d_visible_clear(worker->visible, &job->tile);
+    e3d_visible_draw(context, worker->visible, job->number);
+    context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE]);
+    int64_t rastered = e3d_now_ns();
+    worker->counters.ns_raster += rastered - start;
+    if (context->wants) {
+        int32_t count = e3d_visible_runs(context, worker, &job->tile);
+        if (count < 0 || !e3d_shade_runs(context, worker, &job->tile, count))
+            return 0;
+    }
+    worker->counters.ns_shade += e3d_now_ns() - rastered;
+    return 1;
+}
+
+static int draw_scene(tile_job *job)
+{
+    job->worker->surfaces.count = job->worker->groups.count = 0;
+    return e3d_keeps_slots(job->context) ? draw_pieces(job) : draw_visible(job);
 }
 
 /* What is drawn beside the visible surfaces: overdraw counts, or wireframe edges. */
@@ -272,15 +303,23 @@ static int is_empty(const tile_job *job)
     return 1;
 }
 
+e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
+{
+    e3d_tile tile = {.x = (int32_t)(number % context->tiles_x) * E3D_TILE,
+                     .y = (int32_t)(number / context->tiles_x) * E3D_TILE};
+    int32_t width = context->viewport.width - tile.x, height = context->viewport.height - tile.y;
+    tile.width = width < E3D_TILE ? width : E3D_TILE;
+    tile.height = height < E3D_TILE ? height : E3D_TILE;
+    return tile;
+}
+
 static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
 {
     tile_job job = {.context = context, .worker = worker, .number = number};
-    job.tile.x = (int32_t)(number % context->tiles_x) * E3D_TILE;
-    job.tile.y = (int32_t)(number / context->tiles_x) * E3D_TILE;
-    int32_t width = context->viewport.width - job.tile.x, height = context->viewport.height - job.tile.y;
-    job.tile.width = width < E3D_TILE ? width : E3D_TILE;
-    job.tile.height = height < E3D_TILE ? height : E3D_TILE;
-    if (context->frame->samples_axis == 1 && is_empty(&job)) {
+    job.tile = e3d_tile_at(context, number);
+    job.kept = context->kept && context->depths[number].most != E3D_NOTHING_KEPT;
+    worker->visible = job.kept ? &context->kept[number] : &worker->tile->visible;
+    if (context->frame->samples_axis == 1 && !job.kept && is_empty(&job)) {
         e3d_resolve_empty(context, &job.tile);
         return 1;
     }
@@ -328,6 +367,7 @@ static void tiles_work(void *argument, int number)
 
 void e3d_tiles(e3d_context *context)
 {
+    e3d_tables_set(context);
     atomic_store(&context->next, 0);
     e3d_pool_run(e3d_tile_count(context) > 2 ? context->renderer->threads : 1, tiles_work, context);
 }

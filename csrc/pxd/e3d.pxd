@@ -144,6 +144,12 @@ cdef extern from "e3d.h" nogil:
         E3D_NORMALS_SMOOTH
         E3D_NORMALS_FLAT
 
+    ctypedef enum e3d_culling:
+        E3D_CULLING_ALL
+        E3D_CULLING_FRUSTUM
+        E3D_CULLING_NONE
+        E3D_CULLING_ALWAYS
+
     ctypedef struct e3d_frame:
         int32_t width
         int32_t height
@@ -174,6 +180,8 @@ cdef extern from "e3d.h" nogil:
         int32_t light_count
         const e3d_draw *draws
         int32_t draw_count
+        e3d_culling culling
+        const double *frozen_clip_from_world
 
     ctypedef struct e3d_targets:
         uint8_t *color
@@ -196,7 +204,9 @@ cdef extern from "e3d.h" nogil:
         int64_t instances
         int64_t clusters
         int64_t clusters_culled
+        int64_t clusters_occluded
         int64_t triangles
+        int64_t triangles_occluded
         int64_t triangles_culled
         int64_t triangles_clipped
         int64_t triangles_setup
@@ -209,6 +219,7 @@ cdef extern from "e3d.h" nogil:
         double ms_total
         int32_t threads
         int32_t tiles
+        int32_t rounds
         e3d_backend backend
 
     ctypedef struct e3d_renderer:

@@ -17,6 +17,7 @@ MODES: dict[str, int]
 CULLS: dict[str, int]
 WIREFRAMES: dict[str | None, int]
 HIDDEN_SURFACES: dict[str, int]
+CULLINGS: dict[str, int]
 SHADINGS: dict[str, int]
 NORMALS: dict[str, int]
 BACKENDS: dict[str, int]
@@ -105,6 +106,7 @@ class NativeOptions:
         hidden: int,
         shading: int,
         normals: int,
+        culling: int,
         remove_hidden_lines: bool,
         line_width: float,
         point_size: float,
@@ -131,6 +133,7 @@ class NativeRenderer:
         eye: Sequence[float],
         depth_near: float,
         depth_far: float,
+        frozen_clip_from_world: _Doubles | None = None,
     ) -> dict[str, int | float | str]: ...
 
 def rasterize(

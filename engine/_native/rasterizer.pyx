@@ -40,6 +40,12 @@ HIDDEN_SURFACES = {
     "painter": E3D_HIDDEN_PAINTER,
     "none": E3D_HIDDEN_NONE,
 }
+CULLINGS = {
+    "all": E3D_CULLING_ALL,
+    "frustum": E3D_CULLING_FRUSTUM,
+    "none": E3D_CULLING_NONE,
+    "always": E3D_CULLING_ALWAYS,
+}
 SHADINGS = {"deferred": E3D_SHADING_DEFERRED, "forward": E3D_SHADING_FORWARD}
 NORMALS = {"auto": E3D_NORMALS_AUTO, "smooth": E3D_NORMALS_SMOOTH, "flat": E3D_NORMALS_FLAT}
 # Every backend that the interface knows, whether this machine can run it or not.
@@ -396,6 +402,7 @@ cdef class NativeOptions:
         int hidden,
         int shading,
         int normals,
+        int culling,
         bint remove_hidden_lines,
         float line_width,
         float point_size,
@@ -414,6 +421,7 @@ cdef class NativeOptions:
         frame.hidden = <e3d_hidden>hidden
         frame.shading = <e3d_shading>shading
         frame.normals = <e3d_normals>normals
+        frame.culling = <e3d_culling>culling
         frame.remove_hidden_lines = remove_hidden_lines
         frame.line_width = line_width
         frame.point_size = point_size
@@ -454,6 +462,7 @@ cdef class NativeRenderer:
         eye,
         float depth_near,
         float depth_far,
+        const double[:, ::1] frozen_clip_from_world=None,
     ):
         """Draw one frame into the arrays of `targets`; return its statistics.
 
@@ -473,6 +482,10 @@ cdef class NativeRenderer:
         frame.samples_axis = samples_axis
         memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
         memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+        if frozen_clip_from_world is not None:
+            require(frozen_clip_from_world.shape[0] == 4 and frozen_clip_from_world.shape[1] == 4,
+                    "a matrix is 4x4")
+            frame.frozen_clip_from_world = &frozen_clip_from_world[0, 0]
         copy_vector(frame.eye, eye, 4)
         frame.depth_near = depth_near
         frame.depth_far = depth_far
@@ -559,12 +572,15 @@ cdef dict stats_as_dict(const e3d_stats *stats):
         "instances": stats.instances,
         "clusters": stats.clusters,
         "clusters_culled": stats.clusters_culled,
+        "clusters_occluded": stats.clusters_occluded,
         "triangles": stats.triangles,
+        "triangles_occluded": stats.triangles_occluded,
         "triangles_culled": stats.triangles_culled,
         "triangles_clipped": stats.triangles_clipped,
         "triangles_setup": stats.triangles_setup,
         "bin_entries": stats.bin_entries,
         "pixels_shaded": stats.pixels_shaded,
+        "rounds": stats.rounds,
         "ms_geometry": stats.ms_geometry,
         "ms_raster": stats.ms_raster,
         "ms_shade": stats.ms_shade,

@@ -5,11 +5,17 @@
 #include "core/fpenv.h"
 #include "core/encode_tables.h"
 #include "core/srgb_tables.h"
+#include "kernels/coverage.h"
 #include "kernels/kernels.h"
 
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/raster.inl"
+#ifdef E3D_NARROW_TABLE
+#include "kernels/generic/visible_narrow.inl"
+#else
+#include "kernels/generic/visible.inl"
+#endif
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
@@ -24,6 +30,9 @@ const e3d_kernels E3D_TABLE = {
     .raster_overwrite = kernel_raster_overwrite,
     .raster_count = kernel_raster_count,
     .raster_mark = kernel_raster_mark,
+    .raster_visible = kernel_raster_visible,
+    .raster_settle = kernel_raster_settle,
+    .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
     .interpolate = kernel_interpolate,
     .select_level = kernel_select_level,

@@ -20,6 +20,7 @@ typedef uint32_t vmask; /* 0 or 1 */
 static inline vf32 v_setf(float a) { return a; }
 static inline vi32 v_seti(int32_t a) { return a; }
 static inline vi32 v_iota(void) { return 0; }
+static inline vi32 v_onebit(void) { return 1; } /* 1 << lane */
 static inline vf32 v_loadf(const float *p) { return *p; }
 static inline vi32 v_loadi(const void *p) { int32_t v; memcpy(&v, p, 4); return v; }
 static inline void v_storef(float *p, vf32 a) { *p = a; }

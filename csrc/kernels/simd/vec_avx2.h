@@ -16,6 +16,7 @@ typedef __m256 vmask;
 static inline vf32 v_setf(float a) { return _mm256_set1_ps(a); }
 static inline vi32 v_seti(int32_t a) { return _mm256_set1_epi32(a); }
 static inline vi32 v_iota(void) { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
+static inline vi32 v_onebit(void) { return _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128); }
 static inline vf32 v_loadf(const float *p) { return _mm256_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
 static inline void v_storef(float *p, vf32 a) { _mm256_storeu_ps(p, a); }

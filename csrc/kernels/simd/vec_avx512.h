@@ -18,6 +18,7 @@ static inline vi32 v_seti(int32_t a) { return _mm512_set1_epi32(a); }
 static inline vi32 v_iota(void) {
     return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
+static inline vi32 v_onebit(void) { return _mm512_sllv_epi32(_mm512_set1_epi32(1), v_iota()); }
 static inline vf32 v_loadf(const float *p) { return _mm512_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm512_loadu_si512(p); }
 static inline void v_storef(float *p, vf32 a) { _mm512_storeu_ps(p, a); }

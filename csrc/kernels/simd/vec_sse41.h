@@ -17,6 +17,7 @@ typedef __m128 vmask;
 static inline vf32 v_setf(float a) { return _mm_set1_ps(a); }
 static inline vi32 v_seti(int32_t a) { return _mm_set1_epi32(a); }
 static inline vi32 v_iota(void) { return _mm_setr_epi32(0, 1, 2, 3); }
+static inline vi32 v_onebit(void) { return _mm_setr_epi32(1, 2, 4, 8); }
 static inline vf32 v_loadf(const float *p) { return _mm_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm_loadu_si128((const __m128i *)p); }
 static inline void v_storef(float *p, vf32 a) { _mm_storeu_ps(p, a); }

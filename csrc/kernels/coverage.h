@@ -2,7 +2,12 @@
 #ifndef E3D_COVERAGE_H
 #define E3D_COVERAGE_H
 
-#include "pipeline/frame.h"
+#include "kernels/kernels.h"
+
+/* Samples, inclusive; empty where x0 > x1 or y0 > y1. */
+typedef struct e3d_box {
+    int32_t x0, y0, x1, y1;
+} e3d_box;
 
 static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], const e3d_viewport *viewport)
 {

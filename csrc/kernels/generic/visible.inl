@@ -1,0 +1,408 @@
+/* raster, the visible surface of a tile: records one after the other, with hierarchical depth (R12, R14-R16).
+ *
+ * A block of 8 x 8 samples that one record covers whole, nearer than all that is there, is only noted: its samples are
+ * written when another record meets it halfway, or when the tile is settled. z is monotone along both axes (R14 has
+ * three roundings, each monotone), so its values at a block's corners bound it exactly. Ties go to the first in order, so
+ * the order in which records arrive changes nothing.
+ */
+
+enum { VISIBLE_BLOCKS = E3D_TILE / RASTER_BLOCK };
+
+typedef struct visible_plane {
+    float z0, gx, gy, zmin, zmax;
+    int32_t base_x, base_y; /* relative to the tile */
+} visible_plane;
+
+static inline const e3d_record *visible_record(const e3d_record_table *table, uint32_t id)
+{
+    return table->records[id & ((1u << table->bits) - 1)] + (id >> table->bits);
+}
+
+static inline int32_t visible_min3(const int32_t v[3])
+{
+    int32_t least = v[0] < v[1] ? v[0] : v[1];
+    return least < v[2] ? least : v[2];
+}
+
+static inline int32_t visible_max3(const int32_t v[3])
+{
+    int32_t most = v[0] > v[1] ? v[0] : v[1];
+    return most > v[2] ? most : v[2];
+}
+
+/* First column or row of the sample box, in the viewport (R10). */
+static inline int32_t visible_first(const int32_t v[3])
+{
+    int32_t first = (visible_min3(v) + 127) >> 8;
+    return first > 0 ? first : 0;
+}
+
+static inline visible_plane visible_plane_of(const e3d_record *r, const e3d_visible_tile *tile)
+{
+    return (visible_plane){r->z0,   r->gx,   r->gy, r->zmin, r->zmax, visible_first(r->x) - tile->x,
+                           visible_first(r->y) - tile->y};
+}
+
+/* ---- samples ---- */
+
+static inline int visible_comes_first(const e3d_record *r, int32_t kept, const e3d_record_table *table)
+{
+    return kept >= 0 && r->order < visible_record(table, (uint32_t)kept)->order;
+}
+
+static inline void visible_ties(uint32_t equal, int32_t *kept, const e3d_record *r, int32_t id,
+                                const e3d_record_table *table)
+{
+    for (; equal; equal &= equal - 1) {
+        int lane = __builtin_ctz(equal);
+        if (visible_comes_first(r, kept[lane], table))
+            kept[lane] = id;
+    }
+}
+
+/* One vector of samples: `inside` of them are covered. */
+static inline void visible_write(vmask inside, vf32 z, int at, const e3d_record *r, int32_t id,
+                                 e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    float *depth = tile->z + at;
+    int32_t *kept = tile->id + at;
+    vf32 old = v_loadf(depth);
+    vmask pass = v_mand(inside, v_lt(z, old));
+    uint32_t equal = v_bits(v_mand(inside, v_eq(z, old)));
+    if (v_any(pass)) {
+        v_storef(depth, v_self(pass, z, old));
+        v_storei(kept, v_seli(pass, v_seti(id), v_loadi(kept)));
+    }
+    if (equal)
+        visible_ties(equal, kept, r, id, table);
+}
+
+/* ---- blocks ---- */
+
+/* Writes a noted block's samples. */
+static void visible_unfold(e3d_visible_tile *tile, const e3d_record_table *table, int block)
+{
+    int at = block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
+    int32_t id = tile->noted_id[block];
+    tile->noted &= ~(1ull << block);
+    if (id < 0) {
+        for (int y = 0; y < RASTER_BLOCK; y++)
+            for (int x = 0; x < RASTER_BLOCK; x++) {
+                tile->z[at + y * E3D_TILE + x] = E3D_BEYOND_FAR;
+                tile->id[at + y * E3D_TILE + x] = id;
+            }
+        return;
+    }
+    visible_plane p = visible_plane_of(visible_record(table, (uint32_t)id), tile);
+    raster_constants c = {v_setf(p.z0), v_setf(p.gx), v_setf(p.gy), v_setf(p.zmin), v_setf(p.zmax), v_seti(id)};
+    for (int x = 0; x < RASTER_BLOCK; x += V_LANES) {
+        vf32 column = raster_column(&c, at % E3D_TILE + x - p.base_x);
+        for (int y = 0; y < RASTER_BLOCK; y++) {
+            v_storef(tile->z + at + y * E3D_TILE + x, raster_z(&c, column, at / E3D_TILE + y - p.base_y));
+            v_storei(tile->id + at + y * E3D_TILE + x, c.slot);
+        }
+    }
+}
+
+/* The farthest depth of a block whose samples are written, anew. */
+static void visible_measure(e3d_visible_tile *tile, int block)
+{
+    const float *z = tile->z + block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
+    float lanes[RASTER_BLOCK], most;
+    for (int x = 0; x < RASTER_BLOCK; x += V_LANES) {
+        vf32 far = v_loadf(z + x);
+        for (int y = 1; y < RASTER_BLOCK; y++)
+            far = v_max(far, v_loadf(z + y * E3D_TILE + x));
+        v_storef(lanes + x, far);
+    }
+    most = lanes[0];
+    for (int x = 1; x < RASTER_BLOCK; x++)
+        most = most > lanes[x] ? most : lanes[x];
+    tile->zmax[block] = most;
+    tile->stale &= ~(1ull << block);
+}
+
+/* A block that the record covers in part, or neither wholly before nor behind what is there. */
+static inline void visible_block(const e3d_piece *p, const raster_constants *c, int block, int full, float near,
+                                 const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    int x = block % VISIBLE_BLOCKS * RASTER_BLOCK, top = block / VISIBLE_BLOCKS * RASTER_BLOCK;
+    if (tile->stale >> block & 1) {
+        visible_measure(tile, block);
+        if (near > tile->zmax[block])
+            return;
+    }
+    if (tile->noted >> block & 1)
+        visible_unfold(tile, table, block);
+    int y0 = p->y0 > top ? p->y0 : top;
+    int y1 = p->y1 < top + RASTER_BLOCK - 1 ? p->y1 : top + RASTER_BLOCK - 1;
+    vmask all = v_eqi(c->slot, c->slot);
+    for (int i = x; i < x + RASTER_BLOCK; i += V_LANES) {
+        vf32 column = raster_column(c, i - p->base_x);
+        vi32 e[3];
+        for (int k = 0; k < 3 && !full; k++)
+            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * i + p->b[k] * y0), raster_step(p->a[k]));
+        for (int y = y0; y <= y1; y++) {
+            vmask inside = full ? all : v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
+            if (full || v_any(inside))
+                visible_write(inside, raster_z(c, column, y - p->base_y), y * E3D_TILE + i, r,
+                              (int32_t)p->slot, tile, table);
+            for (int k = 0; k < 3 && !full; k++)
+                e[k] = v_addi(e[k], v_seti(p->b[k]));
+        }
+    }
+    tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
+    tile->stale |= 1ull << block;
+}
+
+/* Depths nearest to and farthest from the viewer, in a vector of blocks of one row. */
+typedef struct visible_range {
+    vf32 near, far;
+} visible_range;
+
+static inline vf32 visible_corner(const raster_constants *c, vi32 dx, int32_t dy)
+{
+    vf32 z = v_add(v_add(c->z0, v_mul(v_float(dx), c->gx)), v_mul(v_setf((float)dy), c->gy));
+    return v_min(v_max(z, c->zmin), c->zmax);
+}
+
+static inline visible_range visible_range_of(const e3d_piece *p, const raster_constants *c, vi32 x, int32_t top)
+{
+    const int32_t last = RASTER_BLOCK - 1;
+    int32_t near_x = p->gx > 0 ? 0 : last, near_y = p->gy > 0 ? 0 : last;
+    vi32 dx = v_subi(x, v_seti(p->base_x));
+    int32_t dy = top - p->base_y;
+    return (visible_range){visible_corner(c, v_addi(dx, v_seti(near_x)), dy + near_y),
+                           visible_corner(c, v_addi(dx, v_seti(last - near_x)), dy + last - near_y)};
+}
+
+/* Whether no step of R14 can overflow, where the corners would bound nothing. */
+static inline int visible_is_tame(const e3d_piece *p)
+{
+    const float most = 0x1p100f;
+    return p->z0 < most && p->z0 > -most && p->gx < most && p->gx > -most && p->gy < most && p->gy > -most;
+}
+
+/* The blocks of one row that lie in the box and may be covered, and those of them that are covered whole. */
+typedef struct visible_cover {
+    uint32_t some, whole;
+} visible_cover;
+
+static inline visible_cover visible_cover_of(const e3d_piece *p, vi32 x, int32_t top)
+{
+    const int32_t last = RASTER_BLOCK - 1;
+    vi32 least = v_seti(0), most = v_seti(0);
+    for (int k = 0; k < 3; k++) {
+        int32_t a = p->a[k] * last, b = p->b[k] * last;
+        vi32 corner = v_addi(v_muli(x, v_seti(p->a[k])), v_seti(p->e[k] + p->b[k] * top));
+        most = v_ori(most, v_addi(corner, v_seti((a > 0 ? a : 0) + (b > 0 ? b : 0))));
+        least = v_ori(least, v_addi(corner, v_seti((a < 0 ? a : 0) + (b < 0 ? b : 0))));
+    }
+    vmask left = v_gti(v_seti(p->x0 - last), x), right = v_gti(x, v_seti(p->x1));
+    uint32_t out = v_bits(v_mor(v_mor(left, right), v_negi(most)));
+    uint32_t all = v_bits(v_eqi(x, x));
+    return (visible_cover){all & ~out, all & ~out & ~v_bits(v_negi(least))};
+}
+
+/* The lanes whose bits are set. */
+static inline vmask visible_lanes(uint32_t bits)
+{
+    vi32 chosen = v_andi(v_seti((int32_t)bits), v_onebit());
+    return v_mnot(v_eqi(chosen, v_seti(0)));
+}
+
+static inline void visible_row(const e3d_piece *p, const raster_constants *c, int first, int tame,
+                               const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    int32_t top = first / VISIBLE_BLOCKS * RASTER_BLOCK, left = first % VISIBLE_BLOCKS * RASTER_BLOCK;
+    vi32 x = v_addi(v_seti(left), v_muli(v_iota(), v_seti(RASTER_BLOCK)));
+    visible_cover cover = visible_cover_of(p, x, top);
+    if (!cover.some)
+        return;
+    visible_range range = {c->zmin, c->zmax};
+    if (tame)
+        range = visible_range_of(p, c, x, top);
+    vf32 zmin = v_loadf(tile->zmin + first), zmax = v_loadf(tile->zmax + first);
+    uint32_t open = cover.some & ~v_bits(v_gt(range.near, zmax));
+    uint32_t before = open & cover.whole & v_bits(v_lt(range.far, zmin));
+    if (before) {
+        vmask lanes = visible_lanes(before);
+        v_storef(tile->zmin + first, v_self(lanes, range.near, zmin));
+        v_storef(tile->zmax + first, v_self(lanes, range.far, zmax));
+        v_storei(tile->noted_id + first, v_seli(lanes, c->slot, v_loadi(tile->noted_id + first)));
+        tile->noted |= (uint64_t)before << first;
+        tile->stale &= ~((uint64_t)before << first);
+    }
+    float near[V_LANES];
+    v_storef(near, range.near);
+    for (uint32_t rest = open & ~before; rest; rest &= rest - 1) {
+        int lane = __builtin_ctz(rest);
+        visible_block(p, c, first + lane, cover.whole >> lane & 1, near[lane], r, tile, table);
+    }
+}
+
+static inline void visible_wide(const e3d_piece *p, const raster_constants *c, const e3d_record *r,
+                                e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    int tame = visible_is_tame(p);
+    for (int row = p->y0 / RASTER_BLOCK; row <= p->y1 / RASTER_BLOCK; row++)
+        for (int block = 0; block < VISIBLE_BLOCKS; block += V_LANES)
+            visible_row(p, c, row * VISIBLE_BLOCKS + block, tame, r, tile, table);
+}
+
+/* ---- narrow boxes ---- */
+
+/* The blocks that a box of samples meets. */
+static inline uint64_t visible_met(int x0, int y0, int x1, int y1)
+{
+    uint64_t columns = ((2u << x1 / RASTER_BLOCK) - (1u << x0 / RASTER_BLOCK)) & 0xFF, met = 0;
+    for (int row = y0 / RASTER_BLOCK; row <= y1 / RASTER_BLOCK; row++)
+        met |= columns << (row * VISIBLE_BLOCKS);
+    return met;
+}
+
+/* Before samples of these blocks are written one by one, no nearer than `near`. 0: all of them are nearer. */
+static inline int visible_open(uint64_t met, float near, e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    int open = 0;
+    for (uint64_t left = met; left; left &= left - 1) {
+        int block = __builtin_ctzll(left);
+        open |= !(near > tile->zmax[block]);
+    }
+    if (!open)
+        return 0;
+    for (uint64_t left = met & tile->noted; left; left &= left - 1)
+        visible_unfold(tile, table, __builtin_ctzll(left));
+    for (uint64_t left = met; left; left &= left - 1) {
+        int block = __builtin_ctzll(left);
+        tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
+    }
+    tile->stale |= met;
+    return 1;
+}
+
+static inline void visible_narrow(const e3d_piece *p, const raster_constants *c, const e3d_record *r,
+                                  e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    if (!visible_open(visible_met(p->x0, p->y0, p->x1, p->y1), p->zmin, tile, table))
+        return;
+    int strips = V_LANES >= RASTER_BLOCK ? 1 : (p->x1 - p->x0) / V_LANES + 1;
+    int most = E3D_TILE - strips * V_LANES;
+    int x0 = p->x0 < most ? p->x0 : most;
+    for (int x = x0; x < x0 + strips * V_LANES; x += V_LANES) {
+        vi32 e[3];
+        for (int k = 0; k < 3; k++)
+            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * x + p->b[k] * p->y0), raster_step(p->a[k]));
+        vf32 column = raster_column(c, x - p->base_x);
+        for (int y = p->y0; y <= p->y1; y++) {
+            vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
+            if (v_any(inside))
+                visible_write(inside, raster_z(c, column, y - p->base_y), y * E3D_TILE + x, r,
+                              (int32_t)p->slot, tile, table);
+            for (int k = 0; k < 3; k++)
+                e[k] = v_addi(e[k], v_seti(p->b[k]));
+        }
+    }
+}
+
+/* At most 2 x 2 samples, whose cover setup has found. */
+static inline void visible_tiny(const e3d_record *r, int32_t id, e3d_visible_tile *tile,
+                                const e3d_record_table *table)
+{
+    visible_plane p = visible_plane_of(r, tile);
+    for (uint32_t cover = r->meta >> E3D_RECORD_SHIFT; cover; cover &= cover - 1) {
+        int bit = __builtin_ctz(cover), dx = bit & 1, dy = bit >> 1;
+        int x = p.base_x + dx, y = p.base_y + dy;
+        if ((x | y) & ~(E3D_TILE - 1)) /* in another tile */
+            continue;
+        float z = (p.z0 + (float)dx * p.gx) + (float)dy * p.gy;
+        z = z > p.zmin ? z : p.zmin;
+        z = z < p.zmax ? z : p.zmax;
+        int block = y / RASTER_BLOCK * VISIBLE_BLOCKS + x / RASTER_BLOCK, at = y * E3D_TILE + x;
+        if (z > tile->zmax[block])
+            continue;
+        if (tile->noted >> block & 1)
+            visible_unfold(tile, table, block);
+        if (z < tile->z[at]) {
+            tile->z[at] = z;
+            tile->id[at] = id;
+            tile->zmin[block] = tile->zmin[block] < z ? tile->zmin[block] : z;
+            tile->stale |= 1ull << block;
+        } else if (z == tile->z[at] && visible_comes_first(r, tile->id[at], table)) {
+            tile->id[at] = id;
+        }
+    }
+}
+
+/* ---- a record in a tile ---- */
+
+static inline int32_t visible_in_tile(int32_t v)
+{
+    return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1 : v;
+}
+
+/* R12 at the tile's first sample. 0 if an edge rejects the whole tile; an edge that the tile satisfies is left out, so that
+ * the others fit 32 bits. */
+static inline int visible_edge(const e3d_record *r, int k, e3d_piece *piece, const e3d_visible_tile *tile)
+{
+    const int64_t span = E3D_TILE - 1;
+    e3d_edge edge = e3d_edge_at(r, k, tile->x, tile->y);
+    int64_t a = edge.a * span, b = edge.b * span;
+    if (edge.e + (a > 0 ? a : 0) + (b > 0 ? b : 0) < 0)
+        return 0;
+    int crosses = edge.e + (a < 0 ? a : 0) + (b < 0 ? b : 0) < 0;
+    piece->e[k] = crosses ? (int32_t)edge.e : 0;
+    piece->a[k] = crosses ? edge.a : 0;
+    piece->b[k] = crosses ? edge.b : 0;
+    return 1;
+}
+
+static inline void visible_piece(const e3d_record *r, int32_t id, e3d_visible_tile *tile,
+                                 const e3d_record_table *table)
+{
+    e3d_piece p;
+    for (int k = 0; k < 3; k++)
+        if (!visible_edge(r, k, &p, tile))
+            return;
+    visible_plane plane = visible_plane_of(r, tile);
+    p.base_x = plane.base_x;
+    p.base_y = plane.base_y;
+    p.x0 = visible_in_tile(p.base_x);
+    p.y0 = visible_in_tile(p.base_y);
+    p.x1 = visible_in_tile(((visible_max3(r->x) - 128) >> 8) - tile->x);
+    p.y1 = visible_in_tile(((visible_max3(r->y) - 128) >> 8) - tile->y);
+    p.gx = r->gx;
+    p.gy = r->gy;
+    p.z0 = r->z0;
+    p.zmin = r->zmin;
+    p.slot = (uint32_t)id;
+    raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
+    if (raster_is_narrow(&p))
+        visible_narrow(&p, &c, r, tile, table);
+    else
+        visible_wide(&p, &c, r, tile, table);
+}
+
+static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids,
+                                  int count)
+{
+    for (int i = 0; i < count; i++) {
+        const e3d_record *r = visible_record(table, ids[i]);
+        if (r->meta & E3D_RECORD_TINY)
+            visible_tiny(r, (int32_t)ids[i], tile, table);
+        else
+            visible_piece(r, (int32_t)ids[i], tile, table);
+    }
+}
+
+static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    for (uint64_t left = tile->noted; left; left &= left - 1)
+        visible_unfold(tile, table, __builtin_ctzll(left));
+}
+
+static void kernel_raster_measure(e3d_visible_tile *tile)
+{
+    for (uint64_t left = tile->stale; left; left &= left - 1)
+        visible_measure(tile, __builtin_ctzll(left));
+}

@@ -1,0 +1,166 @@
+/* raster, ahead of its time: what the nearest clusters cover is drawn first, so that clusters behind it are left out.
+ *
+ * Tiles are kept over the rounds of a frame; after each round the farthest depth of every block of 8 x 8 samples is noted, and
+ * a box that is strictly behind all blocks that it may touch hides whatever is in it (Greene, Kass and Miller 1993). What
+ * the last frame showed goes first; the picture does not depend on it.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/pool.h"
+#include "pipeline/frame.h"
+
+enum { BLOCKS = E3D_TILE / E3D_BLOCK };
+
+/* Beyond this many samples the tiles of a frame are not worth their memory: 8 bytes a sample. */
+#define E3D_MOST_KEPT_SAMPLES (1 << 25)
+
+/* ---- memory ---- */
+
+static int reserve_tiles(e3d_renderer *renderer, size_t tiles)
+{
+    if (tiles <= renderer->kept_room)
+        return 1;
+    free(renderer->kept);
+    renderer->kept = NULL;
+    renderer->kept_room = 0;
+    void *memory = NULL;
+    if (posix_memalign(&memory, 64, tiles * sizeof(e3d_visible_tile)))
+        return 0;
+    renderer->kept = memory;
+    renderer->kept_room = tiles;
+    return 1;
+}
+
+int e3d_occlusion_begin(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    size_t tiles = (size_t)e3d_tile_count(context);
+    context->kept = NULL;
+    if (!reserve_tiles(renderer, tiles) ||
+        !e3d_array_reserve(&renderer->tile_depths, tiles, sizeof(e3d_tile_depths)))
+        return 0;
+    context->kept = renderer->kept;
+    context->depths = renderer->tile_depths.data;
+    for (size_t t = 0; t < tiles; t++)
+        context->depths[t] = (e3d_tile_depths){.most = E3D_NOTHING_KEPT};
+    return 1;
+}
+
+/* Whether rounds may pay: many items, which cover the picture more than once. */
+int e3d_occlusion_pays(const e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    int64_t samples = (int64_t)context->viewport.width * context->viewport.height, covered = 0;
+    if (samples > E3D_MOST_KEPT_SAMPLES || e3d_keeps_slots(context) || frame->mode == E3D_MODE_OVERDRAW ||
+        frame->frozen_clip_from_world)
+        return 0;
+    if (frame->culling == E3D_CULLING_ALWAYS)
+        return context->item_count > 1;
+    if (context->item_count < 64 || frame->culling != E3D_CULLING_ALL)
+        return 0;
+    for (int32_t w = 0; w < context->renderer->threads; w++)
+        covered += context->renderer->workers[w]->counters.blocks;
+    return covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
+}
+
+/* ---- a box against what is drawn ---- */
+
+static int is_behind(const e3d_tile_depths *depths, float near, int x0, int y0, int x1, int y1)
+{
+    if (near > depths->most)
+        return 1;
+    if (depths->most == E3D_NOTHING_KEPT)
+        return 0;
+    for (int y = y0; y <= y1; y++)
+        for (int x = x0; x <= x1; x++)
+            if (!(near > depths->zmax[y * BLOCKS + x]))
+                return 0;
+    return 1;
+}
+
+int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
+{
+    const e3d_box *b = &view->blocks;
+    for (int32_t ty = b->y0 / BLOCKS; ty <= b->y1 / BLOCKS; ty++)
+        for (int32_t tx = b->x0 / BLOCKS; tx <= b->x1 / BLOCKS; tx++) {
+            int x0 = tx == b->x0 / BLOCKS ? b->x0 % BLOCKS : 0, x1 = tx == b->x1 / BLOCKS ? b->x1 % BLOCKS : BLOCKS - 1;
+            int y0 = ty == b->y0 / BLOCKS ? b->y0 % BLOCKS : 0, y1 = ty == b->y1 / BLOCKS ? b->y1 % BLOCKS : BLOCKS - 1;
+            if (!is_behind(&context->depths[(int64_t)ty * context->tiles_x + tx], view->near, x0, y0, x1, y1))
+                return 0;
+        }
+    return 1;
+}
+
+/* ---- a round's tiles ---- */
+
+static int has_bins(const e3d_context *context, int64_t tile)
+{
+    const e3d_renderer *renderer = context->renderer;
+    for (int32_t w = 0; w < renderer->threads; w++)
+        if (((const e3d_bin *)renderer->workers[w]->pass[E3D_PASS_SCENE].bins.data)[tile].first != E3D_NO_BLOCK)
+            return 1;
+    return 0;
+}
+
+static void note_depths(const e3d_visible_tile *visible, e3d_tile_depths *depths)
+{
+    float most = visible->zmax[0];
+    for (int b = 0; b < E3D_TILE_BLOCKS; b++)
+        most = most > visible->zmax[b] ? most : visible->zmax[b];
+    memcpy(depths->zmax, visible->zmax, sizeof depths->zmax);
+    depths->most = most;
+}
+
+static void draw_kept(e3d_context *context, e3d_worker *worker, int64_t number)
+{
+    e3d_tile_depths *depths = &context->depths[number];
+    e3d_visible_tile *visible = &context->kept[number];
+    int64_t start = e3d_now_ns();
+    if (depths->most == E3D_NOTHING_KEPT) {
+        e3d_tile tile = e3d_tile_at(context, number);
+        e3d_visible_clear(visible, &tile);
+    }
+    e3d_visible_draw(context, visible, number);
+    context->kernels->raster_measure(visible);
+    note_depths(visible, depths);
+    worker->counters.ns_raster += e3d_now_ns() - start;
+}
+
+static void kept_work(void *argument, int number)
+{
+    e3d_context *context = argument;
+    for (;;) {
+        int64_t tile = atomic_fetch_add(&context->next, 1);
+        if (tile >= e3d_tile_count(context))
+            return;
+        if (has_bins(context, tile))
+            draw_kept(context, context->renderer->workers[number], tile);
+    }
+}
+
+void e3d_draw_kept_tiles(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    e3d_tables_set(context);
+    atomic_store(&context->next, 0);
+    e3d_pool_run(renderer->threads, kept_work, context);
+    for (int32_t w = 0; w < renderer->threads; w++)
+        e3d_bins_clear(&renderer->workers[w]->pass[E3D_PASS_SCENE], (int32_t)e3d_tile_count(context));
+}
+
+/* ---- what the last frame showed ---- */
+
+/* Whether the renderer remembers a frame of as many groups; else it begins anew. -1 when memory is out. */
+int e3d_remember(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    int same = renderer->seen.count == (size_t)context->groups && context->groups;
+    if (!e3d_array_reserve(&renderer->seen, (size_t)context->groups + 1, 1))
+        return -1;
+    if (!same)
+        memset(renderer->seen.data, 0, (size_t)context->groups);
+    renderer->seen.count = (size_t)context->groups;
+    context->seen = renderer->seen.data;
+    return same;
+}

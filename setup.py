@@ -80,6 +80,7 @@ def static_libraries():
         "e3d_canvas": ["csrc/canvas/*.c"],
         "e3d_images": ["csrc/images/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],
+        "e3d_loaders": ["csrc/loaders/*.c"],
     }
     sources["e3d_core"].append("csrc/kernels/isa_portable.c")
     isa_flags = {}

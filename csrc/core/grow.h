@@ -5,6 +5,7 @@
 #define E3D_GROW_H
 
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 typedef struct e3d_array {
@@ -20,6 +21,8 @@ static inline int e3d_array_reserve(e3d_array *array, size_t wanted, size_t size
     size_t room = array->room ? array->room : 64;
     while (room < wanted)
         room *= 2;
+    if (room > SIZE_MAX / size)
+        return 0;
     void *data = realloc(array->data, room * size);
     if (!data)
         return 0;

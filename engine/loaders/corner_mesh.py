@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._native import loaders as native
 from ..materials import Material
 from ..mesh import Mesh
 from .mtl import uv_transform
@@ -154,18 +155,12 @@ def _weld(positions, uvs, normals, position_count):
     """
     if uvs is None and normals is None:
         return _without_unused(positions, position_count)
-    keys, spans = positions.astype(np.int64), []
-    for other in (uvs, normals):
-        span = 1 if other is None else int(other.max(initial=-1)) + 2
-        keys *= span
-        if other is not None:
-            keys += other
-            keys += 1
-        spans.append(span)
-    unique, faces = np.unique(keys, return_inverse=True)
-    unique, of_normal = np.divmod(unique, spans[1])
-    of_position, of_uv = np.divmod(unique, spans[0])
-    return faces.reshape(-1, 3), (of_position, of_uv - 1, of_normal - 1)
+    lists = [
+        None if indices is None else np.ascontiguousarray(indices, np.int32).ravel()
+        for indices in (positions, uvs, normals)
+    ]
+    faces, *welded = native.weld_corners(*lists, position_count)
+    return faces.reshape(-1, 3), welded
 
 
 def _without_unused(positions, position_count):

@@ -12,22 +12,21 @@ from ..textures import Texture
 from .companions import companion_texture
 from .linked_files import LinkedFileError, LinkedFiles
 from .mtl import TextureCache, read_mtl
+from .obj_states import Setters
 from .sources import Source, read_source
 from .text import shown
 from .warning_list import WarningList
 
 
-def read_library(
-    source: Source, statements: list[tuple[str, int]], warnings: WarningList
-) -> dict[str, Material]:
+def read_library(source: Source, statements: Setters, warnings: WarningList) -> dict[str, Material]:
     """Read all material libraries of a model.
 
     Parameters
     ----------
     source : Source
         The model.
-    statements : list of (str, int)
-        What follows each ``mtllib``, and its line.
+    statements : Setters
+        All ``mtllib``.
     warnings : WarningList
 
     Returns
@@ -39,7 +38,7 @@ def read_library(
     files = LinkedFiles(source.folder)
     textures = TextureCache(files, _load_texture)
     seen = set()
-    for names, line in statements:
+    for names, line in zip(statements.names(), statements.lines, strict=True):
         for path in _library_paths(names, files, line, warnings):
             if path in seen:
                 continue
@@ -55,25 +54,26 @@ def read_library(
 
 
 def used_materials(
-    uses: list[tuple[str, int]], library: dict[str, Material], warnings: WarningList
+    uses: Setters, library: dict[str, Material], warnings: WarningList
 ) -> tuple[list[Material], list[int]]:
     """Return the materials that ``usemtl`` names, and the number of each use's material.
 
     Parameters
     ----------
-    uses : list of (str, int)
-        The name in each ``usemtl``, and its line.
+    uses : Setters
+        All ``usemtl``.
     """
     materials: list[Material] = []
     number: dict[str, int] = {}
-    for name, line in uses:
+    names = uses.names()
+    for name, line in zip(names, uses.lines, strict=True):
         if name in number:
             continue
         number[name] = len(materials)
         materials.append(library.get(name) or Material(name=name))
         if library and name not in library:
             warnings.add(f"material {shown(name)} is in no library", line)
-    return materials, [number[name] for name, _ in uses]
+    return materials, [number[name] for name in names]
 
 
 def give_companion_texture(

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..materials import Material
-from .corner_mesh import Geometry, Triangles, Vertices, build_mesh
+from .corner_mesh import Geometry, Triangles, build_mesh
 from .documents import DocumentObject
-from .obj_elements import Elements
+from .obj_file import Elements, ObjFile
 from .obj_states import ObjStates
 from .smoothing import join_seams
 from .warning_list import WarningList
@@ -28,110 +28,118 @@ class ObjParts(NamedTuple):
 
     Attributes
     ----------
-    vertices : Vertices
+    file : ObjFile
     triangles : Triangles
     normals : (N, 3) float or None
         What ``triangles.normals`` refers to, if anything.
-    faces, lines, points : Elements
     states : ObjStates
     materials : list of Material
     """
 
-    vertices: Vertices
+    file: ObjFile
     triangles: Triangles
     normals: np.ndarray | None
-    faces: Elements
-    lines: Elements
-    points: Elements
     states: ObjStates
     materials: list[Material]
 
     def counts(self) -> dict:
         """Return the lists of the file, as `Document.counts` shows them."""
-        states = self.states
-        groups = [name for s in states.groups.tolist() for name in states.name(s).split()]
+        file, states = self.file, self.states
+        groups = [name for names in states.groups.names() for name in names.split()]
+        colors = file.vertices.colors
         return {
-            "vertices": len(self.vertices.positions),
-            "uvs": len(self.vertices.uvs),
-            "normals": len(self.vertices.normals),
-            "colors": 0 if self.vertices.colors is None else len(self.vertices.colors),
-            "faces": len(self.faces.sizes),
+            "vertices": len(file.vertices.positions),
+            "uvs": len(file.vertices.uvs),
+            "normals": len(file.vertices.normals),
+            "colors": 0 if colors is None else len(colors),
+            "faces": len(file.faces.sizes),
             "triangles": len(self.triangles.positions),
-            "lines": len(self.lines.sizes),
-            "points": int(self.points.sizes.sum()),
-            "objects": _unique([states.name(s) for s in states.objects.tolist()]),
+            "lines": len(file.lines.sizes),
+            "points": len(file.points.positions),
+            "objects": _unique(states.objects.names()),
             "groups": _unique(groups),
             "materials": [material.name for material in self.materials if material.name],
-            "libraries": _unique([name for name, _ in states.libraries]),
+            "libraries": _unique(states.libraries.names()),
         }
 
     def whole(self, stem: str) -> DocumentObject:
         """Return all as one object, named by its only ``o`` statement or else ``stem``."""
-        setters = self.states.objects.tolist()
-        name = (self.states.name(setters[0]) if len(setters) == 1 else "") or stem
-        points = self.points.positions
-        if not (len(self.faces.sizes) or len(self.lines.sizes) or len(points)):
+        file, objects = self.file, self.states.objects
+        name = (objects.names()[0] if len(objects) == 1 else "") or stem
+        points = file.points.positions
+        if not (len(file.faces.sizes) or len(file.lines.sizes) or len(points)):
             # Nothing but vertices: a point cloud.
-            points = np.arange(len(self.vertices.positions))
+            points = np.arange(len(file.vertices.positions))
         geometry = Geometry(
-            self.vertices, self.triangles, self.normals, _segments(self.lines), points
+            file.vertices, self.triangles, self.normals, _segments(file.lines), points
         )
-        return self._built(geometry, name, self._triangle_statements())
+        return self._built(geometry, name, self._starts(), slice(None))
 
     def objects(self, stem: str, warnings: WarningList) -> list[DocumentObject]:
         """Return one object for each ``o`` that holds anything, and one for what stands before."""
-        setters = self.states.objects.tolist()
-        if not setters:
+        setters = self.states.objects
+        if not len(setters):
             return [self.whole(stem)]
         if len(setters) > _MAX_OBJECTS:
             warnings.add(f"{len(setters)} objects are taken as one, {_MAX_OBJECTS} are the limit")
             return [self.whole(stem)]
-        end = int(max((e.statements.max(initial=0) for e in self[3:6]), default=0)) + 1
-        ranges = zip([0, *setters], [*setters, max(end, setters[-1])], strict=True)
-        names = [stem, *(self.states.name(s) or stem for s in setters)]
-        statements = self._triangle_statements()
-        found = [
-            self._object(name, start, stop, statements)
-            for name, (start, stop) in zip(names, ranges, strict=True)
-        ]
-        return [entry for entry in found if entry is not None] or [self.whole(stem)]
+        names = [stem, *(name or stem for name in setters.names())]
+        file = self.file
+        bounds = {
+            what: [0, *setters.before[what].tolist(), len(elements.sizes)]
+            for what, elements in (
+                ("faces", file.faces),
+                ("lines", file.lines),
+                ("points", file.points),
+            )
+        }
+        triangles = self._first_triangles(np.array(bounds["faces"])).tolist()
+        starts = self._starts()
+        found = []
+        for k, name in enumerate(names):
+            lines = file.lines.part(*bounds["lines"][k : k + 2])
+            points = file.points.part(*bounds["points"][k : k + 2])
+            chosen = slice(*triangles[k : k + 2])
+            if chosen.start < chosen.stop or len(lines.sizes) or len(points.sizes):
+                found.append(self._object(name, chosen, lines, points, starts))
+        return found or [self.whole(stem)]
 
-    def _object(self, name, start: int, end: int, statements) -> DocumentObject | None:
-        """What stands in a range of statements, or None if nothing does."""
-        first, last = np.searchsorted(statements, [start, end])
-        lines, points = self.lines.part(start, end), self.points.part(start, end)
-        if first == last and not len(lines.sizes) and not len(points.sizes):
-            return None
-        chosen = slice(int(first), int(last))
+    def _object(self, name, chosen: slice, lines, points, starts) -> DocumentObject:
+        """Some triangles, lines and points that stand together."""
         geometry = Geometry(
-            self.vertices,
+            self.file.vertices,
             self.triangles.part(chosen),
             self.normals,
             _segments(lines),
             points.positions,
         )
-        return self._built(geometry.with_own_positions(), name, statements[chosen])
+        return self._built(geometry.with_own_positions(), name, starts, chosen)
 
-    def _built(self, geometry: Geometry, name: str, statements: np.ndarray) -> DocumentObject:
+    def _built(self, geometry: Geometry, name: str, starts, chosen: slice) -> DocumentObject:
         mesh = build_mesh(geometry, self.materials, name)
         if not mesh.has_normals:
             join_seams(mesh)
-        mesh.groups = self._groups(statements)
+        mesh.groups = self._groups(starts, chosen)
         return DocumentObject(name, mesh)
 
-    def _triangle_statements(self) -> np.ndarray:
-        return self.faces.statements[self.triangles.polygons]
+    def _starts(self) -> np.ndarray:
+        """The first triangle behind each ``g``, and the number of triangles."""
+        faces = np.append(self.states.groups.before["faces"], len(self.file.faces.sizes))
+        return self._first_triangles(faces)
 
-    def _groups(self, statements: np.ndarray) -> dict[str, np.ndarray]:
+    def _first_triangles(self, faces: np.ndarray) -> np.ndarray:
+        """The first triangle of each face, or behind it if it has none."""
+        return np.searchsorted(self.triangles.polygons, faces)
+
+    def _groups(self, starts: np.ndarray, chosen: slice) -> dict[str, np.ndarray]:
         """Triangles of each group name; ``g`` may put what follows into several groups."""
-        setters = self.states.groups
-        starts = np.searchsorted(statements, setters)
-        ends = np.append(starts[1:], len(statements))[: len(setters)]
+        first, last, _ = chosen.indices(int(starts[-1]))
+        starts = np.clip(starts, first, last) - first
         ranges: dict[str, list[np.ndarray]] = {}
-        for number in np.flatnonzero(starts < ends).tolist():
-            triangles = np.arange(starts[number], ends[number], dtype=np.int32)
-            names = self.states.name(int(setters[number])).split()
-            for name in _unique(names)[:_MAX_GROUPS_OF_A_FACE]:
+        names = self.states.groups.names()
+        for number in np.flatnonzero(starts[:-1] < starts[1:]).tolist():
+            triangles = np.arange(starts[number], starts[number + 1], dtype=np.int32)
+            for name in _unique(names[number].split())[:_MAX_GROUPS_OF_A_FACE]:
                 ranges.setdefault(name, []).append(triangles)
         return {name: np.concatenate(parts) for name, parts in ranges.items()}
 

@@ -1,6 +1,6 @@
 """The statements of an OBJ file that set a state for the elements behind them.
 
-In: `Statements`. Out: which materials, libraries, objects, groups and smoothing groups are set
+In: an `ObjFile`. Out: which materials, libraries, objects, groups and smoothing groups are set
 where. Kinds of statement that are not understood are warned of once each.
 """
 
@@ -8,88 +8,105 @@ from __future__ import annotations
 
 import numpy as np
 
-from .obj_statements import Statements, keyword_code
+from .._native import loaders as native
+from .obj_file import ObjFile
 from .smoothing import FLAT
 from .text import decoded, shown
 from .warning_list import WarningList
 
-_GEOMETRY = ("v", "vt", "vn", "f", "fo", "l", "p", "g", "o", "s")
-# Statements that change nothing that is drawn here.
-_IGNORED = (b"lod", b"shadow_obj", b"trace_obj", b"bevel", b"c_interp", b"d_interp", b"vp", b"mg")
 _SMOOTH = 1
-_MAX_GROUP = 2**31 - 1
 
 
-class ObjStates:
-    """States by statement.
+class Setters:
+    """Statements of one kind.
 
     Attributes
     ----------
-    material_uses, libraries : list of (str, int)
-        What follows each ``usemtl`` and ``mtllib``, and its line.
-    use_statements : list of int
-        The statements of ``material_uses``.
-    objects, groups : (N,) int64
-        The statements ``o`` and ``g``.
+    lines : list of int
+        The line of each.
+    before : dict of str to (S,) int64
+        How many ``"faces"``, ``"lines"`` and ``"points"`` stand before each.
     """
 
-    def __init__(self, statements: Statements, warnings: WarningList) -> None:
-        self._statements = statements
-        self._warnings = warnings
-        self.material_uses: list[tuple[str, int]] = []
-        self.use_statements: list[int] = []
-        self.libraries: list[tuple[str, int]] = []
-        self.objects = statements.of("o")
-        self.groups = statements.of("g")
-        self._read_others()
+    def __init__(self, file: ObjFile, kind: int) -> None:
+        self._chosen = file.setters[file.setters["kind"] == kind]
+        self._text = file.names
+        self._names: list[str] | None = None
+        self.before = {
+            what: self._chosen[what].astype(np.int64) for what in ("faces", "lines", "points")
+        }
+        self.lines = self._chosen["line"].tolist()
 
-    def name(self, statement: int) -> str:
-        """Return what follows a statement's keyword; names may hold blanks."""
-        return decoded(self._statements.rest(statement))
+    def __len__(self) -> int:
+        return len(self._chosen)
 
-    def smoothing_groups(self, elements: np.ndarray) -> np.ndarray:
-        """Return the smoothing group of each element's statement, 0 for flat.
+    def words(self) -> list[bytes]:
+        """Return what follows each one's keyword; of those not understood, the keyword."""
+        starts = self._chosen["name"].tolist()
+        lengths = self._chosen["name_length"].tolist()
+        text = self._text
+        return [bytes(text[s : s + n]) for s, n in zip(starts, lengths, strict=True)]
+
+    def names(self) -> list[str]:
+        """Return the same as text; names may hold blanks."""
+        if self._names is None:
+            self._names = [decoded(word) for word in self.words()]
+        return self._names
+
+    def values(self) -> np.ndarray:
+        return self._chosen["value"]
+
+
+class ObjStates:
+    """States by element.
+
+    Attributes
+    ----------
+    materials, libraries, objects, groups : Setters
+        The statements ``usemtl``, ``mtllib``, ``o`` and ``g``.
+    """
+
+    def __init__(self, file: ObjFile, warnings: WarningList) -> None:
+        self.materials = Setters(file, native.MATERIAL)
+        self.libraries = Setters(file, native.LIBRARY)
+        self.objects = Setters(file, native.OBJECT)
+        self.groups = Setters(file, native.GROUP)
+        self._smoothing = Setters(file, native.SMOOTHING)
+        _warn_of_unknown(Setters(file, native.UNKNOWN), warnings)
+        self._smoothing_values = self._smoothing.values()
+        self._warn_of_smoothing(warnings)
+
+    def smoothing_groups(self, faces: int) -> np.ndarray:
+        """Return the smoothing group of each face, 0 for flat.
 
         All are in one group if the file sets none at all.
         """
-        setters = self._statements.of("s")
-        if len(setters) == 0:
-            return np.full(len(elements), _SMOOTH, np.int64)
-        values = np.array([self._smoothing_group(s) for s in setters.tolist()], np.int64)
-        return np.concatenate([[FLAT], values])[last_before(setters, elements) + 1]
+        if len(self._smoothing) == 0:
+            return np.broadcast_to(np.int64(_SMOOTH), faces)
+        values = np.concatenate([[FLAT], np.maximum(self._smoothing_values, FLAT)])
+        return values[last_before(self._smoothing, faces) + 1]
 
-    def _read_others(self) -> None:
-        statements = self._statements
-        unknown: dict[bytes, list[int]] = {}
-        known = np.isin(statements.keyword, [keyword_code(k) for k in _GEOMETRY])
-        for statement in np.flatnonzero(~known).tolist():
-            keyword = statements.keyword_text(statement)
-            if keyword == b"usemtl":
-                self.material_uses.append((self.name(statement), statements.line(statement)))
-                self.use_statements.append(statement)
-            elif keyword == b"mtllib":
-                self.libraries.append((self.name(statement), statements.line(statement)))
-            elif keyword not in _IGNORED:
-                unknown.setdefault(keyword, []).append(statement)
-        for keyword, members in unknown.items():
-            self._warnings.add(
-                f"{shown(keyword)} is not understood; {len(members)} statements left out",
-                statements.line(members[0]),
-            )
-
-    def _smoothing_group(self, statement: int) -> int:
-        word = (self._statements.words(statement) or [b"off"])[0]
-        if word in (b"off", b"on"):
-            return FLAT if word == b"off" else _SMOOTH
-        try:
-            return min(max(int(word[:10]), 0), _MAX_GROUP)
-        except ValueError:
-            self._warnings.add(
-                f"smoothing group {shown(word)} counts as off", self._statements.line(statement)
-            )
-            return FLAT
+    def _warn_of_smoothing(self, warnings: WarningList) -> None:
+        wrong = np.flatnonzero(self._smoothing_values < 0).tolist()
+        if wrong:
+            words = self._smoothing.words()
+            for number in wrong:
+                word = words[number].split()[0]
+                line = self._smoothing.lines[number]
+                warnings.add(f"smoothing group {shown(word)} counts as off", line)
 
 
-def last_before(setters, elements: np.ndarray) -> np.ndarray:
-    """Return the number of the last setting statement before each element, -1 for none."""
-    return np.searchsorted(np.asarray(setters, np.int64), elements) - 1
+def last_before(setters: Setters, faces: int) -> np.ndarray:
+    """Return the number of the last setting statement before each of the faces, -1 for none."""
+    lengths = np.diff(setters.before["faces"], prepend=0, append=faces)
+    return np.repeat(np.arange(-1, len(setters)), lengths)
+
+
+def _warn_of_unknown(setters: Setters, warnings: WarningList) -> None:
+    unknown: dict[bytes, list[int]] = {}
+    for keyword, line in zip(setters.words(), setters.lines, strict=True):
+        unknown.setdefault(keyword, []).append(line)
+    for keyword, lines in unknown.items():
+        warnings.add(
+            f"{shown(keyword)} is not understood; {len(lines)} statements left out", lines[0]
+        )

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..mesh import Mesh
 from ..normals import face_normals, smooth_sums, unit_vectors
+from .welding import number_rows
 
 FLAT = 0
 # Parts of a surface that meet at an angle of less than 30 degrees were smooth where they were cut.
@@ -120,10 +121,15 @@ def join_seams(mesh: Mesh) -> None:
         Without normals of its own; its ``position_ids`` may change.
     """
     positions, ids = mesh.positions, mesh.position_ids
-    ids = np.arange(len(positions)) if ids is None else ids
-    group, is_apart = _equal_positions(positions, ids)
-    if not is_apart.any():
+    group, first = number_rows(positions)
+    if ids is None:
+        if len(first) == len(positions):
+            return
+        ids = np.arange(len(positions))
+    differs = ids != ids[first[group]]
+    if not differs.any():
         return
+    is_apart = np.bincount(group, weights=differs)[group] > 0
     faces = mesh.faces[is_apart[mesh.faces].any(axis=1)]
     together, own = (
         unit_vectors(smooth_sums(positions, faces, by[faces], int(by.max()) + 1))[by]
@@ -134,18 +140,3 @@ def join_seams(mesh: Mesh) -> None:
     _, mesh.position_ids = np.unique(
         np.where(joined, group, int(group.max()) + 1 + ids), return_inverse=True
     )
-
-
-def _equal_positions(positions: np.ndarray, ids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A number for each position that equal ones share, and where those have different ids."""
-    # Adding zero turns -0 into 0. Positions with the same hash are compared once more.
-    bits = (positions + np.float32(0)).view(np.uint32).astype(np.uint64)
-    with np.errstate(over="ignore"):
-        keys = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
-        keys ^= bits[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F)
-        keys ^= bits[:, 2] * np.uint64(0x165667B19E3779F9)
-    _, first, group = np.unique(keys, return_index=True, return_inverse=True)
-    group = group.reshape(-1)
-    first = first[group]
-    is_apart = np.bincount(group, weights=ids != ids[first])[group] > 0
-    return group, is_apart & (positions == positions[first]).all(axis=1)

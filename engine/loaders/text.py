@@ -22,6 +22,20 @@ def text_lines(source: Source) -> bytes:
     FileFormatError
         The content is binary, or damaged UTF-16.
     """
+    data = checked_text(source)
+    if b"\r" in data:
+        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    return data if data.endswith(b"\n") else data + b"\n"
+
+
+def checked_text(source: Source) -> bytes:
+    """Return the bytes of a text, line ends as they are, without a byte-order mark.
+
+    Raises
+    ------
+    FileFormatError
+        The content is binary, or damaged UTF-16.
+    """
     data = source.data
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         try:
@@ -32,9 +46,7 @@ def text_lines(source: Source) -> bytes:
         data = data[len(codecs.BOM_UTF8) :]
     if b"\0" in data:
         raise FileFormatError(f"not a text file (zero byte at offset {data.index(0)})", source.path)
-    if b"\r" in data:
-        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    return data if data.endswith(b"\n") else data + b"\n"
+    return data
 
 
 def decoded(name: bytes) -> str:

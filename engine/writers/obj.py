@@ -72,7 +72,7 @@ def _positions(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
         parts.append(number_rows(mesh.colors)[0])
     keys = np.stack(parts, axis=1).astype(np.uint32)
     if mesh.has_normals:
-        return number_rows(keys.view(np.float32))
+        return number_rows(keys)
     # Readers join the points along seams again; here only neighbours are sure to be one point of
     # the file, and sharing no more than that keeps the vertices in their order.
     is_new = np.r_[True, (keys[1:] != keys[:-1]).any(axis=1)][:count]

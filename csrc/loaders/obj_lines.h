@@ -1,0 +1,53 @@
+/* The lines of an OBJ file, as its statements see them: continued ones joined, without comments.
+ *
+ * In:  bytes. Out: line after line; each ends with a readable byte that is a line feed or a carriage
+ *      return, so that numbers need not ask where the line ends.
+ * Always: a plain line is given where it stands. A '\' or a '#', and a last line that nothing ends, are
+ *      copied to `scratch`, which holds one line at a time.
+ */
+#ifndef E3D_OBJ_LINES_H
+#define E3D_OBJ_LINES_H
+
+#include "core/grow.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct obj_lines {
+    const uint8_t *next, *end;
+    size_t number; /* of the line at `next`, from 1 */
+    e3d_array scratch;
+} obj_lines;
+
+typedef struct obj_line {
+    const uint8_t *at, *end;
+    size_t number; /* of the line in which its first word stands */
+} obj_line;
+
+typedef enum obj_step { OBJ_LINE, OBJ_NO_MORE_LINES, OBJ_LINES_NO_MEMORY } obj_step;
+
+void obj_lines_begin(obj_lines *lines, const uint8_t *bytes, size_t size);
+obj_step obj_next_line(obj_lines *lines, obj_line *line);
+
+/* Blanks, and what ends lines. */
+static inline bool obj_is_gap(uint8_t byte)
+{
+    return byte <= ' ' && (UINT64_C(0x100003E00) >> byte & 1);
+}
+
+static inline const uint8_t *obj_skip_gaps(const uint8_t *at, const uint8_t *end)
+{
+    while (at < end && obj_is_gap(*at))
+        at++;
+    return at;
+}
+
+static inline const uint8_t *obj_word_end(const uint8_t *at, const uint8_t *end)
+{
+    while (at < end && !obj_is_gap(*at))
+        at++;
+    return at;
+}
+
+#endif

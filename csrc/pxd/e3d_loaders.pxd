@@ -1,0 +1,85 @@
+# Mirrors csrc/include/e3d_loaders.h.
+
+from libc.stdint cimport int32_t, uint8_t, uint32_t
+
+
+cdef extern from "e3d_loaders.h" nogil:
+    ctypedef enum e3d_obj_problem:
+        E3D_OBJ_DONE
+        E3D_OBJ_NO_MEMORY
+        E3D_OBJ_TOO_LARGE
+        E3D_OBJ_NO_VERTICES
+        E3D_OBJ_FEW_NUMBERS
+        E3D_OBJ_NOT_A_NUMBER
+        E3D_OBJ_NOT_AN_INDEX
+        E3D_OBJ_NO_INDEX
+        E3D_OBJ_MANY_INDICES
+        E3D_OBJ_OUT_OF_RANGE
+
+    enum:
+        E3D_OBJ_V
+        E3D_OBJ_VT
+        E3D_OBJ_VN
+        E3D_OBJ_LISTS
+
+    ctypedef enum e3d_obj_setter_kind:
+        E3D_OBJ_OBJECT
+        E3D_OBJ_GROUP
+        E3D_OBJ_SMOOTHING
+        E3D_OBJ_MATERIAL
+        E3D_OBJ_LIBRARY
+        E3D_OBJ_UNKNOWN
+
+    ctypedef struct e3d_obj_place:
+        size_t line, word, word_length
+
+    ctypedef struct e3d_obj_error:
+        e3d_obj_problem problem
+        int list
+        size_t count
+        e3d_obj_place place
+
+    ctypedef struct e3d_obj_note:
+        size_t count
+        e3d_obj_place first
+
+    ctypedef struct e3d_obj_elements:
+        int32_t *sizes
+        int32_t **indices
+        size_t count, corners
+        bint are_triangles
+        e3d_obj_note small
+        e3d_obj_note *outside
+
+    ctypedef struct e3d_obj_setter:
+        uint32_t kind, line, faces, lines, points, name, name_length
+        int32_t value
+
+    ctypedef struct e3d_obj:
+        double *positions
+        double *uvs
+        double *normals
+        uint8_t *colors
+        size_t *counts
+        e3d_obj_elements faces, lines, points
+        e3d_obj_setter *setters
+        size_t setter_count
+        uint8_t *names
+        size_t name_bytes
+        e3d_obj_error error
+        size_t consumed
+
+    bint e3d_obj_begin(e3d_obj *obj, const uint8_t *bytes, size_t size)
+    bint e3d_obj_read(e3d_obj *obj, size_t bytes)
+    e3d_obj_problem e3d_obj_end(e3d_obj *obj)
+    void e3d_obj_free(e3d_obj *obj)
+
+    size_t e3d_weld_corners(
+        const int32_t *positions, const int32_t *uvs, const int32_t *normals, size_t corners,
+        size_t position_count, int32_t *faces, int32_t *of_position, int32_t *of_uv,
+        int32_t *of_normal,
+    )
+    size_t e3d_number_rows(
+        const uint32_t *rows, size_t count, size_t width, bint are_floats, int32_t *numbers,
+        int32_t *first,
+    )

@@ -1,0 +1,44 @@
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+DONE: int
+NO_MEMORY: int
+TOO_LARGE: int
+NO_VERTICES: int
+FEW_NUMBERS: int
+NOT_A_NUMBER: int
+NOT_AN_INDEX: int
+NO_INDEX: int
+MANY_INDICES: int
+OUT_OF_RANGE: int
+
+OBJECT: int
+GROUP: int
+SMOOTHING: int
+MATERIAL: int
+LIBRARY: int
+UNKNOWN: int
+
+SETTER: np.dtype
+
+class ObjReader:
+    consumed: int
+    error: tuple[int, int, int, bytes]
+    def __init__(self, data: bytes | memoryview) -> None: ...
+    def read(self, size: int) -> bool: ...
+    def end(self) -> int: ...
+    def take(self) -> dict[str, Any]: ...
+
+def weld_corners(
+    positions: NDArray[np.int32],
+    uvs: NDArray[np.int32] | None,
+    normals: NDArray[np.int32] | None,
+    position_count: int,
+) -> tuple[
+    NDArray[np.int32], NDArray[np.int32], NDArray[np.int32] | None, NDArray[np.int32] | None
+]: ...
+def number_rows(
+    rows: NDArray[np.uint32], are_floats: bool
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...

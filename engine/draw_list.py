@@ -53,11 +53,23 @@ class DrawList:
         self._normals = ""
         self._watched: list[tuple[object, int]] = []
         self._material_lists: list[tuple[Mesh, list[Material]]] = []
+        self._marks = False
         self._placed: tuple | None = None
+        self._frustum: np.ndarray | None = None
+        self._widen = 1.0
+        self._selection: np.ndarray | None = None
         self._lights_listed: list | None = None
         self.changes = 0
 
-    def update(self, scene: Scene, needs: MeshNeeds, normals: str, headlight) -> None:
+    def update(
+        self,
+        scene: Scene,
+        needs: MeshNeeds,
+        normals: str,
+        headlight,
+        frustum: np.ndarray | None,
+        marks: float,
+    ) -> None:
         """Make the native list draw ``scene``.
 
         Parameters
@@ -69,19 +81,20 @@ class DrawList:
         normals : {"auto", "smooth", "flat"}
         headlight : tuple of two vectors, or None
             Colour and direction towards the light, for a scene that has no light.
+        frustum : (4, 4) float64 or None
+            clip_from_world of a camera: nodes outside of what it shows are left out.
+        marks : float
+            How far lines and points may reach beyond where they are, as a share of half the image.
         """
         scene._update()
         if self._needs != needs or self._normals != normals or not self._lists(scene):
             self._rebuild(scene, needs, normals)
-        arrays = scene._arrays
-        if self._placed != (arrays, arrays.changes):
-            self._place(arrays)
+        self._place(scene._arrays, frustum, 1.0 + marks if self._marks or needs.edges else 1.0)
         self._list_lights(scene, headlight)
 
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
-        arrays = scene._arrays
-        return self._placed == (arrays, arrays.changes) and self._lists(scene)
+        return self._placed == (scene._arrays, scene._arrays.changes) and self._lists(scene)
 
     def _lists(self, scene: Scene) -> bool:
         """Whether the objects are those of the scene, as they are now."""
@@ -97,6 +110,7 @@ class DrawList:
         self._placed = self._lights_listed = None
         self.native.clear()
         self._watched, self._material_lists = [], []
+        self._marks = False
         bases: dict[Mesh, int] = {}
         for obj in scene._objects.objects:
             if obj is None:
@@ -125,22 +139,27 @@ class DrawList:
                 None if eight_bit else colors,
             )
 
-    def _place(self, arrays: NodeArrays) -> None:
-        """List the draws of what shows, where it is now."""
-        self.changes += 1
-        columns = arrays.columns
-        self.native.place(
-            arrays.count,
-            columns["flags"],
-            columns["object"],
-            columns["id"],
-            columns["world"],
-            None,
-        )
-        self._placed = (arrays, arrays.changes)
+    def _place(self, arrays: NodeArrays, frustum: np.ndarray | None, widen: float) -> None:
+        """List the draws of what may show, where it is now."""
+        placed = arrays, arrays.changes
+        moved = self._placed != placed
+        if not moved and self._frustum is frustum and self._widen == widen:
+            return
+        self._placed = None  # for if anything below raises
+        selection = None
+        if frustum is not None:
+            selection = np.empty((arrays.count + 63) // 64, np.uint64)
+            arrays.select(frustum, widen, selection)
+        if moved or selection is None or not np.array_equal(selection, self._selection):
+            names = ("flags", "object", "id", "world")
+            self.native.place(arrays.count, *(arrays.columns[name] for name in names), selection)
+        self.changes += moved
+        self._placed, self._selection = placed, selection
+        self._frustum, self._widen = frustum, widen
 
     def _watch_mesh(self, mesh: Mesh) -> None:
         """Add the materials of a mesh, and remember what would make them out of date."""
+        self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
         self._watched.append((mesh, mesh.version))
         self._material_lists.append((mesh, list(mesh.materials)))
         for number, material in enumerate(mesh.materials):

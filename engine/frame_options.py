@@ -41,6 +41,8 @@ class FrameOptions:
     native : NativeOptions
     headlight_color : tuple of 3 float
         Of the light of scenes without lights; with the ambient it adds up to white.
+    mark_size : float
+        Pixels; lines and points reach less than half of this beyond where they are.
 
     Raises
     ------
@@ -94,6 +96,8 @@ class FrameOptions:
             ambient=ambient,
             light_clamp=scene.light_clamp or _NO_CLAMP,
         )
+        # Twice as far from its middle as the widest line or point reaches, and for rounding.
+        self.mark_size = 2.0 * (max(line_width, point_size) + 2.0)
 
     def needs(self, outputs: tuple[str, ...]) -> MeshNeeds:
         """Return which derived arrays of meshes a frame with these outputs reads."""

@@ -6,8 +6,11 @@ the core reads directly; they are rounded to float32 once, here.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from ._native.scene_graph import BOX, OBJECT_BOX, instance_boxes, union
 from .attributes import CheckedAttribute
 from .errors import InvalidArgumentError
 from .mesh import Mesh
@@ -45,6 +48,7 @@ class InstancedMesh:
     mesh = CheckedAttribute(_check_mesh)
 
     def __init__(self, mesh: Mesh, poses, *, colors=None) -> None:
+        self._box_of: tuple | None = None
         self.mesh = mesh
         self.replace(poses, colors)
 
@@ -82,21 +86,24 @@ class InstancedMesh:
 
     def bounds_in_node(self) -> np.ndarray | None:
         """Return the box around all instances in the node's space, (2, 3) float64, or None."""
-        low, high = self.mesh.bounds
-        if len(self.mesh.positions) == 0 or len(self._poses) == 0:
-            return None
-        center, half = (low + high) * 0.5, (high - low) * 0.5
-        poses = self._poses.astype(np.float64)
-        if poses.ndim == 2:
-            scale = poses[:, 3:4]
-            centers, halves = poses[:, :3] + scale * center, np.abs(scale) * half
-        else:
-            centers, halves = transform_box(poses, center, half)
-        finite = np.isfinite(centers).all(axis=1) & np.isfinite(halves).all(axis=1)
-        if not finite.any():
-            return None
-        centers, halves = centers[finite], halves[finite]
-        return np.stack([(centers - halves).min(axis=0), (centers + halves).max(axis=0)])
+        box = self._box_in_node()
+        return box[:6].reshape(2, 3).copy() if box[0] <= box[3] else None
+
+    def _boxes(self) -> np.ndarray:
+        """The boxes of the instances in the node's space, (N, BOX)."""
+        boxes = np.empty((len(self), BOX))
+        poses = self._poses.reshape(len(self), math.prod(self._poses.shape[1:]))
+        instance_boxes(poses, mesh_box(self.mesh), boxes)
+        return boxes
+
+    def _box_in_node(self) -> np.ndarray:
+        """The box around all instances, (OBJECT_BOX,); kept until something in it changes."""
+        state = self.version, self.mesh, self.mesh.version
+        if self._box_of != state:
+            self._box = np.empty(OBJECT_BOX)
+            union(self._boxes(), self._box)
+            self._box_of = state
+        return self._box
 
     def __len__(self) -> int:
         return len(self._poses)
@@ -105,26 +112,10 @@ class InstancedMesh:
         return f"InstancedMesh({self.mesh!r}, {len(self)} instances)"
 
 
-def transform_box(poses: np.ndarray, center, half) -> tuple[np.ndarray, np.ndarray]:
-    """Return centres and half sizes of the boxes around a box at many poses.
-
-    Parameters
-    ----------
-    poses : (N, 4, 4) float64, affine
-    center, half : (3,) or (N, 3) float64
-
-    Returns
-    -------
-    centers, halves : (N, 3) float64
-    """
-    center, half = np.atleast_2d(center), np.atleast_2d(half)
-    centers = poses[:, :3, 3].copy()
-    halves = np.zeros_like(centers)
-    for axis in range(3):
-        column = poses[:, :3, axis]
-        centers = centers + column * center[:, axis : axis + 1]
-        halves = halves + np.abs(column) * half[:, axis : axis + 1]
-    return centers, halves
+def mesh_box(mesh: Mesh) -> np.ndarray:
+    """Return a mesh's box as C reads it, (OBJECT_BOX,): lowest, highest, farthest from 0."""
+    low, high = mesh.bounds if len(mesh.positions) else (np.full(3, np.inf), np.full(3, -np.inf))
+    return np.concatenate([low, high, np.maximum(np.abs(low), np.abs(high))])
 
 
 def _check_poses(value) -> np.ndarray:

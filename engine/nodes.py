@@ -219,7 +219,7 @@ class Node:
         if self._scene is None:
             return None
         self._scene._update()
-        bounds = self._arrays.columns["bounds"][self._slot].reshape(2, 3).copy()
+        bounds = self._arrays.columns["bounds"][self._slot, :6].reshape(2, 3).copy()
         bounds.setflags(write=False)
         return bounds if bounds[0, 0] <= bounds[1, 0] else None
 

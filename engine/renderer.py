@@ -223,7 +223,18 @@ class Renderer:
             view = self._look(scene, camera)
             headlight = options.headlight_color, view.towards_viewer
             needs = options.needs(frame.outputs)
-            self._draw_list.update(scene, needs, options.normals, headlight)
+            chosen = None
+            if culling_camera is not None:
+                chosen = self._clip_from_world(scene, culling_camera)
+            frustum = view.clip_from_world if chosen is None else chosen
+            self._draw_list.update(
+                scene,
+                needs,
+                options.normals,
+                headlight,
+                None if culling == "none" else frustum,
+                options.mark_size / min(self._width, self._height),
+            )
             near, far = view.depth_range(scene.bounds) if options.mode == "depth" else (0.0, 1.0)
             frame.stats = self._native.render(
                 self._draw_list.native,
@@ -237,8 +248,10 @@ class Renderer:
                 view.eye,
                 near,
                 far,
-                None if culling_camera is None else self._clip_from_world(scene, culling_camera),
+                chosen,
             )
+            frame.stats["nodes"] = scene._arrays.count - scene._removed
+            frame.stats["nodes_in_frustum"] = self._draw_list.native.draw_count
         return frame
 
     def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:

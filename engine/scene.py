@@ -11,6 +11,7 @@ import itertools
 
 import numpy as np
 
+from ._native.scene_graph import OBJECT_BOX, union
 from .attributes import vector3
 from .cameras import Camera
 from .colors import check_color
@@ -232,8 +233,9 @@ class Scene:
     def bounds(self) -> np.ndarray:
         """The box around all visible meshes, (2, 3) float64 in world space; zeros if none."""
         self._update()
-        bounds = np.empty((2, 3))
-        return bounds if self._arrays.copy_bounds(bounds) else np.zeros((2, 3))
+        box = np.empty(OBJECT_BOX)
+        around = union(self._arrays.columns["bounds"][: self._arrays.count], box)
+        return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
 
     def __repr__(self) -> str:
         return f"Scene({self._arrays.count - self._removed} nodes)"

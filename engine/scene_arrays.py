@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._native.scene_graph import ALIVE, NativeGraph
+from ._native.scene_graph import ALIVE, BOX, NativeGraph
 
 #: Name of the array -> type and length of a row.
 _COLUMNS = {
@@ -25,7 +25,7 @@ _COLUMNS = {
     "rotation": (np.float64, (4,)),
     "scale": (np.float64, (3,)),
     "world": (np.float64, (12,)),
-    "bounds": (np.float64, (6,)),
+    "bounds": (np.float64, (BOX,)),
     "pose_version": (np.uint32, ()),
     "world_version": (np.uint32, ()),
     "changed": (np.int32, ()),

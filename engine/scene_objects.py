@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .instances import InstancedMesh
+from ._native.scene_graph import OBJECT_BOX
+from .instances import InstancedMesh, mesh_box
 from .mesh import Mesh
 
-_NO_BOX = (np.inf,) * 3 + (-np.inf,) * 3
+_NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)
 
 
 class ObjectTable:
@@ -21,15 +22,16 @@ class ObjectTable:
     ----------
     objects : list of Mesh, InstancedMesh or None
         By number; None where a number is free.
-    boxes : (N, 6) float64
-        Lowest and highest corner by number; lowest above highest where nothing can show.
+    boxes : (N, OBJECT_BOX) float64
+        By number: lowest and highest corner, and how far from 0 coordinates are that they were made
+        of; lowest above highest where nothing can show.
     version : int
         Grows when a number gets another object.
     """
 
     def __init__(self) -> None:
         self.objects: list = []
-        self.boxes = np.empty((0, 6))
+        self.boxes = np.empty((0, OBJECT_BOX))
         self.version = 0
         self._numbers: dict = {}
         self._uses: list[int] = []
@@ -69,7 +71,7 @@ class ObjectTable:
         watched = self._watched
         if watched is not None and all(thing.version == version for thing, version in watched):
             return None
-        boxes = np.array([_box(obj) for obj in self.objects]).reshape(-1, 6)
+        boxes = np.array([_box(obj) for obj in self.objects]).reshape(-1, OBJECT_BOX)
         changed = np.ones(len(boxes), np.uint8)
         known = min(len(self.boxes), len(boxes))
         changed[:known] = (boxes[:known] != self.boxes[:known]).any(axis=1)
@@ -86,9 +88,7 @@ class ObjectTable:
         self._watched = None
 
 
-def _box(obj) -> tuple | list:
+def _box(obj) -> np.ndarray:
     if isinstance(obj, Mesh):
-        bounds = obj.bounds if len(obj.positions) else None
-    else:
-        bounds = None if obj is None else obj.bounds_in_node()
-    return _NO_BOX if bounds is None else bounds.ravel().tolist()
+        return mesh_box(obj)
+    return _NO_BOX if obj is None else obj._box_in_node()

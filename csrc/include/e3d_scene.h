@@ -18,6 +18,13 @@
 extern "C" {
 #endif
 
+/* A box: lowest x y z, highest x y z, and its reach: no coordinate of what is in it, nor any that the sums
+ * went through which made it, is farther from 0. Rounding is measured by it. */
+enum { E3D_BOX = 7 };
+
+/* Of an object, in its own space: lowest, highest, and the reach along each axis. */
+enum { E3D_OBJECT_BOX = 9 };
+
 enum {
     E3D_NODE_ALIVE = 1,   /* not removed */
     E3D_NODE_VISIBLE = 2, /* the node's own switch */
@@ -38,7 +45,7 @@ typedef struct e3d_graph {
     double *pose;              /* (slots, 12) parent from node */
     double *rotation, *scale;  /* (slots, 4) quaternion x y z w as given; (slots, 3) */
     double *world;             /* (slots, 12) world from node */
-    double *bounds;            /* (slots, 6) world AABB, lowest and highest; inf, -inf where nothing shows */
+    double *bounds;            /* (slots, E3D_BOX) in the world; lowest > highest where nothing shows */
     uint32_t *pose_version, *world_version; /* grow when pose or world change */
     int32_t *changed;          /* the slots that are LISTED */
     int32_t changed_count;
@@ -76,18 +83,40 @@ void e3d_graph_find_parts(e3d_graph *graph, int32_t slot);
 /* Makes one node's world pose true, and with it those above it. */
 void e3d_graph_find_world(e3d_graph *graph, int32_t slot);
 /* Makes all world poses, SHOWN and bounds true. `changed` still lists what was touched, for who has to follow:
- * the caller then empties it. boxes: (objects, 6), object space; lowest > highest for none. */
+ * the caller then empties it. boxes: (objects, E3D_OBJECT_BOX); lowest > highest for none. */
 void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects);
 /* Touches the nodes of objects whose box changed: dirty is (objects,). */
 void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects);
-/* The box around the bounds of all that shows; 0 if nothing does. */
-int e3d_graph_bounds(const e3d_graph *graph, double lowest[3], double highest[3]);
-
 /* The draws of what shows, in the order of slots: objects[number] with the node's id and world pose.
  * selection: a bit a slot, or NULL for all. Returns how many; draws has room for `count`. */
 int32_t e3d_graph_draws(int32_t count, const uint8_t *flags, const int32_t *object, const int32_t *id,
                         const double *world, const uint64_t *selection, const e3d_draw *objects,
                         int32_t object_count, e3d_draw *draws);
+
+/* ---- Boxes ---- */
+
+/* The boxes of a mesh's instances in the space of their node: (count, E3D_BOX); none where a pose is not finite. */
+void e3d_instance_boxes(const float *poses, e3d_pose_kind kind, int32_t count,
+                        const double box[E3D_OBJECT_BOX], double *boxes);
+/* The box around boxes; 0 if there are none. */
+int e3d_boxes_union(const double *boxes, int32_t count, double box[E3D_OBJECT_BOX]);
+
+/* ---- Trees of boxes ---- */
+
+typedef struct e3d_tree e3d_tree;
+
+/* NULL when memory is out. */
+e3d_tree *e3d_tree_create(void);
+void e3d_tree_destroy(e3d_tree *tree);
+/* Items are numbered by the rows of boxes: (count, E3D_BOX). Rows without a box are left out. 0 when memory is
+ * out: the tree is then empty. */
+int e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count);
+/* Says which rows are other boxes now; new rows may have come. Builds again where that is better; as above. */
+int e3d_tree_refit(e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves);
+/* Sets the bits of the items that may show, by the planes of the clip volume; the planes of the sides stand off by
+ * the factor widen (1: none), for what is drawn wider than it is. */
+void e3d_tree_select(const e3d_tree *tree, const double *boxes, const double clip_from_world[16],
+                     double widen, uint64_t *bits);
 
 #ifdef __cplusplus
 }

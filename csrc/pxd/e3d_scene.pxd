@@ -2,7 +2,7 @@
 
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 
-from e3d cimport e3d_draw
+from e3d cimport e3d_draw, e3d_pose_kind
 
 
 cdef extern from "e3d_scene.h" nogil:
@@ -11,6 +11,8 @@ cdef extern from "e3d_scene.h" nogil:
         E3D_NODE_VISIBLE
         E3D_NODE_SHOWN
         E3D_NODE_STATIC
+        E3D_BOX
+        E3D_OBJECT_BOX
 
     ctypedef struct e3d_graph:
         int32_t count
@@ -49,9 +51,27 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_graph_find_world(e3d_graph *graph, int32_t slot)
     void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects)
     void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects)
-    bint e3d_graph_bounds(const e3d_graph *graph, double *lowest, double *highest)
     int32_t e3d_graph_draws(
         int32_t count, const uint8_t *flags, const int32_t *object, const int32_t *id,
         const double *world, const uint64_t *selection, const e3d_draw *objects,
         int32_t object_count, e3d_draw *draws,
+    )
+
+    void e3d_instance_boxes(
+        const float *poses, e3d_pose_kind kind, int32_t count, const double *box, double *boxes
+    )
+    bint e3d_boxes_union(const double *boxes, int32_t count, double *box)
+
+    ctypedef struct e3d_tree:
+        pass
+
+    e3d_tree *e3d_tree_create()
+    void e3d_tree_destroy(e3d_tree *tree)
+    bint e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count)
+    bint e3d_tree_refit(
+        e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves
+    )
+    void e3d_tree_select(
+        const e3d_tree *tree, const double *boxes, const double *clip_from_world, double widen,
+        uint64_t *bits,
     )

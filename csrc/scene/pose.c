@@ -93,9 +93,9 @@ void e3d_pose_multiply(const double a[12], const double b[12], double out[12])
     }
 }
 
-void e3d_pose_box(const double pose[12], const double box[6], double out[6])
+void e3d_pose_box(const double pose[12], const double box[E3D_OBJECT_BOX], double out[E3D_BOX])
 {
-    double center[3], half[3];
+    double center[3], half[3], reach = 0;
     for (int k = 0; k < 3; k++) {
         center[k] = (box[k] + box[3 + k]) * 0.5;
         half[k] = (box[3 + k] - box[k]) * 0.5;
@@ -103,8 +103,12 @@ void e3d_pose_box(const double pose[12], const double box[6], double out[6])
     for (int r = 0; r < 3; r++) {
         const double *m = pose + 4 * r;
         double middle = ((m[3] + m[0] * center[0]) + m[1] * center[1]) + m[2] * center[2];
-        double reach = (fabs(m[0]) * half[0] + fabs(m[1]) * half[1]) + fabs(m[2]) * half[2];
-        out[r] = middle - reach;
-        out[3 + r] = middle + reach;
+        double x = fabs(m[0]), y = fabs(m[1]), z = fabs(m[2]);
+        double around = (x * half[0] + y * half[1]) + z * half[2];
+        double far = ((x * box[6] + y * box[7]) + z * box[8]) + fabs(m[3]);
+        out[r] = middle - around;
+        out[3 + r] = middle + around;
+        reach = far > reach ? far : reach;
     }
+    out[6] = reach;
 }

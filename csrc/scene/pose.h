@@ -3,11 +3,13 @@
 #ifndef E3D_POSE_H
 #define E3D_POSE_H
 
+#include "e3d_scene.h"
+
 /* The 3x3 part of a pose; the offset stays. 0 if the quaternion's length is zero or not finite. */
 int e3d_pose_compose(const double rotation[4], const double scale[3], double pose[12]);
 void e3d_pose_decompose(const double pose[12], double rotation[4], double scale[3]);
 void e3d_pose_multiply(const double a[12], const double b[12], double out[12]);
-/* The AABB around a box at a pose. */
-void e3d_pose_box(const double pose[12], const double box[6], double out[6]);
+/* The AABB around an object's box at a pose. */
+void e3d_pose_box(const double pose[12], const double box[E3D_OBJECT_BOX], double out[E3D_BOX]);
 
 #endif

@@ -90,17 +90,20 @@ void e3d_graph_find_world(e3d_graph *g, int32_t slot)
 
 static void find_bounds(e3d_graph *g, int32_t slot, const double *boxes, int32_t objects)
 {
-    double *bounds = g->bounds + 6 * (size_t)slot;
+    double *bounds = g->bounds + E3D_BOX * (size_t)slot;
     int32_t object = g->object[slot];
-    if ((g->flags[slot] & E3D_NODE_SHOWN) && object >= 0 && object < objects &&
-        boxes[6 * (size_t)object] <= boxes[6 * (size_t)object + 3]) {
-        e3d_pose_box(g->world + 12 * (size_t)slot, boxes + 6 * (size_t)object, bounds);
-        return;
+    if ((g->flags[slot] & E3D_NODE_SHOWN) && object >= 0 && object < objects) {
+        const double *box = boxes + E3D_OBJECT_BOX * (size_t)object;
+        if (box[0] <= box[3]) {
+            e3d_pose_box(g->world + 12 * (size_t)slot, box, bounds);
+            return;
+        }
     }
     for (int k = 0; k < 3; k++) {
         bounds[k] = INFINITY;
         bounds[3 + k] = -INFINITY;
     }
+    bounds[6] = 0;
 }
 
 void e3d_graph_update(e3d_graph *g, const double *boxes, int32_t objects)
@@ -113,19 +116,4 @@ void e3d_graph_update(e3d_graph *g, const double *boxes, int32_t objects)
         g->flags[slot] &= ~E3D_NODE_LISTED;
     }
     e3d_fpenv_leave(saved);
-}
-
-int e3d_graph_bounds(const e3d_graph *g, double lowest[3], double highest[3])
-{
-    for (int k = 0; k < 3; k++) {
-        lowest[k] = INFINITY;
-        highest[k] = -INFINITY;
-    }
-    for (int32_t slot = 0; slot < g->count; slot++)
-        for (int k = 0; k < 3; k++) {
-            const double *bounds = g->bounds + 6 * (size_t)slot;
-            lowest[k] = bounds[k] < lowest[k] ? bounds[k] : lowest[k];
-            highest[k] = bounds[3 + k] > highest[k] ? bounds[3 + k] : highest[k];
-        }
-    return lowest[0] <= highest[0];
 }

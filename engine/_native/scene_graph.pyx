@@ -8,25 +8,32 @@ Always: the GIL is held, so that threads take turns; what is asked of a slot tha
 """
 
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
-from libc.string cimport memcpy
+from libc.string cimport memcpy, memset
 
+from e3d cimport E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_pose_kind
 from e3d_scene cimport *
 
-from ..errors import InvalidArgumentError
+from ..errors import InvalidArgumentError, OutOfMemoryError
 
 ALIVE = E3D_NODE_ALIVE
 VISIBLE = E3D_NODE_VISIBLE
 SHOWN = E3D_NODE_SHOWN
 STATIC = E3D_NODE_STATIC
+BOX = E3D_BOX
+OBJECT_BOX = E3D_OBJECT_BOX
 
 
 cdef class NativeGraph:
     """Nodes in slots 0, 1, 2 … of the attached arrays."""
 
     cdef e3d_graph graph
+    cdef e3d_tree *tree
     cdef int32_t room
     cdef list held
     cdef public uint64_t changes
+
+    def __dealloc__(self):
+        e3d_tree_destroy(self.tree)
 
     def attach(
         self,
@@ -58,7 +65,7 @@ cdef class NativeGraph:
         if len({len(array) for array in arrays}) != 1 or len(flags) < max(g.count, 1):
             raise InvalidArgumentError("the arrays of a scene are equally long")
         if [pose.shape[1], rotation.shape[1], scale.shape[1], world.shape[1], bounds.shape[1]] != [
-            12, 4, 3, 12, 6,
+            12, 4, 3, 12, BOX,
         ]:
             raise InvalidArgumentError("the arrays of a scene have rows of fixed lengths")
         self.held = arrays
@@ -226,14 +233,45 @@ cdef class NativeGraph:
         memcpy(&scale[0], self.graph.scale + 3 * <size_t>slot, 3 * sizeof(double))
 
     def update(self, const double[:, ::1] boxes not None):
-        """Make every world pose, SHOWN and bounds true; boxes: (objects, 6)."""
-        if self.graph.changed_count == 0:
+        """Make every world pose, SHOWN and bounds true; boxes: (objects, OBJECT_BOX)."""
+        cdef e3d_graph *g = &self.graph
+        if g.changed_count == 0:
             return
-        if boxes.shape[1] != 6:
-            raise InvalidArgumentError("a box has 6 numbers")
+        if boxes.shape[1] != E3D_OBJECT_BOX:
+            raise InvalidArgumentError("boxes must be (objects, OBJECT_BOX)")
         cdef int32_t objects = <int32_t>boxes.shape[0]
-        e3d_graph_update(&self.graph, &boxes[0, 0] if objects else NULL, objects)
-        self.graph.changed_count = 0
+        e3d_graph_update(g, &boxes[0, 0] if objects else NULL, objects)
+        cdef int32_t moved = g.changed_count
+        g.changed_count = 0
+        if self.tree != NULL:
+            self.require_memory(e3d_tree_refit(self.tree, g.bounds, g.count, g.changed, moved))
+
+    cdef int require_memory(self, bint done) except -1:
+        """Without memory for its tree, a graph has none."""
+        if not done:
+            e3d_tree_destroy(self.tree)
+            self.tree = NULL
+            raise OutOfMemoryError("no memory for the tree of a scene's boxes")
+        return 0
+
+    cdef int need_tree(self) except -1:
+        if self.tree == NULL:
+            self.tree = e3d_tree_create()
+            self.require_memory(self.tree != NULL)
+            self.require_memory(e3d_tree_build(self.tree, self.graph.bounds, self.graph.count))
+        return 0
+
+    def select(self, const double[:, ::1] clip_from_world not None, double widen,
+               uint64_t[::1] bits not None):
+        """Set the bits of the slots that may show, as of the last update, and clear the others."""
+        if clip_from_world.shape[0] != 4 or clip_from_world.shape[1] != 4:
+            raise InvalidArgumentError("a matrix is 4x4")
+        if 64 * bits.shape[0] < self.graph.count:
+            raise InvalidArgumentError("a selection has a bit a slot")
+        self.need_tree()
+        if bits.shape[0]:
+            memset(&bits[0], 0, bits.shape[0] * sizeof(uint64_t))
+            e3d_tree_select(self.tree, self.graph.bounds, &clip_from_world[0, 0], widen, &bits[0])
 
     def touch_objects(self, const uint8_t[::1] dirty not None):
         """Say that the boxes of objects changed."""
@@ -241,11 +279,24 @@ cdef class NativeGraph:
             self.changes += 1
             e3d_graph_touch_objects(&self.graph, &dirty[0], <int32_t>dirty.shape[0])
 
-    def copy_bounds(self, double[:, ::1] out not None):
-        """Copy the box around everything that shows, (2, 3); return whether there is anything."""
-        if out.shape[0] != 2 or out.shape[1] != 3:
-            raise InvalidArgumentError("bounds are (2, 3)")
-        return e3d_graph_bounds(&self.graph, &out[0, 0], &out[1, 0])
+
+def instance_boxes(const float[:, ::1] poses not None, const double[::1] box not None,
+                   double[:, ::1] boxes not None):
+    """Write the boxes (N, BOX) of poses (N, 16) or (N, 4) of an object's box, (OBJECT_BOX,)."""
+    if poses.shape[1] not in (4, 16) or box.shape[0] != E3D_OBJECT_BOX:
+        raise InvalidArgumentError("poses must be (N, 16) or (N, 4), and a box as told")
+    if boxes.shape[0] != poses.shape[0] or boxes.shape[1] != E3D_BOX:
+        raise InvalidArgumentError("boxes must be (N, BOX)")
+    cdef e3d_pose_kind kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
+    if poses.shape[0]:
+        e3d_instance_boxes(&poses[0, 0], kind, <int32_t>poses.shape[0], &box[0], &boxes[0, 0])
+
+
+def union(const double[:, ::1] boxes not None, double[::1] out not None):
+    """Write the box (OBJECT_BOX,) around boxes (N, BOX); return whether there is one."""
+    if boxes.shape[1] != E3D_BOX or out.shape[0] != E3D_OBJECT_BOX:
+        raise InvalidArgumentError("boxes must be (N, BOX), and the box around them as told")
+    return e3d_boxes_union(&boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0], &out[0])
 
 
 cdef int copy_affine(const double *pose, double[:, ::1] out) except -1:

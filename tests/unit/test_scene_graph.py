@@ -7,7 +7,6 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.instances import transform_box
 
 MESHES = (e3d.box(), e3d.Mesh(np.zeros((0, 3))), e3d.uv_sphere(0.5, (8, 4)))
 INSTANCES = e3d.InstancedMesh(e3d.box(), [[1, 0, 0, 2], [0, -3, 0, 1]])
@@ -40,9 +39,13 @@ class PlainNode:
             box = self.object.bounds_in_node()
         if box is None or not self.shown():
             return None
-        pose = self.world_pose()[np.newaxis]
-        centers, halves = transform_box(pose, (box[0] + box[1]) * 0.5, (box[1] - box[0]) * 0.5)
-        return np.concatenate([centers - halves, centers + halves])
+        center, half = (box[0] + box[1]) * 0.5, (box[1] - box[0]) * 0.5
+        middle, around = self.world_pose()[:3, 3], np.zeros(3)
+        for axis in range(3):
+            column = self.world_pose()[:3, axis]
+            middle = middle + column * center[axis]
+            around = around + np.abs(column) * half[axis]
+        return np.stack([middle - around, middle + around])
 
 
 class Pair:

@@ -1,0 +1,137 @@
+/* frustum: which boxes of a tree may show. A bit an item out.
+ *
+ * Method: planes by Gribb and Hartmann (2001), the positive vertex of each box, four boxes at a time; planes
+ * that a box lies wholly inside of are not asked again below it. f32 with slack far above the rounding
+ * of the pictures' own f32 transform, measured by the coordinates that made the box: what shows is never
+ * lost. Every sum grows with the box, so that no box is lost for its parent's rounding either.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "core/fpenv.h"
+#include "scene/tree.h"
+
+#define SLACK 4e-6
+
+typedef struct plane {
+    e3d_v4 p[4];
+    e3d_v4 slack[2];  /* times reach, and alone */
+    int positive[3];
+} plane;
+
+typedef struct entry {
+    int32_t block;
+    int level, planes; /* a bit a plane that is still asked */
+} entry;
+
+static void set_plane(plane *out, const double m[16], int axis, double sign, double widen)
+{
+    double p[4], scale = 0, alone = fabs(m[15]) + fabs(m[4 * axis + 3]);
+    for (int k = 0; k < 4; k++)
+        p[k] = widen * m[12 + k] + sign * m[4 * axis + k];
+    for (int k = 0; k < 3; k++)
+        scale += fabs(m[12 + k]) + fabs(m[4 * axis + k]);
+    double by = scale > 0 && isfinite(scale) ? 1 / scale : 1;
+    for (int k = 0; k < 4; k++)
+        out->p[k] = e3d_v4_all((float)(p[k] * by));
+    for (int k = 0; k < 3; k++)
+        out->positive[k] = out->p[k][0] >= 0;
+    out->slack[0] = e3d_v4_all((float)(SLACK * widen * scale * by));
+    out->slack[1] = e3d_v4_all((float)(SLACK * widen * alone * by));
+}
+
+static void set_planes(plane planes[6], const double m[16], double widen)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        set_plane(&planes[2 * axis], m, axis, 1, axis < 2 ? widen : 1);
+        set_plane(&planes[2 * axis + 1], m, axis, -1, axis < 2 ? widen : 1);
+    }
+}
+
+/* Lanes that are outside of the plane; *inside: lanes that are wholly inside. */
+static int outside(const plane *p, const e3d_block *b, int *inside)
+{
+    e3d_v4 most = p->p[3], least = p->p[3];
+    e3d_v4 limit = -(p->slack[0] * b->reach + p->slack[1]);
+    e3d_v4 m[3], l[3];
+    for (int k = 0; k < 3; k++) {
+        m[k] = p->p[k] * (p->positive[k] ? b->high[k] : b->low[k]);
+        l[k] = p->p[k] * (p->positive[k] ? b->low[k] : b->high[k]);
+    }
+    most = ((m[0] + m[1]) + m[2]) + most;
+    least = ((l[0] + l[1]) + l[2]) + least;
+    *inside = e3d_lanes(least >= 0);
+    return e3d_lanes(most < limit); /* false for NaN: kept */
+}
+
+static void select_item(int32_t item, uint64_t *bits) { bits[item >> 6] |= (uint64_t)1 << (item & 63); }
+
+/* Everything below a box: a run of leaves, without those that have no box now. */
+static void select_run(const e3d_tree *t, int32_t block, int level, uint64_t *bits)
+{
+    int64_t first = (int64_t)block << 2 * level, end = first + ((int64_t)1 << 2 * level);
+    const e3d_block *leaves = e3d_tree_level(t, 0);
+    const int32_t *items = t->items.data;
+    for (int64_t b = first; b < end && b < t->blocks_in[0]; b++) {
+        int there = e3d_lanes(leaves[b].low[0] <= leaves[b].high[0]);
+        for (int lane = 0; lane < 4; lane++)
+            if (there >> lane & 1)
+                select_item(items[4 * b + lane], bits);
+    }
+}
+
+static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits, entry *stack,
+                  int *top)
+{
+    const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
+    const int32_t *items = t->items.data;
+    int out = ~e3d_lanes(b->low[0] <= b->high[0]), within[4] = {0}, inside;
+    for (int i = 0; i < 6; i++)
+        if (at.planes >> i & 1) {
+            out |= outside(&planes[i], b, &inside);
+            for (int lane = 0; lane < 4; lane++)
+                within[lane] |= (inside >> lane & 1) << i;
+        }
+    for (int lane = 0; lane < 4; lane++) {
+        int left = at.planes & ~within[lane];
+        if (out >> lane & 1)
+            continue;
+        if (at.level == 0)
+            select_item(items[4 * at.block + lane], bits);
+        else if (left == 0)
+            select_run(t, 4 * at.block + lane, at.level - 1, bits);
+        else
+            stack[(*top)++] = (entry){4 * at.block + lane, at.level - 1, left};
+    }
+}
+
+static void select_loose(const e3d_tree *t, const plane planes[6], const double *boxes, uint64_t *bits)
+{
+    const int32_t *loose = t->loose.data;
+    for (size_t i = 0; i < t->loose.count; i++) {
+        e3d_block b;
+        int out = 0, inside;
+        for (int lane = 0; lane < 4; lane++)
+            e3d_block_set(&b, lane, boxes + E3D_BOX * (size_t)loose[i]);
+        for (int k = 0; k < 6; k++)
+            out |= outside(&planes[k], &b, &inside);
+        if (!(out & 1) && b.low[0][0] <= b.high[0][0])
+            select_item(loose[i], bits);
+    }
+}
+
+void e3d_tree_select(const e3d_tree *t, const double *boxes, const double clip_from_world[16], double widen,
+                     uint64_t *bits)
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    plane planes[6];
+    entry stack[E3D_TREE_STACK];
+    int top = 0;
+    set_planes(planes, clip_from_world, widen);
+    if (t->levels)
+        stack[top++] = (entry){0, t->levels - 1, 63};
+    while (top)
+        visit(t, planes, stack[--top], bits, stack, &top);
+    select_loose(t, planes, boxes, bits);
+    e3d_fpenv_leave(saved);
+}

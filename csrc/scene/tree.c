@@ -1,0 +1,316 @@
+/* tree: building, refitting. f64 boxes in, f32 boxes out that hold them.
+ *
+ * Method: a packed Hilbert R-tree (Kamel and Faloutsos 1993), four wide; Hilbert's curve by Skilling 2004.
+ * Refitting renews the boxes above what moved; once they have grown too much, the order is renewed.
+ */
+#include "scene/tree.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { BITS = 12, RADIX = 12, PASSES = 3 }; /* a coordinate's bits; 3 * 12 are sorted 12 at a time */
+
+static const double WORN = 1.7; /* times the cost when built: then build again, */
+enum { LEAST_REFITS = 8 };      /* but not each time, where everything goes anywhere */
+
+typedef struct key {
+    uint64_t code;
+    int32_t item;
+} key;
+
+e3d_tree *e3d_tree_create(void) { return calloc(1, sizeof(e3d_tree)); }
+
+void e3d_tree_destroy(e3d_tree *t)
+{
+    if (!t)
+        return;
+    e3d_array *arrays[] = {&t->blocks, &t->items, &t->places, &t->loose,
+                           &t->keys, &t->keys_too, &t->dirty, &t->marks};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        e3d_array_free(arrays[i]);
+    free(t);
+}
+
+/* ---- boxes ---- */
+
+static float below(double v)
+{
+    float f = (float)v;
+    return f > v ? (float)(v - fabs(v) * 2e-7 - FLT_MIN) : f;
+}
+
+void e3d_block_set(e3d_block *block, int lane, const double box[E3D_BOX])
+{
+    int whole = box[0] <= box[3] && box[1] <= box[4] && box[2] <= box[5] && box[6] >= 0;
+    int none = box[0] > box[3]; /* else a NaN: may be anywhere */
+    for (int k = 0; k < 3; k++) {
+        block->low[k][lane] = whole ? below(box[k]) : none ? INFINITY : -INFINITY;
+        block->high[k][lane] = whole ? -below(-box[3 + k]) : none ? -INFINITY : INFINITY;
+    }
+    block->reach[lane] = whole ? -below(-box[6]) : none ? 0 : INFINITY;
+}
+
+static void clear(e3d_block *block)
+{
+    for (int k = 0; k < 3; k++) {
+        block->low[k] = e3d_v4_all(INFINITY);
+        block->high[k] = e3d_v4_all(-INFINITY);
+    }
+    block->reach = e3d_v4_all(0);
+}
+
+/* The box around a block's boxes into a lane of its parent; returns by how much its cost grew. */
+static double gather(const e3d_block *from, e3d_block *to, int lane)
+{
+    double size[2][3], area[2];
+    for (int k = 0; k < 3; k++) {
+        float low = from->low[k][0], high = from->high[k][0];
+        for (int i = 1; i < 4; i++) {
+            low = from->low[k][i] < low ? from->low[k][i] : low;
+            high = from->high[k][i] > high ? from->high[k][i] : high;
+        }
+        size[0][k] = (double)to->high[k][lane] - to->low[k][lane];
+        size[1][k] = (double)high - low;
+        to->low[k][lane] = low;
+        to->high[k][lane] = high;
+    }
+    float reach = from->reach[0];
+    for (int i = 1; i < 4; i++)
+        reach = from->reach[i] > reach ? from->reach[i] : reach;
+    to->reach[lane] = reach;
+    for (int i = 0; i < 2; i++) {
+        const double *s = size[i];
+        area[i] = s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
+        area[i] = s[0] >= 0 && area[i] < 1e30 ? area[i] : 0; /* none, or without end */
+    }
+    return area[1] - area[0];
+}
+
+static void gather_all(e3d_tree *t)
+{
+    t->cost = 0;
+    for (int level = 0; level + 1 < t->levels; level++) {
+        e3d_block *from = e3d_tree_level(t, level), *to = e3d_tree_level(t, level + 1);
+        for (int32_t b = 0; b < t->blocks_in[level]; b++) {
+            if (b % 4 == 0)
+                clear(&to[b / 4]);
+            t->cost += gather(&from[b], &to[b / 4], b % 4);
+        }
+    }
+}
+
+/* ---- building ---- */
+
+/* Skilling's transform of coordinates to the transposed Hilbert index, for four items at a time. */
+static void transpose(e3d_v4i x[3])
+{
+    for (int32_t q = 1 << (BITS - 1); q > 1; q >>= 1)
+        for (int i = 0; i < 3; i++) {
+            e3d_v4i p = (e3d_v4i){0} + (q - 1), set = (x[i] & q) != 0;
+            e3d_v4i t = (x[0] ^ x[i]) & p & ~set;
+            x[0] ^= t | (p & set);
+            x[i] ^= i ? t : (e3d_v4i){0};
+        }
+    x[1] ^= x[0];
+    x[2] ^= x[1];
+    e3d_v4i t = {0};
+    for (int32_t q = 1 << (BITS - 1); q > 1; q >>= 1)
+        t ^= ((x[2] & q) != 0) & (q - 1);
+    for (int i = 0; i < 3; i++)
+        x[i] ^= t;
+}
+
+/* Bits 0, 1, 2 … to 0, 3, 6 …. */
+static uint64_t spread(uint32_t bits)
+{
+    uint64_t v = bits;
+    v = (v | v << 16) & 0xFF0000FFull;
+    v = (v | v << 8) & 0xF00F00F00Full;
+    v = (v | v << 4) & 0xC30C30C30C3ull;
+    return (v | v << 2) & 0x249249249249ull;
+}
+
+static double middle(const double *box, int k)
+{
+    double m = box[k] * 0.5 + box[3 + k] * 0.5;
+    return fabs(m) < INFINITY ? m : 0;
+}
+
+static void find_keys(key *keys, int32_t count, const double *boxes)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, most = 0;
+    for (int32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) {
+            double m = middle(boxes + E3D_BOX * (size_t)keys[i].item, k);
+            low[k] = m < low[k] ? m : low[k];
+            high[k] = m > high[k] ? m : high[k];
+        }
+    for (int k = 0; k < 3; k++)
+        most = high[k] - low[k] > most ? high[k] - low[k] : most;
+    double scale = most > 0 && isfinite(most) ? ((1 << BITS) - 1) / most : 0;
+    for (int32_t first = 0; first < count; first += 4) {
+        e3d_v4i x[3] = {{0}};
+        for (int32_t i = first; i < first + 4 && i < count; i++)
+            for (int k = 0; k < 3; k++)
+                x[k][i - first] =
+                    (int32_t)((middle(boxes + E3D_BOX * (size_t)keys[i].item, k) - low[k]) * scale);
+        transpose(x);
+        for (int32_t i = first; i < first + 4 && i < count; i++)
+            keys[i].code = spread((uint32_t)x[0][i - first]) << 2 | spread((uint32_t)x[1][i - first]) << 1 |
+                           spread((uint32_t)x[2][i - first]);
+    }
+}
+
+/* Least digit first, each pass stable: equal keys stay in the order of items. */
+static key *sort_keys(key *keys, key *other, int32_t count)
+{
+    for (int pass = 0; pass < PASSES; pass++) {
+        int32_t start[(1 << RADIX) + 1] = {0};
+        for (int32_t i = 0; i < count; i++)
+            start[(keys[i].code >> (pass * RADIX) & ((1 << RADIX) - 1)) + 1]++;
+        for (int d = 0; d < 1 << RADIX; d++)
+            start[d + 1] += start[d];
+        for (int32_t i = 0; i < count; i++)
+            other[start[keys[i].code >> (pass * RADIX) & ((1 << RADIX) - 1)]++] = keys[i];
+        key *swap = keys;
+        keys = other;
+        other = swap;
+    }
+    return keys;
+}
+
+static int lay_out(e3d_tree *t, int32_t count)
+{
+    int32_t in_level = count, total = 0;
+    t->levels = 0;
+    do {
+        in_level = in_level / 4 + (in_level % 4 != 0);
+        in_level = in_level ? in_level : 1;
+        t->first[t->levels] = total;
+        t->blocks_in[t->levels++] = in_level;
+        total += in_level;
+    } while (in_level > 1);
+    if (!e3d_array_reserve(&t->blocks, (size_t)total, sizeof(e3d_block)) ||
+        !e3d_array_reserve(&t->marks, (size_t)total, 1) ||
+        !e3d_array_reserve(&t->dirty, (size_t)total, sizeof(int32_t)))
+        return 0;
+    memset(t->marks.data, 0, (size_t)total);
+    return 1;
+}
+
+static void fill(e3d_tree *t, const key *keys, const double *boxes)
+{
+    e3d_block *leaves = e3d_tree_level(t, 0);
+    int32_t *items = t->items.data, *places = t->places.data;
+    for (int32_t i = 0; i < t->count; i++) {
+        if (i % 4 == 0)
+            clear(&leaves[i / 4]);
+        items[i] = keys[i].item;
+        places[items[i]] = i;
+        e3d_block_set(&leaves[i / 4], i % 4, boxes + E3D_BOX * (size_t)items[i]);
+    }
+    if (t->count == 0)
+        clear(leaves);
+}
+
+int e3d_tree_build(e3d_tree *t, const double *boxes, int32_t count)
+{
+    t->count = t->levels = 0;
+    t->loose.count = 0;
+    if (!e3d_array_reserve(&t->keys, (size_t)count, sizeof(key)) ||
+        !e3d_array_reserve(&t->keys_too, (size_t)count, sizeof(key)) ||
+        !e3d_array_reserve(&t->items, (size_t)count, sizeof(int32_t)) ||
+        !e3d_array_reserve(&t->places, (size_t)count, sizeof(int32_t)))
+        return 0;
+    key *keys = t->keys.data;
+    int32_t *places = t->places.data, used = 0;
+    for (int32_t i = 0; i < count; i++) {
+        places[i] = -1;
+        const double *box = boxes + E3D_BOX * (size_t)i;
+        if (box[0] > box[3]) /* none */
+            continue;
+        keys[used++].item = i;
+    }
+    if (!lay_out(t, used))
+        return 0;
+    t->count = used;
+    t->places.count = (size_t)count;
+    find_keys(keys, used, boxes);
+    fill(t, sort_keys(keys, t->keys_too.data, used), boxes);
+    gather_all(t);
+    t->built_cost = t->cost;
+    t->refits = 0;
+    return 1;
+}
+
+/* ---- refitting ---- */
+
+/* The boxes above the dirty blocks of a level, level by level. */
+static void gather_dirty(e3d_tree *t, int32_t dirty)
+{
+    int32_t *list = t->dirty.data;
+    uint8_t *marks = t->marks.data;
+    for (int level = 0; level + 1 < t->levels; level++) {
+        e3d_block *from = e3d_tree_level(t, level), *to = e3d_tree_level(t, level + 1);
+        int32_t above = 0;
+        for (int32_t i = 0; i < dirty; i++) {
+            int32_t b = list[i];
+            marks[t->first[level] + b] = 0;
+            t->cost += gather(&from[b], &to[b / 4], b % 4);
+            if (!marks[t->first[level + 1] + b / 4]) {
+                marks[t->first[level + 1] + b / 4] = 1;
+                list[above++] = b / 4;
+            }
+        }
+        dirty = above;
+    }
+    marks[t->first[t->levels - 1]] = 0;
+}
+
+static int add_loose(e3d_tree *t, int32_t item, const double *box)
+{
+    const int32_t *loose = t->loose.data;
+    if (box[0] > box[3])
+        return 1;
+    for (size_t i = 0; i < t->loose.count; i++)
+        if (loose[i] == item)
+            return 1;
+    if (t->loose.count >= 64 || !e3d_array_reserve(&t->loose, t->loose.count + 1, sizeof(int32_t)))
+        return 0;
+    ((int32_t *)t->loose.data)[t->loose.count++] = item;
+    return 1;
+}
+
+int e3d_tree_refit(e3d_tree *t, const double *boxes, int32_t count, const int32_t *moved, int32_t moves)
+{
+    if (t->levels == 0)
+        return e3d_tree_build(t, boxes, count);
+    e3d_block *leaves = e3d_tree_level(t, 0);
+    const int32_t *places = t->places.data;
+    int32_t *list = t->dirty.data, dirty = 0;
+    uint8_t *marks = t->marks.data;
+    int all = moves > t->count / 4, loose_fit = 1;
+    for (int32_t i = 0; i < moves; i++) {
+        int32_t item = moved[i];
+        const double *box = boxes + E3D_BOX * (size_t)item;
+        int32_t place = (size_t)item < t->places.count ? places[item] : -1;
+        if (place < 0) {
+            loose_fit = loose_fit && add_loose(t, item, box);
+            continue;
+        }
+        e3d_block_set(&leaves[place / 4], place % 4, box);
+        if (!all && !marks[place / 4]) {
+            marks[place / 4] = 1;
+            list[dirty++] = place / 4;
+        }
+    }
+    if (all)
+        gather_all(t);
+    else
+        gather_dirty(t, dirty);
+    t->refits++;
+    if (!loose_fit || (t->cost > WORN * t->built_cost && t->refits >= LEAST_REFITS))
+        return e3d_tree_build(t, boxes, count);
+    return 1;
+}

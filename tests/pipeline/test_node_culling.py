@@ -1,0 +1,176 @@
+"""Nodes outside of what a camera shows are left out, and it never shows."""
+
+import math
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d import linalg
+
+BOXES = 100_000
+
+
+def random_poses(random, count, spread=50.0):
+    """Poses of boxes of all sizes and directions, most of them small."""
+    poses = np.zeros((count, 3, 4))
+    poses[:, :, :3] = random.normal(size=(count, 3, 3))
+    poses[:, :, :3] *= np.exp(random.normal(-2, 1.5, size=(count, 1, 1)))
+    poses[:, :, 3] = random.normal(0, spread, size=(count, 3))
+    return poses.reshape(count, 12)
+
+
+def cameras(random, count, spread=50.0):
+    """clip_from_world of cameras: inside, outside, wide, narrow, without a far plane."""
+    for k in range(count):
+        eye, target = random.normal(0, spread, (2, 3))
+        if k % 4 == 0:
+            camera = e3d.OrthographicCamera(math.exp(random.normal(2, 1)), znear=-5, zfar=60)
+        elif k % 4 == 1:
+            camera = e3d.PerspectiveCamera(random.uniform(0.05, 3), znear=0.01, zfar=math.inf)
+        else:
+            camera = e3d.PerspectiveCamera(random.uniform(0.2, 2), znear=0.5, zfar=80)
+        pose = e3d.look_at(eye, target)
+        yield linalg.multiply(camera.projection(640, 360), linalg.inverse(pose))
+
+
+def distances_beyond(boxes, clip_from_world):
+    """How far each box is outside of the plane that it is farthest out of; and the scale of it."""
+    lows, highs = boxes[:, :3], boxes[:, 3:6]
+    most, scale = np.full(len(boxes), -np.inf), np.ones(len(boxes))
+    for axis in range(3):
+        for sign in (1, -1):
+            plane = clip_from_world[3] + sign * clip_from_world[axis]
+            corner = np.where(plane[:3] >= 0, highs, lows)
+            beyond = -(corner @ plane[:3] + plane[3])
+            size = np.abs(corner) @ np.abs(plane[:3]) + abs(plane[3])
+            size += (np.abs(clip_from_world[3]) + np.abs(clip_from_world[axis])).sum() * boxes[:, 6]
+            scale = np.where(beyond > most, size, scale)
+            most = np.maximum(most, beyond)
+    return most, scale
+
+
+def selected(arrays, clip_from_world):
+    bits = np.zeros((arrays.count + 63) // 64, np.uint64)
+    arrays.select(clip_from_world, 1.0, bits)
+    return np.unpackbits(bits.view(np.uint8), bitorder="little")[: arrays.count].astype(bool)
+
+
+def check(scene, random, count=12):
+    """Everything that shows is selected, and nothing that is farther out than rounding can be."""
+    scene._update()
+    arrays = scene._arrays
+    boxes = arrays.columns["bounds"][: arrays.count]
+    some = 0
+    for clip_from_world in cameras(random, count):
+        there = boxes[:, 0] <= boxes[:, 3]
+        found = selected(arrays, clip_from_world)
+        beyond, scale = distances_beyond(np.where(there[:, np.newaxis], boxes, 0), clip_from_world)
+        assert not (there & (beyond <= 0) & ~found).any()
+        assert not (found & (~there | (beyond > 1e-5 * scale))).any()
+        some += found.sum()
+    assert some > 0
+
+
+def scatter(scene, nodes, random, share=1.0):
+    moved = random.permutation(len(nodes))[: int(share * len(nodes))]
+    for k, pose in zip(moved.tolist(), random_poses(random, len(moved)), strict=True):
+        nodes[k].pose = np.vstack([pose.reshape(3, 4), (0, 0, 0, 1)])
+
+
+def test_a_hundred_thousand_boxes_against_brute_force():
+    random = np.random.default_rng(1)
+    scene = e3d.Scene()
+    mesh = e3d.box()
+    nodes = [scene.add(mesh) for _ in range(BOXES)]
+    arrays = scene._arrays
+    arrays.columns["pose"][:BOXES] = random_poses(random, BOXES)
+    check(scene, random, 60)
+    scatter(scene, nodes, random, 0.01)  # the boxes above what moved are renewed
+    check(scene, random)
+    arrays.columns["pose"][:BOXES] = random_poses(random, BOXES)
+    for node in nodes:
+        node.visible = node.id % 3 > 0
+    check(scene, random)
+
+
+def test_a_scene_that_changes_all_the_time_against_brute_force():
+    random = np.random.default_rng(2)
+    scene = e3d.Scene()
+    mesh, wide = e3d.box(), e3d.InstancedMesh(e3d.box(), random.normal(size=(5, 4)))
+    nodes = []
+    for step in range(40):
+        parent = nodes[step] if len(nodes) > step else None
+        nodes += [scene.add(wide if k % 9 == 0 else mesh, parent=parent) for k in range(30)]
+        scatter(scene, nodes, random, random.choice([0.01, 0.2, 1.0]))
+        for node in random.choice(nodes, 5, replace=False):
+            if node._scene is scene:
+                scene.remove(node)
+        nodes = [node for node in nodes if node._scene is scene]
+        nodes[random.integers(len(nodes))].visible ^= True
+        if step % 7 == 3:
+            wide.poses = random.normal(size=(3, 4, 4)) * [[1], [1], [1], [0]] + np.diag(
+                [0, 0, 0, 1]
+            )
+        check(scene, random, 4)
+
+
+def small_things(random):
+    """A scene around the edges of what a camera shows: faces, lines and points, near and far."""
+    scene = e3d.Scene()
+    line = e3d.Mesh([(0, 0, 0), (1, 1, 0)], lines=[(0, 1)], points=[0])
+    offset = e3d.Mesh(e3d.box().positions + np.float32(1e4), e3d.box().faces)
+    meshes = (e3d.box(), line, e3d.quad(), e3d.Mesh(np.zeros((1, 3)), points=[0]))
+    for k in range(400):
+        x, y = random.uniform(-1.5, 1.5, 2)
+        place = (x, y, random.uniform(-1.4, 1.4))
+        turn, size = random.normal(size=4), math.exp(random.uniform(-5, -1))
+        node = scene.add(meshes[k % 4], translation=place, rotation=turn, scale=size)
+        if k % 10 == 0:
+            pose = node.pose.copy()
+            pose[:3, 3] -= pose[:3, :3] @ np.full(3, 1e4)  # far from its own origin: rounding shows
+            scene.add(offset, pose=pose)
+    return scene
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"mode": "unlit"},
+        {"mode": "overdraw"},
+        {"wireframe": "overlay", "line_width": 40, "point_size": 60},
+        {"wireframe": "only", "line_width": 7, "hidden_lines": True},
+        {"hidden_surfaces": "painter", "cull": "none", "line_width": 25, "point_size": 9},
+    ],
+)
+@pytest.mark.parametrize("perspective", [True, False])
+def test_pictures_are_those_without_culling(options, perspective):
+    scene = small_things(np.random.default_rng(3))
+    if perspective:
+        camera = (
+            e3d.PerspectiveCamera(0.9, znear=1.9, zfar=3.0),
+            e3d.look_at((0, 0, 2.9), (0, 0, 0)),
+        )
+    else:
+        camera = e3d.OrthographicCamera(1.0, znear=-1.0, zfar=1.0), np.eye(4)
+    outputs = ("color", "object_id", "triangle_id", "ndc_depth")
+    pictures, draws = [], []
+    for culling in ("frustum", "none"):
+        with e3d.Renderer(90, 70) as renderer:
+            frame = renderer.render(scene, camera, outputs=outputs, culling=culling, **options)
+        pictures.append([getattr(frame, name).tobytes() for name in outputs])
+        draws.append(frame.stats["nodes_in_frustum"])
+        assert frame.stats["nodes"] == len(scene.nodes)
+    assert pictures[0] == pictures[1]
+    assert draws[0] < draws[1] == len(scene.nodes)
+
+
+def test_nodes_beyond_all_numbers_are_drawn_or_not_but_lose_no_others():
+    scene = e3d.Scene()
+    huge = scene.add(scale=1e200)
+    scene.add(e3d.box(), parent=scene.add(parent=huge, scale=1e200))  # not finite in the world
+    scene.add(e3d.box(), translation=(1e300, 0, 0))
+    seen = scene.add(e3d.box())
+    camera = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 3), (0, 0, 0))
+    frame = e3d.render(scene, camera, size=(8, 8), outputs=("object_id",))
+    assert seen.id in frame.object_id

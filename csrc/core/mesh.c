@@ -67,7 +67,7 @@ static void open_cluster(builder *b, e3d_cluster *cluster, int32_t face, size_t 
                          size_t indices)
 {
     memset(cluster, 0, sizeof *cluster);
-    cluster->first_face = face;
+    cluster->first = face;
     cluster->positions = positions;
     cluster->indices = indices;
     b->now = cluster;
@@ -154,12 +154,16 @@ static int allocate(builder *b)
     mesh->clusters = malloc(clusters * sizeof *mesh->clusters);
     mesh->groups = malloc((clusters / E3D_GROUP_CLUSTERS + 1) * sizeof *mesh->groups);
     mesh->positions = malloc(positions_bound(&mesh->desc) * sizeof(float));
+    mesh->faces = malloc(((size_t)mesh->desc.faces_count + E3D_CLUSTER_TRIANGLES) * sizeof *mesh->faces);
     mesh->indices = calloc(clusters, 3 * E3D_CLUSTER_TRIANGLES);
     b->indices = mesh->indices;
     b->local = malloc(((size_t)mesh->desc.vertices + 1) * sizeof *b->local);
     b->members = malloc(E3D_CLUSTER_VERTICES * sizeof *b->members);
-    if (!mesh->clusters || !mesh->groups || !mesh->positions || !mesh->indices || !b->local || !b->members)
+    if (!mesh->clusters || !mesh->groups || !mesh->positions || !mesh->indices || !mesh->faces || !b->local || !b->members)
         return 0;
+    for (int32_t f = 0; f < mesh->desc.faces_count; f++)
+        mesh->faces[f] = f;
+    memset(mesh->faces + mesh->desc.faces_count, 0, E3D_CLUSTER_TRIANGLES * sizeof *mesh->faces);
     memset(b->local, 0xFF, ((size_t)mesh->desc.vertices + 1) * sizeof *b->local);
     return 1;
 }
@@ -246,6 +250,7 @@ void e3d_mesh_destroy(e3d_mesh *mesh)
     free(mesh->groups);
     free(mesh->positions);
     free(mesh->indices);
+    free(mesh->faces);
     free(mesh);
 }
 

@@ -5,9 +5,9 @@
 #include "core/limits.h"
 #include "e3d.h"
 
-/* Up to 64 consecutive triangles over up to 128 vertices, with their own copy of the positions. */
+/* Up to 64 triangles over up to 128 vertices, with their own copy of the positions. */
 typedef struct e3d_cluster {
-    int32_t first_face;
+    int32_t first; /* of its triangles in the mesh's `faces` */
     int32_t triangles, vertices;
     int32_t stride;       /* vertices rounded up to 16: planes of positions are this far apart */
     size_t positions;     /* offset of x[stride], y[stride], z[stride] (, w[stride]) */
@@ -30,6 +30,7 @@ struct e3d_mesh {
     e3d_group_box *groups;
     float *positions;  /* of all clusters */
     uint8_t *indices;
+    int32_t *faces;    /* of the clusters' triangles, one cluster after the other */
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */
     int32_t any_finite;
     int32_t material_most; /* the greatest material ID; 0 without faces */

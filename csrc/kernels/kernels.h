@@ -50,26 +50,9 @@ typedef struct e3d_vertices {
 /* Triangles of a cluster that may show: `draw` go to the record as they are, `clip` need clipping first. None that covers a
  * sample is missing; of the others, those go that 32 bits can tell: no sample in the box, or a box of at most 2 x 2 without cover. */
 typedef struct e3d_survivors {
-    uint8_t draw[E3D_CLUSTER_TRIANGLES], clip[E3D_CLUSTER_TRIANGLES];
+    uint8_t draw[E3D_CLUSTER_TRIANGLES + E3D_PAD], clip[E3D_CLUSTER_TRIANGLES];
     int draws, clips;
 } e3d_survivors;
-
-/* ---- raster ---- */
-
-/* A piece in one tile: edge functions at the tile's first sample, floor(E / 256) with the top-left rule
- * inside; an edge that the whole tile satisfies is all zero. */
-typedef struct e3d_piece {
-    int32_t e[3], a[3], b[3];
-    int32_t x0, y0, x1, y1;  /* box in the tile, inclusive */
-    float z0, gx, gy, zmin, zmax;
-    int32_t base_x, base_y;  /* of the depth plane, relative to the tile's first sample */
-    uint32_t slot, order;
-} e3d_piece;
-
-enum { E3D_NO_SLOT = -1 };
-
-/* What an empty sample's depth is: z < this exactly when z <= 1 (R15). */
-#define E3D_BEYOND_FAR 0x1.000002p0f
 
 /* What setup leaves of a piece of a primitive, ready for any tile: a cache line. */
 typedef struct e3d_record {
@@ -90,6 +73,40 @@ enum {
     E3D_RECORD_TINY = 16,   /* a box of at most 2 x 2 samples: bit 2 * row + column tells which are covered */
     E3D_RECORD_SHIFT = 5
 };
+
+/* Triangles of a cluster, to become records. */
+typedef struct e3d_record_request {
+    const e3d_vertices *vertices;
+    const uint8_t *indices;   /* three planes of E3D_CLUSTER_TRIANGLES */
+    const uint8_t *triangles; /* `count` of the cluster; E3D_PAD more are read and must be less than 64 */
+    int count;
+    int cull, mirrored;       /* sign of the area to drop, as for setup; front faces are the mirrored ones */
+    uint32_t order;           /* of the mesh's first face */
+    const int32_t *faces;     /* of the cluster's triangles */
+    const e3d_viewport *viewport;
+} e3d_record_request;
+
+/* Tiles that a record's box touches: row << 16 | column, inclusive. */
+typedef struct e3d_tile_span {
+    uint32_t first, last;
+} e3d_tile_span;
+
+/* ---- raster ---- */
+
+/* A piece in one tile: edge functions at the tile's first sample, floor(E / 256) with the top-left rule
+ * inside; an edge that the whole tile satisfies is all zero. */
+typedef struct e3d_piece {
+    int32_t e[3], a[3], b[3];
+    int32_t x0, y0, x1, y1;  /* box in the tile, inclusive */
+    float z0, gx, gy, zmin, zmax;
+    int32_t base_x, base_y;  /* of the depth plane, relative to the tile's first sample */
+    uint32_t slot, order;
+} e3d_piece;
+
+enum { E3D_NO_SLOT = -1 };
+
+/* What an empty sample's depth is: z < this exactly when z <= 1 (R15). */
+#define E3D_BEYOND_FAR 0x1.000002p0f
 
 /* The records of a frame: those of worker w at records[w], under the IDs number << bits | w. */
 typedef struct e3d_record_table {
@@ -184,6 +201,8 @@ typedef struct e3d_kernels {
     /* indices: three planes of E3D_CLUSTER_TRIANGLES. cull: sign of the area (screen, Y down) to drop: -1, +1, 0 = neither. */
     void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
                   const e3d_viewport *viewport, e3d_survivors *out);
+    /* Records and their tiles; how many. Room for as many as are asked for. */
+    int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
     void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);

@@ -62,22 +62,30 @@ static int misses_tile(const e3d_record *record, int32_t x, int32_t y)
     return 0;
 }
 
-int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
-                   const e3d_box *box)
+/* To the tiles of a span that the record does not miss. */
+static int bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
+                    e3d_tile_span span, uint32_t id)
 {
     const e3d_record *record = (const e3d_record *)set->records.data + number;
-    int32_t tx0 = box->x0 >> E3D_TILE_SHIFT, tx1 = box->x1 >> E3D_TILE_SHIFT;
-    int32_t ty0 = box->y0 >> E3D_TILE_SHIFT, ty1 = box->y1 >> E3D_TILE_SHIFT;
-    uint32_t id = number << context->tables[0].bits | worker->number;
-    int single = tx0 == tx1 && ty0 == ty1;
     e3d_bin *bins = set->bins.data;
-    for (int32_t ty = ty0; ty <= ty1; ty++)
-        for (int32_t tx = tx0; tx <= tx1; tx++) {
-            if (!single && misses_tile(record, tx * E3D_TILE, ty * E3D_TILE))
+    for (int32_t ty = (int32_t)(span.first >> 16); ty <= (int32_t)(span.last >> 16); ty++)
+        for (int32_t tx = (int32_t)(span.first & 0xFFFF); tx <= (int32_t)(span.last & 0xFFFF); tx++) {
+            if (misses_tile(record, tx * E3D_TILE, ty * E3D_TILE))
                 continue;
             if (!push(set, &bins[(int64_t)ty * context->tiles_x + tx], id))
                 return 0;
             worker->counters.bin_entries++;
         }
     return 1;
+}
+
+int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
+                   e3d_tile_span span)
+{
+    uint32_t id = number << context->tables[0].bits | worker->number;
+    if (span.first != span.last)
+        return bin_wide(context, worker, set, number, span, id);
+    worker->counters.bin_entries++;
+    int64_t tile = (int64_t)(span.first >> 16) * context->tiles_x + (span.first & 0xFFFF);
+    return push(set, (e3d_bin *)set->bins.data + tile, id);
 }

@@ -273,8 +273,15 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
 /* bin.c */
 int e3d_records_reset(e3d_record_set *set, int32_t tiles);
 void e3d_bins_clear(e3d_record_set *set, int32_t tiles);
-int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t record,
-                   const e3d_box *box);
+int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
+                   e3d_tile_span span);
+static inline e3d_tile_span e3d_span_of(const e3d_box *box)
+{
+    return (e3d_tile_span){(uint32_t)(box->y0 >> E3D_TILE_SHIFT << 16 | box->x0 >> E3D_TILE_SHIFT),
+                           (uint32_t)(box->y1 >> E3D_TILE_SHIFT << 16 | box->x1 >> E3D_TILE_SHIFT)};
+}
+/* Whether `more` records have IDs and memory. */
+int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
 /* After the records have their places: the tables that tell a record by its ID. */
 void e3d_tables_set(e3d_context *context);
 

@@ -48,6 +48,7 @@ static e3d_primitive face_primitive(const walker *w, int32_t face)
                            .mirrored = w->instance->mirrored};
 }
 
+/* With the key that painter's algorithm sorts by. */
 static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
     const e3d_vertices *v = &w->worker->vertices;
@@ -56,7 +57,7 @@ static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *
         int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
         corner[k] = (e3d_corner){v->sx[i], v->sy[i], v->zn[i], v->iw[i], {0, 0, 0}};
     }
-    e3d_primitive primitive = face_primitive(w, cluster->first_face + triangle);
+    e3d_primitive primitive = face_primitive(w, w->draw->mesh->faces[cluster->first + triangle]);
     e3d_emit(w->context, w->worker, corner, &primitive);
 }
 
@@ -82,13 +83,50 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
         for (int k = 0; k < 3; k++)
             projected[i].c[k] = polygon[i].c[k];
     }
-    e3d_primitive primitive = face_primitive(w, cluster->first_face + triangle);
+    e3d_primitive primitive = face_primitive(w, w->draw->mesh->faces[cluster->first + triangle]);
     primitive.cut = 1;
     for (int i = 1; i + 1 < count; i++)
         if (good[0] && good[i] && good[i + 1]) {
             const e3d_corner piece[3] = {projected[0], projected[i], projected[i + 1]};
             e3d_emit(w->context, w->worker, piece, &primitive);
         }
+}
+
+/* Whether a record that was made without regard to its facing is culled by it. */
+static int is_culled(const walker *w, int32_t face, const e3d_record *record)
+{
+    e3d_cull cull = cull_of(w, face);
+    int back = (record->meta & E3D_RECORD_BACK) != 0;
+    return cull != E3D_CULL_NONE && back == (cull == E3D_CULL_BACK);
+}
+
+/* The survivors' records, a vector at a time. */
+static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+{
+    const e3d_survivors *s = &w->worker->survivors;
+    const e3d_mesh *mesh = w->draw->mesh;
+    e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
+    const e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = s->draw,
+                                        .count = s->draws, .cull = drop_sign(w), .mirrored = w->instance->mirrored,
+                                        .order = w->order, .faces = mesh->faces + cluster->first,
+                                        .viewport = &w->context->viewport};
+    if (!e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES)) {
+        w->worker->failed = 1;
+        return;
+    }
+    e3d_record *records = (e3d_record *)set->records.data + set->records.count;
+    int made = w->context->kernels->record(&request, records, spans);
+    uint32_t number = (uint32_t)set->records.count;
+    set->records.count += (size_t)made;
+    w->worker->counters.records += made;
+    for (int i = 0; i < made; i++, number++) {
+        int32_t face = (int32_t)(records[i].order - w->order);
+        if (w->draw->any_two_sided && is_culled(w, face, &records[i]))
+            continue;
+        if (!e3d_bin_record(w->context, w->worker, set, number, spans[i]))
+            w->worker->failed = 1;
+    }
 }
 
 static void draw_cluster(walker *w, const e3d_cluster *cluster)
@@ -107,7 +145,9 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     e3d_survivors *s = &worker->survivors;
     kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), viewport, s);
     worker->counters.triangles_culled += cluster->triangles - s->draws - s->clips;
-    for (int i = 0; i < s->draws; i++)
+    if (!w->context->sorted)
+        draw_triangles(w, cluster, indices);
+    for (int i = 0; i < s->draws && w->context->sorted; i++)
         draw_triangle(w, cluster, indices, s->draw[i]);
     for (int i = 0; i < s->clips; i++)
         draw_clipped(w, cluster, indices, s->clip[i]);

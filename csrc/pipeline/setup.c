@@ -66,23 +66,19 @@ static int append_key(e3d_record_set *set, const e3d_corner *corner[3])
     return 1;
 }
 
-/* Room for one more record; NULL when memory is out. */
-static e3d_record *next_record(e3d_record_set *set)
+int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more)
 {
-    if (!e3d_array_reserve(&set->records, set->records.count + 1, sizeof(e3d_record)))
-        return NULL;
-    return (e3d_record *)set->records.data + set->records.count;
+    return (set->records.count + more) >> (31 - context->tables[0].bits) == 0 && /* IDs are positive */
+           e3d_array_reserve(&set->records, set->records.count + more, sizeof(e3d_record));
 }
 
 /* Counts the record in; it is binned now, or after sorting. */
 static int accept(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, const e3d_box *box,
                   int sorted)
 {
-    if (set->records.count >> (31 - context->tables[0].bits)) /* IDs are positive */
-        return 0;
     uint32_t number = (uint32_t)set->records.count++;
     worker->counters.records++;
-    return sorted || e3d_bin_record(context, worker, set, number, box);
+    return sorted || e3d_bin_record(context, worker, set, number, e3d_span_of(box));
 }
 
 static int is_culled(const e3d_primitive *primitive, int front)
@@ -102,11 +98,11 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
     const e3d_corner *c[3] = {&corner[0], &corner[area < 0 ? 2 : 1], &corner[area < 0 ? 1 : 2]};
     e3d_record_set *set = &worker->pass[primitive->pass];
     int sorted = context->sorted && primitive->pass == E3D_PASS_SCENE;
-    e3d_record *record = next_record(set);
-    if (!record) {
+    if (!e3d_records_fit(context, set, 1)) {
         worker->failed = 1;
         return;
     }
+    e3d_record *record = (e3d_record *)set->records.data + set->records.count;
     for (int k = 0; k < 3; k++) {
         record->x[k] = c[k]->x;
         record->y[k] = c[k]->y;

@@ -34,7 +34,7 @@ VERTICES = np.dtype(
 )
 SURVIVORS = np.dtype(
     [
-        ("draw", "u1", CLUSTER_TRIANGLES),
+        ("draw", "u1", CLUSTER_TRIANGLES + PAD),
         ("clip", "u1", CLUSTER_TRIANGLES),
         ("draws", "i4"),
         ("clips", "i4"),

@@ -10,6 +10,7 @@
 
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"
+#include "kernels/generic/record.inl"
 #include "kernels/generic/raster.inl"
 #ifdef E3D_NARROW_TABLE
 #include "kernels/generic/visible_narrow.inl"
@@ -26,6 +27,7 @@ const e3d_kernels E3D_TABLE = {
     .transform = kernel_transform,
     .take_clip = kernel_take_clip,
     .setup = kernel_setup,
+    .record = kernel_record,
     .raster_depth = kernel_raster_depth,
     .raster_overwrite = kernel_raster_overwrite,
     .raster_count = kernel_raster_count,

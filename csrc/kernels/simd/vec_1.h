@@ -72,4 +72,19 @@ static inline vmask v_mnot(vmask a) { return a ^ 1u; }
 static inline uint32_t v_bits(vmask m) { return m; }
 static inline int v_any(vmask m) { return m != 0; }
 
+/* Doubles, half of a vector's lanes at a time: half h of V_HALVES. */
+#define V_HALVES 1
+typedef double vf64;
+static inline vf64 v_setd(double a) { return a; }
+static inline vf64 v_widenf(vf32 a, int h) { (void)h; return a; }
+static inline vf64 v_wideni(vi32 a, int h) { (void)h; return a; }
+static inline vf64 v_addd(vf64 a, vf64 b) { return a + b; }
+static inline vf64 v_subd(vf64 a, vf64 b) { return a - b; }
+static inline vf64 v_muld(vf64 a, vf64 b) { return a * b; }
+static inline vf64 v_divd(vf64 a, vf64 b) { return a / b; }
+static inline vf32 v_narrow(const vf64 a[V_HALVES]) { return (float)a[0]; } /* rounds to nearest even */
+
+/* Lane l of column c goes to out[16 * l + c]. */
+static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c, 64); }
+
 #endif

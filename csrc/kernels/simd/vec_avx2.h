@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "kernels/simd/quad_sse.h"
+#include "kernels/simd/rows_avx2.h"
 
 #define V_LANES 8
 
@@ -77,5 +78,27 @@ static inline vmask v_mnot(vmask a) {
 }
 static inline uint32_t v_bits(vmask m) { return (uint32_t)_mm256_movemask_ps(m); }
 static inline int v_any(vmask m) { return _mm256_movemask_ps(m) != 0; }
+
+#define V_HALVES 2
+typedef __m256d vf64;
+static inline vf64 v_setd(double a) { return _mm256_set1_pd(a); }
+static inline vf64 v_widenf(vf32 a, int h) {
+    return _mm256_cvtps_pd(h ? _mm256_extractf128_ps(a, 1) : _mm256_castps256_ps128(a));
+}
+static inline vf64 v_wideni(vi32 a, int h) {
+    return _mm256_cvtepi32_pd(h ? _mm256_extracti128_si256(a, 1) : _mm256_castsi256_si128(a));
+}
+static inline vf64 v_addd(vf64 a, vf64 b) { return _mm256_add_pd(a, b); }
+static inline vf64 v_subd(vf64 a, vf64 b) { return _mm256_sub_pd(a, b); }
+static inline vf64 v_muld(vf64 a, vf64 b) { return _mm256_mul_pd(a, b); }
+static inline vf64 v_divd(vf64 a, vf64 b) { return _mm256_div_pd(a, b); }
+static inline vf32 v_narrow(const vf64 a[V_HALVES]) {
+    return _mm256_set_m128(_mm256_cvtpd_ps(a[1]), _mm256_cvtpd_ps(a[0]));
+}
+
+static inline void v_store_rows(const vi32 c[16], int32_t *out) {
+    rows_store8(c, out, 16);
+    rows_store8(c + 8, out + 8, 16);
+}
 
 #endif

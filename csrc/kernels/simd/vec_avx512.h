@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "kernels/simd/quad_sse.h"
+#include "kernels/simd/rows_avx2.h"
 
 #define V_LANES 16
 
@@ -75,5 +76,32 @@ static inline vmask v_mandnot(vmask a, vmask b) { return (vmask)(a & ~b); }
 static inline vmask v_mnot(vmask a) { return (vmask)~a; }
 static inline uint32_t v_bits(vmask m) { return m; }
 static inline int v_any(vmask m) { return m != 0; }
+
+#define V_HALVES 2
+typedef __m512d vf64;
+static inline vf64 v_setd(double a) { return _mm512_set1_pd(a); }
+static inline vf64 v_widenf(vf32 a, int h) {
+    return _mm512_cvtps_pd(h ? _mm512_extractf32x8_ps(a, 1) : _mm512_castps512_ps256(a));
+}
+static inline vf64 v_wideni(vi32 a, int h) {
+    return _mm512_cvtepi32_pd(h ? _mm512_extracti32x8_epi32(a, 1) : _mm512_castsi512_si256(a));
+}
+static inline vf64 v_addd(vf64 a, vf64 b) { return _mm512_add_pd(a, b); }
+static inline vf64 v_subd(vf64 a, vf64 b) { return _mm512_sub_pd(a, b); }
+static inline vf64 v_muld(vf64 a, vf64 b) { return _mm512_mul_pd(a, b); }
+static inline vf64 v_divd(vf64 a, vf64 b) { return _mm512_div_pd(a, b); }
+static inline vf32 v_narrow(const vf64 a[V_HALVES]) {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a[0])), _mm512_cvtpd_ps(a[1]), 1);
+}
+
+static inline void v_store_rows(const vi32 c[16], int32_t *out) {
+    for (int part = 0; part < 2; part++) { /* eight lanes */
+        __m256i half[16];
+        for (int i = 0; i < 16; i++)
+            half[i] = part ? _mm512_extracti32x8_epi32(c[i], 1) : _mm512_castsi512_si256(c[i]);
+        rows_store8(half, out + 128 * part, 16);
+        rows_store8(half + 8, out + 128 * part + 8, 16);
+    }
+}
 
 #endif

@@ -85,4 +85,26 @@ static inline vmask v_mnot(vmask a) {
 static inline uint32_t v_bits(vmask m) { return (uint32_t)_mm_movemask_ps(m); }
 static inline int v_any(vmask m) { return _mm_movemask_ps(m) != 0; }
 
+#define V_HALVES 2
+typedef __m128d vf64;
+static inline vf64 v_setd(double a) { return _mm_set1_pd(a); }
+static inline vf64 v_widenf(vf32 a, int h) { return _mm_cvtps_pd(h ? _mm_movehl_ps(a, a) : a); }
+static inline vf64 v_wideni(vi32 a, int h) { return _mm_cvtepi32_pd(h ? _mm_unpackhi_epi64(a, a) : a); }
+static inline vf64 v_addd(vf64 a, vf64 b) { return _mm_add_pd(a, b); }
+static inline vf64 v_subd(vf64 a, vf64 b) { return _mm_sub_pd(a, b); }
+static inline vf64 v_muld(vf64 a, vf64 b) { return _mm_mul_pd(a, b); }
+static inline vf64 v_divd(vf64 a, vf64 b) { return _mm_div_pd(a, b); }
+static inline vf32 v_narrow(const vf64 a[V_HALVES]) { return _mm_movelh_ps(_mm_cvtpd_ps(a[0]), _mm_cvtpd_ps(a[1])); }
+
+static inline void v_store_rows(const vi32 c[16], int32_t *out) {
+    for (int i = 0; i < 16; i += 4) {
+        __m128i low01 = _mm_unpacklo_epi32(c[i], c[i + 1]), low23 = _mm_unpacklo_epi32(c[i + 2], c[i + 3]);
+        __m128i high01 = _mm_unpackhi_epi32(c[i], c[i + 1]), high23 = _mm_unpackhi_epi32(c[i + 2], c[i + 3]);
+        v_storei(out + i, _mm_unpacklo_epi64(low01, low23));
+        v_storei(out + 16 + i, _mm_unpackhi_epi64(low01, low23));
+        v_storei(out + 32 + i, _mm_unpacklo_epi64(high01, high23));
+        v_storei(out + 48 + i, _mm_unpackhi_epi64(high01, high23));
+    }
+}
+
 #endif

@@ -1,0 +1,181 @@
+/* setup, second half: the records of a cluster's triangles that may show (R9, R10, R12, R13), a vector at a time.
+ *
+ * Products of snapped coordinates stay below 2^53, so double vectors give what 64-bit integers and scalar doubles do.
+ */
+
+/* Three corners of each lane's triangle; after R9 they turn the way that makes the area positive. */
+typedef struct record_corners {
+    vi32 x[3], y[3];
+    vf32 zn[3], iw[3];
+} record_corners;
+
+static inline record_corners record_fetch(const e3d_vertices *v, const uint8_t *indices, const uint8_t *triangles)
+{
+    int32_t at[3][V_LANES];
+    record_corners c;
+    for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < V_LANES; l++)
+            at[k][l] = indices[k * E3D_CLUSTER_TRIANGLES + triangles[l]];
+        vi32 i = v_loadi(at[k]);
+        c.x[k] = v_gatheri(v->sx, i);
+        c.y[k] = v_gatheri(v->sy, i);
+        c.zn[k] = v_gatherf(v->zn, i);
+        c.iw[k] = v_gatherf(v->iw, i);
+    }
+    return c;
+}
+
+/* Twice the area, exact in double. */
+static inline void record_area(const record_corners *c, vf64 area[V_HALVES])
+{
+    vi32 ax = v_subi(c->x[1], c->x[0]), ay = v_subi(c->y[1], c->y[0]);
+    vi32 cx = v_subi(c->x[2], c->x[0]), cy = v_subi(c->y[2], c->y[0]);
+    for (int h = 0; h < V_HALVES; h++)
+        area[h] = v_subd(v_muld(v_wideni(ax, h), v_wideni(cy, h)), v_muld(v_wideni(cx, h), v_wideni(ay, h)));
+}
+
+static inline void record_swap(record_corners *c, vmask swapped)
+{
+    vi32 x = c->x[1], y = c->y[1];
+    vf32 zn = c->zn[1], iw = c->iw[1];
+    c->x[1] = v_seli(swapped, c->x[2], x);
+    c->y[1] = v_seli(swapped, c->y[2], y);
+    c->zn[1] = v_self(swapped, c->zn[2], zn);
+    c->iw[1] = v_self(swapped, c->iw[2], iw);
+    c->x[2] = v_seli(swapped, x, c->x[2]);
+    c->y[2] = v_seli(swapped, y, c->y[2]);
+    c->zn[2] = v_self(swapped, zn, c->zn[2]);
+    c->iw[2] = v_self(swapped, iw, c->iw[2]);
+}
+
+typedef struct record_plane {
+    vf32 z0, gx, gy, zmin, zmax;
+} record_plane;
+
+/* R13, of corners that turn the right way; the lanes whose plane is finite in `finite`. */
+static inline record_plane record_plane_of(const record_corners *c, setup_span across, setup_span down,
+                                           vmask *finite)
+{
+    vi32 ax = v_subi(c->x[1], c->x[0]), ay = v_subi(c->y[1], c->y[0]);
+    vi32 cx = v_subi(c->x[2], c->x[0]), cy = v_subi(c->y[2], c->y[0]);
+    vi32 half = v_seti(128);
+    vi32 ex = v_subi(v_addi(v_shl(across.first, 8), half), c->x[0]);
+    vi32 ey = v_subi(v_addi(v_shl(down.first, 8), half), c->y[0]);
+    vf64 area[V_HALVES], z0[V_HALVES], gx[V_HALVES], gy[V_HALVES];
+    record_area(c, area);
+    for (int h = 0; h < V_HALVES; h++) {
+        vf64 zn0 = v_widenf(c->zn[0], h);
+        vf64 d1 = v_subd(v_widenf(c->zn[1], h), zn0), d2 = v_subd(v_widenf(c->zn[2], h), zn0);
+        vf64 r = v_divd(v_setd(256.0), area[h]), scale = v_setd(1.0 / 256);
+        gx[h] = v_muld(v_subd(v_muld(d1, v_wideni(cy, h)), v_muld(d2, v_wideni(ay, h))), r);
+        gy[h] = v_muld(v_subd(v_muld(d2, v_wideni(ax, h)), v_muld(d1, v_wideni(cx, h))), r);
+        vf64 x = v_muld(v_wideni(ex, h), scale), y = v_muld(v_wideni(ey, h), scale);
+        z0[h] = v_addd(v_addd(zn0, v_muld(x, gx[h])), v_muld(y, gy[h]));
+    }
+    record_plane p = {v_narrow(z0), v_narrow(gx), v_narrow(gy),
+                      v_min(v_min(c->zn[0], c->zn[1]), c->zn[2]),
+                      v_max(v_max(c->zn[0], c->zn[1]), c->zn[2])};
+    vf32 none = v_add(v_sub(p.z0, p.z0), v_add(v_sub(p.gx, p.gx), v_sub(p.gy, p.gy)));
+    *finite = v_eq(none, v_setf(0.0f)); /* v - v is 0 for finite v, NaN for the others */
+    return p;
+}
+
+/* Which samples of a box of at most 2 x 2 are covered: bit 2 * row + column. */
+static inline vi32 record_cover(const record_corners *c, setup_span across, setup_span down)
+{
+    vi32 half = v_seti(128), outside[4];
+    vi32 x0 = v_addi(v_shl(across.first, 8), half), y0 = v_addi(v_shl(down.first, 8), half);
+    for (int k = 0; k < 3; k++) {
+        setup_edge e = setup_edge_of(c->x, c->y, k, v_seti(0), x0, y0);
+        vi32 right = v_addi(e.c, v_shl(e.a, 8)), step = v_shl(e.b, 8);
+        const vi32 at[4] = {e.c, right, v_addi(e.c, step), v_addi(right, step)};
+        for (int s = 0; s < 4; s++)
+            outside[s] = k ? v_ori(outside[s], at[s]) : at[s];
+    }
+    vi32 cover = v_seti(0), one = v_seti(1);
+    for (int s = 3; s >= 0; s--)
+        cover = v_ori(v_shl(cover, 1), v_subi(one, v_shr(outside[s], 31)));
+    /* A box of one column or row has no second one. */
+    cover = v_andi(cover, v_seli(v_eqi(across.first, across.last), v_seti(5), v_seti(15)));
+    return v_andi(cover, v_seli(v_eqi(down.first, down.last), v_seti(3), v_seti(15)));
+}
+
+/* Flags of a record, with the cover of a tiny one; `gone` are lanes that cover nothing. */
+static inline vi32 record_meta(const record_corners *c, setup_span across, setup_span down, vmask back,
+                               vmask swapped, vmask *gone)
+{
+    vi32 zero = v_seti(0), meta = v_seti(E3D_RECORD_FACE);
+    meta = v_ori(meta, v_seli(back, v_seti(E3D_RECORD_BACK), zero));
+    meta = v_ori(meta, v_seli(swapped, v_seti(E3D_RECORD_SWAPPED), zero));
+    vi32 wide = v_subi(setup_max3(c->x[0], c->x[1], c->x[2]), setup_min3(c->x[0], c->x[1], c->x[2]));
+    vi32 high = v_subi(setup_max3(c->y[0], c->y[1], c->y[2]), setup_min3(c->y[0], c->y[1], c->y[2]));
+    vmask large = v_gti(v_maxi(wide, high), v_seti(32767)); /* than 32-bit products hold */
+    vmask tiny = v_mandnot(v_mand(setup_short(across), setup_short(down)), large);
+    *gone = v_mand(tiny, v_mnot(tiny));
+    if (!v_any(tiny))
+        return meta;
+    vi32 cover = record_cover(c, across, down);
+    *gone = v_mand(tiny, v_eqi(cover, zero));
+    vi32 flags = v_ori(v_seti(E3D_RECORD_TINY), v_shl(cover, E3D_RECORD_SHIFT));
+    return v_ori(meta, v_seli(tiny, flags, zero));
+}
+
+/* First tile below, last tile above: row << 16 | column. */
+static inline void record_spans(setup_span across, setup_span down, e3d_tile_span *out, uint32_t keep)
+{
+    int32_t first[V_LANES], last[V_LANES];
+    v_storei(first, v_ori(v_sra(across.first, E3D_TILE_SHIFT), v_shl(v_sra(down.first, E3D_TILE_SHIFT), 16)));
+    v_storei(last, v_ori(v_sra(across.last, E3D_TILE_SHIFT), v_shl(v_sra(down.last, E3D_TILE_SHIFT), 16)));
+    for (; keep; keep &= keep - 1, out++) {
+        int lane = __builtin_ctz(keep);
+        *out = (e3d_tile_span){(uint32_t)first[lane], (uint32_t)last[lane]};
+    }
+}
+
+/* The records of one vector of triangles; how many. */
+static inline int record_vector(const e3d_record_request *q, const uint8_t *triangles, int count, e3d_record *out,
+                                e3d_tile_span *spans)
+{
+    record_corners c = record_fetch(q->vertices, q->indices, triangles);
+    int32_t order[V_LANES];
+    for (int l = 0; l < V_LANES; l++)
+        order[l] = (int32_t)(q->order + (uint32_t)q->faces[triangles[l]]);
+    vf64 area[V_HALVES];
+    record_area(&c, area);
+    vf32 sign = v_narrow(area), none = v_setf(0.0f);
+    vmask swapped = v_lt(sign, none), drop = v_eq(sign, none);
+    if (q->cull < 0)
+        drop = v_mor(drop, swapped);
+    if (q->cull > 0)
+        drop = v_mor(drop, v_gt(sign, none));
+    record_swap(&c, swapped);
+    setup_span across = setup_samples(setup_min3(c.x[0], c.x[1], c.x[2]), setup_max3(c.x[0], c.x[1], c.x[2]),
+                                      q->viewport->width);
+    setup_span down = setup_samples(setup_min3(c.y[0], c.y[1], c.y[2]), setup_max3(c.y[0], c.y[1], c.y[2]),
+                                    q->viewport->height);
+    drop = v_mor(drop, v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last)));
+    vmask finite, gone;
+    record_plane p = record_plane_of(&c, across, down, &finite);
+    vmask back = q->mirrored ? swapped : v_mnot(swapped); /* front faces turn the other way, Y being down */
+    vi32 meta = record_meta(&c, across, down, back, swapped, &gone);
+    uint32_t tail = count >= V_LANES ? ~0u : (1u << count) - 1;
+    uint32_t keep = v_bits(v_mandnot(finite, v_mor(drop, gone))) & tail;
+    const vi32 words[16] = {c.x[0], c.x[1], c.x[2], c.y[0], c.y[1], c.y[2], v_asi(p.z0), v_asi(p.gx),
+                            v_asi(p.gy), v_asi(p.zmin), v_asi(p.zmax), v_asi(c.iw[0]), v_asi(c.iw[1]),
+                            v_asi(c.iw[2]), v_loadi(order), meta};
+    e3d_record rows[V_LANES];
+    v_store_rows(words, (int32_t *)rows);
+    record_spans(across, down, spans, keep);
+    int made = 0;
+    for (; keep; keep &= keep - 1)
+        out[made++] = rows[__builtin_ctz(keep)];
+    return made;
+}
+
+static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_span *spans)
+{
+    int made = 0;
+    for (int i = 0; i < q->count; i += V_LANES)
+        made += record_vector(q, q->triangles + i, q->count - i, out + made, spans + made);
+    return made;
+}

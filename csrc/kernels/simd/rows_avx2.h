@@ -1,0 +1,28 @@
+/* Words for eight records of eight words at a time: columns in, rows out (AVX2 and up). */
+#ifndef E3D_ROWS_AVX2_H
+#define E3D_ROWS_AVX2_H
+
+#include <immintrin.h>
+#include <stdint.h>
+
+/* Lane l of column c goes to out[stride * l + c]. */
+static inline void rows_store8(const __m256i c[8], int32_t *out, int stride)
+{
+    __m256i a[8], b[8];
+    for (int i = 0; i < 4; i++) { /* pairs of columns */
+        a[2 * i] = _mm256_unpacklo_epi32(c[2 * i], c[2 * i + 1]);
+        a[2 * i + 1] = _mm256_unpackhi_epi32(c[2 * i], c[2 * i + 1]);
+    }
+    for (int i = 0; i < 2; i++) { /* fours: lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7 */
+        b[4 * i] = _mm256_unpacklo_epi64(a[4 * i], a[4 * i + 2]);
+        b[4 * i + 1] = _mm256_unpackhi_epi64(a[4 * i], a[4 * i + 2]);
+        b[4 * i + 2] = _mm256_unpacklo_epi64(a[4 * i + 1], a[4 * i + 3]);
+        b[4 * i + 3] = _mm256_unpackhi_epi64(a[4 * i + 1], a[4 * i + 3]);
+    }
+    for (int l = 0; l < 4; l++) {
+        _mm256_storeu_si256((__m256i *)(out + stride * l), _mm256_permute2x128_si256(b[l], b[4 + l], 0x20));
+        _mm256_storeu_si256((__m256i *)(out + stride * (l + 4)), _mm256_permute2x128_si256(b[l], b[4 + l], 0x31));
+    }
+}
+
+#endif

@@ -39,6 +39,8 @@ _PUBLIC = {
     "uv_sphere": "primitives",
     "World": "worlds",
     "city": "worlds",
+    "NavigationGrid": "navigation",
+    "Walker": "navigation",
     "load_mesh": "loaders",
     "load_texture": "loaders",
     "load_scene": "scene_loading",

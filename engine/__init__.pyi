@@ -30,6 +30,8 @@ from .loaders import load_mesh as load_mesh
 from .loaders import load_texture as load_texture
 from .materials import Material as Material
 from .mesh import Mesh as Mesh
+from .navigation import NavigationGrid as NavigationGrid
+from .navigation import Walker as Walker
 from .nodes import Node as Node
 from .primitives import box as box
 from .primitives import cylinder as cylinder

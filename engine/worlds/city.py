@@ -35,7 +35,7 @@ from .plan import (
 from .river import add_river, add_wild_river, has_bridge
 from .skyscrapers import add_towers, tower_quads
 from .streets import add_ground, add_meadow, corners
-from .surfaces import NUMBER, WALKABLE, materials
+from .surfaces import FOLIAGE, NUMBER, WALKABLE, materials
 
 LEAST, MOST = 20_000, 50_000_000
 #: Tiles along each side of a district.
@@ -61,6 +61,8 @@ class World:
         Where the street lamps shine.
     walkable : frozenset of str
         The names of the materials that people walk on.
+    foliage : frozenset of str
+        Those of leaves, which stop nobody.
     """
 
     seed: int
@@ -68,6 +70,7 @@ class World:
     materials: list[Material]
     lamps: np.ndarray
     walkable: frozenset[str]
+    foliage: frozenset[str]
 
     @property
     def triangles(self) -> int:
@@ -122,7 +125,7 @@ def city(triangles: int = 1_000_000, seed: int = 0) -> World:
         lamps.append(lights)
     lamps = np.concatenate(lamps)
     lamps.setflags(write=False)
-    return World(seed, tuple(districts), shared, lamps, WALKABLE)
+    return World(seed, tuple(districts), shared, lamps, WALKABLE, FOLIAGE)
 
 
 class _Ground:

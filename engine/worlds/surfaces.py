@@ -84,6 +84,8 @@ _GLOSS = {
 }
 #: Where people walk; everything else is water, grass, or too steep.
 WALKABLE = frozenset({"asphalt", "stone", "marking", "gravel"})
+#: What one walks through.
+FOLIAGE = frozenset({"leaves", "leaves dark", "leaves light"})
 
 NUMBER = {name: number for number, name in enumerate(_SURFACES)}
 FITTED = np.array([metres == 0.0 for _, _, metres in _SURFACES.values()])

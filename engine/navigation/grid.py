@@ -1,0 +1,235 @@
+"""Where one can stand: the walkable surfaces of meshes, on a grid of square cells.
+
+In: meshes with named materials, Y up. Out: for each cell its layers (ground, a bridge over it, …),
+from below upward, in arrays that never change. The layers are found in C (`csrc/navigation/`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection
+
+import numpy as np
+
+from .. import linalg
+from .._native import navigation as _native
+from ..errors import InvalidArgumentError
+from ..materials import Material
+from .placed_meshes import bounds_of, placed_meshes
+
+MAX_CELLS = 1 << 26
+Choice = Collection[str] | Callable[[Material], bool] | None
+
+
+class NavigationGrid:
+    """The ground of a scene, seen from above.
+
+    A cell's layer is a surface whose slope is small enough, at the cell's centre, with room for a
+    head above it. It is walkable if its material is and nothing comes as near as a radius to the
+    cell between the height of a step and that of a head. What moves or changes later is not seen:
+    build the grid anew.
+
+    Parameters
+    ----------
+    thing : Scene, Mesh, InstancedMesh or sequence of these meshes
+        Y is up. Of a scene, everything visible.
+    cell : float
+        Side of a cell in world units.
+    walkable : collection of str, or callable, optional
+        Names of the materials that one walks on, or a function from a `Material` to bool. By
+        default all are.
+    ignore : collection of str, or callable, optional
+        Materials that are not there for one who walks, such as leaves.
+    bounds : (2, 2) float, optional
+        Least and greatest (x, z) of the grid; by default those of the meshes.
+    max_slope : float
+        The steepest angle of ground, in radians, less than a quarter turn.
+    step : float
+        What one steps over and up, in world units.
+    headroom : float
+        How high one is.
+    radius : float
+        How near walls may come.
+
+    Attributes
+    ----------
+    origin : (2,) float64
+        Least x and z.
+    cell : float
+    shape : (int, int)
+        Numbers of cells along z and x.
+    step, headroom : float
+    starts : (cells + 1,) int32
+        The layers of cell k (x first) are ``starts[k]`` to ``starts[k + 1]``.
+    heights : (L,) float32
+        Of each layer at the cell's centre.
+    walkable : (L,) bool
+
+    Raises
+    ------
+    InvalidArgumentError
+        A parameter is out of its range, or the grid would have more than 2**26 cells.
+    OutOfMemoryError
+    """
+
+    def __init__(
+        self,
+        thing,
+        *,
+        cell: float = 0.5,
+        walkable: Choice = None,
+        ignore: Choice = (),
+        bounds=None,
+        max_slope: float = math.radians(40.0),
+        step: float = 0.4,
+        headroom: float = 1.8,
+        radius: float = 0.25,
+    ) -> None:
+        placed = placed_meshes(thing)
+        self.cell, self.step, self.headroom = _sizes(cell, step, headroom)
+        if not 0.0 <= max_slope < math.pi / 2:
+            raise InvalidArgumentError(f"max_slope must be from 0 to a quarter turn: {max_slope!r}")
+        if not 0.0 <= radius < math.inf:
+            raise InvalidArgumentError(f"radius must be 0 or more, not {radius!r}")
+        low, high = _area(placed, bounds)
+        self.origin = low
+        columns, rows = (math.ceil(side / self.cell) or 1 for side in (high - low).tolist())
+        if columns * rows > MAX_CELLS:
+            raise InvalidArgumentError(f"{columns} x {rows} cells are too many: take larger ones")
+        self.shape = (rows, columns)
+        least = float(linalg.cos(max_slope))
+        native = _native.NativeGrid(
+            *low.tolist(), self.cell, columns, rows, least, self.step, self.headroom, radius
+        )
+        kinds = [_kinds(mesh.materials, walkable, ignore) for mesh, _ in placed]
+        for ground in (True, False):
+            for (mesh, pose), kind in zip(placed, kinds, strict=True):
+                matrix = np.ascontiguousarray(pose, np.float64)
+                native.add(ground, mesh.positions, mesh.faces, mesh.material_ids, kind, matrix)
+            if ground:
+                native.sort()
+        arrays = native.layers()
+        for array in (self.origin, *arrays):
+            array.setflags(write=False)
+        self.starts, self.heights, self._slope_x, self._slope_z, self.walkable = arrays
+
+    def sample_ground(self, x, z, y=None):
+        """Return how high the ground is somewhere, and whether one can stand there.
+
+        Parameters
+        ----------
+        x, z : float or (N,) float
+            World coordinates.
+        y : float or (N,) float, optional
+            Where one stands: asks for the highest layer at most a step above. Left out, the highest
+            of all is found.
+
+        Returns
+        -------
+        height : float or (N,) float64
+            NaN where there is no such layer, or no grid.
+        walkable : bool or (N,) bool
+        """
+        x, z = np.asarray(x, np.float64), np.asarray(z, np.float64)
+        limit = np.inf if y is None else np.asarray(y, np.float64) + self.step
+        x, z, limit = np.broadcast_arrays(x, z, limit)
+        layer, heights = self._layers(x.ravel(), z.ravel(), limit.ravel())
+        walkable = np.zeros(len(layer), bool)
+        walkable[layer >= 0] = self.walkable[layer[layer >= 0]]
+        if x.ndim == 0:
+            return float(heights[0]), bool(walkable[0])
+        return heights.reshape(x.shape), walkable.reshape(x.shape)
+
+    def _layers(self, x, z, limit) -> tuple[np.ndarray, np.ndarray]:
+        """The highest layer below a limit at each point, or -1, and its height there."""
+        rows, columns = self.shape
+        with np.errstate(invalid="ignore"):
+            i = np.floor((x - self.origin[0]) / self.cell)
+            j = np.floor((z - self.origin[1]) / self.cell)
+            inside = (i >= 0) & (i < columns) & (j >= 0) & (j < rows)
+        i, j = (np.where(inside, part, 0).astype(np.int64) for part in (i, j))
+        found, heights = np.full(len(x), -1), np.full(len(x), np.nan)
+        first, end = self.starts[j * columns + i], self.starts[j * columns + i + 1]
+        dx = x - (self.origin[0] + (i + 0.5) * self.cell)
+        dz = z - (self.origin[1] + (j + 0.5) * self.cell)
+        for number in range(int((end - first).max(initial=0))):
+            some = np.flatnonzero(inside & (first + number < end))
+            layer = first[some] + number
+            height = self.heights[layer] + self._slope_x[layer].astype(np.float64) * dx[some]
+            height = height + self._slope_z[layer].astype(np.float64) * dz[some]
+            low = height <= limit[some]
+            found[some[low]], heights[some[low]] = layer[low], height[low]
+        return found, heights
+
+    def standing(self, row: int, column: int, x: float, z: float, y: float) -> int | None:
+        """Return the layer of a cell on which one can stand, or None.
+
+        Parameters
+        ----------
+        row, column : int
+            The cell; beside the grid nobody stands.
+        x, z, y : float
+            A point, in or near the cell. The layer counts that is nearest in height, if it is a
+            step away at most.
+        """
+        if not (0 <= row < self.shape[0] and 0 <= column < self.shape[1]):
+            return None
+        cell = row * self.shape[1] + column
+        found, nearest = None, self.step
+        for layer in range(int(self.starts[cell]), int(self.starts[cell + 1])):
+            distance = abs(self.height(layer, row, column, x, z) - y)
+            if distance <= nearest:
+                found, nearest = layer, distance
+        return found if found is not None and self.walkable[found] else None
+
+    def height(self, layer: int, row: int, column: int, x: float, z: float) -> float:
+        """Return how high the plane of a cell's layer is at a point."""
+        dx = x - (float(self.origin[0]) + (column + 0.5) * self.cell)
+        dz = z - (float(self.origin[1]) + (row + 0.5) * self.cell)
+        slopes = float(self._slope_x[layer]), float(self._slope_z[layer])
+        return float(self.heights[layer]) + slopes[0] * dx + slopes[1] * dz
+
+    def __repr__(self) -> str:
+        rows, columns = self.shape
+        count = int(self.walkable.sum())
+        return f"NavigationGrid({columns} x {rows} cells of {self.cell:g}, {count} walkable)"
+
+
+def _sizes(cell, step, headroom) -> tuple[float, float, float]:
+    cell, step, headroom = float(cell), float(step), float(headroom)
+    if not 0.0 < cell < math.inf:
+        raise InvalidArgumentError(f"cell must be greater than 0, not {cell!r}")
+    if not 0.0 <= step < headroom < math.inf:
+        raise InvalidArgumentError(f"0 <= step < headroom must hold: {step!r}, {headroom!r}")
+    return cell, step, headroom
+
+
+def _area(placed, bounds) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest x and z."""
+    if bounds is None:
+        if not placed:
+            raise InvalidArgumentError("there are no faces to walk on")
+        low, high = bounds_of(placed)[:, [0, 2]]
+    else:
+        area = np.array(bounds, np.float64)
+        if area.shape != (2, 2) or not np.isfinite(area).all() or (area[0] >= area[1]).any():
+            raise InvalidArgumentError("bounds must be the least and the greatest (x, z)")
+        low, high = area
+    return low.copy(), high.copy()
+
+
+def _kinds(materials: list[Material], walkable: Choice, ignore: Choice) -> np.ndarray:
+    """The flags of each material, (N,) uint8."""
+    kinds = [
+        0
+        if _chosen(material, ignore)
+        else _native.SOLID | (_native.WALKABLE if _chosen(material, walkable, True) else 0)
+        for material in materials
+    ]
+    return np.array(kinds, np.uint8)
+
+
+def _chosen(material: Material, choice: Choice, default: bool = False) -> bool:
+    if choice is None:
+        return default
+    return bool(choice(material)) if callable(choice) else material.name in choice

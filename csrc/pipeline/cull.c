@@ -78,10 +78,11 @@ static void project(const e3d_viewport *viewport, const corners *c, e3d_box_view
     hi += moved;
     float half_x = 0.5f * (float)viewport->width, half_y = 0.5f * (float)viewport->height;
     out->near = lo[2] > E3D_NEAREST ? lo[2] : E3D_NEAREST;
-    out->blocks = (e3d_box){block_of(lo[0] * half_x + half_x - 2, viewport->width),
-                            block_of(half_y - hi[1] * half_y - 2, viewport->height),
-                            block_of(hi[0] * half_x + half_x + 2, viewport->width),
-                            block_of(half_y - lo[1] * half_y + 2, viewport->height)};
+    /* Samples whose centres are within, and a quarter of a sample more for the snapping. */
+    out->blocks = (e3d_box){block_of(lo[0] * half_x + half_x - 0.75f, viewport->width),
+                            block_of(half_y - hi[1] * half_y - 0.75f, viewport->height),
+                            block_of(hi[0] * half_x + half_x - 0.25f, viewport->width),
+                            block_of(half_y - lo[1] * half_y - 0.25f, viewport->height)};
 }
 
 /* 0: all corners are beyond one plane; E3D_BOX_INSIDE: none is beyond any. */

@@ -161,7 +161,7 @@ struct e3d_renderer {
     e3d_worker **workers;
     e3d_array draws, instances;
     e3d_array tasks, items;     /* e3d_item, near ones first */
-    e3d_array seen;             /* uint8_t for each group of the frame: did the last frame show it? */
+    e3d_array seen;             /* uint8_t for each group of the frame: bit k tells whether the last frame showed cluster k */
     e3d_array tile_depths;      /* e3d_tile_depths */
     e3d_visible_tile *kept;     /* over the rounds of a frame */
     size_t kept_room;

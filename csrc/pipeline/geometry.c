@@ -155,59 +155,68 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 
 /* ---- items ---- */
 
-/* Whether a cluster may show; counted where it doesn't. */
-static int cluster_shows(const walker *w, const e3d_cluster *cluster, int tested)
+/* What becomes of a cluster. */
+enum { SHOWS, CULLED, OCCLUDED };
+
+static int fate_of(const walker *w, const e3d_cluster *cluster, int tested)
 {
-    e3d_counters *counters = &w->worker->counters;
     e3d_box_view view;
-    e3d_view_box(&w->context->viewport, e3d_culling_matrix(w->context->frame, w->instance), cluster->lo, cluster->hi, &view);
-    if (!cluster->any_finite || view.state == E3D_BOX_OUTSIDE) {
-        counters->clusters_culled++;
-        counters->triangles_culled += cluster->triangles;
-        return 0;
-    }
-    if (tested && e3d_is_hidden(w->context, &view)) {
-        counters->clusters_occluded++;
-        counters->triangles_occluded += cluster->triangles;
-        return 0;
-    }
-    return 1;
+    const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
+    if (!cluster->any_finite)
+        return CULLED;
+    e3d_view_box(&w->context->viewport, clip, cluster->lo, cluster->hi, &view);
+    if (view.state == E3D_BOX_OUTSIDE)
+        return CULLED;
+    return tested && e3d_is_hidden(w->context, &view) ? OCCLUDED : SHOWS;
 }
 
-static void draw_group(walker *w, const e3d_item *item, const e3d_group_box *group)
+static void count_left_out(e3d_counters *counters, const e3d_cluster *cluster, int fate)
+{
+    *(fate == CULLED ? &counters->clusters_culled : &counters->clusters_occluded) += 1;
+    *(fate == CULLED ? &counters->triangles_culled : &counters->triangles_occluded) += cluster->triangles;
+}
+
+/* Draws the group's clusters that are in `wanted` and may show; returns all that may. Bit k is cluster k. */
+static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned wanted)
 {
     const e3d_mesh *mesh = w->draw->mesh;
-    int tested = w->context->round.tested;
+    const e3d_round *round = &w->context->round;
     int each = mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE &&
-               (tested || item->view.state == E3D_BOX_CROSSES);
-    for (int32_t c = group->first_cluster; c < group->first_cluster + group->clusters; c++)
-        if (!each || cluster_shows(w, &mesh->clusters[c], tested))
-            draw_cluster(w, &mesh->clusters[c]);
+               (round->tested || item->view.state == E3D_BOX_CROSSES);
+    int hidden = round->tested && e3d_is_hidden(w->context, &item->view);
+    unsigned shown = 0;
+    for (int k = 0; k < group->clusters; k++) {
+        const e3d_cluster *cluster = &mesh->clusters[group->first_cluster + k];
+        if (round->choice == E3D_SEEN_ITEMS && !(wanted >> k & 1))
+            continue; /* its turn comes in the next round */
+        int fate = hidden ? OCCLUDED : each ? fate_of(w, cluster, round->tested) : SHOWS;
+        if (fate == SHOWS)
+            shown |= 1u << k;
+        if (!(wanted >> k & 1))
+            continue;
+        if (fate == SHOWS)
+            draw_cluster(w, cluster);
+        else if (round->choice != E3D_SEEN_ITEMS)
+            count_left_out(&w->worker->counters, cluster, fate);
+    }
+    return shown;
 }
 
 static void run_item(walker *w, const e3d_item *item)
 {
     e3d_context *context = w->context;
-    const e3d_round *round = &context->round;
-    int seen = context->kept && context->seen[item->unit];
-    if (round->choice == E3D_SEEN_ITEMS && !seen)
+    e3d_choice choice = context->round.choice;
+    unsigned seen = choice == E3D_ALL_ITEMS ? 0 : context->seen[item->unit];
+    if (choice == E3D_SEEN_ITEMS && !seen)
         return;
     w->instance = &context->instances[item->instance];
     w->draw = &context->draws[w->instance->draw];
     w->order = (uint32_t)(w->draw->order_base +
                           (int64_t)(item->instance - (uint32_t)w->draw->instance_base) * w->draw->primitives);
     const e3d_group_box *group = &w->draw->mesh->groups[item->group];
-    int hidden = round->tested && e3d_is_hidden(context, &item->view);
-    if (context->kept)
-        context->seen[item->unit] = !hidden;
-    if (round->choice == E3D_UNSEEN_ITEMS && seen)
-        return;
-    if (hidden) {
-        w->worker->counters.clusters_occluded += group->clusters;
-        w->worker->counters.triangles_occluded += group->triangles;
-        return;
-    }
-    draw_group(w, item, group);
+    unsigned shown = draw_group(w, item, group, choice == E3D_SEEN_ITEMS ? seen : ~seen);
+    if (context->kept && choice != E3D_SEEN_ITEMS)
+        context->seen[item->unit] = (uint8_t)shown;
 }
 
 /* ---- the walk ---- */

@@ -13,6 +13,7 @@ from ..display.animation_files import (
     numbered_path,
     save_animation,
 )
+from ..display.ground import controller
 from ..display.studio import Studio
 from ..errors import DisplayError
 from . import options
@@ -107,10 +108,13 @@ def _write(args: argparse.Namespace, subject, reason: str | None) -> int:
         print(f"engine3d: {reason}: rendering a turntable to {path} instead", file=sys.stderr)
     with _studio(args, subject, FILE_SIZE, FILE_SAMPLES) as studio:
         view = options.place_view(args, studio)
+        walks = args.camera == "fps"
         if count == 1:
+            if walks:
+                controller(studio, view).place(view)
             studio.draw(view).save(path)
         else:
-            pictures = headless.animation(studio, view, count)
+            pictures = (headless.walk if walks else headless.animation)(studio, view, count)
             pictures = with_progress(pictures, count, "rendering")
             save_animation(pictures, path, headless.seconds_a_frame(studio, count))
     if reason is None and args.output is None:

@@ -5,6 +5,7 @@ Of the many lamps only the nearest shine: a fixed number of lights moves along w
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -12,8 +13,10 @@ import numpy as np
 from .. import linalg
 from ..display.subject import Subject
 from ..lights import DirectionalLight, PointLight
+from ..navigation import NavigationGrid, Walker
 from ..primitives import box
 from ..scene import Scene
+from ..worlds import World
 from ..worlds import city as make_city
 from ..worlds.furniture import CARS, car
 from ..worlds.plan import PITCH
@@ -30,7 +33,12 @@ HEADLIGHT = {"color": (0.95, 0.95, 1.0), "intensity": 1.2, "range": 14.0, "fallo
 DRIVE = 600.0
 LANE = 2.4
 VIEW_RADIUS = 150.0
-EYES = (3.0, 1.85, 64.0)
+#: Where one starts to walk, and where one looks: yaw and pitch.
+START = (7.2, 62.0)
+GAZE = (0.14, 0.02)
+#: How far from the middle one can walk: finding the ground of more takes its time.
+WALK_RADIUS = 500.0
+NEAREST = 0.1
 
 
 def city(triangles: int | None = None) -> Subject:
@@ -42,23 +50,34 @@ def city(triangles: int | None = None) -> Subject:
     scene.add(DirectionalLight((0.7, -0.25, 0.5), (1.0, 0.62, 0.45), 0.16))
     lamps = _Lamps(scene, town.lamps, LIGHTS - CAR_LIGHTS)
     traffic = _Traffic(scene, town)
-
-    def update(time: float) -> None:
-        traffic.drive(time)
-
-    update(0.0)
-    lamps.follow(np.array(EYES))
+    traffic.drive(0.0)
+    lamps.follow(np.zeros(3))
     size = (2.0 * VIEW_RADIUS, 40.0, 2.0 * VIEW_RADIUS)
     return Subject(
         scene,
         "city",
         azimuth=math.radians(32.0),
         elevation=math.radians(24.0),
-        update=update,
+        update=traffic.drive,
         period=PERIOD,
         plays=True,
+        follow=lamps.follow,
+        walker=functools.cache(lambda: _walker(town)),
+        gaze=GAZE,
+        nearest=NEAREST,
         focus=box(size).positions.astype(np.float64) + np.array((-30.0, 10.0, -30.0)),
     )
+
+
+def _walker(town: World) -> Walker:
+    """Who walks in the city, near its middle."""
+    box = np.stack([mesh.bounds for mesh in town.districts])
+    low = np.maximum(box[:, 0].min(axis=0), -WALK_RADIUS)[[0, 2]]
+    high = np.minimum(box[:, 1].max(axis=0), WALK_RADIUS)[[0, 2]]
+    grid = NavigationGrid(
+        town.districts, walkable=town.walkable, ignore=town.foliage, bounds=(low, high)
+    )
+    return Walker(grid, *START)
 
 
 class _Lamps:
@@ -67,24 +86,24 @@ class _Lamps:
     def __init__(self, scene: Scene, lamps: np.ndarray, count: int) -> None:
         self._lamps = lamps
         self._nodes = [scene.add(PointLight(**LAMP)) for _ in range(min(count, len(lamps)))]
-        self._shining = np.full(len(self._nodes), -1)
+        self._shining: list[int] = []
 
     def follow(self, eye: np.ndarray) -> None:
-        """Let the lamps nearest to ``eye`` shine; lights move only from lamps that no longer do."""
+        """Let the lamps nearest to ``eye`` shine."""
         offsets = self._lamps - eye
         order = np.argsort(linalg.dot(offsets, offsets), kind="stable")
-        nearest = order[: len(self._nodes)]
-        dark = np.setdiff1d(nearest, self._shining)
-        free = np.flatnonzero(~np.isin(self._shining, nearest))
-        for lamp, number in zip(dark.tolist(), free.tolist(), strict=True):
-            self._shining[number] = lamp
-            self._nodes[number].translation = self._lamps[lamp]
+        # In the lamps' own order: what shines is a function of the eye alone, not of its way there.
+        shining = np.sort(order[: len(self._nodes)]).tolist()
+        if shining != self._shining:
+            self._shining = shining
+            for node, lamp in zip(self._nodes, shining, strict=True):
+                node.translation = self._lamps[lamp]
 
 
 class _Traffic:
     """Cars that drive along the streets, each with a light before it."""
 
-    def __init__(self, scene: Scene, town) -> None:
+    def __init__(self, scene: Scene, town: World) -> None:
         reach = min(DRIVE, float(town.lamps[:, 2].max() - town.lamps[:, 2].min()))
         self._length = max(reach - 20.0, PITCH)
         meshes = [car(name, town.materials) for name in CARS]

@@ -1,4 +1,4 @@
-"""The walking controller: keys move, the mouse looks, as in a first-person game.
+"""The walking controller: keys move, mouse and arrows look, as in a first-person game.
 
 In: which keys are down (by position on the keyboard) and how far the mouse went, in pixels.
 Out: a camera position and two angles, taken from a `Viewpoint` on entering and given back on
@@ -22,12 +22,12 @@ MOVES = {
     "D": (1, 0, 0),
     "E": (0, 1, 0),
     "Q": (0, -1, 0),
-    "Up": (0, 0, 1),
-    "Down": (0, 0, -1),
-    "Left": (-1, 0, 0),
-    "Right": (1, 0, 0),
 }
+#: Key positions that look about: right and up.
+LOOKS = {"Up": (0, 1), "Down": (0, -1), "Left": (-1, 0), "Right": (1, 0)}
 RADIANS_A_PIXEL = 0.0025
+#: How fast the arrows turn the gaze.
+RADIANS_A_SECOND = 1.6
 #: Scene radii a second; Shift goes faster, the wheel changes the speed by the step.
 RADII_A_SECOND = 0.6
 FAST = 4.0
@@ -76,20 +76,23 @@ class FpsController:
 
     def look(self, dx: float, dy: float) -> None:
         """Turn by a mouse movement of (dx, dy) pixels."""
-        self.yaw = math.remainder(self.yaw - dx * RADIANS_A_PIXEL, 2 * math.pi)
-        self.pitch = max(-MAX_PITCH, min(MAX_PITCH, self.pitch - dy * RADIANS_A_PIXEL))
+        self._turn(dx * RADIANS_A_PIXEL, -dy * RADIANS_A_PIXEL)
+
+    def _turn(self, right: float, up: float) -> None:
+        self.yaw = math.remainder(self.yaw - right, 2 * math.pi)
+        self.pitch = max(-MAX_PITCH, min(MAX_PITCH, self.pitch + up))
 
     def change_speed(self, steps: float) -> None:
         """Walk faster (or slower, if negative) from now on."""
         self.speed *= SPEED_STEP**steps
 
     def walk(self, positions, seconds: float, fast: bool = False) -> bool:
-        """Move for ``seconds`` along the keys that are down.
+        """Move and turn for ``seconds`` as the keys that are down say.
 
         Parameters
         ----------
         positions : set of str
-            Keys that are down, by position (see `MOVES`).
+            Keys that are down, by position (see `MOVES` and `LOOKS`).
         seconds : float
             Time since the last call.
         fast : bool
@@ -98,17 +101,25 @@ class FpsController:
         Returns
         -------
         bool
-            Whether the walker moved.
+            Whether the walker moved or turned.
         """
+        turns = [LOOKS[key] for key in positions if key in LOOKS]
+        across, rise = (sum(turn[axis] for turn in turns) for axis in range(2))
+        if across or rise:
+            self._turn(across * RADIANS_A_SECOND * seconds, rise * RADIANS_A_SECOND * seconds)
         steps = [MOVES[key] for key in positions if key in MOVES]
-        right, up, forward = (sum(step[axis] for step in steps) for axis in range(3))
-        length = math.sqrt(right * right + up * up + forward * forward)
+        way = tuple(sum(step[axis] for step in steps) for axis in range(3))
+        reach = self.speed * (FAST if fast else 1.0) * seconds
+        return self._move(way, reach, seconds) or bool(across or rise)
+
+    def _move(self, way: tuple[int, int, int], reach: float, seconds: float) -> bool:
+        """Go ``reach`` units along right, up and forward; returns whether that is anywhere."""
+        length = math.sqrt(sum(part * part for part in way))
         if not length:
             return False
-        reach = self.speed * (FAST if fast else 1.0) * seconds / length
         heading = self._heading()
-        step = heading[0] * right + heading[1] * up + heading[2] * forward
-        self.position = self.position + step * reach
+        step = heading[0] * way[0] + heading[1] * way[1] + heading[2] * way[2]
+        self.position = self.position + step * (reach / length)
         return True
 
     def _heading(self) -> np.ndarray:

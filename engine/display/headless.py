@@ -1,7 +1,8 @@
 """Frames without a screen: turntables and animations, one RGBA array after another.
 
-In: a `Studio` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays that loops
-without a jump: the subject's own animation over its period or, without one, a turn of the camera.
+In: a `Studio` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays. But for a walk
+they loop without a jump: the subject's own animation over its period or, without one, a turn of the
+camera.
 """
 
 from __future__ import annotations
@@ -11,12 +12,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from .ground import controller
 from .studio import Studio
 from .viewpoint import Viewpoint
 
 #: Viewers of animations falter outside these.
 SHORTEST_FRAME = 0.02
 LONGEST_FRAME = 0.1
+#: How long one turns where the way ends.
+TURN_SECONDS = 0.3
 
 
 def seconds_a_frame(studio: Studio, count: int) -> float:
@@ -40,3 +44,18 @@ def animation(studio: Studio, view: Viewpoint, count: int) -> Iterator[np.ndarra
         return
     for index in range(count):
         yield studio.draw(view, studio.subject.period * index / count).color
+
+
+def walk(studio: Studio, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
+    """Yield ``count`` pictures of somebody who walks ahead, and turns right where the way ends."""
+    seconds = seconds_a_frame(studio, count)
+    walker = controller(studio, view)
+    view = view.copy()
+    for index in range(count):
+        walker.place(view)
+        yield studio.draw(view, index * seconds % studio.subject.period).color
+        before = walker.position
+        walker.walk({"W"}, seconds)
+        ahead = walker.position - before
+        if ahead[0] * ahead[0] + ahead[2] * ahead[2] < (0.2 * walker.speed * seconds) ** 2:
+            walker.walk({"Right"}, TURN_SECONDS)

@@ -40,7 +40,8 @@ SECTIONS = {
         Binding(("9",), "view_isometric", "isometric"),
         Binding(("5",), "toggle_orthographic", "orthographic or perspective"),
         Binding(("R", "Return", "Enter"), "reset_view", "reset"),
-        Binding(("Tab",), "toggle_walking", "walk: WASD, arrows, Q E, mouse"),
+        Binding(("Tab",), "toggle_walking", "walk: WASD, mouse, arrows"),
+        Binding(("C",), "freeze_culling", "while held: cull as from here"),
         Binding(("Space",), "toggle_playing", "pause or play"),
     ),
     "Overlays": (

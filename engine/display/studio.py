@@ -51,6 +51,7 @@ class Studio:
         self._options = {"backend": backend, "threads": threads}
         self.samples = samples
         self.size = size
+        self._culling_camera = None
         self.renderer = self._make_renderer()
         self.settings = settings
         self.show(subject)
@@ -158,11 +159,24 @@ class Studio:
             self.subject.update(time)
         pose = view.pose()
         self.lighting.follow(pose)
-        camera = view.camera(self._clip_bounds())
-        frame = self.renderer.render(self.subject.scene, (camera, pose), **self.look.arguments())
+        if self.subject.follow is not None:
+            self.subject.follow(pose[:3, 3])
+        frame = self.renderer.render(
+            self.subject.scene,
+            (self._camera(view), pose),
+            culling_camera=self._culling_camera,
+            **self.look.arguments(),
+        )
         if self.settings.axes or self.settings.metadata:
             self._draw_overlays(frame.canvas(), view)
         return frame
+
+    def _camera(self, view: Viewpoint):
+        return view.camera(self._clip_bounds(), self.subject.nearest)
+
+    def freeze_culling(self, view: Viewpoint | None) -> None:
+        """Draw only what this view shows, wherever it is seen from; None: what each frame shows."""
+        self._culling_camera = None if view is None else (self._camera(view), view.pose())
 
     def _draw_overlays(self, canvas, view: Viewpoint) -> None:
         from .overlay import draw_axes, draw_block

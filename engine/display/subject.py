@@ -6,14 +6,19 @@ picture take them from here.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .extent import bounding_sphere
 from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
+
+if TYPE_CHECKING:
+    from ..navigation import Walker
 
 #: Seconds of one turn of a turntable.
 TURN_SECONDS = 6.0
@@ -44,6 +49,14 @@ class Subject:
         Points that the first view shows, in world space; by default all of the scene.
     look : dict
         Fields of `Look` that this scene wants unless the user says otherwise.
+    follow : callable or None
+        Called with the camera's position, (3,) float64 in world space, before a frame.
+    walker : callable or None
+        Returns the `Walker` on the scene's ground, always the same; without it, walking is flying.
+    gaze : (float, float)
+        Where the walker looks first: yaw and pitch in radians.
+    nearest : float
+        World units: inside the scene the near plane is not farther than this.
     path : str or None
         The file it came from.
     details : list of str
@@ -62,6 +75,10 @@ class Subject:
     plays: bool = False
     focus: np.ndarray | None = None
     look: dict = field(default_factory=dict)
+    follow: Callable[[np.ndarray], None] | None = None
+    walker: Callable[[], Walker] | None = None
+    gaze: tuple[float, float] = (0.0, 0.0)
+    nearest: float = math.inf
     path: str | None = None
     details: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)

@@ -14,7 +14,7 @@ from collections import deque
 from ..errors import Engine3DError
 from . import input as events
 from . import viewer_actions
-from .fps import MOVES, FpsController
+from .fps import LOOKS, MOVES, FpsController
 from .keymap import ORBIT_ARROWS, action_for
 from .opening import open_model
 from .orbit import OrbitController
@@ -231,13 +231,15 @@ class Viewer:
         if event.key == "Escape":
             viewer_actions.toggle_walking(self)
             return True
-        if event.position in MOVES:
+        if event.position in MOVES or event.position in LOOKS:
             self.held_positions.add(event.position)
             return True
         return False
 
     def _key_up(self, event) -> None:
         self.held_positions.discard(event.position)
+        if event.key == "C":
+            self._unfreeze_culling()
         if event.key.endswith("Shift"):
             self.fast = False
 
@@ -277,8 +279,13 @@ class Viewer:
     def _redraw(self, event) -> None:
         self.changed = True
 
+    def _unfreeze_culling(self) -> None:
+        self.studio.freeze_culling(None)
+        self.changed = True
+
     def _release_keys(self, event) -> None:
         self.held_positions.clear()
+        self._unfreeze_culling()
         self.drag = None
 
     def _dropped(self, event) -> None:

@@ -10,7 +10,7 @@ import math
 from pathlib import Path
 
 from .animation_files import numbered_path
-from .fps import FpsController
+from .ground import controller
 from .look import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
 from .viewpoint import QUARTER_TURN
 
@@ -154,8 +154,9 @@ def reset_view(viewer, step: int = 1) -> None:
 def toggle_walking(viewer, step: int = 1) -> None:
     """Walk, or orbit again; the picture stays where it is."""
     if viewer.walker is None:
-        viewer.walker = FpsController(viewer.view, viewer.studio.bounds)
-        viewer.say("walking: WASD or arrows, Q and E, mouse; Tab or Esc to leave")
+        viewer.walker = controller(viewer.studio, viewer.view)
+        viewer.walker.place(viewer.view)
+        viewer.say("walking: WASD, mouse or arrows to look; Tab or Esc to leave")
     else:
         viewer.walker.leave(viewer.view)
         viewer.walker = None
@@ -163,6 +164,12 @@ def toggle_walking(viewer, step: int = 1) -> None:
     viewer.held_positions.clear()
     viewer.drag = None
     viewer.window.capture_mouse(viewer.walker is not None)
+
+
+def freeze_culling(viewer, step: int) -> None:
+    """Draw what shows from here, and nothing more, until the key comes up."""
+    viewer.studio.freeze_culling(viewer.view)
+    viewer.say("culling as from here, while C is held")
 
 
 def toggle_playing(viewer, step: int) -> None:

@@ -126,9 +126,12 @@ class Viewpoint:
         pose[:3, 3] = self.position()
         return pose
 
-    def camera(self, bounds: Sphere):
-        """Return a camera whose clip planes enclose ``bounds`` as seen from here."""
-        znear, zfar = clip_planes(self.position(), bounds)
+    def camera(self, bounds: Sphere, nearest: float = math.inf):
+        """Return a camera whose clip planes enclose ``bounds`` as seen from here.
+
+        From inside, the near plane is at ``nearest`` or nearer.
+        """
+        znear, zfar = clip_planes(self.position(), bounds, nearest)
         if self.orthographic:
             ymag = self.distance * math.tan(self.yfov / 2)
             return OrthographicCamera(ymag, znear=-zfar, zfar=zfar)  # what is behind shows too
@@ -212,12 +215,12 @@ class Viewpoint:
         self.azimuth = math.atan2(_dot(offset, right), _dot(offset, front))
 
 
-def clip_planes(position, bounds: Sphere) -> tuple[float, float]:
+def clip_planes(position, bounds: Sphere, nearest: float = math.inf) -> tuple[float, float]:
     """Return the near and far distances that enclose ``bounds`` as seen from ``position``."""
     offset = np.asarray(position, dtype=np.float64) - np.array(bounds.center)
     distance = float(linalg.length(offset))
     zfar = (distance + bounds.radius) * 1.01
-    znear = max((distance - bounds.radius) * 0.99, zfar * 5e-4)
+    znear = max((distance - bounds.radius) * 0.99, min(zfar * 5e-4, nearest))
     return znear, zfar
 
 

@@ -438,3 +438,13 @@ def test_the_size_of_the_city_scene(capsys):
     arguments = ["--triangles", "30000", *SMALL, "-o", "out.png", "--verbose"]
     assert main(["render", "--scene", "city", *arguments]) == 0
     assert "triangles" in "".join(capsys.readouterr())
+
+
+def test_a_walk_without_a_screen(tmp_path):
+    command = ["run", "--scene", "city", "--triangles", "30000", "--camera", "fps", "--headless"]
+    assert main([*command, *SMALL, "--frames", "3", "-o", "walk.gif"]) == 0
+    with Image.open(tmp_path / "walk.gif") as image:
+        assert image.n_frames == 3
+    assert main([*command, *SMALL, "--frames", "1", "-o", "first.png"]) == 0
+    assert main([*command[:-3], "--headless", *SMALL, "--frames", "1", "-o", "above.png"]) == 0
+    assert not np.array_equal(pixels(tmp_path / "first.png"), pixels(tmp_path / "above.png"))

@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from engine3d.display.fps import FAST, MAX_PITCH, FpsController
+import engine3d as e3d
+from engine3d.display.fps import FAST, MAX_PITCH, RADIANS_A_SECOND, FpsController
+from engine3d.display.ground import GroundController
 from engine3d.display.orbit import DOLLY_STEP, OrbitController
 from engine3d.display.viewpoint import QUARTER_TURN, Sphere, Viewpoint
 
@@ -91,9 +93,9 @@ def test_leaving_aims_abreast_of_the_scene(view):
     ("key", "direction"),
     [
         ("W", (0, 0, -1)),
-        ("Down", (0, 0, 1)),
+        ("S", (0, 0, 1)),
         ("A", (-1, 0, 0)),
-        ("Right", (1, 0, 0)),
+        ("D", (1, 0, 0)),
         ("E", (0, 1, 0)),
         ("Q", (0, -1, 0)),
     ],
@@ -134,6 +136,56 @@ def test_looking_turns_right_and_up_and_stops_short_of_the_zenith(view):
     assert ahead[1] > 0.0
     walker.look(0, -100_000)
     assert walker.pitch == MAX_PITCH
+
+
+def test_arrows_look(view):
+    walker = FpsController(view, BOUNDS)
+    start, yaw, pitch = walker.position, walker.yaw, walker.pitch
+    assert walker.walk({"Right", "Up"}, 0.1)
+    assert (yaw - walker.yaw) == pytest.approx(0.1 * RADIANS_A_SECOND)
+    assert (walker.pitch - pitch) == pytest.approx(0.1 * RADIANS_A_SECOND)
+    assert not walker.walk({"Right", "Left"}, 0.1)
+    np.testing.assert_array_equal(walker.position, start)
+
+
+def ground_walker(view, gaze=(0.0, 0.0)):
+    """Somebody at the origin of a floor with a step of 0.3 and a wall of 2, one after the other."""
+    floor = e3d.plane((20, 20))
+    step, wall = e3d.box((20, 0.6, 3)), e3d.box((20, 4, 0.2))
+    step.positions = step.positions + np.float32([0, 0, -4.5])
+    wall.positions = wall.positions + np.float32([0, 0, -8])
+    walker = e3d.Walker(e3d.NavigationGrid([floor, step, wall]), 0.1, 0.1)
+    return GroundController(view, BOUNDS, walker, gaze)
+
+
+def test_on_the_ground_one_walks_level_whatever_the_gaze(view):
+    walker = ground_walker(view, (0.0, 1.0))
+    walker.walk({"W", "E"}, 0.2)
+    np.testing.assert_allclose(walker.position, (0.1, 1.7, 0.1 - 0.2 * walker.speed), atol=1e-12)
+    walker.walk({"D"}, 0.2)
+    assert walker.position[0] == pytest.approx(0.1 + 0.2 * walker.speed)
+    turned = ground_walker(view, (math.pi / 2, 0.0))
+    turned.walk({"W"}, 0.2)
+    assert turned.position[0] == pytest.approx(0.1 - 0.2 * turned.speed)
+    walker.place(view)
+    np.testing.assert_allclose(view.position(), walker.position, atol=1e-9)
+
+
+def test_on_the_ground_steps_are_climbed_smoothly_and_walls_stop(view):
+    walker = ground_walker(view)
+    heights = []
+    for _ in range(100):
+        walker.walk({"W"}, 0.02)
+        heights.append(walker.position[1])
+    assert max(heights) == pytest.approx(2.0, abs=0.01)
+    assert max(np.diff(heights)) < 0.1 and min(heights) == pytest.approx(1.7)
+    for _ in range(100):
+        walker.walk({"W"}, 0.02)
+    assert walker.position[2] > -7.9
+    for _ in range(20):
+        walker.walk(set(), 0.05)
+    assert not walker.walk(set(), 0.05)
+    assert walker.position[1] == pytest.approx(1.7, abs=2e-3)
 
 
 def test_walking_follows_the_up_direction(view):

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from engine3d.display import viewer_actions
-from engine3d.display.fps import MOVES
+from engine3d.display.fps import LOOKS, MOVES
 from engine3d.display.keymap import BINDINGS, action_for
 from engine3d.display.overlay import help_columns
 
@@ -46,7 +46,8 @@ def test_the_help_names_every_key():
 
 
 def test_walking_keys_are_positions_of_letters_and_arrows():
-    assert {"W", "A", "S", "D", "Up", "Down", "Left", "Right"} <= set(MOVES)
+    assert {"W", "A", "S", "D"} <= set(MOVES)
+    assert {"Up", "Down", "Left", "Right"} == set(LOOKS)
 
 
 def test_the_manual_names_every_key():

@@ -232,6 +232,38 @@ def test_letters_that_do_not_walk_still_act_while_walking():
     assert viewer.studio.settings.grid
 
 
+def test_arrows_look_while_walking():
+    viewer, _ = make_viewer(walking=True)
+    azimuth, stood = viewer.view.azimuth, viewer.view.position()
+    viewer.handle(key("Right"))
+    viewer.advance(0.1)
+    assert viewer.view.azimuth < azimuth
+    np.testing.assert_allclose(viewer.view.position(), stood, atol=1e-9)
+
+
+def test_culling_is_frozen_while_c_is_held():
+    viewer, _ = make_viewer(walking=True)
+    seen = viewer.studio.draw(viewer.view).color
+    viewer.handle(key("C"))
+    np.testing.assert_array_equal(viewer.studio.draw(viewer.view).color, seen)
+    draw = viewer.studio.renderer.render
+    calls = []
+
+    def render(*arguments, **options):
+        calls.append(options["culling_camera"])
+        return draw(*arguments, **options)
+
+    viewer.studio.renderer.render = render
+    viewer.draw()
+    viewer.handle(events.KeyUp("C", "C"))
+    assert viewer.changed
+    viewer.draw()
+    viewer.handle(key("C"))
+    viewer.handle(events.FocusLost())
+    viewer.draw()
+    assert calls[0] is not None and calls[1:] == [None, None]
+
+
 def test_a_resized_window_gets_frames_of_its_size():
     viewer, window = make_viewer([[events.Exposed()], [events.Resized(90, 70)]])
     turns = iter([SIZE, (90, 70)])

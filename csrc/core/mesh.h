@@ -14,6 +14,9 @@ typedef struct e3d_cluster {
     size_t indices;       /* offset of three planes of E3D_CLUSTER_TRIANGLES local indices */
     float lo[3], hi[3];   /* AABB, object space; finite vertices only */
     int32_t any_finite;
+    float axis[3];        /* of a cone that holds the unit normals of all its triangles, object space */
+    float cosine;         /* of half the cone's opening */
+    float altitude;       /* the least one of a triangle; 0: there is no cone */
 } e3d_cluster;
 
 /* Neighbouring clusters, which are culled together first. */

@@ -121,12 +121,26 @@ size_t e3d_weld_corners(const int32_t *positions, const int32_t *uvs, const int3
                         size_t corners, size_t position_count, int32_t *faces, int32_t *of_position,
                         int32_t *of_uv, int32_t *of_normal);
 
-/* Numbers rows of `width` words, equal ones alike, in the order of their first appearance.
+/* Sets used[i], of `total` zeros, to 1 for each index i. Returns how many it set. */
+size_t e3d_mark_used(const int32_t *indices, size_t count, uint8_t *used, size_t total);
+
+#define E3D_ROW_WORDS 8
+
+/* Rows of words: `in_record` rows lie beside each other, `stride` bytes behind them the next. */
+typedef struct e3d_rows {
+    const uint8_t *bytes; /* of any alignment */
+    size_t count;         /* rows, fewer than 2^31 */
+    size_t width;         /* words a row, up to E3D_ROW_WORDS */
+    size_t in_record, stride;
+    bool are_floats;      /* -0 equals 0 */
+} e3d_rows;
+
+/* Numbers rows, equal ones alike, in the order of their first appearance.
  *
- * In:  fewer than 2^31 rows; if are_floats, the words are floats and -0 equals 0.
- * Out: numbers[count]; first[count]: the first row of each number. Returns how many numbers there are;
- *      SIZE_MAX if memory is out. */
-size_t e3d_number_rows(const uint32_t *rows, size_t count, size_t width, bool are_floats,
-                       int32_t *numbers, int32_t *first);
+ * Out: numbers[count]; first: the first row of each number, or NULL; found: the first row itself; both
+ *      with room for all. Returns how many numbers there are; SIZE_MAX if memory is out. */
+size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t *found);
+/* Whether any two rows are equal: 1 or 0; -1 if memory is out. Faster than numbering where none are. */
+int e3d_rows_repeat(const e3d_rows *rows);
 
 #endif

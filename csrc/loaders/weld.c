@@ -106,3 +106,15 @@ size_t e3d_weld_corners(const int32_t *positions, const int32_t *uvs, const int3
     free(starts);
     return done ? made.count : SIZE_MAX;
 }
+
+size_t e3d_mark_used(const int32_t *indices, size_t count, uint8_t *used, size_t total)
+{
+    size_t marked = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (indices[i] < 0 || (size_t)indices[i] >= total)
+            continue;
+        marked += !used[indices[i]];
+        used[indices[i]] = 1;
+    }
+    return marked;
+}

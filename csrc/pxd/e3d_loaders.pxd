@@ -79,7 +79,15 @@ cdef extern from "e3d_loaders.h" nogil:
         size_t position_count, int32_t *faces, int32_t *of_position, int32_t *of_uv,
         int32_t *of_normal,
     )
+    size_t e3d_mark_used(const int32_t *indices, size_t count, uint8_t *used, size_t total)
+
+    size_t E3D_ROW_WORDS
+
+    ctypedef struct e3d_rows:
+        const uint8_t *bytes
+        size_t count, width, in_record, stride
+        bint are_floats
+
     size_t e3d_number_rows(
-        const uint32_t *rows, size_t count, size_t width, bint are_floats, int32_t *numbers,
-        int32_t *first,
-    )
+        const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t *found)
+    int e3d_rows_repeat(const e3d_rows *rows)

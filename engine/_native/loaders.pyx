@@ -173,24 +173,87 @@ def weld_corners(const int32_t[::1] positions not None, const int32_t[::1] uvs,
                                 &of_position[0], made_uv, made_normal)
     if made == <size_t>-1:
         raise OutOfMemoryError("no memory to weld the corners of a mesh")
+    faces.setflags(write=False)
     return faces, *(None if array is None else array[:made] for array in vertices)
 
 
+def used_or_all(const int32_t[::1] indices not None, size_t total):
+    """Return which of 0..total-1 are among the indices, (total,) bool; None if all are."""
+    used = np.zeros(total, np.bool_)
+    cdef uint8_t[::1] view = used.view(np.uint8)
+    cdef size_t count = indices.shape[0], marked = 0
+    if count and total:
+        with nogil:
+            marked = e3d_mark_used(&indices[0], count, &view[0], total)
+    return None if marked == total else used
+
+
+cdef int check_rows(const e3d_rows *rows) except -1:
+    if rows.count > 2**31 - 1 or not 0 < rows.width <= E3D_ROW_WORDS:
+        raise InvalidArgumentError("more rows than 32 bits number, or too wide ones")
+    return 0
+
+
+cdef size_t numbered(const e3d_rows *rows, int32_t *numbers, int32_t *first,
+                     uint32_t *found) except? 0:
+    cdef size_t made
+    check_rows(rows)
+    with nogil:
+        made = e3d_number_rows(rows, numbers, first, found)
+    if made == <size_t>-1:
+        raise OutOfMemoryError("no memory to weld the rows of a mesh")
+    return made
+
+
 def number_rows(const uint32_t[:, ::1] rows not None, bint are_floats):
-    """Number rows (N, W), equal ones alike: numbers (N,) int32 and first rows (M,) int32.
+    """Number rows (N, up to 8), equal ones alike: numbers (N,) int32 and first rows (M,) int32.
 
     They are in the order of first appearance; of floats, -0 equals 0.
     """
-    cdef size_t count = rows.shape[0], made
-    if rows.shape[0] > 2**31 - 1:
-        raise InvalidArgumentError("more rows than 32 bits number")
+    cdef size_t count = rows.shape[0], width = rows.shape[1], made
     numbers, first = np.empty(count, np.int32), np.empty(count, np.int32)
     if count == 0:
         return numbers, first
     cdef int32_t[::1] number_view = numbers, first_view = first
-    with nogil:
-        made = e3d_number_rows(&rows[0, 0], count, rows.shape[1], are_floats, &number_view[0],
-                               &first_view[0])
-    if made == <size_t>-1:
-        raise OutOfMemoryError("no memory to weld the rows of a mesh")
+    cdef uint32_t[::1] found = np.empty(count * width, np.uint32)
+    cdef e3d_rows given = e3d_rows(
+        <const uint8_t *>&rows[0, 0], count, width, 1, width * sizeof(uint32_t), are_floats)
+    made = numbered(&given, &number_view[0], &first_view[0], &found[0])
     return numbers, first[:made]
+
+
+def rows_repeat(const uint32_t[:, ::1] rows not None, bint are_floats):
+    """Tell whether any two rows (N, up to 8) are equal; of floats, -0 equals 0."""
+    cdef size_t width = rows.shape[1]
+    if rows.shape[0] == 0:
+        return False
+    cdef e3d_rows given = e3d_rows(
+        <const uint8_t *>&rows[0, 0], rows.shape[0], width, 1, width * sizeof(uint32_t), are_floats)
+    cdef int repeat
+    check_rows(&given)
+    with nogil:
+        repeat = e3d_rows_repeat(&given)
+    if repeat < 0:
+        raise OutOfMemoryError("no memory to compare the rows of a mesh")
+    return bool(repeat)
+
+
+def weld_facets(const uint8_t[::1] data not None, size_t offset, size_t stride, size_t facets):
+    """Weld the corners of records that hold nine floats from ``offset`` on, ``stride`` bytes apart.
+
+    Returns the faces (facets, 3) int32 and the positions (M, 3) float32, in the order of their
+    first appearance.
+    """
+    if facets == 0 or stride < 36 or <size_t>data.shape[0] < offset + 36 or (
+            facets - 1 > (data.shape[0] - offset - 36) // stride):
+        raise InvalidArgumentError("the facets are not inside the data")
+    faces = np.empty((facets, 3), np.int32)
+    positions = np.empty((3 * facets, 3), np.float32)
+    cdef int32_t[:, ::1] face_view = faces
+    cdef float[:, ::1] position_view = positions
+    cdef e3d_rows given = e3d_rows(&data[offset], 3 * facets, 3, 3, stride, True)
+    cdef size_t made = numbered(&given, &face_view[0, 0], NULL, <uint32_t *>&position_view[0, 0])
+    positions = positions[:made].copy()
+    faces.setflags(write=False)
+    positions.setflags(write=False)
+    return faces, positions

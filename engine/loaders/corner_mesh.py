@@ -165,9 +165,9 @@ def _weld(positions, uvs, normals, position_count):
 
 def _without_unused(positions, position_count):
     """Faces over the positions that they use, if only positions matter."""
-    is_used = np.zeros(position_count, bool)
-    is_used[positions.ravel()] = True
-    if is_used.all():
+    corners = np.ascontiguousarray(positions, np.int32).ravel()
+    is_used = native.used_or_all(corners, position_count)
+    if is_used is None:
         return positions, (np.arange(position_count), None, None)
     number = np.cumsum(is_used, dtype=np.int32) - 1
     return number[positions], (np.flatnonzero(is_used), None, None)

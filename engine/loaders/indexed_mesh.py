@@ -11,9 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._native import loaders as native
 from ..mesh import Mesh
 from .smoothing import join_seams
 from .welding import number_rows
+
+# All vertices as they are.
+_ALL = slice(None)
 
 
 @dataclass
@@ -65,21 +69,20 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         )
     of_corner = _corner_attributes(geometry)
     faces, vertices, first_corner = _split(corners, of_corner, count)
-    split_count = len(vertices)
-    vertex_of, vertices = _vertices_for(lines.ravel(), vertices, count)
-    uvs, colors = (
-        None if array is None else array[vertices] for array in (geometry.uvs, geometry.colors)
+    vertex_of, vertices, added = _vertices_for(lines.ravel(), vertices, count)
+    positions, normals, uvs, colors = (
+        array if array is None or vertices is _ALL else array[vertices]
+        for array in (geometry.positions, geometry.normals, geometry.uvs, geometry.colors)
     )
-    added = len(vertices) - split_count
     if "uvs" in of_corner:
         uvs = _padded(of_corner["uvs"][first_corner], added, 0)
     if "colors" in of_corner:
         white = 255 if of_corner["colors"].dtype == np.uint8 else 1
         colors = _padded(of_corner["colors"][first_corner], added, white)
     mesh = Mesh(
-        geometry.positions[vertices],
+        positions,
         faces,
-        normals=None if geometry.normals is None else geometry.normals[vertices],
+        normals=normals,
         uvs=uvs,
         colors=colors,
         lines=vertex_of.reshape(-1, 2),
@@ -113,10 +116,9 @@ def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
 def _split(corners: np.ndarray, of_corner: dict[str, np.ndarray], count: int):
     """Faces, the old vertex of each new one, and a corner that each new one stands at."""
     if not of_corner:
-        is_used = np.zeros(count, bool)
-        is_used[corners.ravel()] = True
-        if is_used.all():
-            return corners, np.arange(count), None
+        is_used = native.used_or_all(np.ascontiguousarray(corners, np.int32).ravel(), count)
+        if is_used is None:
+            return corners, _ALL, None
         number = np.cumsum(is_used, dtype=np.int32) - 1
         return number[corners], np.flatnonzero(is_used), None
     keys = corners.ravel().astype(np.int64)
@@ -130,12 +132,14 @@ def _split(corners: np.ndarray, of_corner: dict[str, np.ndarray], count: int):
 
 
 def _vertices_for(used: np.ndarray, vertices: np.ndarray, count: int):
-    """For each old vertex in use a new one, and the list of new ones with those it lacked."""
+    """For each old vertex in use a new one, the list of new ones with those it lacked, how many."""
+    if vertices is _ALL:
+        return used, _ALL, 0
     vertex_of = np.full(count, -1, np.int32)
     vertex_of[vertices[::-1]] = np.arange(len(vertices), dtype=np.int32)[::-1]
     lacking = np.unique(used[vertex_of[used] < 0])
     vertex_of[lacking] = len(vertices) + np.arange(len(lacking), dtype=np.int32)
-    return vertex_of[used], np.concatenate([vertices, lacking])
+    return vertex_of[used], np.concatenate([vertices, lacking]), len(lacking)
 
 
 def _padded(rows: np.ndarray, added: int, value) -> np.ndarray:

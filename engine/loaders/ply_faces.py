@@ -60,21 +60,22 @@ def read_faces(
     short = np.flatnonzero(outlines.sizes < 3)
     if len(short):
         warnings.add(f"{len(short)} faces of fewer than three corners are left out")
-    are_triangles = outlines.sizes.min() == 3 == outlines.sizes.max()
-    # Triangles are not looked at: no need to gather their corners.
-    cut = triangulate(outlines.sizes, positions if are_triangles else positions[indices], budget)
-    if not cut.is_complete:
-        warnings.add("too many concave polygons: some are cut as if they were convex")
     colors = read_colors(table)
     textures = None
     if table.has("texnumber"):
-        textures = np.nan_to_num(table.column("texnumber").astype(np.float64))[cut.polygons]
+        textures = np.nan_to_num(table.column("texnumber").astype(np.float64))
     uvs = _corner_uvs(table, outlines.sizes, warnings)
+    if outlines.sizes.min() == 3 == outlines.sizes.max():
+        corners = indices.reshape(-1, 3)
+        return PlyFaces(corners, None if uvs is None else uvs.reshape(-1, 3, 2), colors, textures)
+    cut = triangulate(outlines.sizes, positions.astype(np.float64)[indices], budget)
+    if not cut.is_complete:
+        warnings.add("too many concave polygons: some are cut as if they were convex")
     return PlyFaces(
-        indices.reshape(-1, 3) if are_triangles else indices[cut.corners],
+        indices[cut.corners],
         None if uvs is None else uvs[cut.corners],
         None if colors is None else colors[cut.polygons],
-        textures,
+        None if textures is None else textures[cut.polygons],
         cut.edge_visible,
     )
 
@@ -123,6 +124,8 @@ def _index_list(table: PlyTable | None) -> str | None:
 def _checked(table: PlyTable, found: PlyList, count: int, others: tuple = ()) -> np.ndarray:
     """Vertex indices as int32; those in ``others`` are let through."""
     values = found.values
+    if values.dtype.kind in "iu" and len(values) and values.min() >= 0 and values.max() < count:
+        return values.astype(np.int32, copy=False)
     wrong = ~((values >= 0) & (values < count))
     for other in others:
         wrong &= values != other

@@ -101,11 +101,33 @@ class PlyTable:
         return self._store.numbers(self._list_ends(after - 1) + offset, code)
 
     def columns(self, *names: str) -> np.ndarray:
-        """Return several such properties beside each other: (N, len(names)) float64."""
+        """Return several such properties beside each other: (N, len(names)).
+
+        float64, or the properties' own type where they are alike and stand beside each other.
+        """
+        block = self._block(names)
+        if block is not None:
+            return block
         table = np.empty((len(self), len(names)), np.float64)
         for index, name in enumerate(names):
             table[:, index] = self.column(name)
         return table
+
+    def _block(self, names: tuple[str, ...]) -> np.ndarray | None:
+        """Columns that lie beside each other in rows of one shape, copied at once."""
+        code, layout = self.type(names[0]), self._layout
+        size = self._store.size(code)
+        after, offset = self._places[names[0]]
+        expected = [(after, offset + size * index) for index in range(len(names))]
+        if (
+            layout.stride is None
+            or any(self.type(name) != code for name in names)
+            or [self._places[name] for name in names] != expected
+        ):
+            return None
+        shape = (len(self), len(names))
+        found = self._store.grid(self._first_place(after, offset), shape, layout.stride, code)
+        return _own_copy(found)
 
     def list(self, name: str) -> PlyList:
         """Return a list property."""
@@ -116,8 +138,8 @@ class PlyTable:
         if layout.stride is not None:
             shape = (len(self), int(sizes[0]))
             first = int(layout.starts[0, number])
-            values = self._store.grid(first, shape, layout.stride, code).ravel()
-            return PlyList(np.repeat(sizes, len(self)), values)
+            values = self._store.grid(first, shape, layout.stride, code)
+            return PlyList(np.broadcast_to(sizes, len(self)), _own_copy(values).reshape(-1))
         within = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
         places = np.repeat(layout.starts[:, number], sizes)
         places += within * self._store.size(code)
@@ -144,6 +166,13 @@ class PlyTable:
         lists = [p for p in self.element.properties.values() if p.count_type is not None]
         size = self._store.size(lists[number].type)
         return self._layout.starts[:, number] + self._layout.sizes[:, number] * size
+
+
+def _own_copy(numbers: np.ndarray) -> np.ndarray:
+    """Numbers in this machine's byte order; a mesh takes over what nobody can write to."""
+    copy = np.array(numbers, numbers.dtype.newbyteorder("="), order="C")
+    copy.setflags(write=False)
+    return copy
 
 
 def read_tables(

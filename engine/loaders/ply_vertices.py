@@ -29,7 +29,7 @@ class PlyVertices(NamedTuple):
 
     Attributes
     ----------
-    positions : (V, 3) float64
+    positions : (V, 3) float32 or float64
     normals : (V, 3) float32 or None
     colors : (V, 4) uint8 or float32, or None
     uvs : (V, 2) float32 or None
@@ -50,7 +50,7 @@ def read_vertices(table: PlyTable) -> PlyVertices:
     normals = None
     if table.has("nx", "ny", "nz"):
         with np.errstate(over="ignore"):
-            normals = table.columns("nx", "ny", "nz").astype(np.float32)
+            normals = table.columns("nx", "ny", "nz").astype(np.float32, copy=False)
     uvs = None
     for names in _UVS:
         if table.has(*names):
@@ -80,9 +80,12 @@ def read_colors(table: PlyTable) -> np.ndarray | None:
             colors = np.ones((len(values), 4), np.float32)
             colors[:, : values.shape[1]] = np.nan_to_num(values, nan=1.0)
         return np.clip(colors, 0, np.finfo(np.float32).max, out=colors)
-    if kinds == {"u2"}:
-        values /= 257
     colors = np.full((len(values), 4), 255, np.uint8)
+    if values.dtype == np.uint8:
+        colors[:, : values.shape[1]] = values
+        return colors
+    if kinds == {"u2"}:
+        values = values / 257
     scaled = np.clip(np.nan_to_num(values, nan=255.0), 0, 255)
     colors[:, : values.shape[1]] = np.floor(scaled + 0.5)
     return colors

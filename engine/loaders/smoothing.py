@@ -12,7 +12,7 @@ import numpy as np
 
 from ..mesh import Mesh
 from ..normals import face_normals, smooth_sums, unit_vectors
-from .welding import number_rows
+from .welding import number_rows, rows_repeat
 
 FLAT = 0
 # Parts of a surface that meet at an angle of less than 30 degrees were smooth where they were cut.
@@ -121,11 +121,10 @@ def join_seams(mesh: Mesh) -> None:
         Without normals of its own; its ``position_ids`` may change.
     """
     positions, ids = mesh.positions, mesh.position_ids
+    if ids is None and not rows_repeat(positions):
+        return
     group, first = number_rows(positions)
-    if ids is None:
-        if len(first) == len(positions):
-            return
-        ids = np.arange(len(positions))
+    ids = np.arange(len(positions)) if ids is None else ids
     differs = ids != ids[first[group]]
     if not differs.any():
         return

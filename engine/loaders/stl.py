@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._native import loaders as native
 from ..errors import FileFormatError
 from ..materials import Material
 from ..mesh import Mesh
@@ -26,7 +27,8 @@ from .warning_list import WarningList
 from .welding import number_rows
 
 _HEADER = 84
-_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+# A facet is a normal, three corners, and two bytes of attributes.
+_FACET_SIZE, _CORNERS_AT = 50, 12
 _TEXT = re.compile(rb"\s*solid\b", re.IGNORECASE)
 _MAX_OBJECTS = 1000
 
@@ -36,16 +38,26 @@ class _Facets(NamedTuple):
 
     Attributes
     ----------
-    corners : (C, 3) float32
-        Positions.
-    sizes : (F,) int64
-        Corners of each facet: three, but for the polygons that some programs write.
+    count : int
+        Number of facets, F.
+    positions : (V, 3) float32
+        Of all corners, each place once.
+    faces : (T, 3) int32
+    polygons : (T,) int32
+        The facet that each triangle was cut from.
+    edge_visible : (T, 3) bool or None
+    corner_count : int
+        Corners of all facets together.
     solids : list of (str, int)
         The name of each solid, and its first facet.
     """
 
-    corners: np.ndarray
-    sizes: np.ndarray
+    count: int
+    positions: np.ndarray
+    faces: np.ndarray
+    polygons: np.ndarray
+    edge_visible: np.ndarray | None
+    corner_count: int
     solids: list[tuple[str, int]]
 
 
@@ -63,33 +75,24 @@ def read_stl(source: Source, split: bool = False) -> Document:
     FileFormatError
     """
     warnings = WarningList(source.path)
-    facets = _read_text(source) if _is_text(source.data) else _read_binary(source, warnings)
-    if not len(facets.sizes):
-        raise FileFormatError("no triangles in this STL file", source.path)
-    numbers, first = number_rows(facets.corners)
-    budget = WorkBudget.for_file(len(source.data))
-    cut = triangulate(facets.sizes, facets.corners.astype(np.float64), budget)
-    if not cut.is_complete:
-        warnings.add("too many concave polygons: some are cut as if they were convex")
-    faces = numbers.astype(np.int32)[cut.corners]
-    positions = facets.corners[first]
+    facets = (_read_text if _is_text(source.data) else _read_binary)(source, warnings)
     whole = Mesh(
-        positions,
-        faces,
+        facets.positions,
+        facets.faces,
         materials=[Material(flat_shading=True)],
-        edge_visible=cut.edge_visible,
+        edge_visible=facets.edge_visible,
         name=source.stem,
     )
-    groups = _groups(facets.solids, cut.polygons)
+    groups = _groups(facets.solids, facets.polygons)
     whole.groups = {name: indices for name, indices in groups if name}
     objects = [DocumentObject(source.stem, whole)]
     if split and 1 < len(groups) <= _MAX_OBJECTS:
         named = [(name or source.stem, indices) for name, indices in groups]
         objects = [DocumentObject(name, _part(whole, indices, name)) for name, indices in named]
     counts = {
-        "vertices": len(facets.corners),
-        "faces": len(facets.sizes),
-        "triangles": len(faces),
+        "vertices": facets.corner_count,
+        "faces": facets.count,
+        "triangles": len(facets.faces),
         "objects": [name for name, _ in facets.solids if name],
     }
     return Document("stl", objects, counts=counts, warnings=warnings.messages())
@@ -99,7 +102,7 @@ def _is_text(data: bytes) -> bool:
     if _TEXT.match(data) is None:
         return False
     count = int.from_bytes(data[80:_HEADER], "little")
-    has_binary_length = len(data) == _HEADER + _FACET.itemsize * count
+    has_binary_length = len(data) == _HEADER + _FACET_SIZE * count
     return not has_binary_length and b"\0" not in data
 
 
@@ -108,20 +111,27 @@ def _read_binary(source: Source, warnings: WarningList) -> _Facets:
     if len(data) < _HEADER:
         raise FileFormatError("too short for an STL file", source.path)
     count = int.from_bytes(data[80:_HEADER], "little")
-    end = _HEADER + _FACET.itemsize * count
+    end = _HEADER + _FACET_SIZE * count
     if end > len(data):
-        held = (len(data) - _HEADER) // _FACET.itemsize
+        held = (len(data) - _HEADER) // _FACET_SIZE
         raise FileFormatError(
             f"the file ends after {held} of {count} triangles (at byte {len(data)})", source.path
         )
     if end < len(data):
         warnings.add(f"{len(data) - end} bytes behind the last triangle are left out")
-    facets = np.frombuffer(data, _FACET, count, _HEADER)
-    corners = np.array(facets["corners"], np.float32).reshape(-1, 3)
-    return _Facets(corners, np.full(count, 3), [("", 0)])
+    _require_facets(count, source)
+    start = _HEADER + _CORNERS_AT
+    faces, positions = native.weld_facets(data, start, _FACET_SIZE, count)
+    polygons = np.arange(count, dtype=np.int32)
+    return _Facets(count, positions, faces, polygons, None, 3 * count, [("", 0)])
 
 
-def _read_text(source: Source) -> _Facets:
+def _require_facets(count: int, source: Source) -> None:
+    if not count:
+        raise FileFormatError("no triangles in this STL file", source.path)
+
+
+def _read_text(source: Source, warnings: WarningList) -> _Facets:
     """Read the text form line by line: what counts are the lines of vertices and of loops' ends."""
     lines = text_lines(source).split(b"\n")
     numbers: list[bytes] = []
@@ -150,7 +160,15 @@ def _read_text(source: Source) -> _Facets:
         _fail_at_vertex(source.path, lines)
     with np.errstate(over="ignore"):
         corners = values.astype(np.float32).reshape(-1, 3)
-    return _Facets(corners, np.diff(ends, prepend=0), solids)
+    _require_facets(len(ends), source)
+    budget = WorkBudget.for_file(len(source.data))
+    sizes = np.diff(ends, prepend=0)
+    cut = triangulate(sizes, corners.astype(np.float64), budget)
+    if not cut.is_complete:
+        warnings.add("too many concave polygons: some are cut as if they were convex")
+    place, first = number_rows(corners)
+    faces, visible = place[cut.corners], cut.edge_visible
+    return _Facets(len(ends), corners[first], faces, cut.polygons, visible, len(corners), solids)
 
 
 def _fail_at_vertex(path: str, lines: list[bytes]):

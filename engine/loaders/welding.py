@@ -27,3 +27,9 @@ def number_rows(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     rows = np.ascontiguousarray(rows)
     return native.number_rows(rows.view(np.uint32), rows.dtype == np.float32)
+
+
+def rows_repeat(rows: np.ndarray) -> bool:
+    """Tell whether any two rows are equal; faster than to number them where none are."""
+    rows = np.ascontiguousarray(rows)
+    return native.rows_repeat(rows.view(np.uint32), rows.dtype == np.float32)

@@ -38,6 +38,20 @@ def test_bytes_are_no_floats():
     assert welding.number_rows(rows)[0].tolist() == [0, 1, 0]
 
 
+@pytest.mark.parametrize("columns", [1, 3, 5])
+def test_whether_rows_repeat(columns):
+    """Rows without a repetition, and the same with a single one, far from the first or close."""
+    rows = np.random.default_rng(3).permutation(50_000 * columns).reshape(-1, columns)
+    rows = rows.astype(np.float32)
+    assert not welding.rows_repeat(rows)
+    rows[0, 0] = -0.0
+    for other in (1, 777, len(rows) - 1):
+        twin = rows.copy()
+        twin[other] = rows[0] + 0
+        assert welding.rows_repeat(twin)
+
+
 def test_nothing():
+    assert not welding.rows_repeat(np.zeros((0, 3), np.float32))
     numbers, first = welding.number_rows(np.zeros((0, 4), np.uint8))
     assert len(numbers) == len(first) == 0

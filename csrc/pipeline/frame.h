@@ -25,9 +25,18 @@ static inline int64_t e3d_now_ns(void)
 
 /* ---- prepared once a frame ---- */
 
+/* What tells which way an instance's clusters face. */
+typedef struct e3d_facing {
+    float eye[3];    /* object space */
+    int32_t sign;    /* of the screen's area where n.(p - eye) is positive; 0: cannot be told */
+    float scale;     /* of areas */
+    float length[4]; /* of the clip matrix's rows x, y, w, z, without translation */
+} e3d_facing;
+
 /* One instance's matrices (R1, R2). */
 typedef struct e3d_instance {
     float clip[16], world[12], normal[9];
+    e3d_facing facing;
     float frozen[16]; /* clip matrix of the camera that culls, where another one draws */
     int32_t mirrored;
     int32_t draw;
@@ -231,6 +240,12 @@ int e3d_find_items(e3d_context *context);
 const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);
 const e3d_draw_state *e3d_draw_of_unit(const e3d_context *context, int64_t unit);
 const e3d_draw_state *e3d_draw_of_group(const e3d_context *context, int64_t group);
+
+/* facing.c */
+void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_facing *out);
+/* Whether every triangle of the cluster surely has an area of the sign `drop` on the screen, or none. */
+int e3d_faces_away(const e3d_viewport *viewport, const e3d_facing *facing, const float clip[16],
+                   const e3d_cluster *cluster, int drop);
 
 /* occlusion.c */
 int e3d_occlusion_pays(const e3d_context *context);

@@ -158,12 +158,20 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 /* What becomes of a cluster. */
 enum { SHOWS, CULLED, OCCLUDED };
 
-static int fate_of(const walker *w, const e3d_cluster *cluster, int tested)
+static int faces_away(const walker *w, const e3d_cluster *cluster)
+{
+    return e3d_faces_away(&w->context->viewport, &w->instance->facing, w->instance->clip, cluster, drop_sign(w));
+}
+
+static int fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster)
 {
     e3d_box_view view;
+    int tested = w->context->round.tested;
     const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
-    if (!cluster->any_finite)
+    if (!cluster->any_finite || faces_away(w, cluster))
         return CULLED;
+    if (!tested && item->view.state == E3D_BOX_INSIDE)
+        return SHOWS;
     e3d_view_box(&w->context->viewport, clip, cluster->lo, cluster->hi, &view);
     if (view.state == E3D_BOX_OUTSIDE)
         return CULLED;
@@ -181,15 +189,14 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_round *round = &w->context->round;
-    int each = mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE &&
-               (round->tested || item->view.state == E3D_BOX_CROSSES);
+    int each = mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE;
     int hidden = round->tested && e3d_is_hidden(w->context, &item->view);
     unsigned shown = 0;
     for (int k = 0; k < group->clusters; k++) {
         const e3d_cluster *cluster = &mesh->clusters[group->first_cluster + k];
         if (round->choice == E3D_SEEN_ITEMS && !(wanted >> k & 1))
             continue; /* its turn comes in the next round */
-        int fate = hidden ? OCCLUDED : each ? fate_of(w, cluster, round->tested) : SHOWS;
+        int fate = hidden ? OCCLUDED : each ? fate_of(w, item, cluster) : SHOWS;
         if (fate == SHOWS)
             shown |= 1u << k;
         if (!(wanted >> k & 1))

@@ -54,7 +54,7 @@ static void clip_matrix(const double clip_from_world[16], const double world[16]
         out[k] = (float)clip[k];
 }
 
-static void prepare_instance(const e3d_frame *frame, const e3d_draw *draw, int32_t instance, int units,
+static void prepare_instance(const e3d_frame *frame, const e3d_viewport *viewport, const e3d_draw *draw, int32_t instance, int units,
                              e3d_instance *out)
 {
     double pose[16], world[16];
@@ -76,6 +76,7 @@ static void prepare_instance(const e3d_frame *frame, const e3d_draw *draw, int32
     for (int k = 0; k < 12; k++)
         out->world[k] = (float)world[k];
     normal_matrix(world, out);
+    e3d_facing_prepare(viewport, out->clip, &out->facing);
 }
 
 enum { INSTANCES_A_TASK = 256 };
@@ -96,7 +97,7 @@ static void instances_work(void *argument, int worker)
                    context->draws[draw + 1].instance_base <= i)
                 draw++;
             const e3d_draw_state *state = &context->draws[draw];
-            prepare_instance(context->frame, state->draw, (int32_t)(i - state->instance_base), state->units,
+            prepare_instance(context->frame, &context->viewport, state->draw, (int32_t)(i - state->instance_base), state->units,
                              &context->instances[i]);
             context->instances[i].draw = (int32_t)draw;
         }

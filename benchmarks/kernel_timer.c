@@ -168,7 +168,7 @@ static void run_raster_small(void) { raster_all(raster_work.pieces[1]); }
 /* ---- texture and light: one batch ---- */
 
 static struct {
-    uint16_t texels[4 * TEXTURE_SIDE * TEXTURE_SIDE * 2];
+    uint16_t texels[4 * (TEXTURE_SIDE + 2) * (TEXTURE_SIDE + 2) * 2];
     e3d_texture_view texture;
     e3d_light lights[LIGHTS];
     e3d_lighting lighting;
@@ -181,10 +181,10 @@ static void make_texture(random_stream *r)
     uint16_t *texels = shade_work.texels;
     for (size_t i = 0; i < sizeof shade_work.texels / sizeof *texels; i++)
         texels[i] = (uint16_t)random_bits(r);
-    *view = (e3d_texture_view){.level_count = TEXTURE_LEVELS, .filter = E3D_TRILINEAR};
+    *view = (e3d_texture_view){.level_count = TEXTURE_LEVELS, .texel_bytes = 8, .filter = E3D_TRILINEAR};
     for (int l = 0, side = TEXTURE_SIDE; l < TEXTURE_LEVELS; l++, side /= 2) {
         view->levels[l] = (e3d_level){texels, side, side};
-        texels += 4 * side * side;
+        texels += 4 * (side + 2) * (side + 2);
     }
 }
 
@@ -224,10 +224,8 @@ static void make_batch(random_stream *r)
 
 static void run_texture(void)
 {
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < E3D_BATCH; i++)
-            shade_work.batch.color[k][i] = 1.0f;
-    table->texture(&shade_work.batch, &shade_work.texture);
+    const float white[3] = {1.0f, 1.0f, 1.0f};
+    table->texture(&shade_work.batch, &shade_work.texture, white);
 }
 
 static void run_light(void) { table->light(&shade_work.batch, &shade_work.lighting, 32.0f); }

@@ -138,18 +138,13 @@ def textured(filter_name):
     """Rough noise, read along a line as surfaces do."""
     rng, batch, _ = shading_inputs()
     sizes = np.array([(256, 256), (128, 128), (64, 64)], np.int32)
-    texels = rng.integers(0, 65536, 4 * 256 * 256 * 2, np.uint16)
+    texels = rng.integers(0, 256, 8 * 258 * 258 * 2, np.uint8)
     fields = batch.view(BATCH_RECORD)
     fields["uv"][0] = np.linspace(0.1, 1.3, LANES) + np.array([[0], [0.4]])
     fields["lod"] = rng.integers(0, 512, LANES)
     levels = sizes if filter_name == "trilinear" else sizes[:1]
-    arguments = (texels, levels, FILTERS[filter_name], WRAPS["repeat"])
-
-    def run(kernels):
-        fields["color"] = 1  # a product of thousands would be made of denormals
-        kernels.texture(batch, *arguments)
-
-    return BATCH, run
+    arguments = (texels, 8, levels, FILTERS[filter_name], WRAPS["repeat"], np.ones(3, np.float32))
+    return BATCH, lambda kernels: kernels.texture(batch, *arguments)
 
 
 def light():

@@ -1,22 +1,27 @@
-/* Textures: 8-bit pixels become 16-bit linear texels once, and their mip levels with them.
+/* Textures: 8-bit pixels become the texels that filters read, once, and their mip levels with them.
  *
- * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28).
+ * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels are 16-bit
+ * linear light; where they all are c * 257 (no sRGB, no mip levels) the 8-bit c is kept, half the memory to fetch.
+ * Each level has a border of one texel, by its wrap: the neighbours that a filter blends always stand side by side.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/srgb_tables.h"
 #include "e3d.h"
 
 struct e3d_texture {
     e3d_texture_view view;
-    uint16_t *texels; /* of all levels */
+    uint8_t *texels; /* of all levels */
 };
+
+static size_t bordered(int32_t width, int32_t height) { return ((size_t)width + 2) * ((size_t)height + 2); }
 
 static size_t chain_texels(int32_t width, int32_t height, int levels)
 {
     size_t total = 0;
     for (int l = 0; l < levels; l++) {
-        total += (size_t)width * height;
+        total += bordered(width, height);
         width = width > 1 ? width >> 1 : 1;
         height = height > 1 ? height >> 1 : 1;
     }
@@ -34,42 +39,81 @@ static int chain_levels(int32_t width, int32_t height)
     return levels;
 }
 
-static void decode(const uint8_t *pixels, size_t count, int decode_srgb, uint16_t *out)
+/* The first texel of a row inside the border. */
+static uint8_t *row_of(const e3d_texture *texture, const e3d_level *level, int32_t y)
 {
-    uint16_t table[256];
-    for (int c = 0; c < 256; c++)
-        table[c] = decode_srgb ? SRGB_TO_LINEAR16[c] : (uint16_t)(c * 257);
-    for (size_t i = 0; i < count; i++) {
+    size_t texel = ((size_t)y + 1) * ((size_t)level->width + 2) + 1;
+    return (uint8_t *)level->texels + texel * (size_t)texture->view.texel_bytes;
+}
+
+static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t table[256], uint16_t *out)
+{
+    for (int32_t x = 0; x < width; x++, pixels += 4, out += 4) {
         for (int k = 0; k < 3; k++)
-            out[4 * i + k] = table[pixels[4 * i + k]];
-        out[4 * i + 3] = (uint16_t)(pixels[4 * i + 3] * 257);
+            out[k] = table[pixels[k]];
+        out[3] = (uint16_t)(pixels[3] * 257);
     }
 }
 
-static void halve(const e3d_level *fine, uint16_t *out, int32_t width, int32_t height)
+static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode_srgb)
 {
-    for (int32_t y = 0; y < height; y++) {
-        int32_t y0 = 2 * y, y1 = 2 * y + 1 < fine->height ? 2 * y + 1 : fine->height - 1;
-        const uint16_t *top = fine->texels + (size_t)y0 * fine->width * 4;
-        const uint16_t *bottom = fine->texels + (size_t)y1 * fine->width * 4;
-        for (int32_t x = 0; x < width; x++) {
-            int32_t x0 = 2 * x, x1 = 2 * x + 1 < fine->width ? 2 * x + 1 : fine->width - 1;
+    const e3d_level *level = &texture->view.levels[0];
+    size_t row_bytes = 4 * (size_t)level->width;
+    uint16_t table[256];
+    for (int c = 0; c < 256; c++)
+        table[c] = decode_srgb ? SRGB_TO_LINEAR16[c] : (uint16_t)(c * 257);
+    for (int32_t y = 0; y < level->height; y++, pixels += row_bytes) {
+        if (texture->view.texel_bytes == 4)
+            memcpy(row_of(texture, level, y), pixels, row_bytes);
+        else
+            decode_row(pixels, level->width, table, (uint16_t *)row_of(texture, level, y));
+    }
+}
+
+/* 16-bit texels only. */
+static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_level *coarse)
+{
+    for (int32_t y = 0; y < coarse->height; y++) {
+        int32_t y1 = 2 * y + 1 < fine->height ? 2 * y + 1 : fine->height - 1;
+        const uint16_t *top = (const uint16_t *)row_of(texture, fine, 2 * y);
+        const uint16_t *bottom = (const uint16_t *)row_of(texture, fine, y1);
+        uint16_t *out = (uint16_t *)row_of(texture, coarse, y);
+        for (int32_t x = 0; x < coarse->width; x++) {
+            size_t x0 = 8 * (size_t)x, x1 = 2 * x + 1 < fine->width ? x0 + 4 : 4 * (size_t)fine->width - 4;
             for (int k = 0; k < 4; k++)
-                *out++ = (uint16_t)((top[4 * (size_t)x0 + k] + top[4 * (size_t)x1 + k] +
-                                     bottom[4 * (size_t)x0 + k] + bottom[4 * (size_t)x1 + k] + 2) >>
-                                    2);
+                *out++ = (uint16_t)((top[x0 + k] + top[x1 + k] + bottom[x0 + k] + bottom[x1 + k] + 2) >> 2);
         }
     }
 }
 
-static void build_levels(e3d_texture *texture, int32_t width, int32_t height)
+static void fill_border(const e3d_texture *texture, const e3d_level *level)
 {
-    uint16_t *texels = texture->texels;
+    size_t texel = (size_t)texture->view.texel_bytes, row_bytes = ((size_t)level->width + 2) * texel;
+    int32_t last = level->height - 1;
+    int repeat = texture->view.wrap == E3D_REPEAT;
+    for (int32_t y = 0; y <= last; y++) {
+        uint8_t *first = row_of(texture, level, y), *end = first + (size_t)level->width * texel;
+        memcpy(first - texel, repeat ? end - texel : first, texel);
+        memcpy(end, repeat ? first : end - texel, texel);
+    }
+    memcpy(row_of(texture, level, -1) - texel, row_of(texture, level, repeat ? last : 0) - texel, row_bytes);
+    memcpy(row_of(texture, level, last + 1) - texel, row_of(texture, level, repeat ? 0 : last) - texel,
+           row_bytes);
+}
+
+static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t width, int32_t height,
+                         int decode_srgb)
+{
+    uint8_t *texels = texture->texels;
     for (int l = 0; l < texture->view.level_count; l++) {
-        texture->view.levels[l] = (e3d_level){texels, width, height};
+        e3d_level *level = &texture->view.levels[l];
+        *level = (e3d_level){texels, width, height};
         if (l)
-            halve(&texture->view.levels[l - 1], texels, width, height);
-        texels += (size_t)width * height * 4;
+            halve(texture, level - 1, level);
+        else
+            decode(texture, pixels, decode_srgb);
+        fill_border(texture, level);
+        texels += bordered(width, height) * (size_t)texture->view.texel_bytes;
         width = width > 1 ? width >> 1 : 1;
         height = height > 1 ? height >> 1 : 1;
     }
@@ -88,15 +132,15 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     if (!texture)
         return E3D_OUT_OF_MEMORY;
     texture->view.level_count = levels;
+    texture->view.texel_bytes = decode_srgb || levels > 1 ? 8 : 4;
     texture->view.filter = filter;
     texture->view.wrap = wrap;
-    texture->texels = malloc(chain_texels(width, height, levels) * 4 * sizeof(uint16_t));
+    texture->texels = malloc(chain_texels(width, height, levels) * (size_t)texture->view.texel_bytes);
     if (!texture->texels) {
         free(texture);
         return E3D_OUT_OF_MEMORY;
     }
-    decode(pixels, (size_t)width * height, decode_srgb, texture->texels);
-    build_levels(texture, width, height);
+    build_levels(texture, pixels, width, height, decode_srgb);
     *out = texture;
     return E3D_OK;
 }

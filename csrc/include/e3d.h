@@ -86,9 +86,10 @@ typedef struct e3d_texture e3d_texture;
 typedef enum e3d_filter { E3D_NEAREST = 0, E3D_BILINEAR, E3D_TRILINEAR } e3d_filter;
 typedef enum e3d_wrap { E3D_REPEAT = 0, E3D_CLAMP, E3D_MIRROR } e3d_wrap;
 
-/* One mip level: 16-bit linear RGBA texels, top row first. */
+/* One mip level: linear RGBA texels, top row first, within a border of one texel: the other side's where the wrap is
+ * E3D_REPEAT, else the nearest. */
 typedef struct e3d_level {
-    const uint16_t *texels; /* (height, width, 4) */
+    const void *texels; /* (height + 2, width + 2, 4) */
     int32_t width, height;
 } e3d_level;
 
@@ -97,6 +98,7 @@ enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 16384 };
 typedef struct e3d_texture_view {
     e3d_level levels[E3D_MAX_LEVELS];
     int32_t level_count; /* 1 unless the filter is E3D_TRILINEAR */
+    int32_t texel_bytes; /* 8: uint16 channels; 4: uint8 channels c that stand for c * 257 */
     e3d_filter filter;
     e3d_wrap wrap;
 } e3d_texture_view;

@@ -219,8 +219,8 @@ typedef struct e3d_kernels {
     /* lod of R26, for trilinear textures of this size. */
     void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,
                          const e3d_texture_view *texture);
-    /* color *= texture */
-    void (*texture)(e3d_batch *batch, const e3d_texture_view *texture);
+    /* color = base * texture */
+    void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float base[3]);
     /* color *= vertex colour, color *= instance colour */
     void (*tint)(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance);
     /* energy, and shine where shininess > 0 */

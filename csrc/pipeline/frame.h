@@ -219,6 +219,7 @@ typedef struct e3d_context {
     int wants;         /* E3D_WANT_* and E3D_NEED_* of the visible samples; 0: no shading */
     int32_t line_half, point_half; /* 1/256 sample */
     uint32_t background_rgba, line_rgba;
+    uint32_t background_row[E3D_TILE];
     atomic_llong next; /* instance, task, item or tile */
     atomic_llong next_unit;
     atomic_int stop;   /* cancelled or out of memory */
@@ -339,6 +340,11 @@ void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker, const e3d
 /* ndc_depth of a tile without anything in it. */
 void e3d_outputs_no_depth(const e3d_context *context, const e3d_tile *tile);
 void e3d_outputs_depth(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile);
+
+static inline int e3d_is_shiny(const e3d_material *m)
+{
+    return m->specular[0] != 0.0f || m->specular[1] != 0.0f || m->specular[2] != 0.0f;
+}
 
 static inline int64_t e3d_tile_count(const e3d_context *c) { return (int64_t)c->tiles_x * c->tiles_y; }
 

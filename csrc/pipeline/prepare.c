@@ -208,6 +208,18 @@ static uint32_t encode_one(const e3d_context *context, const float color[3], flo
     return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
 }
 
+/* Whether lighting depends on where a sample is. */
+static int lights_by_position(const e3d_frame *frame)
+{
+    for (int32_t n = 0; n < frame->light_count; n++)
+        if (frame->lights[n].kind == E3D_LIGHT_POINT)
+            return 1;
+    for (int32_t m = 0; m < frame->material_count; m++)
+        if (e3d_is_shiny(&frame->materials[m]))
+            return 1;
+    return 0;
+}
+
 /* What shading must find out about each visible sample. */
 static int wants_of(const e3d_frame *frame, const e3d_targets *t)
 {
@@ -215,7 +227,7 @@ static int wants_of(const e3d_frame *frame, const e3d_targets *t)
     if (t->color && frame->mode != E3D_MODE_OVERDRAW)
         wants |= E3D_NEED_COLOR;
     if (wants && frame->mode == E3D_MODE_LIT)
-        wants |= E3D_WANT_POSITION | E3D_WANT_NORMAL;
+        wants |= E3D_WANT_NORMAL | (lights_by_position(frame) ? E3D_WANT_POSITION : 0);
     if (wants && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT))
         wants |= E3D_NEED_ALBEDO;
     if (wants && frame->mode == E3D_MODE_DEPTH)
@@ -259,6 +271,8 @@ static void prepare_constants(e3d_context *context)
         context->tables[pass] = (e3d_record_table){context->records[pass], bits};
     context->sorted = frame->hidden != E3D_HIDDEN_ZBUFFER;
     context->background_rgba = encode_one(context, frame->background, frame->background[3]);
+    for (int x = 0; x < E3D_TILE; x++)
+        context->background_row[x] = context->background_rgba;
     context->line_rgba = encode_one(context, frame->line_color, 1.0f);
 }
 

@@ -150,12 +150,10 @@ void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile)
 {
     e3d_outputs_begin(context, tile);
     e3d_outputs_no_depth(context, tile);
-    for (int y = 0; context->targets->color && y < tile->height; y++) {
-        uint8_t *row = context->targets->color +
-                       4 * ((size_t)(tile->y + y) * context->frame->width + tile->x);
-        for (int x = 0; x < tile->width; x++)
-            memcpy(row + 4 * x, &context->background_rgba, 4);
-    }
+    for (int y = 0; context->targets->color && y < tile->height; y++)
+        memcpy(context->targets->color +
+                   4 * ((size_t)(tile->y + y) * context->frame->width + tile->x),
+               context->background_row, 4 * (size_t)tile->width);
 }
 
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)

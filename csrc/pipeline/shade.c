@@ -70,14 +70,15 @@ static void find_albedo(const e3d_context *context, const e3d_group *group, e3d_
                         const e3d_surface *surfaces)
 {
     const e3d_kernels *kernels = context->kernels;
-    for (int k = 0; k < 3; k++)
+    const float *base = group->material->color;
+    for (int k = 0; k < 3 && !group->textured; k++)
         for (int i = 0; i < batch->count; i++)
-            batch->color[k][i] = group->material->color[k];
+            batch->color[k][i] = base[k];
     if (group->textured) {
         const e3d_texture_view *texture = e3d_texture_get_view(group->material->texture);
         if (texture->filter == E3D_TRILINEAR)
             kernels->select_level(batch, surfaces, texture);
-        kernels->texture(batch, texture);
+        kernels->texture(batch, texture, base);
     }
     if (group->by_vertex || group->by_instance)
         kernels->tint(batch, surfaces, group->by_vertex, group->by_instance);
@@ -86,7 +87,7 @@ static void find_albedo(const e3d_context *context, const e3d_group *group, e3d_
 static void light(const e3d_context *context, const e3d_group *group, e3d_batch *batch)
 {
     const e3d_material *m = group->material;
-    int shiny = m->specular[0] != 0.0f || m->specular[1] != 0.0f || m->specular[2] != 0.0f;
+    int shiny = e3d_is_shiny(m);
     context->kernels->light(batch, &context->lighting, shiny ? m->shininess : 0.0f);
     context->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive);
 }

@@ -1,6 +1,6 @@
 # The Cython mirror of csrc/kernels/kernels.h, and nothing else: what the tests of the kernels need.
 
-from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t
+from libc.stdint cimport int32_t, uint8_t, uint32_t
 
 from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
 
@@ -16,13 +16,14 @@ cdef extern from "kernels/kernels.h" nogil:
         E3D_BATCH
 
     ctypedef struct e3d_level:
-        const uint16_t *texels
+        const void *texels
         int32_t width
         int32_t height
 
     ctypedef struct e3d_texture_view:
         e3d_level levels[16]
         int32_t level_count
+        int32_t texel_bytes
         e3d_filter filter
         e3d_wrap wrap
 
@@ -79,7 +80,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted)
         void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,
                              const e3d_texture_view *texture)
-        void (*texture)(e3d_batch *batch, const e3d_texture_view *texture)
+        void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float *base)
         void (*tint)(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance)
         void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
         void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)

@@ -1,6 +1,6 @@
 /* Texture: filtered texels at a place, in 8-bit fixed-point weights.
  *
- * In:  a texture's levels (16-bit linear RGBA, top row first), uv and its derivatives.
+ * In:  a texture's levels (linear RGBA, top row first), uv and its derivatives.
  * Out: the red, green and blue of the texture there, 0 .. 1.
  * Rules: R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
  */
@@ -36,18 +36,21 @@ static float wrap_coordinate(float s, e3d_wrap wrap)
     return m > 1.0f ? 2.0f - m : m;
 }
 
-static const uint16_t *texel(const e3d_level *level, int32_t column, int32_t row)
+/* A channel in 16 bits. Levels have a border, which goes unused here. */
+static uint32_t texel(const e3d_texture_view *texture, const e3d_level *level, int32_t column, int32_t row, int c)
 {
-    return level->texels + 4 * ((size_t)row * (size_t)level->width + (size_t)column);
+    size_t at = 4 * ((size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1)) + (size_t)c;
+    return texture->texel_bytes == 4 ? ((const uint8_t *)level->texels)[at] * 257u
+                                     : ((const uint16_t *)level->texels)[at];
 }
 
-static void sample_nearest(const e3d_level *level, float s, float t, uint32_t out[CHANNELS])
+static void sample_nearest(const e3d_texture_view *texture, const e3d_level *level, float s, float t, uint32_t out[CHANNELS])
 {
     int32_t column = (int32_t)(s * (float)level->width), row = (int32_t)(t * (float)level->height);
     column = column < level->width ? column : level->width - 1;
     row = row < level->height ? row : level->height - 1;
     for (int c = 0; c < CHANNELS; c++)
-        out[c] = texel(level, column, row)[c];
+        out[c] = texel(texture, level, column, row, c);
 }
 
 /* The two neighbours along one axis and the weight, of 256, of the second. */
@@ -71,12 +74,16 @@ static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
     return (neighbours){first, second, weight};
 }
 
-static void sample_bilinear(const e3d_level *level, e3d_wrap wrap, float s, float t, uint32_t out[CHANNELS])
+static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *level, float s, float t,
+                            uint32_t out[CHANNELS])
 {
-    neighbours x = find_neighbours(s, level->width, wrap), y = find_neighbours(t, level->height, wrap);
+    neighbours x = find_neighbours(s, level->width, texture->wrap);
+    neighbours y = find_neighbours(t, level->height, texture->wrap);
     for (int c = 0; c < CHANNELS; c++) {
-        uint32_t t00 = texel(level, x.first, y.first)[c], t10 = texel(level, x.second, y.first)[c];
-        uint32_t t01 = texel(level, x.first, y.second)[c], t11 = texel(level, x.second, y.second)[c];
+        uint32_t t00 = texel(texture, level, x.first, y.first, c);
+        uint32_t t10 = texel(texture, level, x.second, y.first, c);
+        uint32_t t01 = texel(texture, level, x.first, y.second, c);
+        uint32_t t11 = texel(texture, level, x.second, y.second, c);
         uint32_t h0 = t00 * (256 - x.weight) + t10 * x.weight;
         uint32_t h1 = t01 * (256 - x.weight) + t11 * x.weight;
         out[c] = (h0 * (256 - y.weight) + h1 * y.weight + 32768) >> 16;
@@ -88,8 +95,8 @@ static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float
 {
     int32_t fine = lod / 256, coarse = fine + 1 < texture->level_count ? fine + 1 : fine;
     uint32_t f = (uint32_t)(lod % 256), a[CHANNELS], b[CHANNELS];
-    sample_bilinear(&texture->levels[fine], texture->wrap, s, t, a);
-    sample_bilinear(&texture->levels[coarse], texture->wrap, s, t, b);
+    sample_bilinear(texture, &texture->levels[fine], s, t, a);
+    sample_bilinear(texture, &texture->levels[coarse], s, t, b);
     for (int c = 0; c < CHANNELS; c++)
         out[c] = (a[c] * (256 - f) + b[c] * f + 128) >> 8;
 }
@@ -101,9 +108,9 @@ void ref_texture_sample(const e3d_texture_view *texture, const float uv[2], cons
     float t = wrap_coordinate(1.0f - uv[1], texture->wrap);
     uint32_t value[CHANNELS];
     if (texture->filter == E3D_NEAREST)
-        sample_nearest(&texture->levels[0], s, t, value);
+        sample_nearest(texture, &texture->levels[0], s, t, value);
     else if (texture->filter == E3D_BILINEAR)
-        sample_bilinear(&texture->levels[0], texture->wrap, s, t, value);
+        sample_bilinear(texture, &texture->levels[0], s, t, value);
     else
         sample_trilinear(texture, level_of_detail(texture, uv_dx, uv_dy), s, t, value);
     for (int c = 0; c < CHANNELS; c++)

@@ -4,7 +4,6 @@ import numpy as np
 import numpy.typing as npt
 
 _Bytes = npt.NDArray[np.uint8]
-_Texels = npt.NDArray[np.uint16]
 _Words = npt.NDArray[np.uint32]
 _Floats = npt.NDArray[np.float32]
 _Integers = npt.NDArray[np.int32]
@@ -53,13 +52,20 @@ class Kernels:
         self,
         batch: _Bytes,
         surfaces: _Bytes,
-        texels: _Texels,
+        texels: _Bytes,
         sizes: _Integers,
         filter: int,
         wrap: int,
     ) -> None: ...
     def texture(
-        self, batch: _Bytes, texels: _Texels, sizes: _Integers, filter: int, wrap: int
+        self,
+        batch: _Bytes,
+        texels: _Bytes,
+        texel_bytes: int,
+        sizes: _Integers,
+        filter: int,
+        wrap: int,
+        base: _Floats,
     ) -> None: ...
     def tint(self, batch: _Bytes, surfaces: _Bytes, by_vertex: bool, by_instance: bool) -> None: ...
     def light(

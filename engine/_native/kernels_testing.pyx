@@ -8,7 +8,7 @@ Always: nothing but the sizes of structs is checked. What a kernel expects of it
      (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
 """
 
-from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t
+from libc.stdint cimport int32_t, uint8_t, uint32_t
 from libc.string cimport memcpy
 
 from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
@@ -160,18 +160,19 @@ cdef class Kernels:
             self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], wanted)
 
     def select_level(self, uint8_t[::1] batch, const uint8_t[::1] surfaces,
-                     const uint16_t[::1] texels, const int32_t[:, ::1] sizes, int filter, int wrap):
-        cdef e3d_texture_view view = texture_view(texels, sizes, filter, wrap)
+                     const uint8_t[::1] texels, const int32_t[:, ::1] sizes, int filter, int wrap):
+        cdef e3d_texture_view view = texture_view(texels, 8, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
             self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], &view)
 
-    def texture(self, uint8_t[::1] batch, const uint16_t[::1] texels, const int32_t[:, ::1] sizes,
-                int filter, int wrap):
-        cdef e3d_texture_view view = texture_view(texels, sizes, filter, wrap)
+    def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int texel_bytes,
+                const int32_t[:, ::1] sizes, int filter, int wrap, const float[::1] base):
+        """``texels``: the levels with their borders, of 4 or 8 bytes a texel."""
+        cdef e3d_texture_view view = texture_view(texels, texel_bytes, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
-            self.table.texture(<e3d_batch *>&batch[0], &view)
+            self.table.texture(<e3d_batch *>&batch[0], &view, &base[0])
 
     def tint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, bint by_vertex, bint by_instance):
         check_size(batch, sizeof(e3d_batch))
@@ -223,17 +224,18 @@ cdef int raster(raster_kernel kernel, int rounds, const uint8_t[::1] pieces, flo
     return 0
 
 
-cdef e3d_texture_view texture_view(const uint16_t[::1] texels, const int32_t[:, ::1] sizes,
-                                   int filter, int wrap):
+cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int texel_bytes,
+                                   const int32_t[:, ::1] sizes, int filter, int wrap):
     """The levels lie one after the other in `texels`; `sizes` is (levels, 2): width and height."""
     cdef e3d_texture_view view
     cdef Py_ssize_t start = 0, level
     view.level_count = <int32_t>sizes.shape[0]
+    view.texel_bytes = texel_bytes
     view.filter = <e3d_filter>filter
     view.wrap = <e3d_wrap>wrap
     for level in range(sizes.shape[0]):
         view.levels[level].texels = &texels[start]
         view.levels[level].width = sizes[level, 0]
         view.levels[level].height = sizes[level, 1]
-        start += 4 * <Py_ssize_t>sizes[level, 0] * sizes[level, 1]
+        start += texel_bytes * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
     return view

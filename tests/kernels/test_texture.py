@@ -45,7 +45,7 @@ def level_of(surface, uv, r, sizes):
 
 @all_backends
 def test_select_level(kernels):
-    texels = np.zeros(4, np.uint16)  # never read
+    texels = np.zeros(8, np.uint8)  # never read
     for seed in range(ROUNDS):
         rng = np.random.default_rng(seed)
         surfaces, batches = random_surfaces(rng), random_batches(rng)
@@ -128,6 +128,17 @@ def sampled(texels, sizes, filter_name, wrap, uv, lod):
     return (near * (256 - f) + far * f + 128) >> 8
 
 
+def bordered(texels, sizes, wrap):
+    """The bytes of all levels as the kernels read them: within a border of one texel each."""
+    pieces, start = [], 0
+    for width, height in sizes.tolist():
+        level = texels[start : start + width * height].reshape(height, width, 4)
+        mode = "wrap" if wrap == "repeat" else "edge"
+        pieces.append(np.pad(level, ((1, 1), (1, 1), (0, 0)), mode).ravel())
+        start += width * height
+    return np.concatenate(pieces).view(np.uint8)
+
+
 def random_coordinates(rng, shape, sizes):
     """Around the texture, on the edges of texels and halfway between them, and hostile."""
     uv = hostile(rng, shape, 2.5)
@@ -142,7 +153,8 @@ def random_coordinates(rng, shape, sizes):
 @all_backends
 @pytest.mark.parametrize("filter_name", FILTERS)
 @pytest.mark.parametrize("wrap", WRAPS)
-def test_texture(kernels, filter_name, wrap):
+@pytest.mark.parametrize("texel_bytes", [4, 8])
+def test_texture(kernels, filter_name, wrap, texel_bytes):
     for seed in range(list(WRAPS).index(wrap), ROUNDS, len(WRAPS)):
         rng = np.random.default_rng(seed)
         batches = random_batches(rng)
@@ -150,19 +162,25 @@ def test_texture(kernels, filter_name, wrap):
         count = int((sizes[:, 0].astype(np.int64) * sizes[:, 1]).sum())
         texels = rng.choice([0, 65535, 1, 32768], (count, 4)).astype(np.uint16)
         texels[::2] = rng.integers(0, 65536, texels[::2].shape)
+        stored = bordered(texels, sizes, wrap)
+        if texel_bytes == 4:
+            texels >>= 8
+            stored = bordered(texels.astype(np.uint8), sizes, wrap)
+            texels *= 257
         shape = batches.fields["uv"].shape
         uv = random_coordinates(rng, shape, sizes)
-        color = hostile(rng, batches.fields["color"].shape)
+        base = hostile(rng, 3)
         lod = rng.integers(0, (len(sizes) - 1) * 256 + 1, (BATCHES, LANES)).astype(np.int32)
         lod[::3] &= ~255
         fill(batches, "uv", uv)
-        fill(batches, "color", color)
         batches.fields["lod"] = lod  # whole vectors look levels up
         for row in batches.rows:
-            kernels.texture(row, texels.ravel(), sizes, FILTERS[filter_name], WRAPS[wrap])
+            kernels.texture(
+                row, stored, texel_bytes, sizes, FILTERS[filter_name], WRAPS[wrap], base
+            )
         values = sampled(texels, sizes, filter_name, wrap, planes(uv), lod).astype(np.float32)
         for k in range(3):
-            expected = color[:, k] * (values[..., k] * UNORM16)
+            expected = base[k] * (values[..., k] * UNORM16)
             got = batches.fields["color"][:, k]
             check_lanes(f"color[{k}]", got, expected, batches.fields["count"])
         check_poisoned(batches.fields, ["b", "r", "position", "normal", "energy", "shine"])

@@ -91,9 +91,10 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
             lit.position[k] = v_loadf(batch->position[k] + i);
             lit.normal[k] = v_loadf(batch->normal[k] + i);
             lit.energy[k] = v_setf(lighting->ambient[k]);
-            lit.shine[k] = v_setf(0.0f);
+            lit.shine[k] = lit.view[k] = v_setf(0.0f);
         }
-        light_view(lighting, &lit);
+        if (shininess > 0.0f)
+            light_view(lighting, &lit);
         for (int n = 0; n < lighting->light_count; n++)
             light_one(&lighting->lights[n], shininess, &lit);
         for (int k = 0; k < 3; k++) {

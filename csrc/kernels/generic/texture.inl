@@ -1,4 +1,7 @@
-/* texture: samples of one texture, filtered in 16-bit linear light with 8-bit weights (R28-R30). */
+/* texture: samples of one texture, filtered in 16-bit linear light with 8-bit weights (R28-R30).
+ *
+ * Texels have a border (core/texture.c): the second of two neighbours always is the next in memory.
+ */
 
 static inline vf32 floor_lanes(vf32 v)
 {
@@ -20,26 +23,39 @@ static inline vf32 texture_wrap(vf32 s, int wrap)
     return v_self(v_gt(m, one), v_sub(v_setf(2.0f), m), m);
 }
 
-/* The two columns (rows) of one coordinate, and the weight of the second, of each lane's level. */
+/* The first of the two columns (rows) of one coordinate, of each lane's level, and the weight of the second. The border
+ * counts: column -1 is 0. */
 typedef struct texture_taps {
-    vi32 first, second, weight;
+    vi32 first, weight;
 } texture_taps;
 
-static inline texture_taps texture_linear(vf32 s, vi32 size, int wrap)
+static inline texture_taps texture_linear(vf32 s, vi32 size)
 {
-    texture_taps taps;
-    vi32 zero = v_seti(0), one = v_seti(1);
-    vi32 p = v_subi(v_rint(v_mul(s, v_float(v_shl(size, 8)))), v_seti(128));
-    vi32 low = v_sra(p, 8), high = v_addi(low, one), last = v_subi(size, one);
-    taps.weight = v_andi(p, v_seti(255));
-    if (wrap == E3D_REPEAT) {
-        taps.first = v_seli(v_negi(low), v_addi(low, size), low);
-        taps.second = v_seli(v_gti(high, last), v_subi(high, size), high);
-    } else {
-        taps.first = v_mini(v_maxi(low, zero), last);
-        taps.second = v_mini(v_maxi(high, zero), last);
-    }
-    return taps;
+    vi32 p = v_addi(v_rint(v_mul(s, v_float(v_shl(size, 8)))), v_seti(128));
+    return (texture_taps){v_sra(p, 8), v_andi(p, v_seti(255))};
+}
+
+/* Where a batch's samples fall: numbers of the left texels, above and below, and the weights of the right and the lower
+ * ones. All are found before any texel is read, so that what is not in the cache is on its way meanwhile. */
+typedef struct texture_places {
+    int32_t top[E3D_BATCH + E3D_PAD], bottom[E3D_BATCH + E3D_PAD];
+    int32_t across[E3D_BATCH + E3D_PAD], down[E3D_BATCH + E3D_PAD];
+} texture_places;
+
+/* One vector of them, of levels that start at `start` texels and are width x height, per lane. */
+static inline void texture_place(const e3d_texture_view *view, vi32 start, vi32 width, vi32 height, vf32 s,
+                                 vf32 t, texture_places *places, int i)
+{
+    texture_taps x = texture_linear(s, width), y = texture_linear(t, height);
+    vi32 stride = v_addi(width, v_seti(2));
+    vi32 top = v_addi(v_addi(start, x.first), v_muli(y.first, stride));
+    v_storei(places->top + i, top);
+    v_storei(places->bottom + i, v_addi(top, stride));
+    v_storei(places->across + i, x.weight);
+    v_storei(places->down + i, y.weight);
+    const char *texels = view->levels[0].texels;
+    for (int lane = 0; lane < V_LANES; lane += 4)
+        __builtin_prefetch(texels + (intptr_t)places->bottom[i + lane] * view->texel_bytes);
 }
 
 /* Channels of one vector of texels, 16 bits each in 32. */
@@ -47,85 +63,79 @@ typedef struct texel_lanes {
     vi32 c[3];
 } texel_lanes;
 
-static inline texel_lanes texture_fetch(const uint16_t *texels, vi32 index)
+/* 256 - weight in the low half, weight in the high one. */
+static inline vi32 texture_weights(vi32 weight)
+{
+    return v_addi(v_subi(v_shl(weight, 16), weight), v_seti(256));
+}
+
+/* The products of v_madd16 are of signed 16 bits: channels are shifted down by 32768 before, the sum up by 256 * 32768. */
+static inline vi32 texture_signed(vi32 pair) { return v_xori(pair, v_seti((int32_t)0x80008000)); }
+
+enum { TEXTURE_BIAS = 256 * 32768 };
+
+static inline texel_lanes texture_mix16(const void *texels, const int32_t *top, const int32_t *bottom,
+                                        vi32 across, vi32 down)
 {
     texel_lanes t;
-    vi32 word = v_shl(index, 1);
-    vi32 red_green = v_gatheri(texels, word);
-    vi32 blue_alpha = v_gatheri(texels, v_addi(word, v_seti(1)));
-    t.c[0] = v_andi(red_green, v_seti(0xFFFF));
-    t.c[1] = v_shr(red_green, 16);
-    t.c[2] = v_andi(blue_alpha, v_seti(0xFFFF));
+    vi32 upper[3], lower[3], weights = texture_weights(across);
+    v_pairs16(texels, top, upper);
+    v_pairs16(texels, bottom, lower);
+    for (int k = 0; k < 3; k++) { /* h0 (256 - f) + h1 f = 256 h0 + (h1 - h0) f, and the bias stays in h0 */
+        vi32 h0 = v_madd16(texture_signed(upper[k]), weights);
+        vi32 h1 = v_madd16(texture_signed(lower[k]), weights);
+        vi32 sum = v_addi(v_shl(h0, 8), v_muli(v_subi(h1, h0), down));
+        t.c[k] = v_shr(v_addi(sum, v_seti((int32_t)(256u * TEXTURE_BIAS + 32768u))), 16);
+    }
     return t;
+}
+
+/* Of 8-bit channels, which stand for c * 257: blended in 8 bits, a factor of 257 at the end. Across, two channels a lane. */
+static inline vi32 texture_across8(vi32 left, vi32 right, vi32 weight_left, vi32 weight_right)
+{
+    return v_addi(v_mul16(left, weight_left), v_mul16(right, weight_right));
+}
+
+static inline vi32 texture_down8(vi32 pair, vi32 weights)
+{
+    vi32 sum = v_madd16(texture_signed(pair), weights);
+    const uint32_t bias = 257u * TEXTURE_BIAS + 32768u;
+    return v_shr(v_addi(v_addi(v_shl(sum, 8), sum), v_seti((int32_t)bias)), 16);
+}
+
+static inline texel_lanes texture_mix8(const void *texels, const int32_t *top, const int32_t *bottom,
+                                       vi32 across, vi32 down)
+{
+    vi32 left[2], right[2], red_blue[2], green[2], bytes = v_seti(0x00FF00FF), low = v_seti(0xFFFF);
+    vi32 weight_right = v_ori(across, v_shl(across, 16));
+    vi32 weight_left = v_subi(v_seti(0x01000100), weight_right), weights = texture_weights(down);
+    v_pairs8(texels, top, &left[0], &right[0]);
+    v_pairs8(texels, bottom, &left[1], &right[1]);
+    for (int i = 0; i < 2; i++) {
+        red_blue[i] = texture_across8(v_andi(left[i], bytes), v_andi(right[i], bytes), weight_left,
+                                      weight_right);
+        green[i] = texture_across8(v_andi(v_shr(left[i], 8), bytes), v_andi(v_shr(right[i], 8), bytes),
+                                   weight_left, weight_right);
+    }
+    vi32 red = v_ori(v_andi(red_blue[0], low), v_shl(red_blue[1], 16));
+    vi32 blue = v_ori(v_shr(red_blue[0], 16), v_subi(red_blue[1], v_andi(red_blue[1], low)));
+    vi32 both = v_ori(v_andi(green[0], low), v_shl(green[1], 16));
+    return (texel_lanes){
+        {texture_down8(red, weights), texture_down8(both, weights), texture_down8(blue, weights)}};
+}
+
+static inline texel_lanes texture_mix(const e3d_texture_view *view, const texture_places *places, int i)
+{
+    const void *texels = view->levels[0].texels;
+    vi32 across = v_loadi(places->across + i), down = v_loadi(places->down + i);
+    return view->texel_bytes == 4
+               ? texture_mix8(texels, places->top + i, places->bottom + i, across, down)
+               : texture_mix16(texels, places->top + i, places->bottom + i, across, down);
 }
 
 static inline vi32 texture_blend(vi32 a, vi32 b, vi32 weight)
 {
     return v_addi(v_muli(a, v_subi(v_seti(256), weight)), v_muli(b, weight));
-}
-
-#ifdef V_QUADS
-
-/* Texel numbers and weights of one vector of samples. */
-typedef struct texture_footprint {
-    int32_t corner[4][V_LANES]; /* upper left, upper right, lower left, lower right */
-    int32_t across[V_LANES], down[V_LANES];
-} texture_footprint;
-
-static inline __m128i texture_mix(const uint16_t *texels, const texture_footprint *f, int lane)
-{
-    __m128i upper = quad_blend(texels, f->corner[0][lane], f->corner[1][lane], f->across[lane]);
-    __m128i lower = quad_blend(texels, f->corner[2][lane], f->corner[3][lane], f->across[lane]);
-    return quad_mix(upper, lower, f->down[lane]);
-}
-
-static inline texel_lanes texture_filter(const uint16_t *texels, vi32 top, vi32 bottom, texture_taps x,
-                                         vi32 weight)
-{
-    texture_footprint f;
-    int32_t planes[3][V_LANES];
-    v_storei(f.corner[0], v_addi(top, x.first));
-    v_storei(f.corner[1], v_addi(top, x.second));
-    v_storei(f.corner[2], v_addi(bottom, x.first));
-    v_storei(f.corner[3], v_addi(bottom, x.second));
-    v_storei(f.across, v_ori(v_subi(v_seti(256), x.weight), v_shl(x.weight, 16)));
-    v_storei(f.down, weight);
-    for (int lane = 0; lane < V_LANES; lane += 4) {
-        __m128i q[4];
-        for (int i = 0; i < 4; i++)
-            q[i] = texture_mix(texels, &f, lane + i);
-        quad_store(q, planes[0] + lane, planes[1] + lane, planes[2] + lane);
-    }
-    return (texel_lanes){{v_loadi(planes[0]), v_loadi(planes[1]), v_loadi(planes[2])}};
-}
-
-#else
-
-static inline texel_lanes texture_filter(const uint16_t *texels, vi32 top, vi32 bottom, texture_taps x,
-                                         vi32 weight)
-{
-    texel_lanes a = texture_fetch(texels, v_addi(top, x.first));
-    texel_lanes b = texture_fetch(texels, v_addi(top, x.second));
-    texel_lanes c = texture_fetch(texels, v_addi(bottom, x.first));
-    texel_lanes d = texture_fetch(texels, v_addi(bottom, x.second));
-    for (int k = 0; k < 3; k++) {
-        vi32 upper = texture_blend(a.c[k], b.c[k], x.weight);
-        vi32 lower = texture_blend(c.c[k], d.c[k], x.weight);
-        vi32 sum = v_addi(texture_blend(upper, lower, weight), v_seti(32768));
-        a.c[k] = v_shr(sum, 16);
-    }
-    return a;
-}
-
-#endif
-
-/* Bilinear, of levels that start at `start` texels and are width x height, per lane. */
-static inline texel_lanes texture_bilinear(const uint16_t *texels, vi32 start, vi32 width, vi32 height,
-                                           vf32 s, vf32 t, int wrap)
-{
-    texture_taps x = texture_linear(s, width, wrap), y = texture_linear(t, height, wrap);
-    vi32 top = v_addi(start, v_muli(y.first, width)), bottom = v_addi(start, v_muli(y.second, width));
-    return texture_filter(texels, top, bottom, x, y.weight);
 }
 
 /* Sizes and starts of all levels, to look up by lane. */
@@ -136,53 +146,42 @@ typedef struct texture_levels {
 static inline texture_levels texture_tabulate(const e3d_texture_view *view)
 {
     texture_levels t;
+    int32_t start = 0;
     for (int l = 0; l < view->level_count; l++) {
         t.width[l] = view->levels[l].width;
         t.height[l] = view->levels[l].height;
-        t.start[l] = (int32_t)((view->levels[l].texels - view->levels[0].texels) / 4);
+        t.start[l] = start;
+        start += (t.width[l] + 2) * (t.height[l] + 2);
     }
     return t;
 }
 
-static inline texel_lanes texture_at_one(const e3d_texture_view *view, const texture_levels *levels,
-                                         int level, vf32 s, vf32 t)
-{
-    return texture_bilinear(view->levels[0].texels, v_seti(levels->start[level]),
-                            v_seti(levels->width[level]), v_seti(levels->height[level]), s, t,
-                            view->wrap);
-}
-
 /* Each lane at its own level; mostly all are at `guess`, and looking up is slow. */
-static inline texel_lanes texture_at_level(const e3d_texture_view *view, const texture_levels *levels,
-                                           vi32 level, int guess, vf32 s, vf32 t)
+static inline void texture_place_at(const e3d_texture_view *view, const texture_levels *levels, vi32 level,
+                                    int guess, vf32 s, vf32 t, texture_places *places, int i)
 {
-    if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
-        return texture_at_one(view, levels, guess, s, t);
-    return texture_bilinear(view->levels[0].texels, v_gatheri(levels->start, level),
-                            v_gatheri(levels->width, level), v_gatheri(levels->height, level), s, t,
-                            view->wrap);
+    int same = !v_any(v_mnot(v_eqi(level, v_seti(guess))));
+    vi32 start = same ? v_seti(levels->start[guess]) : v_gatheri(levels->start, level);
+    vi32 width = same ? v_seti(levels->width[guess]) : v_gatheri(levels->width, level);
+    vi32 height = same ? v_seti(levels->height[guess]) : v_gatheri(levels->height, level);
+    texture_place(view, start, width, height, s, t, places, i);
 }
 
-static inline texel_lanes texture_trilinear(const e3d_texture_view *view, const texture_levels *levels,
-                                            vi32 lod, int guess, vf32 s, vf32 t)
+static inline texel_lanes texture_nearest(const e3d_texture_view *view, vf32 s, vf32 t)
 {
-    int last = view->level_count - 1, next = guess < last ? guess + 1 : last;
-    vi32 near = v_shr(lod, 8), weight = v_andi(lod, v_seti(255));
-    vi32 far = v_mini(v_addi(near, v_seti(1)), v_seti(last));
-    texel_lanes a = texture_at_level(view, levels, near, guess, s, t);
-    if (!v_any(v_gti(weight, v_seti(0)))) /* (256 a + 128) >> 8 = a */
-        return a;
-    texel_lanes b = texture_at_level(view, levels, far, next, s, t);
-    for (int k = 0; k < 3; k++)
-        a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
-    return a;
-}
-
-static inline texel_lanes texture_nearest(const e3d_level *level, vf32 s, vf32 t)
-{
+    const e3d_level *level = &view->levels[0];
     vi32 x = v_mini(v_trunc(v_mul(s, v_setf((float)level->width))), v_seti(level->width - 1));
     vi32 y = v_mini(v_trunc(v_mul(t, v_setf((float)level->height))), v_seti(level->height - 1));
-    return texture_fetch(level->texels, v_addi(v_muli(y, v_seti(level->width)), x));
+    vi32 one = v_seti(1), stride = v_seti(level->width + 2);
+    vi32 at = v_addi(v_addi(x, one), v_muli(v_addi(y, one), stride));
+    if (view->texel_bytes == 4) {
+        vi32 texel = v_gatheri(level->texels, at), byte = v_seti(255), scale = v_seti(257);
+        return (texel_lanes){{v_muli(v_andi(texel, byte), scale), v_muli(v_andi(v_shr(texel, 8), byte), scale),
+                              v_muli(v_andi(v_shr(texel, 16), byte), scale)}};
+    }
+    vi32 red_green = v_gatheri(level->texels, v_shl(at, 1));
+    vi32 blue_alpha = v_gatheri(level->texels, v_addi(v_shl(at, 1), one)), low = v_seti(0xFFFF);
+    return (texel_lanes){{v_andi(red_green, low), v_shr(red_green, 16), v_andi(blue_alpha, low)}};
 }
 
 /* Lanes after the last sample hold levels of an earlier batch, perhaps of a texture with more of them:
@@ -193,24 +192,73 @@ static inline vi32 load_level(const e3d_batch *batch, int i, int level_count)
     return v_mini(v_maxi(v_loadi(batch->lod + i), v_seti(0)), last);
 }
 
-static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view)
+static inline vf32 texture_s(const e3d_batch *batch, int i, int wrap)
+{
+    return texture_wrap(v_loadf(batch->uv[0] + i), wrap);
+}
+
+static inline vf32 texture_t(const e3d_batch *batch, int i, int wrap)
+{
+    return texture_wrap(v_sub(v_setf(1.0f), v_loadf(batch->uv[1] + i)), wrap);
+}
+
+static inline void texture_store(e3d_batch *batch, int i, const float base[3], texel_lanes texel)
+{
+    for (int k = 0; k < 3; k++)
+        v_storef(batch->color[k] + i,
+                 v_mul(v_setf(base[k]), v_mul(v_float(texel.c[k]), v_setf(E3D_UNORM16))));
+}
+
+static void texture_nearest_all(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
+{
+    for (int i = 0; i < batch->count; i += V_LANES)
+        texture_store(batch, i, base,
+                      texture_nearest(view, texture_s(batch, i, view->wrap), texture_t(batch, i, view->wrap)));
+}
+
+static void texture_bilinear_all(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
+{
+    texture_places places;
+    vi32 start = v_seti(0), width = v_seti(view->levels[0].width), height = v_seti(view->levels[0].height);
+    for (int i = 0; i < batch->count; i += V_LANES)
+        texture_place(view, start, width, height, texture_s(batch, i, view->wrap),
+                      texture_t(batch, i, view->wrap), &places, i);
+    for (int i = 0; i < batch->count; i += V_LANES)
+        texture_store(batch, i, base, texture_mix(view, &places, i));
+}
+
+static void texture_trilinear_all(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
 {
     texture_levels levels = texture_tabulate(view);
+    texture_places near, far; /* far only where its weight isn't 0: (256 a + 128) >> 8 = a */
+    int last = view->level_count - 1;
     for (int i = 0; i < batch->count; i += V_LANES) {
-        vf32 s = texture_wrap(v_loadf(batch->uv[0] + i), view->wrap);
-        vf32 t = texture_wrap(v_sub(v_setf(1.0f), v_loadf(batch->uv[1] + i)), view->wrap);
-        texel_lanes texel;
-        if (view->filter == E3D_NEAREST)
-            texel = texture_nearest(&view->levels[0], s, t);
-        else if (view->filter == E3D_BILINEAR)
-            texel = texture_at_one(view, &levels, 0, s, t);
-        else
-            texel = texture_trilinear(view, &levels, load_level(batch, i, view->level_count),
-                                      batch->lod[i] >> 8, s, t);
-        for (int k = 0; k < 3; k++) {
-            vf32 value = v_mul(v_float(texel.c[k]), v_setf(E3D_UNORM16));
-            float *color = batch->color[k] + i;
-            v_storef(color, v_mul(v_loadf(color), value));
-        }
+        vf32 s = texture_s(batch, i, view->wrap), t = texture_t(batch, i, view->wrap);
+        vi32 lod = load_level(batch, i, view->level_count), level = v_shr(lod, 8);
+        int guess = batch->lod[i] >> 8;
+        texture_place_at(view, &levels, level, guess, s, t, &near, i);
+        if (v_any(v_gti(v_andi(lod, v_seti(255)), v_seti(0))))
+            texture_place_at(view, &levels, v_mini(v_addi(level, v_seti(1)), v_seti(last)),
+                             guess < last ? guess + 1 : last, s, t, &far, i);
     }
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vi32 weight = v_andi(load_level(batch, i, view->level_count), v_seti(255));
+        texel_lanes a = texture_mix(view, &near, i);
+        if (v_any(v_gti(weight, v_seti(0)))) {
+            texel_lanes b = texture_mix(view, &far, i);
+            for (int k = 0; k < 3; k++)
+                a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
+        }
+        texture_store(batch, i, base, a);
+    }
+}
+
+static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
+{
+    if (view->filter == E3D_NEAREST)
+        texture_nearest_all(batch, view, base);
+    else if (view->filter == E3D_BILINEAR)
+        texture_bilinear_all(batch, view, base);
+    else
+        texture_trilinear_all(batch, view, base);
 }

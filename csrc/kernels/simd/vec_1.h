@@ -53,6 +53,15 @@ static inline vi32 v_maxi(vi32 a, vi32 b) { return a > b ? a : b; }
 static inline vmask v_gti(vi32 a, vi32 b) { return a > b; }
 static inline vmask v_eqi(vi32 a, vi32 b) { return a == b; }
 static inline vmask v_negi(vi32 a) { return a < 0; }
+/* Products and sums of the 16-bit halves: the low 16 bits of each; signed, both added. */
+static inline vi32 v_mul16(vi32 a, vi32 b) {
+    uint32_t x = (uint32_t)a, y = (uint32_t)b;
+    return (int32_t)((((x >> 16) * (y >> 16)) << 16) | ((x & 0xFFFFu) * (y & 0xFFFFu) & 0xFFFFu));
+}
+static inline vi32 v_madd16(vi32 a, vi32 b) {
+    int32_t low = (int16_t)a * (int16_t)b, high = (int16_t)(a >> 16) * (int16_t)(b >> 16);
+    return v_addi(low, high);
+}
 #define v_shl(a, n) ((int32_t)((uint32_t)(a) << (n)))
 #define v_shr(a, n) ((int32_t)((uint32_t)(a) >> (n)))
 #define v_sra(a, n) ((int32_t)(a) >> (n))
@@ -86,5 +95,17 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) { return (float)a[0]; } /* r
 
 /* Lane l of column c goes to out[16 * l + c]. */
 static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c, 64); }
+
+/* The texels at[lane] and at[lane] + 1 of each lane. Of 8-bit channels: whole. Of 16-bit ones: red, green and blue, of
+ * the left texel in the low half, of the right one in the high half. */
+static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
+    memcpy(left, (const char *)texels + 4 * (intptr_t)at[0], 4);
+    memcpy(right, (const char *)texels + 4 * (intptr_t)at[0] + 4, 4);
+}
+static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+    const uint16_t *t = (const uint16_t *)texels + 4 * (intptr_t)at[0];
+    for (int k = 0; k < 3; k++)
+        out[k] = (int32_t)(t[k] | (uint32_t)t[4 + k] << 16);
+}
 
 #endif

@@ -5,8 +5,8 @@
 #include <immintrin.h>
 #include <stdint.h>
 
-#include "kernels/simd/quad_sse.h"
 #include "kernels/simd/rows_avx2.h"
+#include "kernels/simd/pairs_sse.h"
 
 #define V_LANES 8
 
@@ -56,6 +56,8 @@ static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm256_max_epi32(a, b); }
 static inline vmask v_gti(vi32 a, vi32 b) { return _mm256_castsi256_ps(_mm256_cmpgt_epi32(a, b)); }
 static inline vmask v_eqi(vi32 a, vi32 b) { return _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b)); }
 static inline vmask v_negi(vi32 a) { return _mm256_castsi256_ps(_mm256_srai_epi32(a, 31)); }
+static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm256_mullo_epi16(a, b); }
+static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm256_madd_epi16(a, b); }
 #define v_shl(a, n) _mm256_slli_epi32(a, n)
 #define v_shr(a, n) _mm256_srli_epi32(a, n)
 #define v_sra(a, n) _mm256_srai_epi32(a, n)
@@ -99,6 +101,25 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) {
 static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     rows_store8(c, out, 16);
     rows_store8(c + 8, out + 8, 16);
+}
+
+/* Lanes 0 .. 3 in the low half, 4 .. 7 in the high one: unpacking works within halves. */
+static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
+    __m256 a = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));
+    __m256 b = _mm256_set_m128(pairs_two(texels, at + 6), pairs_two(texels, at + 2));
+    *left = _mm256_castps_si256(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
+    *right = _mm256_castps_si256(_mm256_shuffle_ps(a, b, PAIRS_ODD));
+}
+static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+    __m256i q[4], halves = _mm256_broadcastsi128_si256(pairs_halves());
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm256_shuffle_epi8(
+            _mm256_set_m128i(pairs_one(texels, at[i + 4]), pairs_one(texels, at[i])), halves);
+    __m256i low01 = _mm256_unpacklo_epi32(q[0], q[1]), low23 = _mm256_unpacklo_epi32(q[2], q[3]);
+    __m256i high01 = _mm256_unpackhi_epi32(q[0], q[1]), high23 = _mm256_unpackhi_epi32(q[2], q[3]);
+    out[0] = _mm256_unpacklo_epi64(low01, low23);
+    out[1] = _mm256_unpackhi_epi64(low01, low23);
+    out[2] = _mm256_unpacklo_epi64(high01, high23);
 }
 
 #endif

@@ -5,8 +5,8 @@
 #include <immintrin.h>
 #include <stdint.h>
 
-#include "kernels/simd/quad_sse.h"
 #include "kernels/simd/rows_avx2.h"
+#include "kernels/simd/pairs_sse.h"
 
 #define V_LANES 16
 
@@ -58,6 +58,8 @@ static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm512_max_epi32(a, b); }
 static inline vmask v_gti(vi32 a, vi32 b) { return _mm512_cmpgt_epi32_mask(a, b); }
 static inline vmask v_eqi(vi32 a, vi32 b) { return _mm512_cmpeq_epi32_mask(a, b); }
 static inline vmask v_negi(vi32 a) { return _mm512_movepi32_mask(a); }
+static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm512_mullo_epi16(a, b); }
+static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm512_madd_epi16(a, b); }
 #define v_shl(a, n) _mm512_slli_epi32(a, n)
 #define v_shr(a, n) _mm512_srli_epi32(a, n)
 #define v_sra(a, n) _mm512_srai_epi32(a, n)
@@ -102,6 +104,33 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
         rows_store8(half, out + 128 * part, 16);
         rows_store8(half + 8, out + 128 * part + 8, 16);
     }
+}
+
+/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
+static inline vf32 pairs_eight(const void *texels, const int32_t *at) {
+    __m256 low = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));
+    __m256 high = _mm256_set_m128(pairs_two(texels, at + 12), pairs_two(texels, at + 8));
+    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+}
+static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
+    __m512 a = pairs_eight(texels, at), b = pairs_eight(texels, at + 2);
+    *left = _mm512_castps_si512(_mm512_shuffle_ps(a, b, PAIRS_EVEN));
+    *right = _mm512_castps_si512(_mm512_shuffle_ps(a, b, PAIRS_ODD));
+}
+static inline vi32 pairs_four(const void *texels, const int32_t *at) {
+    __m256i low = _mm256_set_m128i(pairs_one(texels, at[4]), pairs_one(texels, at[0]));
+    __m256i high = _mm256_set_m128i(pairs_one(texels, at[12]), pairs_one(texels, at[8]));
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
+static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+    __m512i q[4], halves = _mm512_broadcast_i32x4(pairs_halves());
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm512_shuffle_epi8(pairs_four(texels, at + i), halves);
+    __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
+    __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
+    out[0] = _mm512_unpacklo_epi64(low01, low23);
+    out[1] = _mm512_unpackhi_epi64(low01, low23);
+    out[2] = _mm512_unpacklo_epi64(high01, high23);
 }
 
 #endif

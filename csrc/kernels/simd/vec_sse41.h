@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "kernels/simd/quad_sse.h"
+#include "kernels/simd/pairs_sse.h"
 
 #define V_LANES 4
 
@@ -62,6 +62,8 @@ static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm_max_epi32(a, b); }
 static inline vmask v_gti(vi32 a, vi32 b) { return _mm_castsi128_ps(_mm_cmpgt_epi32(a, b)); }
 static inline vmask v_eqi(vi32 a, vi32 b) { return _mm_castsi128_ps(_mm_cmpeq_epi32(a, b)); }
 static inline vmask v_negi(vi32 a) { return _mm_castsi128_ps(_mm_srai_epi32(a, 31)); }
+static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm_mullo_epi16(a, b); }
+static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm_madd_epi16(a, b); }
 #define v_shl(a, n) _mm_slli_epi32(a, n)
 #define v_shr(a, n) _mm_srli_epi32(a, n)
 #define v_sra(a, n) _mm_srai_epi32(a, n)
@@ -105,6 +107,22 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
         v_storei(out + 32 + i, _mm_unpacklo_epi64(high01, high23));
         v_storei(out + 48 + i, _mm_unpackhi_epi64(high01, high23));
     }
+}
+
+static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
+    __m128 a = pairs_two(texels, at), b = pairs_two(texels, at + 2);
+    *left = _mm_castps_si128(_mm_shuffle_ps(a, b, PAIRS_EVEN));
+    *right = _mm_castps_si128(_mm_shuffle_ps(a, b, PAIRS_ODD));
+}
+static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+    __m128i q[4];
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm_shuffle_epi8(pairs_one(texels, at[i]), pairs_halves());
+    __m128i low01 = _mm_unpacklo_epi32(q[0], q[1]), low23 = _mm_unpacklo_epi32(q[2], q[3]);
+    __m128i high01 = _mm_unpackhi_epi32(q[0], q[1]), high23 = _mm_unpackhi_epi32(q[2], q[3]);
+    out[0] = _mm_unpacklo_epi64(low01, low23);
+    out[1] = _mm_unpackhi_epi64(low01, low23);
+    out[2] = _mm_unpacklo_epi64(high01, high23);
 }
 
 #endif

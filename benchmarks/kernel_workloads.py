@@ -24,7 +24,7 @@ from kernels.layouts import (
     PAD,
     PIECE,
     RUN,
-    SURFACE,
+    SURFACES,
     SURVIVORS,
     TILE,
     VERTICES,
@@ -114,7 +114,7 @@ def find_runs():
 def shading_inputs():
     """A full batch of samples in runs of 16, and its surfaces."""
     rng = np.random.default_rng(4)
-    surfaces = np.zeros(BATCH // 16 + 1, SURFACE)
+    surfaces = np.zeros(1, SURFACES)
     for name in ("p", "position", "normal", "uv", "color", "instance_color"):
         surfaces[name] = rng.uniform(0.1, 1, surfaces[name].shape)
     for name in ("px", "py"):
@@ -122,7 +122,7 @@ def shading_inputs():
     batch = np.zeros(1, BATCH_RECORD)
     batch["count"] = BATCH
     batch["sample"] = np.arange(LANES)
-    batch["surface"] = np.arange(LANES) // 16
+    batch["surface"] = np.arange(LANES) // 16  # 16 surfaces and the pad
     for name in ("b", "position", "normal", "uv", "energy", "shine"):
         batch[name] = rng.uniform(0.05, 1, batch[name].shape)
     batch["r"] = batch["color"] = 1

@@ -136,40 +136,46 @@ typedef struct e3d_tile_buffers {
 
 /* ---- shade ---- */
 
-/* Neighbouring samples of one row of a tile that show the same: a slot, later its surface. */
+/* Neighbouring samples of one row of a tile that show the same: a slot, later the next run of the same (-1: none). */
 typedef struct e3d_run {
     int32_t owner;
     uint16_t sample, length;
 } e3d_run;
 
-enum { E3D_BATCH = 256 };
+enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 
-/* What a visible piece brings to shading: 64 words. */
-typedef struct e3d_surface {
-    float p[3], px[3], py[3];      /* barycentric planes, R18 */
-    int32_t base_x, base_y;        /* relative to the tile's first sample */
-    float position[3][3];          /* [component][vertex], world */
-    float normal[3][3];            /* [component][vertex], world; flat: vertex 0 has the face's */
-    float uv[2][3];
-    float color[3][3];             /* [component][vertex] */
-    float instance_color[3];
-    int32_t back;                  /* the face looks away: normals are negated */
-    int32_t local, face, node, instance; /* number in the instance, face or -1, IDs */
-    int32_t group;                 /* samples of one group are shaded together */
-    int32_t runs, next;            /* of samples, while they are sorted */
-    int32_t spare[9];
-} e3d_surface;
+typedef float e3d_surface_floats[E3D_BATCH_SURFACES + E3D_PAD];
+typedef int32_t e3d_surface_words[E3D_BATCH_SURFACES + E3D_PAD];
 
-_Static_assert(sizeof(e3d_surface) == 64 * 4, "a surface is four cache lines");
+/* What the visible pieces of a batch bring to its samples, one an element. */
+typedef struct e3d_surfaces {
+    int32_t count, matrices;
+    int32_t irregular;             /* how many are clipped, or not of a face of three-component vertices */
+    e3d_surface_words x[3], y[3];  /* corners after R9 */
+    e3d_surface_floats iw[3];
+    e3d_surface_words swapped;     /* not 0: R9 exchanged vertices 1 and 2 */
+    e3d_surface_words matrix;      /* number of its matrices: ascends by 1 at most; its last is repeated over the pad */
+    e3d_surface_floats world[12], normals[9]; /* matrices of R1 and R2, one an element */
+    e3d_surface_floats position[3][3]; /* [component][vertex]: object space, then world */
+    e3d_surface_floats normal[3][3];   /* likewise; flat: vertex 0 has the face's */
+    e3d_surface_floats uv[2][3];
+    e3d_surface_floats color[3][3];    /* [component][vertex] */
+    e3d_surface_floats instance_color[3];
+    e3d_surface_words back;        /* not 0: the face looks away, normals are negated */
+    e3d_surface_floats p[3], px[3], py[3]; /* barycentric planes, R18 */
+    e3d_surface_floats base_x, base_y;     /* relative to the tile's first sample */
+    e3d_surface_floats step[2][3]; /* [axis]: sx, ux, vx of R25 */
+    e3d_surface_words piece, instance; /* whose they are; the kernels don't read it */
+} e3d_surfaces;
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 
-/* Samples of one material on their way to a colour; those of one surface stand together. `sample` and `surface` go on
- * being valid for E3D_PAD elements past the last: whole vectors read them. */
+/* Samples of one material on their way to a colour. The first is of surface 0, each other of the same as the one before it or
+ * of the next. `sample` and `surface` repeat the last for E3D_PAD elements more: whole vectors read them. */
 typedef struct e3d_batch {
     int count;
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */
-    int32_t surface[E3D_BATCH + E3D_PAD]; /* index of its e3d_surface */
+    int32_t surface[E3D_BATCH + E3D_PAD]; /* its element of e3d_surfaces */
     e3d_lane_array b[3], r;
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];
@@ -181,7 +187,9 @@ enum {
     E3D_WANT_POSITION = 1,
     E3D_WANT_NORMAL = 2,
     E3D_WANT_UV = 4,
-    E3D_WANT_FLAT = 8 /* with E3D_WANT_NORMAL: of the face */
+    E3D_WANT_FLAT = 8, /* with E3D_WANT_NORMAL: of the face */
+    E3D_WANT_LEVEL = 16, /* what select_level needs of the surfaces */
+    E3D_WANT_SURFACE = 32 /* any of these, or barycentrics */
 };
 
 typedef struct e3d_lighting {
@@ -215,14 +223,15 @@ typedef struct e3d_kernels {
     void (*raster_measure)(e3d_visible_tile *tile);
     /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
     int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
-    void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted);
+    /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */
+    void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted);
+    void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted);
     /* lod of R26, for trilinear textures of this size. */
-    void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,
-                         const e3d_texture_view *texture);
+    void (*select_level)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture);
     /* color = base * texture */
     void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float base[3]);
     /* color *= vertex colour, color *= instance colour */
-    void (*tint)(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance);
+    void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance);
     /* energy, and shine where shininess > 0 */
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
     /* color = (color * energy + specular * shine) + emissive; specular may be NULL */

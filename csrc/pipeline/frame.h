@@ -114,8 +114,17 @@ typedef struct e3d_counters {
 typedef struct e3d_group {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance;
-    int32_t count, start, next; /* of its runs, while they are sorted */
+    int32_t first, last; /* of its visible pieces */
 } e3d_group;
+
+/* A piece that shows in a tile, and the chain of its runs. */
+typedef struct e3d_visible_piece {
+    struct e3d_slot *slot;
+    const e3d_draw_state *draw;
+    int32_t instance, local; /* in its draw, in its instance */
+    int32_t group, next;     /* the next of the same group, or -1 */
+    int32_t first_run, last_run;
+} e3d_visible_piece;
 
 typedef struct e3d_tile_memory {
     e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
@@ -125,9 +134,9 @@ typedef struct e3d_tile_memory {
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling: 1 where a sample has its own colour */
     float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling only */
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
-    e3d_run sorted[E3D_TILE_SAMPLES + 1]; /* by group and surface, which owns them now */
     e3d_batch batch;
-    const e3d_run *batch_runs;          /* the batch's samples, as runs */
+    e3d_surfaces surfaces;       /* of the batch */
+    e3d_run batch_runs[E3D_BATCH]; /* the batch's samples, as runs */
     int32_t batch_run_count;
     uint32_t encoded[E3D_BATCH + E3D_PAD];
 } e3d_tile_memory;
@@ -143,19 +152,19 @@ typedef struct e3d_worker {
     e3d_array orders;       /* uint32_t of each slot: forward shading only */
     e3d_array items;        /* e3d_item, as the groups come */
     e3d_array named;        /* e3d_named: slots by record ID, a hash table */
-    e3d_array surfaces;     /* e3d_surface of the tile's visible slots */
+    e3d_array pieces;       /* e3d_visible_piece of the tile */
     e3d_array groups;       /* e3d_group of the tile */
     e3d_counters counters;
     int failed;             /* out of memory */
     char padding[128];      /* no false sharing between workers */
 } e3d_worker;
 
-enum { E3D_NEED_COLOR = 32, E3D_NEED_ALBEDO = 64, E3D_NEED_OUTPUTS = 128 };
+enum { E3D_NEED_COLOR = 256, E3D_NEED_ALBEDO = 512, E3D_NEED_OUTPUTS = 1024 };
 
 typedef struct e3d_slot {
     const e3d_record *record;
     const float *corners; /* c[k][j], or NULL */
-    int32_t surface;      /* or -1 */
+    int32_t piece;        /* its e3d_visible_piece, or -1 */
 } e3d_slot;
 
 /* Where a record's slot stands in the hash table; id -1: free. */
@@ -211,6 +220,7 @@ typedef struct e3d_context {
     const e3d_record *records[E3D_PASSES][E3D_MAX_THREADS];
     e3d_record_table tables[E3D_PASSES];
     float view[12]; /* rows of view_from_world, f32 */
+    float unorm8[256]; /* values of 8-bit vertex and instance colours (R23) */
     e3d_lighting lighting;
     int32_t tiles_x, tiles_y;
     int sorted;        /* painter or none: bins are made after sorting */
@@ -323,7 +333,11 @@ int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e
 int e3d_add_slot(const e3d_context *context, e3d_worker *worker, int pass, uint32_t id);
 /* Shades the first `count` of the tile memory's runs; 0 when memory is out. */
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
-int e3d_surface_of(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t slot);
+/* surface.c */
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count);
+int32_t e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t piece, int wanted);
+void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
+int32_t e3d_face_of(const e3d_visible_piece *piece);
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* batch->color, clamped, is that of its samples. */
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);

@@ -104,20 +104,20 @@ static void scatter_ids(const e3d_context *context, const e3d_worker *worker, co
 {
     const e3d_targets *t = context->targets;
     const e3d_batch *batch = &worker->tile->batch;
-    const e3d_surface *surfaces = worker->surfaces.data;
+    const e3d_visible_piece *pieces = worker->pieces.data;
     const e3d_group *groups = worker->groups.data;
     for (int i = 0; i < batch->count; i++) {
-        const e3d_surface *s = &surfaces[batch->surface[i]];
+        const e3d_visible_piece *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
         if (at[i] == NOT_CHOSEN)
             continue;
         if (t->triangle_id)
-            t->triangle_id[at[i]] = s->face;
+            t->triangle_id[at[i]] = e3d_face_of(piece);
         if (t->object_id)
-            t->object_id[at[i]] = s->node;
+            t->object_id[at[i]] = piece->draw->draw->node_id;
         if (t->instance_id)
-            t->instance_id[at[i]] = s->instance;
+            t->instance_id[at[i]] = piece->instance;
         if (t->material_id)
-            t->material_id[at[i]] = groups[s->group].material->id;
+            t->material_id[at[i]] = groups[piece->group].material->id;
     }
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/pool.h"
+#include "core/srgb_tables.h"
 #include "pipeline/frame.h"
 
 static void multiply(const double a[16], const double b[16], double out[16])
@@ -252,6 +253,8 @@ static void prepare_constants(e3d_context *context)
     const e3d_frame *frame = context->frame;
     for (int k = 0; k < 12; k++)
         context->view[k] = (float)frame->view_from_world[k];
+    for (int c = 0; c < 256; c++)
+        context->unorm8[c] = (float)(frame->decode_srgb ? SRGB_TO_LINEAR16[c] : c * 257) * E3D_UNORM16;
     context->lighting.lights = frame->lights;
     context->lighting.light_count = frame->light_count;
     memcpy(context->lighting.ambient, frame->ambient, sizeof frame->ambient);

@@ -52,7 +52,11 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
         const uint32_t *from = memory->encoded;
         for (int32_t i = 0; i < memory->batch_run_count; i++) {
             const e3d_run *run = &memory->batch_runs[i];
-            memcpy(memory->rgba + run->sample, from, 4 * (size_t)run->length);
+            if (run->length < 8)
+                for (int k = 0; k < run->length; k++)
+                    memory->rgba[run->sample + k] = from[k];
+            else
+                memcpy(memory->rgba + run->sample, from, 4 * (size_t)run->length);
             from += run->length;
         }
         return;

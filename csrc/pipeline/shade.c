@@ -26,14 +26,16 @@ static uint32_t random_bytes(uint32_t h)
 
 static uint32_t number_bytes(int32_t id) { return ((uint32_t)id + 1) * 0x9E3779B1u & 0xFFFFFFu; }
 
-static void show_numbers(const e3d_frame *frame, e3d_batch *batch, const e3d_surface *surfaces)
+static void show_numbers(const e3d_frame *frame, const e3d_worker *worker, e3d_batch *batch)
 {
+    const e3d_visible_piece *pieces = worker->pieces.data;
     for (int i = 0; i < batch->count; i++) {
-        const e3d_surface *s = &surfaces[batch->surface[i]];
+        const e3d_visible_piece *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
         if (frame->mode == E3D_MODE_RANDOM)
-            set_bytes(batch, i, random_bytes((uint32_t)s->local));
+            set_bytes(batch, i, random_bytes((uint32_t)piece->local));
         else
-            set_bytes(batch, i, number_bytes(frame->mode == E3D_MODE_OBJECT_ID ? s->node : s->local));
+            set_bytes(batch, i,
+                      number_bytes(frame->mode == E3D_MODE_OBJECT_ID ? piece->draw->draw->node_id : piece->local));
     }
 }
 
@@ -67,7 +69,7 @@ static void show_normal(const e3d_context *context, e3d_batch *batch)
 /* ---- lit and unlit ---- */
 
 static void find_albedo(const e3d_context *context, const e3d_group *group, e3d_batch *batch,
-                        const e3d_surface *surfaces)
+                        const e3d_surfaces *surfaces)
 {
     const e3d_kernels *kernels = context->kernels;
     const float *base = group->material->color;
@@ -102,8 +104,8 @@ static void clamp_colors(e3d_batch *batch)
         }
 }
 
-static void find_colors(const e3d_context *context, const e3d_group *group, e3d_batch *batch,
-                        const e3d_surface *surfaces)
+static void find_colors(const e3d_context *context, const e3d_worker *worker, const e3d_group *group,
+                        e3d_batch *batch)
 {
     switch (context->frame->mode) {
     case E3D_MODE_LIT:
@@ -114,7 +116,7 @@ static void find_colors(const e3d_context *context, const e3d_group *group, e3d_
     case E3D_MODE_NORMAL: show_normal(context, batch); break;
     case E3D_MODE_RANDOM:
     case E3D_MODE_TRIANGLE_ID:
-    case E3D_MODE_OBJECT_ID: show_numbers(context->frame, batch, surfaces); break;
+    case E3D_MODE_OBJECT_ID: show_numbers(context->frame, worker, batch); break;
     case E3D_MODE_UNLIT:
     case E3D_MODE_OVERDRAW: break;
     }
@@ -123,25 +125,35 @@ static void find_colors(const e3d_context *context, const e3d_group *group, e3d_
 
 /* ---- batches ---- */
 
+/* What the batches of a group need of their surfaces: identities need nothing. */
 static int wanted_of(const e3d_context *context, const e3d_group *group)
 {
-    int wanted = context->wants & (E3D_WANT_POSITION | E3D_WANT_NORMAL | E3D_WANT_UV);
-    if (group->textured && (context->wants & E3D_NEED_ALBEDO))
+    int wanted = context->wants & (E3D_WANT_POSITION | E3D_WANT_NORMAL | E3D_WANT_UV), all = context->wants;
+    if (group->textured && all & E3D_NEED_ALBEDO) {
         wanted |= E3D_WANT_UV;
+        if (e3d_texture_get_view(group->material->texture)->filter == E3D_TRILINEAR)
+            wanted |= E3D_WANT_LEVEL;
+    }
+    if (wanted || context->targets->barycentric ||
+        (all & E3D_NEED_ALBEDO && (group->by_vertex || group->by_instance)))
+        wanted |= E3D_WANT_SURFACE;
     return group->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 
 static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                        const e3d_group *group)
+                        const e3d_group *group, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
-    const e3d_surface *surfaces = worker->surfaces.data;
+    const e3d_surfaces *surfaces = &worker->tile->surfaces;
     for (int i = batch->count; i < batch->count + E3D_PAD; i++) { /* whole vectors read these */
         batch->sample[i] = batch->sample[batch->count - 1];
         batch->surface[i] = batch->surface[batch->count - 1];
     }
     worker->counters.shaded += batch->count;
-    context->kernels->interpolate(batch, surfaces, wanted_of(context, group));
+    if (wanted & E3D_WANT_SURFACE) {
+        e3d_find_surfaces(context, worker, tile, wanted);
+        context->kernels->interpolate(batch, surfaces, wanted);
+    }
     if (context->wants & E3D_NEED_ALBEDO)
         find_albedo(context, group, batch, surfaces);
     if (context->wants & E3D_NEED_OUTPUTS)
@@ -153,86 +165,62 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
         e3d_resolve_hidden(context, worker);
         return;
     }
-    find_colors(context, group, batch, surfaces);
+    find_colors(context, worker, group, batch);
     e3d_resolve_batch(context, worker);
 }
 
-/* Writes whole fours, past the run's end: the next run, or padding, is written there afterwards. */
-static void append_run(e3d_batch *batch, const e3d_run *run)
+static void clear_batch(e3d_tile_memory *memory)
 {
-    int32_t *sample = batch->sample + batch->count, *surface = batch->surface + batch->count;
+    memory->batch.count = memory->batch_run_count = 0;
+    memory->surfaces.count = memory->surfaces.matrices = memory->surfaces.irregular = 0;
+}
+
+/* Writes whole fours, past the run's end: the next run, or padding, is written there afterwards. */
+static void append_run(e3d_tile_memory *memory, const e3d_run *run, int32_t surface)
+{
+    e3d_batch *batch = &memory->batch;
+    int32_t *samples = batch->sample + batch->count, *surfaces = batch->surface + batch->count;
     for (int i = 0; i < run->length; i += 4)
         for (int k = 0; k < 4; k++) {
-            sample[i + k] = run->sample + i + k;
-            surface[i + k] = run->owner;
+            samples[i + k] = run->sample + i + k;
+            surfaces[i + k] = surface;
         }
     batch->count += run->length;
+    memory->batch_runs[memory->batch_run_count++] = *run;
 }
 
-/* `count` sorted runs from `first` on, which are of one group. */
+/* Piece after piece; one that doesn't fit a batch has a surface in each. */
 static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                        const e3d_group *group, int32_t first, int32_t count)
+                        const e3d_group *group, const e3d_run *runs)
 {
+    const e3d_visible_piece *pieces = worker->pieces.data;
     e3d_tile_memory *memory = worker->tile;
-    e3d_batch *batch = &memory->batch;
-    const e3d_run *run = memory->sorted + first, *end = run + count;
-    while (run < end) {
-        memory->batch_runs = run;
-        for (batch->count = 0; run < end && batch->count + run->length <= E3D_BATCH; run++)
-            append_run(batch, run);
-        memory->batch_run_count = (int32_t)(run - memory->batch_runs);
-        shade_batch(context, worker, tile, group);
+    int wanted = wanted_of(context, group);
+    clear_batch(memory);
+    for (int32_t p = group->first; p >= 0; p = pieces[p].next) {
+        int32_t surface = -1;
+        for (int32_t r = pieces[p].first_run; r >= 0; r = runs[r].owner) {
+            if (memory->batch.count + runs[r].length > E3D_BATCH ||
+                (surface < 0 && memory->surfaces.count == E3D_BATCH_SURFACES)) {
+                shade_batch(context, worker, tile, group, wanted);
+                clear_batch(memory);
+                surface = -1;
+            }
+            if (surface < 0)
+                surface = e3d_add_surface(context, worker, p, wanted);
+            append_run(memory, &runs[r], surface);
+        }
     }
-}
-
-/* Runs are owned by their surfaces from here on. */
-static int find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                         int32_t count)
-{
-    e3d_run *runs = worker->tile->runs;
-    for (int32_t i = 0; i < count; i++) {
-        runs[i].owner = e3d_surface_of(context, worker, tile, runs[i].owner);
-        if (runs[i].owner < 0)
-            return 0;
-    }
-    return 1;
-}
-
-/* Counting sort by group, then surface, stable: what is shaded alike stands together. */
-static void sort_runs(e3d_worker *worker, int32_t count)
-{
-    e3d_tile_memory *memory = worker->tile;
-    e3d_surface *surfaces = worker->surfaces.data;
-    e3d_group *groups = worker->groups.data;
-    int32_t start = 0;
-    for (size_t s = 0; s < worker->surfaces.count; s++)
-        surfaces[s].runs = 0;
-    for (size_t g = 0; g < worker->groups.count; g++)
-        groups[g].count = 0;
-    for (int32_t i = 0; i < count; i++)
-        surfaces[memory->runs[i].owner].runs++;
-    for (size_t s = 0; s < worker->surfaces.count; s++)
-        groups[surfaces[s].group].count += surfaces[s].runs;
-    for (size_t g = 0; g < worker->groups.count; g++) {
-        groups[g].start = groups[g].next = start;
-        start += groups[g].count;
-    }
-    for (size_t s = 0; s < worker->surfaces.count; s++) {
-        e3d_group *group = &groups[surfaces[s].group];
-        surfaces[s].next = group->next;
-        group->next += surfaces[s].runs;
-    }
-    for (int32_t i = 0; i < count; i++)
-        memory->sorted[surfaces[memory->runs[i].owner].next++] = memory->runs[i];
+    shade_batch(context, worker, tile, group, wanted);
 }
 
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
 {
-    if (!find_surfaces(context, worker, tile, count))
+    e3d_run *runs = worker->tile->runs;
+    if (!e3d_find_pieces(context, worker, runs, count))
         return 0;
     const e3d_group *groups = worker->groups.data;
-    sort_runs(worker, count);
     for (size_t g = 0; g < worker->groups.count; g++)
-        shade_group(context, worker, tile, &groups[g], groups[g].start, groups[g].count);
+        shade_group(context, worker, tile, &groups[g], runs);
     return 1;
 }

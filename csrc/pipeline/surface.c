@@ -1,17 +1,9 @@
-/* shade, first half: what a visible piece brings to its samples (R3, R18, R20-R24), made once a tile. */
+/* shade, first half: the pieces that show in a tile, and what each brings to its samples (R3, R18, R20-R24). */
 #include <string.h>
 
-#include "core/srgb_tables.h"
 #include "pipeline/frame.h"
 
-/* Which primitive an order number is. */
-typedef struct primitive {
-    const e3d_draw_state *draw;
-    const e3d_mesh_desc *mesh;
-    const e3d_instance *instance;
-    int32_t instance_number, local, face;
-    int32_t vertex[3]; /* -1: none (lines have two, points one) */
-} primitive;
+/* ---- which primitive a piece is of ---- */
 
 static const e3d_draw_state *draw_of_order(const e3d_context *context, uint32_t order)
 {
@@ -26,36 +18,265 @@ static const e3d_draw_state *draw_of_order(const e3d_context *context, uint32_t 
     return &context->draws[low];
 }
 
-static primitive find_primitive(const e3d_context *context, uint32_t order)
+/* The instance that was found last, and the order of its first primitive: mostly the next piece is of it, too. */
+typedef struct instance_finder {
+    const e3d_draw_state *draw;
+    uint32_t first;
+    int32_t instance, group_id; /* the material and kind of the piece's group, as group_of counts them */
+    int32_t group;
+} instance_finder;
+
+static void find_primitive(const e3d_context *context, uint32_t order, instance_finder *finder,
+                           e3d_visible_piece *out)
 {
-    primitive p = {.draw = draw_of_order(context, order), .face = -1, .vertex = {-1, -1, -1}};
-    uint32_t within = order - (uint32_t)p.draw->order_base;
-    p.mesh = &p.draw->mesh->desc;
-    p.instance_number = (int32_t)(within / (uint32_t)p.draw->primitives);
-    p.local = (int32_t)(within % (uint32_t)p.draw->primitives);
-    p.instance = &context->instances[p.draw->instance_base + p.instance_number];
-    int32_t line = p.local - p.mesh->faces_count;
-    if (line < 0) {
-        p.face = p.local;
-        for (int k = 0; k < 3; k++)
-            p.vertex[k] = p.mesh->faces[3 * (size_t)p.face + k];
-    } else if (line < p.mesh->lines_count) {
-        p.vertex[0] = p.mesh->lines[2 * (size_t)line];
-        p.vertex[1] = p.mesh->lines[2 * (size_t)line + 1];
-    } else {
-        p.vertex[0] = p.mesh->points[line - p.mesh->lines_count];
+    if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
+        const e3d_draw_state *draw = draw_of_order(context, order);
+        uint32_t primitives = (uint32_t)draw->primitives;
+        if (draw != finder->draw)
+            finder->group = -1;
+        finder->draw = draw;
+        finder->instance = (int32_t)((order - (uint32_t)draw->order_base) / primitives);
+        finder->first = (uint32_t)draw->order_base + (uint32_t)finder->instance * primitives;
     }
-    return p;
+    out->draw = finder->draw;
+    out->instance = finder->instance;
+    out->local = (int32_t)(order - finder->first);
 }
 
-/* R18 */
-static void barycentric_planes(const e3d_context *context, const e3d_slot *slot, const e3d_tile *tile,
-                               e3d_surface *out)
+int32_t e3d_face_of(const e3d_visible_piece *piece)
+{
+    return piece->local < piece->draw->mesh->desc.faces_count ? piece->local : -1;
+}
+
+/* Vertices of the primitive; how many. */
+static int vertices_of(const e3d_visible_piece *piece, int32_t vertex[3])
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t line = piece->local - mesh->faces_count;
+    if (line < 0) {
+        memcpy(vertex, mesh->faces + 3 * (size_t)piece->local, 3 * sizeof *vertex);
+        return 3;
+    }
+    if (line < mesh->lines_count) {
+        memcpy(vertex, mesh->lines + 2 * (size_t)line, 2 * sizeof *vertex);
+        return 2;
+    }
+    vertex[0] = mesh->points[line - mesh->lines_count];
+    return 1;
+}
+
+/* ---- groups ---- */
+
+/* Material and kind of primitive: with the draw, all that the group depends on. */
+static int32_t group_id_of(const e3d_visible_piece *piece)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t face = e3d_face_of(piece);
+    return face < 0 ? -1 : mesh->material_ids ? mesh->material_ids[face] : 0;
+}
+
+static e3d_group group_of(const e3d_context *context, const e3d_draw_state *state, int32_t id)
+{
+    const e3d_frame *frame = context->frame;
+    const e3d_draw *draw = state->draw;
+    const e3d_mesh_desc *mesh = &state->mesh->desc;
+    e3d_group g = {.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)],
+                   .face = id >= 0,
+                   .first = -1,
+                   .last = -1};
+    int flat = frame->normals == E3D_NORMALS_FLAT ||
+               (frame->normals == E3D_NORMALS_AUTO && g.material->flat);
+    g.flat = g.face && flat && mesh->face_normals;
+    g.textured = g.face && g.material->texture && mesh->uvs;
+    g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
+    g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
+    return g;
+}
+
+static int same_group(const e3d_group *a, const e3d_group *b)
+{
+    return a->material == b->material && a->face == b->face && a->flat == b->flat &&
+           a->textured == b->textured && a->by_vertex == b->by_vertex &&
+           a->by_instance == b->by_instance;
+}
+
+/* The group's number, or -1 when memory is out. */
+static int32_t number_group(e3d_worker *worker, const e3d_group *group)
+{
+    e3d_group *groups = worker->groups.data;
+    for (size_t g = worker->groups.count; g-- > 0;)
+        if (same_group(&groups[g], group))
+            return (int32_t)g;
+    if (!e3d_array_reserve(&worker->groups, worker->groups.count + 1, sizeof *group))
+        return -1;
+    ((e3d_group *)worker->groups.data)[worker->groups.count] = *group;
+    return (int32_t)worker->groups.count++;
+}
+
+/* ---- the pieces of a tile ---- */
+
+static int add_piece(const e3d_context *context, e3d_worker *worker, e3d_slot *slot, int32_t run,
+                     instance_finder *finder)
+{
+    size_t n = worker->pieces.count;
+    if (!e3d_array_reserve(&worker->pieces, n + 1, sizeof(e3d_visible_piece)))
+        return 0;
+    e3d_visible_piece *pieces = worker->pieces.data, *piece = &pieces[n];
+    *piece = (e3d_visible_piece){.slot = slot, .next = -1, .first_run = run, .last_run = run};
+    find_primitive(context, slot->record->order, finder, piece);
+    int32_t id = group_id_of(piece);
+    if (finder->group < 0 || id != finder->group_id) {
+        e3d_group group = group_of(context, piece->draw, id);
+        finder->group_id = id;
+        finder->group = number_group(worker, &group);
+        if (finder->group < 0)
+            return 0;
+    }
+    piece->group = finder->group;
+    e3d_group *group = (e3d_group *)worker->groups.data + piece->group;
+    if (group->last < 0)
+        group->first = (int32_t)n;
+    else
+        pieces[group->last].next = (int32_t)n;
+    group->last = slot->piece = (int32_t)n;
+    worker->pieces.count++;
+    return 1;
+}
+
+/* Chains the pieces by group, and their runs, in the order in which they are met. Runs are owned by slots before, and
+ * afterwards by the run that follows (-1: none). 0 when memory is out. */
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count)
+{
+    enum { AHEAD = 12 }; /* records are anywhere in memory */
+    e3d_slot *slots = worker->slots.data;
+    instance_finder finder = {.group = -1};
+    worker->pieces.count = worker->groups.count = 0;
+    for (int32_t i = 0; i < count; i++) {
+        if (i + AHEAD < count)
+            __builtin_prefetch(slots[runs[i + AHEAD].owner].record);
+        e3d_slot *slot = &slots[runs[i].owner];
+        runs[i].owner = -1;
+        if (slot->piece < 0) {
+            if (!add_piece(context, worker, slot, i, &finder))
+                return 0;
+            continue;
+        }
+        e3d_visible_piece *piece = (e3d_visible_piece *)worker->pieces.data + slot->piece;
+        runs[piece->last_run].owner = i;
+        piece->last_run = i;
+    }
+    return 1;
+}
+
+/* ---- what a piece brings, for the surface kernel to work on ---- */
+
+static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n, int32_t instance)
+{
+    int again = n > 0 && s->instance[n - 1] == instance;
+    s->instance[n] = instance;
+    if (again) {
+        s->matrix[n] = s->matrix[n - 1];
+        return;
+    }
+    int32_t m = s->matrix[n] = s->matrices++;
+    for (int k = 0; k < 12; k++)
+        s->world[k][m] = context->instances[instance].world[k];
+    for (int k = 0; k < 9; k++)
+        s->normals[k][m] = context->instances[instance].normal[k];
+}
+
+static void add_vectors(const float *from, size_t stride, const int32_t *index, int count,
+                        e3d_surface_floats out[][3], int components, int32_t n)
+{
+    for (int v = 0; v < 3; v++) {
+        const float *vector = from && v < count ? from + stride * (size_t)index[v] : NULL;
+        for (int c = 0; c < components; c++)
+            out[c][v][n] = vector ? vector[c] : 0.0f;
+    }
+}
+
+static void add_normals(const e3d_mesh_desc *mesh, int32_t face, int flat, const int32_t vertex[3], e3d_surfaces *s,
+                        int32_t n)
+{
+    if (flat)
+        for (int c = 0; c < 3; c++)
+            s->normal[c][0][n] = mesh->face_normals[3 * (size_t)face + c];
+    else
+        add_vectors(face < 0 ? NULL : mesh->normals, 3, vertex, 3, s->normal, 3, n);
+}
+
+/* R23 */
+static void value_of(const e3d_context *context, const uint8_t *u8, const float *f32, size_t index, float out[3])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = f32 ? f32[4 * index + c] : context->unorm8[u8[4 * index + c]];
+}
+
+static void add_colors(const e3d_context *context, const e3d_visible_piece *piece, const e3d_group *group,
+                       const int32_t vertex[3], int count, e3d_surfaces *s, int32_t n)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const e3d_draw *draw = piece->draw->draw;
+    for (int v = 0; v < 3 && group->by_vertex; v++) {
+        float value[3] = {0.0f, 0.0f, 0.0f};
+        if (v < count)
+            value_of(context, mesh->colors_u8, mesh->colors_f32, (size_t)vertex[v], value);
+        for (int c = 0; c < 3; c++)
+            s->color[c][v][n] = value[c];
+    }
+    if (group->by_instance) {
+        float value[3];
+        value_of(context, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance, value);
+        for (int c = 0; c < 3; c++)
+            s->instance_color[c][n] = value[c];
+    }
+}
+
+static void add_record(const e3d_record *record, e3d_surfaces *s, int32_t n)
+{
+    for (int k = 0; k < 3; k++) {
+        s->x[k][n] = record->x[k];
+        s->y[k][n] = record->y[k];
+        s->iw[k][n] = record->iw[k];
+    }
+    s->swapped[n] = (record->meta & E3D_RECORD_SWAPPED) != 0;
+}
+
+/* The number in the batch of a piece's surface, without what e3d_find_surfaces adds. */
+int32_t e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t number, int wanted)
+{
+    const e3d_visible_piece *piece = (const e3d_visible_piece *)worker->pieces.data + number;
+    const e3d_group *group = (const e3d_group *)worker->groups.data + piece->group;
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    e3d_surfaces *s = &worker->tile->surfaces;
+    int32_t vertex[3], n = s->count++, face = e3d_face_of(piece);
+    s->piece[n] = number;
+    if (!(wanted & E3D_WANT_SURFACE))
+        return n;
+    int count = vertices_of(piece, vertex);
+    s->irregular += piece->slot->corners || face < 0 || mesh->components == 4;
+    add_record(piece->slot->record, s, n);
+    add_matrices(context, s, n, piece->draw->instance_base + piece->instance);
+    s->back[n] = (piece->slot->record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
+    if (wanted & E3D_WANT_POSITION)
+        add_vectors(mesh->components == 3 ? mesh->positions : NULL, 3, vertex, count, s->position, 3, n);
+    if (wanted & E3D_WANT_NORMAL)
+        add_normals(mesh, face, group->flat, vertex, s, n);
+    if (wanted & E3D_WANT_UV)
+        add_vectors(mesh->uvs, 2, vertex, count, s->uv, 2, n);
+    if (context->wants & E3D_NEED_ALBEDO)
+        add_colors(context, piece, group, vertex, count, s, n);
+    return n;
+}
+
+/* ---- what the kernel leaves to do ---- */
+
+/* R18 of a clipped piece, of a line or a point. */
+static void cut_planes(const e3d_context *context, const e3d_slot *slot, e3d_surfaces *s, int32_t n)
 {
     const e3d_record *r = slot->record;
+    const float *c = slot->corners;
     e3d_box box = e3d_sample_box(r->x, r->y, &context->viewport);
-    out->base_x = box.x0 - tile->x;
-    out->base_y = box.y0 - tile->y;
     double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
     m = r->iw[1] > m ? r->iw[1] : m;
     m = r->iw[2] > m ? r->iw[2] : m;
@@ -70,146 +291,50 @@ static void barycentric_planes(const e3d_context *context, const e3d_slot *slot,
         plane[1][k] = ((256.0 * (double)a) * ra) * q;
         plane[2][k] = ((256.0 * (double)b) * ra) * q;
     }
-    float *planes[3] = {out->p, out->px, out->py};
-    int swapped = (r->meta & E3D_RECORD_SWAPPED) != 0;
-    const float *c = slot->corners;
+    e3d_surface_floats *const rows[3] = {s->p, s->px, s->py};
     for (int row = 0; row < 3; row++)
-        for (int j = 0; j < 3; j++) {
-            const double *p = plane[row];
-            planes[row][j] = (float)(c ? (p[0] * c[j] + p[1] * c[3 + j]) + p[2] * c[6 + j]
-                                       : p[swapped && j ? 3 - j : j]);
-        }
+        for (int j = 0; j < 3; j++)
+            rows[row][j][n] = (float)((plane[row][0] * c[j] + plane[row][1] * c[3 + j]) + plane[row][2] * c[6 + j]);
 }
 
-static void positions(const primitive *p, e3d_surface *out)
+/* R25, of planes that were not the kernel's. */
+static void cut_steps(e3d_surfaces *s, int32_t n)
 {
-    const float *m = p->instance->world;
-    for (int v = 0; v < 3; v++) {
-        int exists = p->vertex[v] >= 0 && p->mesh->components == 3;
-        const float *x = exists ? p->mesh->positions + 3 * (size_t)p->vertex[v] : NULL;
-        for (int r = 0; r < 3; r++)
-            out->position[r][v] =
-                x ? ((m[4 * r] * x[0] + m[4 * r + 1] * x[1]) + m[4 * r + 2] * x[2]) + m[4 * r + 3]
-                  : 0.0f;
-    }
-}
-
-static void transform_normal(const float *m, const float *n, e3d_surface *out, int v)
-{
-    for (int r = 0; r < 3; r++)
-        out->normal[r][v] = n ? (m[3 * r] * n[0] + m[3 * r + 1] * n[1]) + m[3 * r + 2] * n[2] : 0.0f;
-}
-
-static void normals(const primitive *p, int flat, e3d_surface *out)
-{
-    const float *m = p->instance->normal;
-    for (int v = 0; v < 3; v++) {
-        const float *n = NULL;
-        if (p->face >= 0 && flat)
-            n = p->mesh->face_normals + 3 * (size_t)p->face;
-        else if (p->face >= 0 && p->mesh->normals)
-            n = p->mesh->normals + 3 * (size_t)p->vertex[v];
-        transform_normal(m, n, out, v);
-    }
-}
-
-static void uvs(const primitive *p, e3d_surface *out)
-{
-    for (int v = 0; v < 3; v++)
+    for (int axis = 0; axis < 2; axis++) {
+        const e3d_surface_floats *w = axis ? s->py : s->px;
+        s->step[axis][0][n] = (w[0][n] + w[1][n]) + w[2][n];
         for (int k = 0; k < 2; k++)
-            out->uv[k][v] =
-                p->mesh->uvs && p->vertex[v] >= 0 ? p->mesh->uvs[2 * (size_t)p->vertex[v] + k] : 0.0f;
-}
-
-/* R23 */
-static float color_of(const uint8_t *u8, const float *f32, size_t index, int channel, int decode_srgb)
-{
-    if (f32)
-        return f32[4 * index + channel];
-    int c = u8[4 * index + channel];
-    return (float)(decode_srgb ? SRGB_TO_LINEAR16[c] : c * 257) * E3D_UNORM16;
-}
-
-static void colors(const e3d_context *context, const primitive *p, const e3d_group *group,
-                   e3d_surface *out)
-{
-    int decode_srgb = context->frame->decode_srgb;
-    const e3d_draw *draw = p->draw->draw;
-    for (int k = 0; k < 3; k++) {
-        for (int v = 0; v < 3; v++)
-            out->color[k][v] = group->by_vertex && p->vertex[v] >= 0
-                                   ? color_of(p->mesh->colors_u8, p->mesh->colors_f32,
-                                              (size_t)p->vertex[v], k, decode_srgb)
-                                   : 0.0f;
-        if (group->by_instance)
-            out->instance_color[k] = color_of(draw->instance_colors_u8, draw->instance_colors_f32,
-                                              (size_t)p->instance_number, k, decode_srgb);
+            s->step[axis][1 + k][n] =
+                (w[0][n] * s->uv[k][0][n] + w[1][n] * s->uv[k][1][n]) + w[2][n] * s->uv[k][2][n];
     }
 }
 
-static e3d_group group_of(const e3d_context *context, const primitive *p)
+/* Positions that don't exist are 0, wherever the matrix would move them. */
+static void clear_positions(e3d_surfaces *s, int32_t n, int first)
 {
-    const e3d_frame *frame = context->frame;
-    const e3d_draw *draw = p->draw->draw;
-    int32_t own = p->face >= 0 && p->mesh->material_ids ? p->mesh->material_ids[p->face] : 0;
-    e3d_group g = {.material = &frame->materials[draw->material_base + own], .face = p->face >= 0};
-    int flat = frame->normals == E3D_NORMALS_FLAT ||
-               (frame->normals == E3D_NORMALS_AUTO && g.material->flat);
-    g.flat = g.face && flat && p->mesh->face_normals;
-    g.textured = g.face && g.material->texture && p->mesh->uvs;
-    g.by_vertex = p->mesh->colors_u8 || p->mesh->colors_f32;
-    g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
-    return g;
+    for (int c = 0; c < 3; c++)
+        for (int v = first; v < 3; v++)
+            s->position[c][v][n] = 0.0f;
 }
 
-static int same_group(const e3d_group *a, const e3d_group *b)
+void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted)
 {
-    return a->material == b->material && a->face == b->face && a->flat == b->flat &&
-           a->textured == b->textured && a->by_vertex == b->by_vertex &&
-           a->by_instance == b->by_instance;
-}
-
-/* The group's number in the tile, newest first; -1 when memory is out. */
-static int32_t number_group(e3d_worker *worker, const e3d_group *group)
-{
-    e3d_group *groups = worker->groups.data;
-    for (size_t g = worker->groups.count; g-- > 0;)
-        if (same_group(&groups[g], group))
-            return (int32_t)g;
-    if (!e3d_array_reserve(&worker->groups, worker->groups.count + 1, sizeof *group))
-        return -1;
-    ((e3d_group *)worker->groups.data)[worker->groups.count] = *group;
-    return (int32_t)worker->groups.count++;
-}
-
-/* Index of the slot's surface, or -1 when memory is out. */
-int e3d_surface_of(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t number)
-{
-    e3d_slot *slot = (e3d_slot *)worker->slots.data + number;
-    if (slot->surface >= 0)
-        return slot->surface;
-    primitive p = find_primitive(context, slot->record->order);
-    e3d_group group = group_of(context, &p);
-    int32_t group_number = number_group(worker, &group);
-    if (group_number < 0 ||
-        !e3d_array_reserve(&worker->surfaces, worker->surfaces.count + 1, sizeof(e3d_surface)))
-        return -1;
-    e3d_surface *s = (e3d_surface *)worker->surfaces.data + worker->surfaces.count;
-    barycentric_planes(context, slot, tile, s);
-    if (context->wants & E3D_WANT_POSITION)
-        positions(&p, s);
-    if (context->wants & E3D_WANT_NORMAL)
-        normals(&p, group.flat, s);
-    if (group.textured || (context->wants & E3D_WANT_UV))
-        uvs(&p, s);
-    if ((context->wants & E3D_NEED_ALBEDO) && (group.by_vertex || group.by_instance))
-        colors(context, &p, &group, s);
-    s->back = (slot->record->meta & E3D_RECORD_BACK) != 0 && p.face >= 0;
-    s->local = p.local;
-    s->face = p.face;
-    s->node = p.draw->draw->node_id;
-    s->instance = p.instance_number;
-    s->group = group_number;
-    slot->surface = (int32_t)worker->surfaces.count++;
-    return slot->surface;
+    const e3d_visible_piece *pieces = worker->pieces.data;
+    e3d_surfaces *s = &worker->tile->surfaces;
+    for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
+        s->matrix[n] = s->matrix[s->count - 1];
+    context->kernels->surface(s, tile->x, tile->y, wanted);
+    for (int32_t n = 0; n < s->count && s->irregular; n++) {
+        const e3d_visible_piece *piece = &pieces[s->piece[n]];
+        const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+        int32_t vertex[3];
+        if (piece->slot->corners)
+            cut_planes(context, piece->slot, s, n);
+        if (piece->slot->corners && wanted & E3D_WANT_LEVEL)
+            cut_steps(s, n);
+        if (mesh->components == 4)
+            clear_positions(s, n, 0);
+        else if (e3d_face_of(piece) < 0)
+            clear_positions(s, n, vertices_of(piece, vertex));
+    }
 }

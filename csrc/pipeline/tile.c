@@ -196,7 +196,6 @@ static int act_forward(tile_job *job, const e3d_piece *piece)
     box.x1 = box.x1 < job->tile.width - 1 ? box.x1 : job->tile.width - 1;
     box.y1 = box.y1 < job->tile.height - 1 ? box.y1 : job->tile.height - 1;
     int32_t count = runs_of_slot(job->worker, (int32_t)piece->slot, &box);
-    job->worker->surfaces.count = job->worker->groups.count = 0; /* no slot is shaded twice */
     return e3d_shade_runs(job->context, job->worker, &job->tile, count);
 }
 
@@ -260,7 +259,6 @@ static int draw_visible(tile_job *job)
 
 static int draw_scene(tile_job *job)
 {
-    job->worker->surfaces.count = job->worker->groups.count = 0;
     return e3d_keeps_slots(job->context) ? draw_pieces(job) : draw_visible(job);
 }
 

@@ -14,6 +14,7 @@ cdef extern from "kernels/kernels.h" nogil:
         E3D_CLUSTER_TRIANGLES
         E3D_CLUSTER_VERTICES
         E3D_BATCH
+        E3D_BATCH_SURFACES
 
     ctypedef struct e3d_level:
         const void *texels
@@ -52,7 +53,7 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_run:
         pass
 
-    ctypedef struct e3d_surface:
+    ctypedef struct e3d_surfaces:
         pass
 
     ctypedef struct e3d_batch:
@@ -77,11 +78,12 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
-        void (*interpolate)(e3d_batch *batch, const e3d_surface *surfaces, int wanted)
-        void (*select_level)(e3d_batch *batch, const e3d_surface *surfaces,
+        void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)
+        void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
+        void (*select_level)(e3d_batch *batch, const e3d_surfaces *surfaces,
                              const e3d_texture_view *texture)
         void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float *base)
-        void (*tint)(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance)
+        void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
         void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
         void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,

@@ -49,7 +49,7 @@ STRUCT_SIZES = {
     "survivors": sizeof(e3d_survivors),
     "piece": sizeof(e3d_piece),
     "run": sizeof(e3d_run),
-    "surface": sizeof(e3d_surface),
+    "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
     "light": sizeof(e3d_light),
 }
@@ -59,6 +59,7 @@ LIMITS = {
     "CLUSTER_TRIANGLES": E3D_CLUSTER_TRIANGLES,
     "CLUSTER_VERTICES": E3D_CLUSTER_VERTICES,
     "BATCH": E3D_BATCH,
+    "BATCH_SURFACES": E3D_BATCH_SURFACES,
     "MAX_LEVELS": E3D_MAX_LEVELS,
 }
 # Bits of the calling thread's floating-point control register: denormals become zero; rounding is
@@ -154,17 +155,25 @@ cdef class Kernels:
             count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
         return count
 
+    def surface(self, uint8_t[::1] surfaces, int tile_x, int tile_y, int wanted):
+        """In place: with several rounds, what was transformed is transformed again."""
+        check_size(surfaces, sizeof(e3d_surfaces))
+        for _ in range(self.rounds):
+            self.table.surface(<e3d_surfaces *>&surfaces[0], tile_x, tile_y, wanted)
+
     def interpolate(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted):
         check_size(batch, sizeof(e3d_batch))
+        check_size(surfaces, sizeof(e3d_surfaces))
         for _ in range(self.rounds):
-            self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], wanted)
+            self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], wanted)
 
     def select_level(self, uint8_t[::1] batch, const uint8_t[::1] surfaces,
                      const uint8_t[::1] texels, const int32_t[:, ::1] sizes, int filter, int wrap):
         cdef e3d_texture_view view = texture_view(texels, 8, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
+        check_size(surfaces, sizeof(e3d_surfaces))
         for _ in range(self.rounds):
-            self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], &view)
+            self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], &view)
 
     def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int texel_bytes,
                 const int32_t[:, ::1] sizes, int filter, int wrap, const float[::1] base):
@@ -176,8 +185,9 @@ cdef class Kernels:
 
     def tint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, bint by_vertex, bint by_instance):
         check_size(batch, sizeof(e3d_batch))
+        check_size(surfaces, sizeof(e3d_surfaces))
         for _ in range(self.rounds):
-            self.table.tint(<e3d_batch *>&batch[0], <const e3d_surface *>&surfaces[0], by_vertex,
+            self.table.tint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], by_vertex,
                             by_instance)
 
     def light(self, uint8_t[::1] batch, const uint8_t[::1] lights, const float[::1] ambient,

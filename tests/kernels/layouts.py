@@ -9,6 +9,7 @@ TILE = kernels_testing.LIMITS["TILE"]
 CLUSTER_TRIANGLES = kernels_testing.LIMITS["CLUSTER_TRIANGLES"]
 CLUSTER_VERTICES = kernels_testing.LIMITS["CLUSTER_VERTICES"]
 BATCH = kernels_testing.LIMITS["BATCH"]
+BATCH_SURFACES = kernels_testing.LIMITS["BATCH_SURFACES"]
 
 # Outcodes (R4, R5, R8).
 NEAR, FAR, LEFT, RIGHT, BOTTOM, TOP = 1, 2, 4, 8, 16, 32
@@ -16,7 +17,7 @@ OUTSIDE, BEHIND, BEYOND_GUARD, NONFINITE, BAD_SCREEN = 63, 64, 128, 256, 512
 NEEDS_CLIPPING = NEAR | BEHIND | BEYOND_GUARD
 
 # What interpolation is asked for.
-WANT_POSITION, WANT_NORMAL, WANT_UV, WANT_FLAT = 1, 2, 4, 8
+WANT_POSITION, WANT_NORMAL, WANT_UV, WANT_FLAT, WANT_LEVEL = 1, 2, 4, 8, 16
 
 VIEWPORT = np.dtype(
     [
@@ -47,21 +48,19 @@ PIECE = np.dtype(
     + [("base_x", "i4"), ("base_y", "i4"), ("slot", "u4"), ("order", "u4")]
 )
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
-SURFACE = np.dtype(
-    [
-        ("p", "f4", 3),
-        ("px", "f4", 3),
-        ("py", "f4", 3),
-        ("base_x", "i4"),
-        ("base_y", "i4"),
-        ("position", "f4", (3, 3)),
-        ("normal", "f4", (3, 3)),
-        ("uv", "f4", (2, 3)),
-        ("color", "f4", (3, 3)),
-        ("instance_color", "f4", 3),
-        ("back", "i4"),
-        ("not_read", "i4", 16),  # identities, and what the pipeline sorts by
-    ]
+_ELEMENTS = BATCH_SURFACES + PAD
+SURFACES = np.dtype(
+    [("count", "i4"), ("matrices", "i4"), ("irregular", "i4")]
+    + [("x", "i4", (3, _ELEMENTS)), ("y", "i4", (3, _ELEMENTS)), ("iw", "f4", (3, _ELEMENTS))]
+    + [("swapped", "i4", _ELEMENTS), ("matrix", "i4", _ELEMENTS)]
+    + [("world", "f4", (12, _ELEMENTS)), ("normals", "f4", (9, _ELEMENTS))]
+    + [("position", "f4", (3, 3, _ELEMENTS)), ("normal", "f4", (3, 3, _ELEMENTS))]
+    + [("uv", "f4", (2, 3, _ELEMENTS)), ("color", "f4", (3, 3, _ELEMENTS))]
+    + [("instance_color", "f4", (3, _ELEMENTS)), ("back", "i4", _ELEMENTS)]
+    + [(name, "f4", (3, _ELEMENTS)) for name in ("p", "px", "py")]
+    + [("base_x", "f4", _ELEMENTS), ("base_y", "f4", _ELEMENTS)]
+    + [("step", "f4", (2, 3, _ELEMENTS))]
+    + [("not_read", "i4", (2, _ELEMENTS))]  # identities
 )
 _LANES = BATCH + PAD
 BATCH_RECORD = np.dtype(
@@ -96,7 +95,7 @@ STRUCTS = {
     "survivors": SURVIVORS,
     "piece": PIECE,
     "run": RUN,
-    "surface": SURFACE,
+    "surfaces": SURFACES,
     "batch": BATCH_RECORD,
     "light": LIGHT,
 }

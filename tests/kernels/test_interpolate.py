@@ -5,7 +5,7 @@ import pytest
 from kernels.arithmetic import ONE, ZERO, dot, greatest, least, unit
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
 from kernels.layouts import TILE, WANT_FLAT, WANT_NORMAL, WANT_POSITION, WANT_UV
-from kernels.surfaces import ROUNDS, fill, planes, random_batches, random_surfaces
+from kernels.surfaces import ROUNDS, at, bytes_of, fill, planes, random_batches, random_surfaces
 
 WANTED = [
     0,
@@ -24,8 +24,8 @@ def barycentrics(surface, sample):
     dy = (sample // TILE - surface["base_y"]).astype(np.float32)
     p = []
     for k in range(3):
-        at = (surface["p"][..., k] + dx * surface["px"][..., k]) + dy * surface["py"][..., k]
-        p.append(greatest(at, ZERO))
+        plane = (surface["p"][..., k] + dx * surface["px"][..., k]) + dy * surface["py"][..., k]
+        p.append(greatest(plane, ZERO))
     total = (p[0] + p[1]) + p[2]
     usable = total >= np.float32(2.0**-126)
     r = np.where(usable, ONE / total, ZERO)
@@ -59,8 +59,8 @@ def test_interpolate(kernels):
         wanted = rng.choice(WANTED, len(batches.rows))
         given = batches.fields["sample"].copy(), batches.fields["surface"].copy()
         for row, want in zip(batches.rows, wanted, strict=True):
-            kernels.interpolate(row, surfaces.view(np.uint8), int(want))
-        check_interpolated(batches, surfaces[given[1]], given, wanted)
+            kernels.interpolate(row, bytes_of(surfaces), int(want))
+        check_interpolated(batches, at(surfaces, given[1]), given, wanted)
 
 
 def check_interpolated(batches, surface, given, wanted):
@@ -80,7 +80,8 @@ def check_interpolated(batches, surface, given, wanted):
         check_poisoned(fields[~asked], [name])
     for flat in (0, WANT_FLAT):
         asked = (wanted & (WANT_NORMAL | WANT_FLAT)) == WANT_NORMAL | flat
-        values = normals(surface[asked], [v[asked] for v in b], flat)
+        chosen = {name: words[asked] for name, words in surface.items()}
+        values = normals(chosen, [v[asked] for v in b], flat)
         check_components("normal", fields["normal"][asked], values, counts[asked])
     check_poisoned(fields[(wanted & WANT_NORMAL) == 0], ["normal"])
     check_poisoned(fields, ["color", "lod", "energy", "shine"])
@@ -99,8 +100,8 @@ def test_tint(kernels, by_vertex, by_instance):
         fill(batches, "color", color)
         fill(batches, "b", b)
         for row in batches.rows:
-            kernels.tint(row, surfaces.view(np.uint8), by_vertex, by_instance)
-        surface = surfaces[batches.fields["surface"]]
+            kernels.tint(row, bytes_of(surfaces), by_vertex, by_instance)
+        surface = at(surfaces, batches.fields["surface"])
         expected = planes(color)
         if by_vertex:
             expected = [

@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, UNORM16, clamp, floor, greatest, least, log2, round_even
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
-from kernels.surfaces import BATCHES, LANES, ROUNDS, fill, planes, random_batches, random_surfaces
+from kernels.surfaces import (
+    BATCHES,
+    LANES,
+    ROUNDS,
+    at,
+    bytes_of,
+    fill,
+    planes,
+    random_batches,
+    random_surfaces,
+)
 
 from engine3d._native.rasterizer import FILTERS, WRAPS
 
@@ -20,22 +30,18 @@ def chain_sizes(width, height, levels=16):
     return np.array(sizes, np.int32)
 
 
-def length2(surface, plane, uv, r, size):
+def length2(step, uv, r, size):
     """R25 and R26 along one screen axis, squared."""
-    weights = [surface[plane][..., k] for k in range(3)]
-    total = (weights[0] + weights[1]) + weights[2]
     squares = []
     for k in range(2):
-        corners = [surface["uv"][..., k, vertex] for vertex in range(3)]
-        along = (weights[0] * corners[0] + weights[1] * corners[1]) + weights[2] * corners[2]
-        texels = ((along - uv[k] * total) * r) * np.float32(size[k])
+        texels = ((step[..., 1 + k] - uv[k] * step[..., 0]) * r) * np.float32(size[k])
         squares.append(texels * texels)
     return squares[0] + squares[1]
 
 
 def level_of(surface, uv, r, sizes):
     """R26"""
-    rx, ry = (length2(surface, plane, uv, r, sizes[0]) for plane in ("px", "py"))
+    rx, ry = (length2(surface["step"][..., axis, :], uv, r, sizes[0]) for axis in range(2))
     q = greatest(rx, ry)
     smaller = q > 1
     q = least(np.where(smaller, q, ONE), np.float32(2.0**100))
@@ -56,9 +62,9 @@ def test_select_level(kernels):
         fill(batches, "r", r)
         for row in batches.rows:
             kernels.select_level(
-                row, surfaces.view(np.uint8), texels, sizes, FILTERS["trilinear"], WRAPS["repeat"]
+                row, bytes_of(surfaces), texels, sizes, FILTERS["trilinear"], WRAPS["repeat"]
             )
-        surface = surfaces[batches.fields["surface"]]
+        surface = at(surfaces, batches.fields["surface"])
         expected = level_of(surface, planes(uv), r, sizes)
         assert len(np.unique(expected)) > 100 or len(sizes) < 3
         check_lanes("lod", batches.fields["lod"], expected, batches.fields["count"])

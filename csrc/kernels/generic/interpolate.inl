@@ -1,56 +1,21 @@
-/* interpolate: barycentrics and attributes of a batch of samples (R18-R26).
+/* interpolate: barycentrics and attributes of a batch of samples (R19-R26).
  *
- * Samples of one surface stand together: a run of them is evaluated with the surface's words broadcast. A run's last
- * vector spills over its end; the next run, or nothing, writes there afterwards.
+ * The surfaces of one vector's samples stand side by side, in order: a word of theirs is one load and one permutation, or one
+ * broadcast where all samples are of one surface.
  */
 
-static inline vf32 interpolate_three(const vf32 b[3], const vf32 v[3])
-{
-    return v_add(v_add(v_mul(b[0], v[0]), v_mul(b[1], v[1])), v_mul(b[2], v[2]));
-}
-
-static inline void broadcast_three(const float *words, vf32 out[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = v_setf(words[k]);
-}
-
-/* The end of the run of one surface that starts at sample `first` of the batch. */
-static inline int run_end(const e3d_batch *batch, int first)
-{
-    int end = first + 1;
-    while (end < batch->count && batch->surface[end] == batch->surface[first])
-        end++;
-    return end;
-}
-
-/* The planes of R18, broadcast. */
-typedef struct plane_lanes {
-    vf32 p[3], px[3], py[3];
-    vi32 base_x, base_y;
-} plane_lanes;
-
-static inline plane_lanes broadcast_planes(const e3d_surface *s)
-{
-    plane_lanes planes;
-    broadcast_three(s->p, planes.p);
-    broadcast_three(s->px, planes.px);
-    broadcast_three(s->py, planes.py);
-    planes.base_x = v_seti(s->base_x);
-    planes.base_y = v_seti(s->base_y);
-    return planes;
-}
-
 /* R19 */
-static inline vf32 interpolate_barycentric(const plane_lanes *planes, vi32 sample, vf32 b[3])
+static inline vf32 interpolate_barycentric(const e3d_surfaces *s, const element_lanes *lanes, int same,
+                                           vi32 sample, vf32 b[3])
 {
-    vi32 x = v_andi(sample, v_seti(E3D_TILE - 1)), y = v_shr(sample, 6);
-    vf32 dx = v_float(v_subi(x, planes->base_x)), dy = v_float(v_subi(y, planes->base_y));
-    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), p[3];
-    for (int k = 0; k < 3; k++) {
-        vf32 along = v_mul(dx, planes->px[k]), down = v_mul(dy, planes->py[k]);
-        p[k] = v_max(v_add(v_add(planes->p[k], along), down), zero);
-    }
+    vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT));
+    vf32 dx = v_sub(x, take(s->base_x, lanes, same)), dy = v_sub(y, take(s->base_y, lanes, same));
+    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), p[3], px[3], py[3];
+    take_three(s->p, lanes, same, p);
+    take_three(s->px, lanes, same, px);
+    take_three(s->py, lanes, same, py);
+    for (int k = 0; k < 3; k++)
+        p[k] = v_max(v_add(v_add(p[k], v_mul(dx, px[k])), v_mul(dy, py[k])), zero);
     vf32 sum = v_add(v_add(p[0], p[1]), p[2]);
     vmask some = v_ge(sum, v_setf(0x1p-126f));
     vf32 r = v_self(some, v_div(one, sum), zero);
@@ -71,105 +36,71 @@ static inline void unit_length(vf32 *x, vf32 *y, vf32 *z)
     *z = v_self(some, v_mul(*z, inverse), zero);
 }
 
-static inline void load_barycentric(const e3d_batch *batch, int i, vf32 b[3])
+/* R20; `rows`: components of three corners each. */
+static inline vf32 interpolate_one(const e3d_surface_floats rows[3], const element_lanes *lanes, int same,
+                                   const vf32 b[3])
 {
+    vf32 corner[3];
+    take_three(rows, lanes, same, corner);
+    return dot_three(b, corner);
+}
+
+/* R22 */
+static inline void interpolate_normal(const e3d_surfaces *s, const element_lanes *lanes, int same, int flat,
+                                      const vf32 b[3], vf32 n[3])
+{
+    vf32 zero = v_setf(0.0f);
+    vmask front = v_eqi(v_asi(take((const float *)s->back, lanes, same)), v_seti(0));
+    for (int c = 0; c < 3; c++) {
+        n[c] = flat ? take(s->normal[c][0], lanes, same) : interpolate_one(s->normal[c], lanes, same, b);
+        n[c] = v_self(front, n[c], v_sub(zero, n[c]));
+    }
+    unit_length(&n[0], &n[1], &n[2]);
+}
+
+static inline void interpolate_vector(e3d_batch *batch, int i, const e3d_surfaces *s, const element_lanes *lanes,
+                                      int same, int wanted)
+{
+    vf32 b[3], n[3], r = interpolate_barycentric(s, lanes, same, v_loadi(batch->sample + i), b);
+    v_storef(batch->r + i, r);
     for (int k = 0; k < 3; k++)
-        b[k] = v_loadf(batch->b[k] + i);
-}
-
-static void run_barycentric(e3d_batch *batch, int first, int end, const e3d_surface *s)
-{
-    plane_lanes planes = broadcast_planes(s);
-    for (int i = first; i < end; i += V_LANES) {
-        vf32 b[3], r = interpolate_barycentric(&planes, v_loadi(batch->sample + i), b);
-        v_storef(batch->r + i, r);
-        for (int k = 0; k < 3; k++)
-            v_storef(batch->b[k] + i, b[k]);
-    }
-}
-
-/* `words`: `channels` rows of three corner values. */
-static void run_attribute(e3d_batch *batch, int first, int end, const float *words, int channels,
-                          e3d_lane_array *out)
-{
-    for (int c = 0; c < channels; c++) {
-        vf32 corner[3], b[3];
-        broadcast_three(words + 3 * c, corner);
-        for (int i = first; i < end; i += V_LANES) {
-            load_barycentric(batch, i, b);
-            v_storef(out[c] + i, interpolate_three(b, corner));
-        }
-    }
-}
-
-static void run_normal(e3d_batch *batch, int first, int end, const e3d_surface *s, int flat)
-{
-    vf32 corner[3][3], zero = v_setf(0.0f);
-    for (int c = 0; c < 3; c++)
-        broadcast_three(s->normal[c], corner[c]);
-    for (int i = first; i < end; i += V_LANES) {
-        vf32 b[3], n[3];
-        load_barycentric(batch, i, b);
-        for (int c = 0; c < 3; c++) {
-            n[c] = flat ? corner[c][0] : interpolate_three(b, corner[c]);
-            n[c] = s->back ? v_sub(zero, n[c]) : n[c];
-        }
-        unit_length(&n[0], &n[1], &n[2]);
+        v_storef(batch->b[k] + i, b[k]);
+    for (int c = 0; c < 3 && wanted & E3D_WANT_POSITION; c++)
+        v_storef(batch->position[c] + i, interpolate_one(s->position[c], lanes, same, b));
+    if (wanted & E3D_WANT_NORMAL) {
+        interpolate_normal(s, lanes, same, wanted & E3D_WANT_FLAT, b, n);
         for (int c = 0; c < 3; c++)
             v_storef(batch->normal[c] + i, n[c]);
     }
+    for (int c = 0; c < 2 && wanted & E3D_WANT_UV; c++)
+        v_storef(batch->uv[c] + i, interpolate_one(s->uv[c], lanes, same, b));
 }
 
-static void kernel_interpolate(e3d_batch *batch, const e3d_surface *surfaces, int wanted)
+static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
 {
-    for (int first = 0, end; first < batch->count; first = end) {
-        const e3d_surface *s = &surfaces[batch->surface[first]];
-        end = run_end(batch, first);
-        run_barycentric(batch, first, end, s);
-        if (wanted & E3D_WANT_POSITION)
-            run_attribute(batch, first, end, s->position[0], 3, batch->position);
-        if (wanted & E3D_WANT_NORMAL)
-            run_normal(batch, first, end, s, wanted & E3D_WANT_FLAT);
-        if (wanted & E3D_WANT_UV)
-            run_attribute(batch, first, end, s->uv[0], 2, batch->uv);
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        element_lanes lanes = lanes_of(batch->surface + i);
+        if (lanes.same)
+            interpolate_vector(batch, i, surfaces, &lanes, 1, wanted);
+        else
+            interpolate_vector(batch, i, surfaces, &lanes, 0, wanted);
     }
 }
 
-/* Read and written in place: the last vector of a run must leave the next run's samples alone. */
-static void run_tint(e3d_batch *batch, int first, int end, const e3d_surface *s, int by_vertex,
-                     int by_instance)
+static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
 {
-    for (int c = 0; c < 3; c++) {
-        vf32 corner[3], instance = v_setf(s->instance_color[c]);
-        broadcast_three(s->color[c], corner);
-        for (int i = first; i < end; i += V_LANES) {
-            vf32 b[3], old = v_loadf(batch->color[c] + i), v = old;
-            load_barycentric(batch, i, b);
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        element_lanes lanes = lanes_of(batch->surface + i);
+        const vf32 b[3] = {v_loadf(batch->b[0] + i), v_loadf(batch->b[1] + i), v_loadf(batch->b[2] + i)};
+        for (int c = 0; c < 3; c++) {
+            vf32 v = v_loadf(batch->color[c] + i);
             if (by_vertex)
-                v = v_mul(v, interpolate_three(b, corner));
+                v = v_mul(v, interpolate_one(surfaces->color[c], &lanes, lanes.same, b));
             if (by_instance)
-                v = v_mul(v, instance);
-            vmask own = v_gti(v_seti(end - i), v_iota());
-            v_storef(batch->color[c] + i, v_self(own, v, old));
+                v = v_mul(v, take(surfaces->instance_color[c], &lanes, lanes.same));
+            v_storef(batch->color[c] + i, v);
         }
     }
-}
-
-static void kernel_tint(e3d_batch *batch, const e3d_surface *surfaces, int by_vertex, int by_instance)
-{
-    for (int first = 0, end; first < batch->count; first = end) {
-        end = run_end(batch, first);
-        run_tint(batch, first, end, &surfaces[batch->surface[first]], by_vertex, by_instance);
-    }
-}
-
-/* R25: derivative of an interpolated coordinate along one screen axis. */
-static inline vf32 level_derivative(const vf32 plane[3], const vf32 corner[3], vf32 value, vf32 r)
-{
-    vf32 sum = v_add(v_add(plane[0], plane[1]), plane[2]);
-    vf32 along = v_add(v_add(v_mul(plane[0], corner[0]), v_mul(plane[1], corner[1])),
-                       v_mul(plane[2], corner[2]));
-    return v_mul(v_sub(along, v_mul(value, sum)), r);
 }
 
 /* R27 */
@@ -202,43 +133,34 @@ static inline vf32 exp2_poly(vf32 y)
     return v_mul(fraction, v_asf(v_shl(v_addi(whole, v_seti(127)), 23)));
 }
 
-/* Squared length, in texels, of the step of both coordinates along one screen axis. */
-static inline vf32 level_length2(const float *plane_words, const e3d_surface *s, const vf32 value[2],
-                                 vf32 r, const vf32 size[2])
+/* R25 and R26: squared length, in texels, of the step of both coordinates along one screen axis. */
+static inline vf32 level_length2(const e3d_surface_floats step[3], const element_lanes *lanes,
+                                 const vf32 value[2], vf32 r, const vf32 size[2])
 {
-    vf32 plane[3], corner[3], square[2];
-    broadcast_three(plane_words, plane);
+    vf32 s[3], square[2];
+    take_three(step, lanes, lanes->same, s);
     for (int k = 0; k < 2; k++) {
-        broadcast_three(s->uv[k], corner);
-        vf32 texels = v_mul(level_derivative(plane, corner, value[k], r), size[k]);
+        vf32 derivative = v_mul(v_sub(s[1 + k], v_mul(value[k], s[0])), r);
+        vf32 texels = v_mul(derivative, size[k]);
         square[k] = v_mul(texels, texels);
     }
     return v_add(square[0], square[1]);
 }
 
-static void run_level(e3d_batch *batch, int first, int end, const e3d_surface *s, const vf32 size[2],
-                      vi32 last)
+static void kernel_select_level(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture)
 {
+    const vf32 size[2] = {v_setf((float)texture->levels[0].width), v_setf((float)texture->levels[0].height)};
     vf32 one = v_setf(1.0f);
-    for (int i = first; i < end; i += V_LANES) {
+    vi32 last = v_seti((texture->level_count - 1) * 256);
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        element_lanes lanes = lanes_of(batch->surface + i);
         vf32 r = v_loadf(batch->r + i);
         const vf32 value[2] = {v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i)};
-        vf32 q = v_max(level_length2(s->px, s, value, r, size), level_length2(s->py, s, value, r, size));
+        vf32 q = v_max(level_length2(surfaces->step[0], &lanes, value, r, size),
+                       level_length2(surfaces->step[1], &lanes, value, r, size));
         vmask minified = v_gt(q, one);
         q = v_min(v_self(minified, q, one), v_setf(0x1p100f));
         vi32 lod = v_rint(v_mul(log2_poly(q), v_setf(128.0f)));
         v_storei(batch->lod + i, v_mini(v_seli(minified, lod, v_seti(0)), last));
-    }
-}
-
-static void kernel_select_level(e3d_batch *batch, const e3d_surface *surfaces,
-                                const e3d_texture_view *texture)
-{
-    const vf32 size[2] = {v_setf((float)texture->levels[0].width),
-                          v_setf((float)texture->levels[0].height)};
-    vi32 last = v_seti((texture->level_count - 1) * 256);
-    for (int first = 0, end; first < batch->count; first = end) {
-        end = run_end(batch, first);
-        run_level(batch, first, end, &surfaces[batch->surface[first]], size, last);
     }
 }

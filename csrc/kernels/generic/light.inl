@@ -6,11 +6,6 @@ typedef struct lit_lanes {
     vf32 energy[3], shine[3];
 } lit_lanes;
 
-static inline vf32 dot_lanes(const vf32 a[3], const vf32 b[3])
-{
-    return v_add(v_add(v_mul(a[0], b[0]), v_mul(a[1], b[1])), v_mul(a[2], b[2]));
-}
-
 /* Unit vector towards a point light; the attenuation; lanes within range. */
 static inline vmask light_towards(const e3d_light *light, const vf32 position[3], vf32 l[3],
                                   vf32 *attenuation)
@@ -19,7 +14,7 @@ static inline vmask light_towards(const e3d_light *light, const vf32 position[3]
     float range2 = light->range * light->range;
     for (int k = 0; k < 3; k++)
         l[k] = v_sub(v_setf(light->position[k]), position[k]);
-    vf32 d2 = dot_lanes(l, l);
+    vf32 d2 = dot_three(l, l);
     vmask near = v_mnot(v_ge(d2, v_setf(range2)));
     d2 = v_max(d2, v_setf(0x1p-40f));
     vf32 inverse = v_div(one, v_sqrt(d2));
@@ -41,7 +36,7 @@ static inline void light_highlight(const e3d_light *light, const vf32 l[3], vf32
     for (int k = 0; k < 3; k++)
         h[k] = v_add(l[k], lit->view[k]);
     unit_length(&h[0], &h[1], &h[2]);
-    vf32 x = v_max(dot_lanes(lit->normal, h), zero);
+    vf32 x = v_max(dot_three(lit->normal, h), zero);
     vmask some = v_mand(v_gt(facing, zero), v_ge(x, v_setf(0x1p-100f)));
     vf32 safe = v_self(some, x, v_setf(1.0f));
     vf32 power = v_self(some, exp2_poly(v_mul(v_setf(shininess), log2_poly(safe))), zero);
@@ -63,7 +58,7 @@ static inline void light_one(const e3d_light *light, float shininess, lit_lanes 
         near = light_towards(light, lit->position, l, &attenuation);
     if (!v_any(near))
         return;
-    vf32 facing = v_max(dot_lanes(lit->normal, l), zero);
+    vf32 facing = v_max(dot_three(lit->normal, l), zero);
     vf32 amount = v_mul(attenuation, facing);
     for (int k = 0; k < 3; k++) {
         vf32 more = v_add(lit->energy[k], v_mul(v_setf(light->color[k]), amount));

@@ -18,6 +18,7 @@
 #include "kernels/generic/visible.inl"
 #endif
 #include "kernels/generic/runs.inl"
+#include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"
@@ -36,6 +37,7 @@ const e3d_kernels E3D_TABLE = {
     .raster_settle = kernel_raster_settle,
     .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
+    .surface = kernel_surface,
     .interpolate = kernel_interpolate,
     .select_level = kernel_select_level,
     .texture = kernel_texture,

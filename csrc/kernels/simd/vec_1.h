@@ -96,6 +96,11 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) { return (float)a[0]; } /* r
 /* Lane l of column c goes to out[16 * l + c]. */
 static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c, 64); }
 
+/* Elements base[index[lane]] of an array, 0 <= index < V_LANES; prepared once for many arrays. */
+typedef int32_t vpick;
+static inline vpick v_picker(vi32 index) { return index; }
+static inline vf32 v_pick(const void *base, vpick p) { float v; memcpy(&v, (const char *)base + 4 * p, 4); return v; }
+
 /* The texels at[lane] and at[lane] + 1 of each lane. Of 8-bit channels: whole. Of 16-bit ones: red, green and blue, of
  * the left texel in the low half, of the right one in the high half. */
 static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {

@@ -103,6 +103,12 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     rows_store8(c + 8, out + 8, 16);
 }
 
+typedef __m256i vpick;
+static inline vpick v_picker(vi32 index) { return index; }
+static inline vf32 v_pick(const void *base, vpick p) {
+    return _mm256_permutevar8x32_ps(_mm256_loadu_ps((const float *)base), p);
+}
+
 /* Lanes 0 .. 3 in the low half, 4 .. 7 in the high one: unpacking works within halves. */
 static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
     __m256 a = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));

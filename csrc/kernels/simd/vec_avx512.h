@@ -106,6 +106,12 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
+typedef __m512i vpick;
+static inline vpick v_picker(vi32 index) { return index; }
+static inline vf32 v_pick(const void *base, vpick p) {
+    return _mm512_permutexvar_ps(p, _mm512_loadu_ps(base));
+}
+
 /* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
 static inline vf32 pairs_eight(const void *texels, const int32_t *at) {
     __m256 low = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));

@@ -109,6 +109,14 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
+typedef __m128i vpick;
+static inline vpick v_picker(vi32 index) {
+    return _mm_add_epi32(_mm_mullo_epi32(index, _mm_set1_epi32(0x04040404)), _mm_set1_epi32(0x03020100));
+}
+static inline vf32 v_pick(const void *base, vpick p) {
+    return _mm_castsi128_ps(_mm_shuffle_epi8(_mm_loadu_si128((const __m128i *)base), p));
+}
+
 static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
     __m128 a = pairs_two(texels, at), b = pairs_two(texels, at + 2);
     *left = _mm_castps_si128(_mm_shuffle_ps(a, b, PAIRS_EVEN));

@@ -1,0 +1,155 @@
+/* surface: what visible pieces bring to their samples, a vector of pieces at a time (R3, R18, R25). */
+
+/* ---- barycentric planes (R18) ---- */
+
+/* In whole numbers below 2^53 until they are divided. */
+typedef struct plane_numbers {
+    vi32 a[3], b[3];   /* of the edges */
+    vi32 dx[3], dy[3]; /* from corner (k + 1) % 3 to the base's centre */
+} plane_numbers;
+
+static inline void surface_base(const vi32 corner[3], int tile, vi32 *centre, float *out)
+{
+    vi32 low = v_mini(v_mini(corner[0], corner[1]), corner[2]);
+    vi32 base = v_maxi(v_sra(v_addi(low, v_seti(127)), 8), v_seti(0));
+    *centre = v_addi(v_shl(base, 8), v_seti(128));
+    v_storef(out, v_float(v_subi(base, v_seti(tile))));
+}
+
+static inline plane_numbers surface_edges(e3d_surfaces *s, int n, int tile_x, int tile_y)
+{
+    plane_numbers e;
+    vi32 x[3], y[3], centre_x, centre_y;
+    for (int k = 0; k < 3; k++) {
+        x[k] = v_loadi(s->x[k] + n);
+        y[k] = v_loadi(s->y[k] + n);
+    }
+    surface_base(x, tile_x, &centre_x, s->base_x + n);
+    surface_base(y, tile_y, &centre_y, s->base_y + n);
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        e.a[k] = v_subi(y[i], y[j]);
+        e.b[k] = v_subi(x[j], x[i]);
+        e.dx[k] = v_subi(centre_x, x[i]);
+        e.dy[k] = v_subi(centre_y, y[i]);
+    }
+    return e;
+}
+
+/* Of one half of a vector: plane[row][k][half]. */
+static inline void surface_half(const plane_numbers *e, const vf32 iw[3], int half, vf64 plane[3][3][V_HALVES])
+{
+    vf64 one = v_setd(1.0), a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = v_wideni(e->a[k], half);
+        b[k] = v_wideni(e->b[k], half);
+    }
+    vf64 ra = v_divd(one, v_subd(v_muld(b[2], a[1]), v_muld(b[1], a[2])));
+    vf64 rm = v_divd(one, v_widenf(v_max(iw[2], v_max(iw[1], iw[0])), half));
+    for (int k = 0; k < 3; k++) {
+        vf64 q = v_muld(v_widenf(iw[k], half), rm), step = v_setd(256.0);
+        vf64 at = v_addd(v_muld(a[k], v_wideni(e->dx[k], half)), v_muld(b[k], v_wideni(e->dy[k], half)));
+        plane[0][k][half] = v_muld(v_muld(at, ra), q);
+        plane[1][k][half] = v_muld(v_muld(v_muld(step, a[k]), ra), q);
+        plane[2][k][half] = v_muld(v_muld(v_muld(step, b[k]), ra), q);
+    }
+}
+
+static inline void surface_planes(e3d_surfaces *s, int n, int tile_x, int tile_y)
+{
+    plane_numbers e = surface_edges(s, n, tile_x, tile_y);
+    vf64 plane[3][3][V_HALVES];
+    const vf32 iw[3] = {v_loadf(s->iw[0] + n), v_loadf(s->iw[1] + n), v_loadf(s->iw[2] + n)};
+    for (int half = 0; half < V_HALVES; half++)
+        surface_half(&e, iw, half, plane);
+    vmask straight = v_eqi(v_loadi(s->swapped + n), v_seti(0));
+    e3d_surface_floats *const rows[3] = {s->p, s->px, s->py};
+    for (int row = 0; row < 3; row++) {
+        vf32 second = v_narrow(plane[row][1]), third = v_narrow(plane[row][2]);
+        v_storef(rows[row][0] + n, v_narrow(plane[row][0]));
+        v_storef(rows[row][1] + n, v_self(straight, second, third));
+        v_storef(rows[row][2] + n, v_self(straight, third, second));
+    }
+}
+
+/* ---- vertices to world space (R3) ---- */
+
+/* The elements of one vector in arrays of elements that ascend by 1 at most: all the same, or to be picked. */
+typedef struct element_lanes {
+    int first, same;
+    vpick pick;
+} element_lanes;
+
+static inline element_lanes lanes_of(const int32_t *elements)
+{
+    element_lanes lanes = {elements[0], elements[0] == elements[V_LANES - 1],
+                           v_picker(v_subi(v_loadi(elements), v_seti(elements[0])))};
+    return lanes;
+}
+
+static inline vf32 take(const float *elements, const element_lanes *lanes, int same)
+{
+    return same ? v_setf(elements[lanes->first]) : v_pick(elements + lanes->first, lanes->pick);
+}
+
+static inline void take_three(const e3d_surface_floats *rows, const element_lanes *lanes, int same, vf32 out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = take(rows[k], lanes, same);
+}
+
+static inline vf32 dot_three(const vf32 a[3], const vf32 b[3])
+{
+    return v_add(v_add(v_mul(a[0], b[0]), v_mul(a[1], b[1])), v_mul(a[2], b[2]));
+}
+
+/* `columns`: 3, or 4 with an offset; `vertices`: as many of the three. */
+static inline void surface_transform(const e3d_surface_floats *matrix, int columns, const element_lanes *lanes,
+                                     e3d_surface_floats vectors[3][3], int vertices, int n)
+{
+    vf32 v[3][3]; /* [vertex][component] */
+    for (int k = 0; k < vertices; k++)
+        for (int c = 0; c < 3; c++)
+            v[k][c] = v_loadf(vectors[c][k] + n);
+    for (int row = 0; row < 3; row++) {
+        vf32 m[3], offset = v_setf(0.0f);
+        for (int c = 0; c < 3; c++)
+            m[c] = take(matrix[columns * row + c], lanes, lanes->same);
+        if (columns == 4)
+            offset = take(matrix[4 * row + 3], lanes, lanes->same);
+        for (int k = 0; k < vertices; k++) {
+            vf32 sum = dot_three(m, v[k]);
+            v_storef(vectors[row][k] + n, columns == 4 ? v_add(sum, offset) : sum);
+        }
+    }
+}
+
+/* ---- what one step to the right, or down, changes (R25) ---- */
+
+static inline void surface_steps(e3d_surfaces *s, int n)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        const e3d_surface_floats *plane = axis ? s->py : s->px;
+        const vf32 w[3] = {v_loadf(plane[0] + n), v_loadf(plane[1] + n), v_loadf(plane[2] + n)};
+        v_storef(s->step[axis][0] + n, v_add(v_add(w[0], w[1]), w[2]));
+        for (int k = 0; k < 2; k++) {
+            const vf32 corner[3] = {v_loadf(s->uv[k][0] + n), v_loadf(s->uv[k][1] + n),
+                                    v_loadf(s->uv[k][2] + n)};
+            v_storef(s->step[axis][1 + k] + n, dot_three(w, corner));
+        }
+    }
+}
+
+static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)
+{
+    for (int n = 0; n < s->count; n += V_LANES) {
+        element_lanes lanes = lanes_of(s->matrix + n);
+        surface_planes(s, n, tile_x, tile_y);
+        if (wanted & E3D_WANT_POSITION)
+            surface_transform(s->world, 4, &lanes, s->position, 3, n);
+        if (wanted & E3D_WANT_NORMAL)
+            surface_transform(s->normals, 3, &lanes, s->normal, wanted & E3D_WANT_FLAT ? 1 : 3, n);
+        if (wanted & E3D_WANT_LEVEL)
+            surface_steps(s, n);
+    }
+}

@@ -62,3 +62,20 @@ def test_overhead():
     assert len(figures["calls"]) == 9 and len(figures["starts"]) == 5
     assert all(row["microseconds"] > row["core_microseconds"] > 0 for row in figures["calls"])
     assert all(row["milliseconds"] > 0 for row in figures["starts"])
+
+
+def test_lights(tmp_path):
+    chart = tmp_path / "lights.svg"
+    small = ["--triangles", "50000", "--most", "4", "--frames", "1", "--resolution", "64x36"]
+    rows = report("lights.py", *small, "--plot", str(chart))["rows"]
+    assert [row["lights"] for row in rows] == [1, 2, 4] and chart.stat().st_size > 1000
+    assert all(row["same_bytes"] and row["forward"] > 0 and row["deferred"] > 0 for row in rows)
+
+
+def test_worlds():
+    small = ["--side", "4", "--triangles", "30000", "--largest", "100000", "--frames", "1"]
+    rows = report("worlds.py", *small, "--resolution", "64x36")["rows"]
+    assert len(rows) == 7 + 3 + 2 + 1
+    assert all(row["cpu_milliseconds"] > 0 for row in rows)
+    for word in ("64 spheres", "OBJ", "256 lights, street", "the same street"):
+        assert any(word in row["what"] for row in rows)

@@ -1,0 +1,222 @@
+"""Large worlds, side by side in one run: spheres by the ten thousand, a city of millions.
+
+In:  the installed engine3d.
+Out: a table, or with --json one object. Of 34^3 spheres: frames from inside the grid and with all
+     in view, moved one by one and all at once. Of the city: the time to make it, frames at street
+     level under 256 lights and from above, bytes a triangle, writing and reading its OBJ. Of the
+     same street in cities of three sizes: what a frame costs.
+
+--culling says what is left out before it is drawn: run it with each to compare.
+"""
+
+import argparse
+import gc
+import json
+import os
+import platform
+import sys
+import tempfile
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+from city_views import above_camera, city_scene, drive, street_camera, time_frames
+from lights import resolution
+
+import engine3d as e3d
+
+SIDE, SPACING = 34, 3.0
+PARTS = ("spheres", "city", "obj", "sizes")
+SIZES = (100_000, 1_000_000, 10_000_000)
+
+
+def resident_bytes():
+    """What the process occupies in memory."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def timed(function, *arguments):
+    """CPU milliseconds of a call, and what it returned."""
+    start = time.process_time()
+    result = function(*arguments)
+    return 1e3 * (time.process_time() - start), result
+
+
+class Spheres:
+    """34^3 spheres of 400 triangles in a grid, as one instanced mesh or as a node each."""
+
+    def __init__(self, side):
+        axis = (np.arange(side) - (side - 1) / 2) * SPACING
+        grid = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+        self.poses = np.column_stack((grid, np.ones(len(grid))))
+        self.reach = float(axis[-1])
+        self.mesh = e3d.uv_sphere(1.0, (20, 11))
+
+    def instanced(self):
+        scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+        scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
+        return scene, scene.add(e3d.InstancedMesh(self.mesh, self.poses)).object
+
+    def nodes(self):
+        scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+        scene.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
+        return scene, [scene.add(self.mesh, translation=pose[:3]) for pose in self.poses]
+
+    def inside(self, frame):
+        eye = (0.5 * SPACING, 0.5 * SPACING, 0.01 * frame)
+        camera = e3d.PerspectiveCamera(yfov=1.0, znear=0.05, zfar=8.0 * self.reach)
+        return camera, e3d.look_at(eye, (0.3 * self.reach, 0.1 * self.reach, -self.reach))
+
+    def all_in_view(self, frame):
+        eye = (0.01 * frame, 0.6 * self.reach, 3.6 * self.reach)
+        camera = e3d.PerspectiveCamera(yfov=0.7, znear=0.5 * self.reach, zfar=8.0 * self.reach)
+        return camera, e3d.look_at(eye, (0.0, 0.0, 0.0))
+
+
+def measure_spheres(renderer, arguments, options):
+    spheres = Spheres(arguments.side)
+    count = f"{len(spheres.poses):,} spheres"
+    views = {"inside": spheres.inside, "all in view": spheres.all_in_view}
+    scene, instances = spheres.instanced()
+    for name, view in views.items():
+        row = time_frames(renderer, scene, view, arguments.frames, **options)
+        yield f"{count}, instances, {name}", row
+
+    def swing(frame):
+        poses = spheres.poses.copy()
+        poses[:, 1] += 0.3 * np.sin(poses[:, 0] + 0.1 * frame)
+        instances.poses = poses
+
+    row = time_frames(renderer, scene, spheres.inside, arguments.frames, swing, **options)
+    yield f"{count}, instances, all moving, inside", row
+    taken, (scene, nodes) = timed(spheres.nodes)
+    yield f"{count}, nodes, made", {"cpu_milliseconds": taken}
+    for name, view in views.items():
+        row = time_frames(renderer, scene, view, arguments.frames, **options)
+        yield f"{count}, nodes, {name}", row
+
+    def move(frame):
+        x, y, z = spheres.poses[:, :3].T
+        places = np.stack((x, y + 0.3 * np.sin(x + 0.1 * frame), z), axis=1)
+        for node, place in zip(nodes, places, strict=True):
+            node.translation = place
+
+    row = time_frames(renderer, scene, spheres.inside, arguments.frames, move, **options)
+    yield f"{count}, nodes, all moving, inside", row
+
+
+def measure_city(renderer, arguments, options):
+    before = resident_bytes()
+    taken, world = timed(e3d.city, arguments.triangles)
+    count = f"city of {world.triangles:,}"
+    made = (resident_bytes() - before) / world.triangles
+    yield f"{count}, made", {"cpu_milliseconds": taken, "bytes_a_triangle": made}
+    scene, cars = city_scene(world, 256)
+    for name, view in {"street": street_camera, "above": above_camera}.items():
+        row = time_frames(
+            renderer, scene, view, arguments.frames, lambda frame: drive(cars, frame), **options
+        )
+        row["bytes_a_triangle"] = (resident_bytes() - before) / world.triangles
+        yield f"{count}, 256 lights, {name}", row
+
+
+def measure_obj(renderer, arguments, options):
+    world = e3d.city(arguments.triangles)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "city.obj"
+        taken, _ = timed(lambda: world.mesh().save(path))
+        size = path.stat().st_size
+        name = f"city of {world.triangles:,}, OBJ of {size / 1e6:,.0f} MB"
+        yield f"{name}, written", {"cpu_milliseconds": taken}
+        world = None
+        gc.collect()
+        before = resident_bytes()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            start = time.perf_counter()
+            taken, mesh = timed(e3d.load_mesh, path)
+            wall = 1e3 * (time.perf_counter() - start)
+        used = (resident_bytes() - before) / len(mesh.faces)
+        row = {"cpu_milliseconds": taken, "milliseconds": wall, "bytes_a_triangle": used}
+        yield f"{name}, read", row
+
+
+def measure_sizes(renderer, arguments, options):
+    for size in SIZES:
+        if size > arguments.largest:
+            break
+        world = e3d.city(size)
+        scene, cars = city_scene(world, 256)
+        row = time_frames(
+            renderer,
+            scene,
+            street_camera,
+            arguments.frames,
+            lambda frame, cars=cars: drive(cars, frame),
+            **options,
+        )
+        yield f"the same street, city of {world.triangles:,}", row
+        world = scene = cars = None
+        gc.collect()
+
+
+MEASURES = {
+    "spheres": measure_spheres,
+    "city": measure_city,
+    "obj": measure_obj,
+    "sizes": measure_sizes,
+}
+
+
+def measure(arguments):
+    """Yield a row for each figure."""
+    width, height = arguments.resolution
+    options = {"culling": arguments.culling}
+    for part in arguments.part or PARTS:
+        gc.collect()
+        with e3d.Renderer(width, height, threads=arguments.threads) as renderer:
+            for name, row in MEASURES[part](renderer, arguments, options):
+                yield {"what": name, **row}
+
+
+def print_table(rows):
+    print(f"{'':<52} {'CPU ms':>9} {'ms':>9} {'set up':>9} {'B/triangle':>10}")
+    for row in rows:
+        numbers = [
+            f"{row['cpu_milliseconds']:>9.1f}",
+            f"{row['milliseconds']:>9.1f}" if "milliseconds" in row else " " * 9,
+            f"{row['triangles_setup']:>9,}" if "triangles_setup" in row else " " * 9,
+            f"{row['bytes_a_triangle']:>10.0f}" if "bytes_a_triangle" in row else "",
+        ]
+        print(f"{row['what']:<52} {' '.join(numbers)}".rstrip(), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measure large worlds.")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("--part", choices=PARTS, action="append", help="by default all")
+    parser.add_argument("--triangles", type=int, default=7_000_000, help="of the city")
+    parser.add_argument(
+        "--largest", type=int, default=SIZES[-1], help="of the same street's cities"
+    )
+    parser.add_argument("--side", type=int, default=SIDE, help="spheres along each side")
+    parser.add_argument("--frames", type=int, default=10, help="frames a figure (default: 10)")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--culling", default="all", help="as for Renderer.render (default: all)")
+    parser.add_argument("--resolution", type=resolution, default=(1280, 720), metavar="WxH")
+    arguments = parser.parse_args()
+    rows = measure(arguments)
+    if not arguments.json:
+        print_table(rows)
+        return
+    machine = {"machine": platform.machine(), "python": platform.python_version()}
+    settings = {"threads": arguments.threads, "culling": arguments.culling}
+    result = {"engine3d": e3d.__version__, **machine, **settings, "rows": list(rows)}
+    json.dump(result, sys.stdout)
+    print()
+
+
+if __name__ == "__main__":
+    main()

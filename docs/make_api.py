@@ -29,7 +29,15 @@ the package's stubs and annotations.
 #: Title of a chapter -> its names; together they are `engine3d.__all__`.
 CHAPTERS = {
     "Drawing": ("render", "Renderer", "Frame", "backends"),
-    "Scenes": ("Scene", "Node", "InstancedMesh", "DirectionalLight", "PointLight"),
+    "Scenes": (
+        "Scene",
+        "Node",
+        "InstancedMesh",
+        "DirectionalLight",
+        "PointLight",
+        "RayHit",
+        "RayHits",
+    ),
     "Cameras": (
         "PerspectiveCamera",
         "OrthographicCamera",

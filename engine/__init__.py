@@ -56,6 +56,8 @@ _PUBLIC = {
     "PointLight": "lights",
     "Node": "nodes",
     "Scene": "scene",
+    "RayHit": "spatial.rays",
+    "RayHits": "spatial.rays",
     "Frame": "frame",
     "Renderer": "renderer",
     "render": "renderer",

@@ -46,6 +46,8 @@ from .renderer import Renderer as Renderer
 from .renderer import render as render
 from .scene import Scene as Scene
 from .scene_loading import load_scene as load_scene
+from .spatial.rays import RayHit as RayHit
+from .spatial.rays import RayHits as RayHits
 from .textures import Texture as Texture
 from .version import __version__ as __version__
 from .worlds import World as World

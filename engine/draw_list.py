@@ -8,7 +8,6 @@ placed by C, from the scene's arrays. Python looks at every object, never at eve
 from __future__ import annotations
 
 import itertools
-import math
 import operator
 import weakref
 
@@ -134,7 +133,7 @@ class DrawList:
             eight_bit = colors is not None and colors.dtype == np.uint8
             self.native.set_instances(
                 index,
-                obj.poses.reshape(len(obj.poses), math.prod(obj.poses.shape[1:])),
+                obj._flat_poses(),
                 colors if eight_bit else None,
                 None if eight_bit else colors,
             )

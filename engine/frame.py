@@ -102,6 +102,7 @@ class Frame:
         self.width = width
         self.height = height
         self.stats: dict = {}
+        self._seen: tuple | None = None  # the view and the side culled: what picking needs
         self._outputs = outputs
 
     @property

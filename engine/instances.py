@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ._native.scene_graph import BOX, OBJECT_BOX, instance_boxes, union
+from ._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
 from .attributes import CheckedAttribute
 from .errors import InvalidArgumentError
 from .mesh import Mesh
@@ -49,6 +49,7 @@ class InstancedMesh:
 
     def __init__(self, mesh: Mesh, poses, *, colors=None) -> None:
         self._box_of: tuple | None = None
+        self._tree_of: tuple | None = None
         self.mesh = mesh
         self.replace(poses, colors)
 
@@ -92,9 +93,29 @@ class InstancedMesh:
     def _boxes(self) -> np.ndarray:
         """The boxes of the instances in the node's space, (N, BOX)."""
         boxes = np.empty((len(self), BOX))
-        poses = self._poses.reshape(len(self), math.prod(self._poses.shape[1:]))
-        instance_boxes(poses, mesh_box(self.mesh), boxes)
+        instance_boxes(self._flat_poses(), mesh_box(self.mesh), boxes)
         return boxes
+
+    def _flat_poses(self) -> np.ndarray:
+        """The poses as C reads them, (N, 16) or (N, 4)."""
+        return self._poses.reshape(len(self), math.prod(self._poses.shape[1:]))
+
+    def _pose_of(self, instance: int) -> np.ndarray:
+        """node-from-instance, (4, 4) float64."""
+        pose = self._poses[instance].astype(np.float64)
+        if pose.ndim == 2:
+            return pose
+        matrix = np.diag((pose[3], pose[3], pose[3], 1.0))
+        matrix[:3, 3] = pose[:3]
+        return matrix
+
+    def _tree(self) -> NativeTree:
+        """The tree of the instances' boxes; kept until something in them changes."""
+        state = self.version, self.mesh, self.mesh.version
+        if self._tree_of != state:
+            self._native_tree = NativeTree(self._boxes())
+            self._tree_of = state
+        return self._native_tree
 
     def _box_in_node(self) -> np.ndarray:
         """The box around all instances, (OBJECT_BOX,); kept until something in it changes."""

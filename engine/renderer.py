@@ -250,6 +250,7 @@ class Renderer:
                 far,
                 chosen,
             )
+            frame._seen = view, cull
             frame.stats["nodes"] = scene._arrays.count - scene._removed
             frame.stats["nodes_in_frustum"] = self._draw_list.native.draw_count
         return frame

@@ -8,6 +8,8 @@ bounds of what changed; the scene counts its changes, so that a renderer renews 
 from __future__ import annotations
 
 import itertools
+import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +24,10 @@ from .mesh import Mesh
 from .nodes import Node, check_pose, check_rotation, check_scale
 from .scene_arrays import NodeArrays
 from .scene_objects import ObjectTable
+
+if TYPE_CHECKING:
+    from .frame import Frame
+    from .spatial.rays import RayHit, RayHits
 
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
 _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, DirectionalLight, PointLight)
@@ -221,6 +227,91 @@ class Scene:
             for node in self.nodes:
                 self._names.setdefault(node.name, node)
         return self._names.get(name)
+
+    def raycast(
+        self, origin, direction, *, max_distance: float = math.inf, cull: str = "none"
+    ) -> RayHit | None:
+        """Return where a ray first meets a face of what is visible.
+
+        Parameters
+        ----------
+        origin, direction : (3,) float
+            World space; the direction may have any length but zero.
+        max_distance : float
+            World units.
+        cull : {"none", "back", "front"}
+            Which faces the ray passes, by the side that they show it.
+
+        Returns
+        -------
+        hit : RayHit or None
+            Node, instance, face, distance, position, normal and barycentric coordinates. Of faces
+            at the same distance it is the first in the order of drawing.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from .spatial.rays import raycast
+
+        return raycast(self, origin, direction, max_distance, cull)
+
+    def raycast_many(
+        self, origins, directions, *, max_distance: float = math.inf, cull: str = "none"
+    ) -> RayHits:
+        """Cast many rays at once; as `raycast`, a row a ray.
+
+        Parameters
+        ----------
+        origins, directions : (N, 3) or (3,) float
+            One of either may serve for all of the other.
+        max_distance : float
+        cull : {"none", "back", "front"}
+
+        Returns
+        -------
+        hits : RayHits
+            Arrays: object_id, instance, face, distance, position, normal, barycentric.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from .spatial.rays import raycast_many
+
+        return raycast_many(self, origins, directions, max_distance, cull)
+
+    def pick(self, frame: Frame, x: int, y: int) -> RayHit | None:
+        """Return what a pixel of a frame of this scene shows.
+
+        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` tells exactly;
+        otherwise it is what the ray through the pixel's centre meets, as the scene is now.
+
+        Parameters
+        ----------
+        frame : Frame
+        x, y : int
+            Column and row, from the top left.
+
+        Returns
+        -------
+        hit : RayHit or None
+            Its distance is that from the camera, or without perspective from the near plane. Of a
+            line or a point ``face`` is -1, and where it is is unknown (NaN).
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from .spatial.rays import pick
+
+        return pick(self, frame, x, y)
+
+    def _node_of(self, number: int) -> Node | None:
+        """The node of an id, if it is in the scene."""
+        ids = self._arrays.columns["id"][: self._arrays.count]
+        slot = int(np.searchsorted(ids, number))
+        return self._arrays.nodes[slot] if slot < len(ids) and ids[slot] == number else None
 
     def _update(self) -> None:
         """Make world poses, visibility and bounds of all nodes true."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._native.scene_graph import OBJECT_BOX
+from ._native.scene_graph import OBJECT_BOX, NativeShapes
 from .instances import InstancedMesh, mesh_box
 from .mesh import Mesh
 
@@ -33,10 +33,18 @@ class ObjectTable:
         self.objects: list = []
         self.boxes = np.empty((0, OBJECT_BOX))
         self.version = 0
+        self._shapes: NativeShapes | None = None
         self._numbers: dict = {}
         self._uses: list[int] = []
         self._free: list[int] = []
         self._watched: list[tuple[object, int]] | None = []
+
+    @property
+    def shapes(self) -> NativeShapes:
+        """What the objects are to rays; told when a ray first asks."""
+        if self._shapes is None:
+            self._shapes = NativeShapes(len(self.objects))
+        return self._shapes
 
     def take(self, obj) -> int:
         """Return the number of an object for one more node; -1 for what is never drawn."""
@@ -71,6 +79,7 @@ class ObjectTable:
         watched = self._watched
         if watched is not None and all(thing.version == version for thing, version in watched):
             return None
+        self._shapes = None
         boxes = np.array([_box(obj) for obj in self.objects]).reshape(-1, OBJECT_BOX)
         changed = np.ones(len(boxes), np.uint8)
         known = min(len(self.boxes), len(boxes))

@@ -98,6 +98,8 @@ int32_t e3d_graph_draws(int32_t count, const uint8_t *flags, const int32_t *obje
 /* The boxes of a mesh's instances in the space of their node: (count, E3D_BOX); none where a pose is not finite. */
 void e3d_instance_boxes(const float *poses, e3d_pose_kind kind, int32_t count,
                         const double box[E3D_OBJECT_BOX], double *boxes);
+/* The boxes of triangles in the space of their mesh; none where a vertex is not finite. */
+void e3d_triangle_boxes(const float *positions, const int32_t *faces, int32_t count, double *boxes);
 /* The box around boxes; 0 if there are none. */
 int e3d_boxes_union(const double *boxes, int32_t count, double box[E3D_OBJECT_BOX]);
 
@@ -117,6 +119,35 @@ int e3d_tree_refit(e3d_tree *tree, const double *boxes, int32_t count, const int
  * the factor widen (1: none), for what is drawn wider than it is. */
 void e3d_tree_select(const e3d_tree *tree, const double *boxes, const double clip_from_world[16],
                      double widen, uint64_t *bits);
+
+/* ---- Rays ---- */
+
+/* What an object is to a ray: triangles, perhaps at many poses. Arrays and trees are borrowed. */
+typedef struct e3d_shape {
+    int32_t known;               /* 0: ask for it */
+    int32_t face_count;
+    const float *positions;      /* (vertices, 3) */
+    const int32_t *faces;        /* (face_count, 3) */
+    const e3d_tree *triangles;   /* of e3d_triangle_boxes */
+    e3d_pose_kind pose_kind;
+    int32_t instances;
+    const float *poses;
+    const e3d_tree *instance_tree; /* of e3d_instance_boxes */
+} e3d_shape;
+
+typedef struct e3d_hit {
+    double distance;
+    double position[3], normal[3]; /* in the world; unit, of the face's front */
+    double barycentric[3];
+    int32_t slot, instance, face;  /* slot: -1 where nothing was met */
+} e3d_hit;
+
+/* The nearest hit of a ray (world, unit direction) on the faces of what shows, no farther than `farthest`. Equal
+ * distances: the first in the order of drawing. Returns the number of an object of which the shape
+ * has to be known first, else -1. */
+int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes,
+                      int32_t shape_count, const double origin[3], const double direction[3],
+                      double farthest, e3d_cull cull, e3d_hit *hit);
 
 #ifdef __cplusplus
 }

@@ -2,7 +2,7 @@
 
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 
-from e3d cimport e3d_draw, e3d_pose_kind
+from e3d cimport e3d_cull, e3d_draw, e3d_pose_kind
 
 
 cdef extern from "e3d_scene.h" nogil:
@@ -60,6 +60,9 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_instance_boxes(
         const float *poses, e3d_pose_kind kind, int32_t count, const double *box, double *boxes
     )
+    void e3d_triangle_boxes(
+        const float *positions, const int32_t *faces, int32_t count, double *boxes
+    )
     bint e3d_boxes_union(const double *boxes, int32_t count, double *box)
 
     ctypedef struct e3d_tree:
@@ -74,4 +77,30 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_tree_select(
         const e3d_tree *tree, const double *boxes, const double *clip_from_world, double widen,
         uint64_t *bits,
+    )
+
+    ctypedef struct e3d_shape:
+        int32_t known
+        int32_t face_count
+        const float *positions
+        const int32_t *faces
+        const e3d_tree *triangles
+        e3d_pose_kind pose_kind
+        int32_t instances
+        const float *poses
+        const e3d_tree *instance_tree
+
+    ctypedef struct e3d_hit:
+        double distance
+        double position[3]
+        double normal[3]
+        double barycentric[3]
+        int32_t slot
+        int32_t instance
+        int32_t face
+
+    int32_t e3d_graph_ray(
+        const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes,
+        int32_t shape_count, const double *origin, const double *direction, double farthest,
+        e3d_cull cull, e3d_hit *hit,
     )

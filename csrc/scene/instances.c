@@ -1,11 +1,11 @@
-/* instances: the boxes of a mesh at many poses, in the space of their node. */
+/* instances: poses and boxes of a mesh at many poses, in the space of their node; boxes of triangles. */
 #include <math.h>
 #include <string.h>
 
 #include "core/fpenv.h"
 #include "scene/pose.h"
 
-static int pose_of(const float *poses, e3d_pose_kind kind, int32_t instance, double out[12])
+int e3d_instance_pose(const float *poses, e3d_pose_kind kind, int32_t instance, double out[12])
 {
     int finite = 1, numbers = kind == E3D_POSE_MATRIX ? 16 : 4;
     const float *p = poses + numbers * (size_t)instance;
@@ -21,19 +21,39 @@ static int pose_of(const float *poses, e3d_pose_kind kind, int32_t instance, dou
     return finite;
 }
 
+static const double NONE[E3D_BOX] = {INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY, 0};
+
 void e3d_instance_boxes(const float *poses, e3d_pose_kind kind, int32_t count,
                         const double box[E3D_OBJECT_BOX], double *boxes)
 {
-    static const double NONE[E3D_BOX] = {INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY, 0};
     e3d_fpenv saved = e3d_fpenv_enter();
     for (int32_t i = 0; i < count; i++) {
         double pose[12], *out = boxes + E3D_BOX * (size_t)i;
-        if (pose_of(poses, kind, i, pose) && box[0] <= box[3])
+        if (e3d_instance_pose(poses, kind, i, pose) && box[0] <= box[3])
             e3d_pose_box(pose, box, out);
         else
             memcpy(out, NONE, sizeof NONE);
     }
     e3d_fpenv_leave(saved);
+}
+
+void e3d_triangle_boxes(const float *positions, const int32_t *faces, int32_t count, double *boxes)
+{
+    for (int32_t i = 0; i < count; i++) {
+        double *box = boxes + E3D_BOX * (size_t)i;
+        int finite = 1;
+        memcpy(box, NONE, sizeof NONE);
+        for (int corner = 0; corner < 3; corner++)
+            for (int k = 0; k < 3; k++) {
+                double v = positions[3 * (size_t)faces[3 * (size_t)i + corner] + k];
+                finite = finite && isfinite(v);
+                box[k] = v < box[k] ? v : box[k];
+                box[3 + k] = v > box[3 + k] ? v : box[3 + k];
+                box[6] = fabs(v) > box[6] ? fabs(v) : box[6];
+            }
+        if (!finite)
+            memcpy(box, NONE, sizeof NONE);
+    }
 }
 
 int e3d_boxes_union(const double *boxes, int32_t count, double box[E3D_OBJECT_BOX])

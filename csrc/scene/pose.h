@@ -12,4 +12,7 @@ void e3d_pose_multiply(const double a[12], const double b[12], double out[12]);
 /* The AABB around an object's box at a pose. */
 void e3d_pose_box(const double pose[12], const double box[E3D_OBJECT_BOX], double out[E3D_BOX]);
 
+/* node-from-instance of one of many; 0 if it is not finite. */
+int e3d_instance_pose(const float *poses, e3d_pose_kind kind, int32_t instance, double out[12]);
+
 #endif

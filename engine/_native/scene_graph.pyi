@@ -10,6 +10,21 @@ STATIC: int
 BOX: int
 OBJECT_BOX: int
 
+class NativeTree:
+    def __init__(self, boxes: NDArray[np.float64]) -> None: ...
+
+class NativeShapes:
+    def __init__(self, count: int) -> None: ...
+    def set(
+        self,
+        number: int,
+        positions: NDArray[np.float32],
+        faces: NDArray[np.int32],
+        triangles: NativeTree,
+        poses: NDArray[np.float32] | None,
+        instances: NativeTree | None,
+    ) -> None: ...
+
 class NativeGraph:
     changes: int
     @property
@@ -47,7 +62,21 @@ class NativeGraph:
     def select(
         self, clip_from_world: NDArray[np.float64], widen: float, bits: NDArray[np.uint64]
     ) -> None: ...
+    def cast(
+        self,
+        shapes: NativeShapes,
+        origins: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        farthest: float,
+        cull: int,
+        ids: NDArray[np.int32],
+        values: NDArray[np.float64],
+        first: int,
+    ) -> tuple[int, int]: ...
 
+def triangle_boxes(
+    positions: NDArray[np.float32], faces: NDArray[np.int32], boxes: NDArray[np.float64]
+) -> None: ...
 def instance_boxes(
     poses: NDArray[np.float32], box: NDArray[np.float64], boxes: NDArray[np.float64]
 ) -> None: ...

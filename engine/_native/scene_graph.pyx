@@ -8,9 +8,10 @@ Always: the GIL is held, so that threads take turns; what is asked of a slot tha
 """
 
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
+from libc.stdlib cimport calloc, free
 from libc.string cimport memcpy, memset
 
-from e3d cimport E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_pose_kind
+from e3d cimport E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind
 from e3d_scene cimport *
 
 from ..errors import InvalidArgumentError, OutOfMemoryError
@@ -21,6 +22,70 @@ SHOWN = E3D_NODE_SHOWN
 STATIC = E3D_NODE_STATIC
 BOX = E3D_BOX
 OBJECT_BOX = E3D_OBJECT_BOX
+
+
+cdef class NativeTree:
+    """A tree of boxes that stay as they are: of a mesh's triangles, or of instances."""
+
+    cdef e3d_tree *tree
+
+    def __cinit__(self, const double[:, ::1] boxes not None):
+        if boxes.shape[1] != E3D_BOX:
+            raise InvalidArgumentError("boxes must be (N, BOX)")
+        self.tree = e3d_tree_create()
+        if self.tree == NULL or not e3d_tree_build(
+            self.tree, &boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0]
+        ):
+            raise OutOfMemoryError("no memory for a tree of boxes")
+
+    def __dealloc__(self):
+        e3d_tree_destroy(self.tree)
+
+
+cdef class NativeShapes:
+    """What the objects of a scene are to rays, by number; each is known once it was asked for."""
+
+    cdef e3d_shape *shapes
+    cdef int32_t count
+    cdef list held
+
+    def __cinit__(self, int32_t count):
+        self.held = [None] * count
+        self.count = count
+        self.shapes = <e3d_shape *>calloc(max(count, 1), sizeof(e3d_shape))
+        if self.shapes == NULL:
+            raise OutOfMemoryError("no memory for the shapes of a scene")
+
+    def __dealloc__(self):
+        free(self.shapes)
+
+    def set(
+        self,
+        int32_t number,
+        const float[:, ::1] positions not None,
+        const int32_t[:, ::1] faces not None,
+        NativeTree triangles not None,
+        const float[:, ::1] poses,
+        NativeTree instances,
+    ):
+        """Tell an object's triangles; its poses, (N, 16) or (N, 4), and their tree if there are any."""
+        if not 0 <= number < self.count or positions.shape[1] != 3 or faces.shape[1] != 3:
+            raise InvalidArgumentError("no such object, or wrong arrays of triangles")
+        cdef e3d_shape *shape = &self.shapes[number]
+        memset(shape, 0, sizeof(e3d_shape))
+        shape.known = 1
+        shape.face_count = <int32_t>faces.shape[0]
+        shape.positions = &positions[0, 0] if positions.shape[0] else NULL
+        shape.faces = &faces[0, 0] if faces.shape[0] else NULL
+        shape.triangles = triangles.tree
+        if poses is not None:
+            if poses.shape[1] not in (4, 16) or instances is None:
+                raise InvalidArgumentError("poses must be (N, 16) or (N, 4), with a tree")
+            shape.pose_kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
+            shape.instances = <int32_t>poses.shape[0]
+            shape.poses = &poses[0, 0] if poses.shape[0] else NULL
+            shape.instance_tree = instances.tree
+        self.held[number] = (positions, faces, triangles, poses, instances)
 
 
 cdef class NativeGraph:
@@ -273,6 +338,43 @@ cdef class NativeGraph:
             memset(&bits[0], 0, bits.shape[0] * sizeof(uint64_t))
             e3d_tree_select(self.tree, self.graph.bounds, &clip_from_world[0, 0], widen, &bits[0])
 
+    def cast(
+        self,
+        NativeShapes shapes not None,
+        const double[:, ::1] origins not None,
+        const double[:, ::1] directions not None,
+        double farthest,
+        int cull,
+        int32_t[:, ::1] ids not None,
+        double[:, ::1] values not None,
+        Py_ssize_t first,
+    ):
+        """Cast rays (N, 3) of unit length from the first one on, as of the last update.
+
+        Writes slot (-1: none), instance and face into ids (N, 3); distance, position, normal and
+        barycentric into values (N, 10). Returns how far it came and the number of an object that
+        has to be told to the shapes before going on, or -1.
+        """
+        cdef Py_ssize_t count = origins.shape[0], done = first
+        cdef e3d_hit hit
+        cdef int32_t missing = -1
+        if origins.shape[1] != 3 or directions.shape[1] != 3 or directions.shape[0] != count:
+            raise InvalidArgumentError("rays must be (N, 3) and (N, 3)")
+        if ids.shape[0] != count or ids.shape[1] != 3:
+            raise InvalidArgumentError("ids must be (N, 3)")
+        if values.shape[0] != count or values.shape[1] != 10:
+            raise InvalidArgumentError("values must be (N, 10)")
+        self.need_tree()
+        while done < count and missing < 0:
+            missing = e3d_graph_ray(
+                &self.graph, self.tree, shapes.shapes, shapes.count, &origins[done, 0],
+                &directions[done, 0], farthest, <e3d_cull>cull, &hit,
+            )
+            if missing < 0:
+                copy_hit(&hit, &ids[done, 0], &values[done, 0])
+                done += 1
+        return done, missing
+
     def touch_objects(self, const uint8_t[::1] dirty not None):
         """Say that the boxes of objects changed."""
         if dirty.shape[0]:
@@ -292,11 +394,32 @@ def instance_boxes(const float[:, ::1] poses not None, const double[::1] box not
         e3d_instance_boxes(&poses[0, 0], kind, <int32_t>poses.shape[0], &box[0], &boxes[0, 0])
 
 
+def triangle_boxes(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
+                   double[:, ::1] boxes not None):
+    """Write the boxes (F, BOX) of faces (F, 3), whose indices are in range."""
+    if positions.shape[1] != 3 or faces.shape[1] != 3:
+        raise InvalidArgumentError("positions and faces must be (N, 3)")
+    if boxes.shape[0] != faces.shape[0] or boxes.shape[1] != E3D_BOX:
+        raise InvalidArgumentError("boxes must be (F, BOX)")
+    if faces.shape[0]:
+        e3d_triangle_boxes(&positions[0, 0], &faces[0, 0], <int32_t>faces.shape[0], &boxes[0, 0])
+
+
 def union(const double[:, ::1] boxes not None, double[::1] out not None):
     """Write the box (OBJECT_BOX,) around boxes (N, BOX); return whether there is one."""
     if boxes.shape[1] != E3D_BOX or out.shape[0] != E3D_OBJECT_BOX:
         raise InvalidArgumentError("boxes must be (N, BOX), and the box around them as told")
     return e3d_boxes_union(&boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0], &out[0])
+
+
+cdef void copy_hit(const e3d_hit *hit, int32_t *ids, double *values) noexcept:
+    ids[0] = hit.slot
+    ids[1] = hit.instance
+    ids[2] = hit.face
+    values[0] = hit.distance
+    memcpy(values + 1, hit.position, 3 * sizeof(double))
+    memcpy(values + 4, hit.normal, 3 * sizeof(double))
+    memcpy(values + 7, hit.barycentric, 3 * sizeof(double))
 
 
 cdef int copy_affine(const double *pose, double[:, ::1] out) except -1:

@@ -1,0 +1,235 @@
+"""Rays against the faces of a scene, and what a pixel of a frame shows.
+
+In: a scene, rays in world space, or a frame and a pixel. Out: the nearest hits. C searches, through
+trees of nodes, instances and triangles, in float64: the same bits on every machine.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import linalg
+from .._native.rasterizer import CULLS
+from ..attributes import choose, vector3
+from ..errors import InvalidArgumentError
+from ..instances import InstancedMesh
+from ..nodes import Node
+from .shapes import tell
+
+_LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
+
+
+class RayHit(NamedTuple):
+    """Where a ray meets a face.
+
+    Attributes
+    ----------
+    node : Node
+    instance : int
+        Row of the instances; 0 for a plain mesh.
+    face : int
+        Index into ``mesh.faces``.
+    distance : float
+        From the ray's origin, in world units.
+    position, normal : (3,) float64
+        World space; the unit normal of the face's front.
+    barycentric : (3,) float64
+        Weights of the face's vertices.
+    """
+
+    node: Node
+    instance: int
+    face: int
+    distance: float
+    position: np.ndarray
+    normal: np.ndarray
+    barycentric: np.ndarray
+
+
+class RayHits(NamedTuple):
+    """Where many rays meet faces: a row a ray.
+
+    Attributes
+    ----------
+    object_id, instance, face : (N,) int32
+        -1 where a ray meets nothing.
+    distance : (N,) float64
+        Infinite where a ray meets nothing; the other arrays are then zero.
+    position, normal, barycentric : (N, 3) float64
+    """
+
+    object_id: np.ndarray
+    instance: np.ndarray
+    face: np.ndarray
+    distance: np.ndarray
+    position: np.ndarray
+    normal: np.ndarray
+    barycentric: np.ndarray
+
+
+def raycast(scene, origin, direction, max_distance, cull) -> RayHit | None:
+    """See `Scene.raycast`."""
+    origin, direction = vector3(origin, "origin"), vector3(direction, "direction")
+    ids, values = _cast(scene, origin[np.newaxis], direction[np.newaxis], max_distance, cull)
+    slot, instance, face = ids[0].tolist()
+    if slot < 0:
+        return None
+    position, normal, barycentric = values[0, 1:].reshape(3, 3)
+    node = scene._arrays.nodes[slot]
+    return RayHit(node, instance, face, float(values[0, 0]), position, normal, barycentric)
+
+
+def raycast_many(scene, origins, directions, max_distance, cull) -> RayHits:
+    """See `Scene.raycast_many`."""
+    origins, directions = _vectors(origins, "origins"), _vectors(directions, "directions")
+    try:
+        origins, directions = np.broadcast_arrays(origins, directions)
+    except ValueError:
+        raise InvalidArgumentError("origins and directions must be equally many") from None
+    ids, values = _cast(scene, origins, directions, max_distance, cull)
+    met = ids[:, 0] >= 0
+    values[~met] = 0.0
+    values[~met, 0] = np.inf
+    ids[met, 0] = scene._arrays.columns["id"][ids[met, 0]]
+    parts = values[:, 1:4], values[:, 4:7], values[:, 7:]
+    return RayHits(*ids.T.copy(), values[:, 0].copy(), *(part.copy() for part in parts))
+
+
+def _cast(scene, origins, directions, max_distance, cull) -> tuple[np.ndarray, np.ndarray]:
+    if not directions.any(axis=1).all():
+        raise InvalidArgumentError("direction must not be the zero vector")
+    if not max_distance >= 0:
+        raise InvalidArgumentError(f"max_distance must be 0 or more, not {max_distance!r}")
+    number = CULLS[choose(cull, CULLS, "cull")]
+    scene._update()
+    objects = scene._objects
+    origins = np.ascontiguousarray(origins)
+    directions = np.ascontiguousarray(linalg.normalize(directions))
+    ids = np.empty((len(origins), 3), np.int32)
+    values = np.empty((len(origins), 10))
+    done, missing = 0, 0
+    while missing >= 0:
+        done, missing = scene._arrays.cast(
+            objects.shapes, origins, directions, max_distance, number, ids, values, done
+        )
+        if missing >= 0:
+            tell(objects.shapes, missing, objects.objects[missing])
+    return ids, values
+
+
+def _vectors(value, what: str) -> np.ndarray:
+    try:
+        vectors = np.atleast_2d(np.array(value, np.float64))
+    except (TypeError, ValueError) as error:
+        raise InvalidArgumentError(f"{what} must be numbers: {error}") from None
+    if vectors.ndim != 2 or vectors.shape[1] != 3:
+        raise InvalidArgumentError(f"{what} must have shape (N, 3), not {vectors.shape}")
+    if not np.isfinite(vectors).all():
+        raise InvalidArgumentError(f"{what} must be finite")
+    return vectors
+
+
+def pick(scene, frame, x: int, y: int) -> RayHit | None:
+    """See `Scene.pick`."""
+    if not (0 <= x < frame.width and 0 <= y < frame.height):
+        raise InvalidArgumentError(
+            f"pixel ({x}, {y}) is outside of the frame, {frame.width}x{frame.height}"
+        )
+    x, y = int(x), int(y)
+    if frame._seen is None:
+        raise InvalidArgumentError("the frame was not drawn by a Renderer")
+    near, direction, length, eye = _pixel_ray(frame, x, y)
+    if not {"object_id", "instance_id", "triangle_id"} <= set(frame.outputs):
+        return _from(eye, _drawn_hit(scene, near, direction, length, frame._seen[1]))
+    number, face = int(frame.object_id[y, x]), int(frame.triangle_id[y, x])
+    node = None if number < 0 else scene._node_of(number)
+    if node is None:
+        return None
+    instance = int(frame.instance_id[y, x])
+    hit = _drawn_hit(scene, near, direction, length, frame._seen[1])
+    if hit is None or (hit.node, hit.instance, hit.face) != (node, instance, face):
+        hit = _hit_of_face(node, instance, face, near, direction)
+    return _from(eye, hit)
+
+
+def _pixel_ray(frame, x: int, y: int):
+    """The ray through a pixel's centre, from the near plane on: origin, unit direction, length."""
+    view, _ = frame._seen
+    world_from_clip = linalg.inverse(view.clip_from_world)
+    across = 2.0 * (x + 0.5) / frame.width - 1.0
+    upward = 1.0 - 2.0 * (y + 0.5) / frame.height
+    near, within, far = (_unproject(world_from_clip, across, upward, z) for z in (-1.0, 0.0, 1.0))
+    direction = linalg.normalize(within - near)
+    length = math.inf if far is None else float(linalg.dot(far - near, direction))
+    return near, direction, length, view.eye
+
+
+def _unproject(world_from_clip: np.ndarray, x: float, y: float, z: float) -> np.ndarray | None:
+    rows = world_from_clip
+    point = rows[:, 0] * x + rows[:, 1] * y + rows[:, 2] * z + rows[:, 3]
+    if not abs(point[3]) > 1e-12 * np.abs(rows[3]).max():
+        return None  # without a far plane, its points are at infinity
+    return point[:3] / point[3]
+
+
+def _drawn_hit(scene, origin, direction, length: float, cull: str) -> RayHit | None:
+    """The nearest face that is drawn: the sides that were culled are looked through."""
+    gone = 0.0
+    for _ in range(_LAYERS):
+        start = origin + direction * gone
+        hit = raycast(scene, start, direction, max(length - gone, 0.0), "none")
+        if hit is None or _is_drawn(hit, direction, cull):
+            return hit
+        gone = (gone + hit.distance) * (1.0 + 1e-12) + 1e-300
+    return None
+
+
+def _is_drawn(hit: RayHit, direction: np.ndarray, cull: str) -> bool:
+    mesh = _mesh_of(hit.node)
+    if cull == "none" or mesh.materials[mesh.material_ids[hit.face]].two_sided:
+        return True
+    return (linalg.dot(hit.normal, direction) < 0.0) == (cull == "back")
+
+
+def _mesh_of(node: Node):
+    obj = node.object
+    return obj.mesh if isinstance(obj, InstancedMesh) else obj
+
+
+def _hit_of_face(node: Node, instance: int, face: int, origin, direction) -> RayHit:
+    """Where a ray meets the plane of a face that the frame says it shows; of a line, nowhere."""
+    unknown = np.full(3, np.nan)
+    if face < 0:
+        return RayHit(node, instance, face, math.nan, unknown, unknown, unknown)
+    mesh, pose = _mesh_of(node), node.world_pose
+    if mesh is not node.object:
+        pose = linalg.multiply(pose, node.object._pose_of(instance))
+    a, b, c = linalg.transform_points(pose, mesh.positions[mesh.faces[face]])
+    across = linalg.cross(b - a, c - a)
+    normal = linalg.normalize(across)
+    along = float(linalg.dot(normal, direction))
+    distance = float(linalg.dot(normal, a - origin)) / along if along else math.nan
+    position = origin + direction * distance
+    area = float(linalg.dot(across, across)) or 1.0
+    v = float(linalg.dot(linalg.cross(position - a, c - a), across)) / area
+    w = float(linalg.dot(linalg.cross(b - a, position - a), across)) / area
+    mirrored = linalg.dot(linalg.cross(pose[:3, 0], pose[:3, 1]), pose[:3, 2]) < 0.0
+    return RayHit(
+        node,
+        instance,
+        face,
+        distance,
+        position,
+        -normal if mirrored else normal,
+        np.array((1.0 - v - w, v, w)),
+    )
+
+
+def _from(eye, hit: RayHit | None) -> RayHit | None:
+    """Measure the distance from the camera; without perspective, from the near plane."""
+    if hit is None or eye[3] == 0.0:
+        return hit
+    return hit._replace(distance=float(linalg.length(hit.position - np.array(eye[:3]))))

@@ -32,9 +32,11 @@ CHAPTERS = {
     "Scenes": (
         "Scene",
         "Node",
+        "NodeSelection",
         "InstancedMesh",
         "DirectionalLight",
         "PointLight",
+        "Animator",
         "RayHit",
         "RayHits",
     ),

@@ -4,6 +4,7 @@ from . import errors as errors
 from . import linalg as linalg
 from . import loaders as loaders
 from . import primitives as primitives
+from .animation import Animator as Animator
 from .backend_selection import backends as backends
 from .cameras import Camera as Camera
 from .cameras import IntrinsicsCamera as IntrinsicsCamera
@@ -32,6 +33,7 @@ from .materials import Material as Material
 from .mesh import Mesh as Mesh
 from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
+from .node_selection import NodeSelection as NodeSelection
 from .nodes import Node as Node
 from .primitives import box as box
 from .primitives import cylinder as cylinder

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +22,7 @@ from .errors import InvalidArgumentError
 from .instances import InstancedMesh
 from .lights import DirectionalLight, PointLight
 from .mesh import Mesh
+from .node_selection import NodeSelection
 from .nodes import Node, check_pose, check_rotation, check_scale
 from .scene_arrays import NodeArrays
 from .scene_objects import ObjectTable
@@ -65,6 +67,7 @@ class Scene:
         self._objects = ObjectTable()
         self._ids = itertools.count()
         self._removed = 0  # slots of removed nodes
+        self._removals = 0  # nodes that were ever removed
         self._cameras: dict[int, Node] = {}
         self._lights: dict[int, Node] = {}
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
@@ -198,6 +201,7 @@ class Scene:
             self._cameras.pop(gone.id, None)
             self._lights.pop(gone.id, None)
             self._removed += 1
+            self._removals += 1
         self._nodes = self._names = None
         if self._removed > max(_LEAST_REMOVED, arrays.count // 2):
             self._pack()
@@ -227,6 +231,25 @@ class Scene:
             for node in self.nodes:
                 self._names.setdefault(node.name, node)
         return self._names.get(name)
+
+    def select(self, nodes: Iterable[Node] | None = None) -> NodeSelection:
+        """Return nodes as one thing, to read or to move them together by arrays.
+
+        Parameters
+        ----------
+        nodes : iterable of Node, optional
+            All nodes of the scene, as they are now, if left out.
+
+        Returns
+        -------
+        selection : NodeSelection
+
+        Raises
+        ------
+        InvalidArgumentError
+            A node is not in this scene; also later, once one was removed.
+        """
+        return NodeSelection(self, self.nodes if nodes is None else nodes)
 
     def raycast(
         self, origin, direction, *, max_distance: float = math.inf, cull: str = "none"

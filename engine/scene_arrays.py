@@ -61,7 +61,7 @@ class NodeArrays(NativeGraph):
 
     def world_poses(self, slots: np.ndarray) -> np.ndarray:
         """Return world-from-node of some slots, (N, 4, 4) float64, as of the last update."""
-        return _matrices(self.columns["world"][slots])
+        return matrices_of(self.columns["world"][slots])
 
     def packed(self) -> NodeArrays:
         """Return new arrays without the rows of removed nodes; their nodes are not told yet."""
@@ -88,7 +88,7 @@ class NodeArrays(NativeGraph):
         self.columns = columns
 
 
-def _matrices(rows: np.ndarray) -> np.ndarray:
+def matrices_of(rows: np.ndarray) -> np.ndarray:
     """Return 4x4 matrices of their first three rows, (N, 12)."""
     matrices = np.zeros((len(rows), 4, 4))
     matrices[:, :3] = rows.reshape(-1, 3, 4)

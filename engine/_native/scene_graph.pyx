@@ -269,6 +269,70 @@ cdef class NativeGraph:
         if not e3d_graph_set_parts(&self.graph, slot, new_rotation, new_scale):
             raise InvalidArgumentError("a quaternion must have a finite length greater than zero")
 
+    cdef int check_all(self, const int32_t[::1] slots, Py_ssize_t rows) except -1:
+        if slots.shape[0] != rows:
+            raise InvalidArgumentError("a row a slot")
+        for i in range(slots.shape[0]):
+            self.check(slots[i])
+        self.changes += 1
+        return 0
+
+    def set_poses(self, const int32_t[::1] slots not None, const double[:, :, ::1] poses not None):
+        """As `set_pose`, poses (N, 4, 4)."""
+        self.check_all(slots, poses.shape[0])
+        if poses.shape[1] != 4 or poses.shape[2] != 4:
+            raise InvalidArgumentError("a pose is 4x4")
+        for i in range(slots.shape[0]):
+            e3d_graph_set_pose(&self.graph, slots[i], &poses[i, 0, 0])
+
+    def set_translations(
+        self, const int32_t[::1] slots not None, const double[:, ::1] translations not None
+    ):
+        """As `set_translation`, translations (N, 3)."""
+        self.check_all(slots, translations.shape[0])
+        if translations.shape[1] != 3:
+            raise InvalidArgumentError("a translation has 3 numbers")
+        for i in range(slots.shape[0]):
+            e3d_graph_set_translation(&self.graph, slots[i], &translations[i, 0])
+
+    def set_many_parts(
+        self,
+        const int32_t[::1] slots not None,
+        const double[:, ::1] rotations,
+        const double[:, ::1] scales,
+    ):
+        """As `set_parts`, of rotations (N, 4) that have a length, and scales (N, 3)."""
+        cdef const double *rotation = NULL
+        cdef const double *scale = NULL
+        self.check_all(slots, slots.shape[0])
+        if rotations is not None and (
+            rotations.shape[0] != slots.shape[0] or rotations.shape[1] != 4
+        ):
+            raise InvalidArgumentError("rotations must be (N, 4)")
+        if scales is not None and (scales.shape[0] != slots.shape[0] or scales.shape[1] != 3):
+            raise InvalidArgumentError("scales must be (N, 3)")
+        for i in range(slots.shape[0]):
+            if rotations is not None:
+                rotation = &rotations[i, 0]
+            if scales is not None:
+                scale = &scales[i, 0]
+            e3d_graph_set_parts(&self.graph, slots[i], rotation, scale)
+
+    def set_flags(
+        self, const int32_t[::1] slots not None, int flag, const uint8_t[::1] on not None
+    ):
+        """As `set_flag`, on or off (N,)."""
+        self.check_all(slots, on.shape[0])
+        for i in range(slots.shape[0]):
+            if bool(self.graph.flags[slots[i]] & flag) != bool(on[i]):
+                e3d_graph_set_flag(&self.graph, slots[i], flag, on[i])
+
+    def find_parts(self, const int32_t[::1] slots not None):
+        """Make the rows of rotation and scale true."""
+        for i in range(slots.shape[0]):
+            self.check(slots[i])
+            e3d_graph_find_parts(&self.graph, slots[i])
+
     def pose_version(self, int32_t slot):
         self.check(slot)
         return self.graph.pose_version[slot]

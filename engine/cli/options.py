@@ -15,7 +15,10 @@ from .usage import UsageError
 
 MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
 BACKENDS = ("auto", "scalar", "portable", "sse41", "avx2", "avx512")
-SCENES = ("default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc", "city")
+SCENES = (
+    *("default", "vertices", "edges", "faces", "cube", "shapes"),
+    *("textured", "asc", "city", "solar"),
+)
 SAMPLES = (1, 4, 16)
 WIREFRAMES = ("overlay", "only")
 #: Options whose value may start with a minus sign, which argparse would take for an option.

@@ -21,6 +21,7 @@ _MAKERS = {
     "textured": ("models", "textured"),
     "asc": ("models", "asc"),
     "city": ("city", "city"),
+    "solar": ("solar", "solar"),
 }
 DEMO_NAMES = tuple(_MAKERS)
 

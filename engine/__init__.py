@@ -56,6 +56,8 @@ _PUBLIC = {
     "PointLight": "lights",
     "Animator": "animation",
     "Node": "nodes",
+    "Resources": "resources",
+    "ResourceStats": "resources",
     "NodeSelection": "node_selection",
     "Scene": "scene",
     "RayHit": "spatial.rays",

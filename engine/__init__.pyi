@@ -46,6 +46,8 @@ from .rasterization import RasterizeResult as RasterizeResult
 from .rasterization import rasterize as rasterize
 from .renderer import Renderer as Renderer
 from .renderer import render as render
+from .resources import Resources as Resources
+from .resources import ResourceStats as ResourceStats
 from .scene import Scene as Scene
 from .scene_loading import load_scene as load_scene
 from .spatial.rays import RayHit as RayHit

@@ -285,6 +285,13 @@ class Mesh:
         self._derived.clear()
         self.version += 1
 
+    def _become(self, other: Mesh) -> None:
+        """Take over everything of another mesh but its name."""
+        self._arrays, self._derived = dict(other._arrays), {}
+        self._materials, self.groups = list(other._materials), dict(other.groups)
+        self.warnings = list(other.warnings)
+        self.version += 1
+
     def _check_new_positions(self, positions: np.ndarray) -> None:
         count = len(positions)
         for what in ("_given_normals", "uvs", "colors", "position_ids"):

@@ -10,10 +10,26 @@ from __future__ import annotations
 import os
 import re
 import stat
+from contextlib import contextmanager
+from contextvars import ContextVar
 
 _MAX_NAME = 4096
 # A file that names more missing ones than this only wants to keep the disk busy.
 _MAX_FAILURES = 2000
+
+
+_listeners: ContextVar[tuple[list[str], ...]] = ContextVar("listeners", default=())
+
+
+@contextmanager
+def found_files():
+    """Collect the paths that are found within the block, in a list."""
+    found: list[str] = []
+    token = _listeners.set((*_listeners.get(), found))
+    try:
+        yield found
+    finally:
+        _listeners.reset(token)
 
 
 class LinkedFileError(Exception):
@@ -55,7 +71,10 @@ class LinkedFiles:
         if self._failures >= _MAX_FAILURES:
             raise LinkedFileError("not looked for, too many files are missing")
         try:
-            return self._find(name, self.root if folder is None else folder)
+            path = self._find(name, self.root if folder is None else folder)
+            for found in _listeners.get():
+                found.append(path)
+            return path
         except LinkedFileError:
             self._failures += 1
             raise

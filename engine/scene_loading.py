@@ -8,6 +8,7 @@ rolls) is translated here.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import BinaryIO
 
 import numpy as np
@@ -20,7 +21,12 @@ from .loaders import CameraRecord, Document, LightRecord, load_document
 from .scene import Scene
 
 
-def load_scene(path: str | os.PathLike | bytes | BinaryIO, *, format: str | None = None) -> Scene:
+def load_scene(
+    path: str | os.PathLike | bytes | BinaryIO,
+    *,
+    format: str | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Scene:
     """Read a file with all its objects, lights and cameras.
 
     Parameters
@@ -29,6 +35,8 @@ def load_scene(path: str | os.PathLike | bytes | BinaryIO, *, format: str | None
         A file of any mesh format; as in `load_mesh`.
     format : str, optional
         The format's name, such as ``"asc"``. Left out, it is told by the content and the name.
+    progress : callable, optional
+        As in `load_mesh`.
 
     Returns
     -------
@@ -39,7 +47,7 @@ def load_scene(path: str | os.PathLike | bytes | BinaryIO, *, format: str | None
     ------
     FileFormatError, FileAccessError, InvalidArgumentError
     """
-    return scene_from_document(load_document(path, format=format))
+    return scene_from_document(load_document(path, format=format, progress=progress))
 
 
 def scene_from_document(document: Document) -> Scene:

@@ -6,6 +6,7 @@ import argparse
 
 from ..loaders import load_mesh
 from ..writers import formats, save_mesh
+from .loading_bar import LoadingBar
 from .outputs import check_extension
 from .usage import UsageError
 
@@ -19,5 +20,7 @@ def convert(args: argparse.Namespace) -> int:
     options = {"ascii": True} if args.ascii else {}
     if options and extension.lower() not in BINARY_FORMATS:
         raise UsageError(f"--ascii is for {' and '.join(BINARY_FORMATS)} files")
-    save_mesh(load_mesh(args.model), args.output, **options)
+    with LoadingBar() as progress:
+        mesh = load_mesh(args.model, progress=progress)
+    save_mesh(mesh, args.output, **options)
     return 0

@@ -11,6 +11,7 @@ from ..errors import Engine3DWarning
 from ..linalg import transform_points
 from ..loaders import load_document
 from ..mesh import Mesh
+from .loading_bar import LoadingBar
 
 
 def info(args: argparse.Namespace) -> int:
@@ -38,9 +39,9 @@ def describe(path) -> dict:
         ``file``, ``format``, ``counts``, ``bounds`` (``min``, ``max``, ``size``, or None where
         there is no vertex), ``objects``, ``materials``, ``lights``, ``cameras``, ``warnings``.
     """
-    with warnings.catch_warnings():
+    with LoadingBar() as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
-        document = load_document(path)
+        document = load_document(path, progress=progress)
     meshes = [mesh for _, mesh, _ in document.objects]
     materials = {id(material): material for mesh in meshes for material in mesh.materials}
     return {

@@ -11,6 +11,7 @@ import math
 import re
 
 from . import values
+from .loading_bar import LoadingBar
 from .usage import UsageError
 
 MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
@@ -333,4 +334,5 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
         return load_demo(args.scene or default_scene, **size)
     from ..display.opening import open_model
 
-    return open_model(args.model, texture=args.texture, color=args.color)
+    with LoadingBar() as progress:
+        return open_model(args.model, texture=args.texture, color=args.color, progress=progress)

@@ -18,7 +18,7 @@ Z_UP_SUFFIXES = (".asc", ".stl")
 BACKGROUND = (43, 46, 53)
 
 
-def open_model(path, *, texture=None, color=None) -> Subject:
+def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
     """Load a file to look at.
 
     Parameters
@@ -30,6 +30,8 @@ def open_model(path, *, texture=None, color=None) -> Subject:
         model that bears its name is taken.
     color : (3,) sequence, optional
         The base colour of the meshes without materials.
+    progress : callable, optional
+        As in `engine3d.load_mesh`.
 
     Returns
     -------
@@ -41,7 +43,7 @@ def open_model(path, *, texture=None, color=None) -> Subject:
         The file (or the texture asked for) cannot be read.
     """
     path = os.fspath(path)
-    document = load_document(path)
+    document = load_document(path, progress=progress)
     bare = [mesh for _, mesh, _ in document.objects if not has_materials(mesh)]
     if bare:
         image = texture or (None if color is not None else companion_texture(path))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Callable
 from typing import BinaryIO
 
 from ..errors import Engine3DWarning, FileFormatError
@@ -16,7 +17,11 @@ from .sources import Source, read_source
 File = str | os.PathLike | bytes | BinaryIO
 
 
-def load_mesh(path: File, *, format: str | None = None) -> Mesh:
+# Told the share of the work that is done; what it returns does not matter.
+Progress = Callable[[float], object]
+
+
+def load_mesh(path: File, *, format: str | None = None, progress: Progress | None = None) -> Mesh:
     """Load a model as one mesh with its materials, in the file's coordinates.
 
     Parameters
@@ -27,6 +32,10 @@ def load_mesh(path: File, *, format: str | None = None) -> Mesh:
         textures.
     format : str, optional
         The format's name, such as ``"obj"``. Left out, it is told by the content and the name.
+    progress : callable, optional
+        ``progress(fraction)`` is called with the share of the work that is done: 0.0 once the file
+        is read into memory, 1.0 at the end, never less than before. OBJ files call it every four
+        megabytes; most formats tell the beginning and the end only. What it raises ends loading.
 
     Returns
     -------
@@ -45,7 +54,7 @@ def load_mesh(path: File, *, format: str | None = None) -> Mesh:
         There is no such ``format``, or ``path`` is none of these things.
     """
     source = read_source(path)
-    document = _read_document(source, format, split=False)
+    document = _read_document(source, format, progress, split=False)
     meshes = [entry.mesh for entry in document.objects]
     mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
     mesh.name = mesh.name or source.stem
@@ -53,12 +62,14 @@ def load_mesh(path: File, *, format: str | None = None) -> Mesh:
     return mesh
 
 
-def load_document(path: File, *, format: str | None = None) -> Document:
+def load_document(
+    path: File, *, format: str | None = None, progress: Progress | None = None
+) -> Document:
     """Load everything that a model file holds: its objects one by one, lights and cameras.
 
     Parameters and exceptions are those of `load_mesh`.
     """
-    return _read_document(read_source(path), format, split=True)
+    return _read_document(read_source(path), format, progress, split=True)
 
 
 def load_texture(path: File, *, format: str | None = None, **options) -> Texture:
@@ -88,12 +99,18 @@ def load_texture(path: File, *, format: str | None = None, **options) -> Texture
     return Texture(pixels, **options)
 
 
-def _read_document(source: Source, format: str | None, *, split: bool) -> Document:
+def _read_document(
+    source: Source, format: str | None, progress: Progress | None, *, split: bool
+) -> Document:
     reader = find_reader(source, "mesh", format)
+    if progress is not None:
+        source = source._replace(progress=progress)
+    source.progress(0.0)
     try:
         document = reader.read(source, split=split)
     except MemoryError as error:
         raise FileFormatError("needs more memory than there is", source.path) from error
+    source.progress(1.0)
     for message in document.warnings:
         warnings.warn(message, Engine3DWarning, stacklevel=3)
     return document

@@ -21,6 +21,8 @@ from .warning_list import WarningList
 
 # Bytes between two looks at what else is to be done, such as Ctrl-C.
 _STEP = 4 << 20
+# The share of the work that is done when all bytes are read.
+_PARSING = 0.8
 _ROWS = ("vertex", "texture coordinate", "normal")
 _LEAST = (3, 1, 3)
 
@@ -87,7 +89,7 @@ def read_obj_file(source: Source, warnings: WarningList) -> ObjFile:
     """
     reader = native.ObjReader(checked_text(source))
     while reader.read(_STEP):
-        pass
+        source.progress(_PARSING * min(reader.consumed / len(source.data), 1.0))
     problem = reader.end()
     if problem != native.DONE:
         raise _error(problem, reader.error, source.path)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Callable
 from typing import NamedTuple
 
 from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
@@ -22,6 +23,10 @@ _GZIP_WINDOW = 16 + 15
 _CHUNK = 1 << 20
 
 
+def _no_progress(fraction: float) -> None:
+    """Nobody watches."""
+
+
 class Source(NamedTuple):
     """A file's content.
 
@@ -30,10 +35,13 @@ class Source(NamedTuple):
     path : str
         As the caller gave it; messages name it. In angle brackets for what has no name.
     data : bytes
+    progress : callable
+        ``progress(fraction)``: told by the reader how much of its work is done, 0..1.
     """
 
     path: str
     data: bytes
+    progress: Callable[[float], object] = _no_progress
 
     @property
     def has_name(self) -> bool:

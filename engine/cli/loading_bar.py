@@ -1,0 +1,44 @@
+"""The bar that shows how far a model is loaded, on a terminal, where it takes longer than a second.
+
+In: fractions, as ``load_mesh(..., progress=)`` tells them. Out: a line on standard error that is
+gone when the model is there. Where standard error is no terminal, nothing.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+
+_PATIENCE = 1.0
+
+
+class LoadingBar:
+    """A context manager whose value is called with fractions from 0 to 1."""
+
+    def __init__(self) -> None:
+        self._start = time.monotonic()
+        self._bar = None
+        self._task = None
+
+    def __enter__(self) -> LoadingBar:
+        return self
+
+    def __call__(self, fraction: float) -> None:
+        """Show a fraction, once a second has passed."""
+        if self._bar is None:
+            if time.monotonic() - self._start < _PATIENCE or not sys.stderr.isatty():
+                return
+            self._begin()
+        self._bar.update(self._task, completed=fraction)
+
+    def __exit__(self, *error) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+    def _begin(self) -> None:
+        from rich.console import Console
+        from rich.progress import Progress
+
+        self._bar = Progress(console=Console(stderr=True), transient=True)
+        self._task = self._bar.add_task("loading", total=1.0)
+        self._bar.start()

@@ -21,6 +21,7 @@ import numpy as np
 import engine3d as e3d
 from engine3d import linalg
 from engine3d.demos import load_demo
+from engine3d.display.ground import controller
 from engine3d.display.opening import open_model
 from engine3d.display.settings import Settings
 from engine3d.display.studio import Studio
@@ -172,12 +173,26 @@ def viewer() -> np.ndarray:
         return studio.draw(studio.view()).color
 
 
+def city() -> np.ndarray:
+    """The city as one who walks sees it, and from above."""
+    tiles = []
+    size = (630, 354)
+    with Studio(load_demo("city"), Settings(look={}), size, samples=4) as studio:
+        for caption, walks in (("--camera fps", True), ("--scene city", False)):
+            view = studio.view()
+            if walks:
+                controller(studio, view).place(view)
+            tiles.append((caption, studio.draw(view, 1.0).color))
+    return sheet(tiles, 2)
+
+
 PICTURES = {
     "models": models,
     "modes": modes,
     "filters": filters,
     "scenes": scenes,
     "viewer": viewer,
+    "city": city,
 }
 
 

@@ -43,12 +43,13 @@ typedef struct e3d_vertices {
     float iw[E3D_CLUSTER_VERTICES], zn[E3D_CLUSTER_VERTICES];
     int32_t sx[E3D_CLUSTER_VERTICES], sy[E3D_CLUSTER_VERTICES]; /* snapped, 1/256 sample */
     int32_t code[E3D_CLUSTER_VERTICES];
+    int32_t codes[E3D_PAD]; /* one after the other, the bits that any vertex has */
 } e3d_vertices;
 
 /* ---- setup ---- */
 
 /* Triangles of a cluster that may show: `draw` go to the record as they are, `clip` need clipping first. None that covers a
- * sample is missing; of the others, those go that 32 bits can tell: no sample in the box, or a box of at most 2 x 2 without cover. */
+ * sample is missing; of the others, those go that have no sample in their box, or face the wrong way as far as 32 bits tell. */
 typedef struct e3d_survivors {
     uint8_t draw[E3D_CLUSTER_TRIANGLES + E3D_PAD], clip[E3D_CLUSTER_TRIANGLES];
     int draws, clips;

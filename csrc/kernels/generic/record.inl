@@ -9,13 +9,19 @@ typedef struct record_corners {
     vf32 zn[3], iw[3];
 } record_corners;
 
+static inline void record_places(const uint8_t *indices, const uint8_t *triangles, int32_t at[3][V_LANES])
+{
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < V_LANES; l++)
+            at[k][l] = indices[k * E3D_CLUSTER_TRIANGLES + triangles[l]];
+}
+
 static inline record_corners record_fetch(const e3d_vertices *v, const uint8_t *indices, const uint8_t *triangles)
 {
     int32_t at[3][V_LANES];
     record_corners c;
+    record_places(indices, triangles, at);
     for (int k = 0; k < 3; k++) {
-        for (int l = 0; l < V_LANES; l++)
-            at[k][l] = indices[k * E3D_CLUSTER_TRIANGLES + triangles[l]];
         vi32 i = v_loadi(at[k]);
         c.x[k] = v_gatheri(v->sx, i);
         c.y[k] = v_gatheri(v->sy, i);
@@ -80,13 +86,37 @@ static inline record_plane record_plane_of(const record_corners *c, setup_span a
     return p;
 }
 
-/* Which samples of a box of at most 2 x 2 are covered: bit 2 * row + column. */
-static inline vi32 record_cover(const record_corners *c, setup_span across, setup_span down)
+/* Lanes with at most two samples along the axis: few enough to try each. */
+static inline vmask record_short(setup_span s)
 {
-    vi32 half = v_seti(128), outside[4];
+    return v_mnot(v_gti(v_subi(s.last, s.first), v_seti(1)));
+}
+
+/* Edge function k (R12) at a sample, at least 0 inside: `sign` is all ones where the winding is the other way. */
+typedef struct record_edge {
+    vi32 a, b, c;
+} record_edge;
+
+static inline record_edge record_edge_of(const vi32 x[3], const vi32 y[3], int k, vi32 sign, vi32 x0, vi32 y0)
+{
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    vi32 zero = v_seti(0), one = v_seti(1);
+    record_edge e = {v_subi(y[i], y[j]), v_subi(x[j], x[i]), zero};
+    e.a = v_subi(v_xori(e.a, sign), sign);
+    e.b = v_subi(v_xori(e.b, sign), sign);
+    vmask top_left = v_mor(v_gti(e.a, zero), v_mand(v_eqi(e.a, zero), v_gti(e.b, zero)));
+    vi32 value = v_addi(v_muli(e.a, v_subi(x0, x[i])), v_muli(e.b, v_subi(y0, y[i])));
+    e.c = v_subi(value, v_seli(top_left, zero, one));
+    return e;
+}
+
+/* Which samples of a box of at most 2 x 2 are covered: bit 2 * row + column. */
+static inline vi32 record_cover(const vi32 x[3], const vi32 y[3], setup_span across, setup_span down)
+{
+    vi32 half = v_seti(128), outside[4], sign = v_sra(setup_area(x, y), 31);
     vi32 x0 = v_addi(v_shl(across.first, 8), half), y0 = v_addi(v_shl(down.first, 8), half);
     for (int k = 0; k < 3; k++) {
-        setup_edge e = setup_edge_of(c->x, c->y, k, v_seti(0), x0, y0);
+        record_edge e = record_edge_of(x, y, k, sign, x0, y0);
         vi32 right = v_addi(e.c, v_shl(e.a, 8)), step = v_shl(e.b, 8);
         const vi32 at[4] = {e.c, right, v_addi(e.c, step), v_addi(right, step)};
         for (int s = 0; s < 4; s++)
@@ -100,24 +130,51 @@ static inline vi32 record_cover(const record_corners *c, setup_span across, setu
     return v_andi(cover, v_seli(v_eqi(down.first, down.last), v_seti(3), v_seti(15)));
 }
 
-/* Flags of a record, with the cover of a tiny one; `gone` are lanes that cover nothing. */
-static inline vi32 record_meta(const record_corners *c, setup_span across, setup_span down, vmask back,
-                               vmask swapped, vmask *gone)
+/* Triangles that are worth a record: not the tiny ones without cover. */
+typedef struct record_list {
+    uint8_t triangles[E3D_CLUSTER_TRIANGLES + E3D_PAD];
+    uint8_t cover[E3D_CLUSTER_TRIANGLES + E3D_PAD]; /* of the tiny ones, else 0 */
+    int count;
+} record_list;
+
+static inline void record_try(const e3d_record_request *q, int first, record_list *list)
+{
+    vi32 x[3], y[3];
+    int32_t at[3][V_LANES], covers[V_LANES];
+    const uint8_t *triangles = q->triangles + first;
+    record_places(q->indices, triangles, at);
+    for (int k = 0; k < 3; k++) {
+        x[k] = v_gatheri(q->vertices->sx, v_loadi(at[k]));
+        y[k] = v_gatheri(q->vertices->sy, v_loadi(at[k]));
+    }
+    vi32 xlo = setup_min3(x[0], x[1], x[2]), xhi = setup_max3(x[0], x[1], x[2]);
+    vi32 ylo = setup_min3(y[0], y[1], y[2]), yhi = setup_max3(y[0], y[1], y[2]);
+    setup_span across = setup_samples(xlo, xhi, q->viewport->width);
+    setup_span down = setup_samples(ylo, yhi, q->viewport->height);
+    vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* than 32-bit products hold */
+    vmask tiny = v_mandnot(v_mand(record_short(across), record_short(down)), large);
+    uint32_t tinies = v_bits(tiny), keep = q->count - first >= V_LANES ? ~0u : (1u << (q->count - first)) - 1;
+    v_storei(covers, v_seti(0));
+    if (tinies) {
+        vi32 cover = v_seli(tiny, record_cover(x, y, across, down), v_seti(0));
+        keep &= ~(tinies & v_bits(v_eqi(cover, v_seti(0))));
+        v_storei(covers, cover);
+    }
+    for (keep &= v_bits(v_eqi(x[0], x[0])); keep; keep &= keep - 1) {
+        int lane = __builtin_ctz(keep);
+        list->triangles[list->count] = triangles[lane];
+        list->cover[list->count++] = (uint8_t)covers[lane];
+    }
+}
+
+/* Flags of a record, with the cover of a tiny one. */
+static inline vi32 record_meta(vi32 cover, vmask back, vmask swapped)
 {
     vi32 zero = v_seti(0), meta = v_seti(E3D_RECORD_FACE);
     meta = v_ori(meta, v_seli(back, v_seti(E3D_RECORD_BACK), zero));
     meta = v_ori(meta, v_seli(swapped, v_seti(E3D_RECORD_SWAPPED), zero));
-    vi32 wide = v_subi(setup_max3(c->x[0], c->x[1], c->x[2]), setup_min3(c->x[0], c->x[1], c->x[2]));
-    vi32 high = v_subi(setup_max3(c->y[0], c->y[1], c->y[2]), setup_min3(c->y[0], c->y[1], c->y[2]));
-    vmask large = v_gti(v_maxi(wide, high), v_seti(32767)); /* than 32-bit products hold */
-    vmask tiny = v_mandnot(v_mand(setup_short(across), setup_short(down)), large);
-    *gone = v_mand(tiny, v_mnot(tiny));
-    if (!v_any(tiny))
-        return meta;
-    vi32 cover = record_cover(c, across, down);
-    *gone = v_mand(tiny, v_eqi(cover, zero));
-    vi32 flags = v_ori(v_seti(E3D_RECORD_TINY), v_shl(cover, E3D_RECORD_SHIFT));
-    return v_ori(meta, v_seli(tiny, flags, zero));
+    meta = v_ori(meta, v_seli(v_eqi(cover, zero), zero, v_seti(E3D_RECORD_TINY)));
+    return v_ori(meta, v_shl(cover, E3D_RECORD_SHIFT));
 }
 
 /* First tile below, last tile above: row << 16 | column. */
@@ -133,9 +190,11 @@ static inline void record_spans(setup_span across, setup_span down, e3d_tile_spa
 }
 
 /* The records of one vector of triangles; how many. */
-static inline int record_vector(const e3d_record_request *q, const uint8_t *triangles, int count, e3d_record *out,
+static inline int record_vector(const e3d_record_request *q, const record_list *list, int first, e3d_record *out,
                                 e3d_tile_span *spans)
 {
+    const uint8_t *triangles = list->triangles + first;
+    int count = list->count - first;
     record_corners c = record_fetch(q->vertices, q->indices, triangles);
     int32_t order[V_LANES];
     for (int l = 0; l < V_LANES; l++)
@@ -154,12 +213,12 @@ static inline int record_vector(const e3d_record_request *q, const uint8_t *tria
     setup_span down = setup_samples(setup_min3(c.y[0], c.y[1], c.y[2]), setup_max3(c.y[0], c.y[1], c.y[2]),
                                     q->viewport->height);
     drop = v_mor(drop, v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last)));
-    vmask finite, gone;
+    vmask finite;
     record_plane p = record_plane_of(&c, across, down, &finite);
     vmask back = q->mirrored ? swapped : v_mnot(swapped); /* front faces turn the other way, Y being down */
-    vi32 meta = record_meta(&c, across, down, back, swapped, &gone);
+    vi32 meta = record_meta(v_loadu8(list->cover + first), back, swapped);
     uint32_t tail = count >= V_LANES ? ~0u : (1u << count) - 1;
-    uint32_t keep = v_bits(v_mandnot(finite, v_mor(drop, gone))) & tail;
+    uint32_t keep = v_bits(v_mandnot(finite, drop)) & tail;
     const vi32 words[16] = {c.x[0], c.x[1], c.x[2], c.y[0], c.y[1], c.y[2], v_asi(p.z0), v_asi(p.gx),
                             v_asi(p.gy), v_asi(p.zmin), v_asi(p.zmax), v_asi(c.iw[0]), v_asi(c.iw[1]),
                             v_asi(c.iw[2]), v_loadi(order), meta};
@@ -174,8 +233,18 @@ static inline int record_vector(const e3d_record_request *q, const uint8_t *tria
 
 static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_span *spans)
 {
+#ifdef E3D_NARROW_TABLE
+    if (q->count <= V_LANES / 2)
+        return E3D_NARROW_TABLE.record(q, out, spans);
+#endif
+    record_list list;
     int made = 0;
+    list.count = 0;
     for (int i = 0; i < q->count; i += V_LANES)
-        made += record_vector(q, q->triangles + i, q->count - i, out + made, spans + made);
+        record_try(q, i, &list);
+    memset(list.triangles + list.count, 0, E3D_PAD); /* whole vectors are read */
+    memset(list.cover + list.count, 0, E3D_PAD);
+    for (int i = 0; i < list.count; i += V_LANES)
+        made += record_vector(q, &list, i, out + made, spans + made);
     return made;
 }

@@ -1,6 +1,7 @@
 /* All kernels of one instruction set, and their table E3D_TABLE. */
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "core/fpenv.h"
 #include "core/encode_tables.h"

@@ -35,8 +35,8 @@ static inline vi32 transform_snap(vf32 v)
     return v_rint(v_min(low, v_setf(most)));
 }
 
-/* Screen coordinates and outcodes of the clip coordinates of one vector. */
-static inline void transform_finish(vf32 x, vf32 y, vf32 z, vf32 w, const e3d_viewport *viewport,
+/* Screen coordinates and outcodes of the clip coordinates of one vector; returns the outcodes. */
+static inline vi32 transform_finish(vf32 x, vf32 y, vf32 z, vf32 w, const e3d_viewport *viewport,
                                     e3d_vertices *out, int i)
 {
     vf32 scale_x = v_setf(viewport->scale_x), scale_y = v_setf(viewport->scale_y);
@@ -51,7 +51,9 @@ static inline void transform_finish(vf32 x, vf32 y, vf32 z, vf32 w, const e3d_vi
     v_storef(out->zn + i, zn);
     v_storei(out->sx + i, transform_snap(v_add(v_mul(v_mul(x, iw), scale_x), scale_x)));
     v_storei(out->sy + i, transform_snap(v_sub(scale_y, v_mul(v_mul(y, iw), scale_y))));
-    v_storei(out->code + i, v_ori(code, transform_flag(v_mnot(finite), E3D_BAD_SCREEN)));
+    code = v_ori(code, transform_flag(v_mnot(finite), E3D_BAD_SCREEN));
+    v_storei(out->code + i, code);
+    return code;
 }
 
 static inline vf32 transform_row(const float *m, vf32 x, vf32 y, vf32 z)
@@ -60,23 +62,35 @@ static inline vf32 transform_row(const float *m, vf32 x, vf32 y, vf32 z)
     return v_add(v_add(sum, v_mul(v_setf(m[2]), z)), v_setf(m[3]));
 }
 
+/* Padding repeats a vertex, so that it adds no bits. */
+static inline void transform_codes(vi32 codes, e3d_vertices *out)
+{
+    for (int i = 0; i < E3D_PAD; i += V_LANES)
+        v_storei(out->codes + i, codes);
+}
+
 static void kernel_transform(const float *positions, int stride, int count, const float matrix[16],
                              const e3d_viewport *viewport, e3d_vertices *out)
 {
+    vi32 codes = v_seti(0);
     for (int i = 0; i < count; i += V_LANES) {
         vf32 x = v_loadf(positions + i), y = v_loadf(positions + stride + i),
              z = v_loadf(positions + 2 * stride + i);
-        transform_finish(transform_row(matrix, x, y, z), transform_row(matrix + 4, x, y, z),
-                         transform_row(matrix + 8, x, y, z), transform_row(matrix + 12, x, y, z),
-                         viewport, out, i);
+        vi32 code = transform_finish(transform_row(matrix, x, y, z), transform_row(matrix + 4, x, y, z),
+                                     transform_row(matrix + 8, x, y, z), transform_row(matrix + 12, x, y, z),
+                                     viewport, out, i);
+        codes = v_ori(codes, code);
     }
+    transform_codes(codes, out);
 }
 
 static void kernel_take_clip(const float *positions, int stride, int count,
                              const e3d_viewport *viewport, e3d_vertices *out)
 {
+    vi32 codes = v_seti(0);
     for (int i = 0; i < count; i += V_LANES)
-        transform_finish(v_loadf(positions + i), v_loadf(positions + stride + i),
-                         v_loadf(positions + 2 * stride + i), v_loadf(positions + 3 * stride + i),
-                         viewport, out, i);
+        codes = v_ori(codes, transform_finish(v_loadf(positions + i), v_loadf(positions + stride + i),
+                                              v_loadf(positions + 2 * stride + i),
+                                              v_loadf(positions + 3 * stride + i), viewport, out, i));
+    transform_codes(codes, out);
 }

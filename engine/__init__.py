@@ -39,6 +39,8 @@ _PUBLIC = {
     "uv_sphere": "primitives",
     "World": "worlds",
     "city": "worlds",
+    "DetailedInstances": "detail",
+    "simplify": "detail",
     "NavigationGrid": "navigation",
     "Walker": "navigation",
     "load_mesh": "loaders",

@@ -11,6 +11,8 @@ from .cameras import IntrinsicsCamera as IntrinsicsCamera
 from .cameras import OrthographicCamera as OrthographicCamera
 from .cameras import PerspectiveCamera as PerspectiveCamera
 from .canvas import Canvas as Canvas
+from .detail import DetailedInstances as DetailedInstances
+from .detail import simplify as simplify
 from .errors import BackendError as BackendError
 from .errors import DisplayError as DisplayError
 from .errors import Engine3DError as Engine3DError

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/fpenv.h"
 #include "navigation/navigation.h"
 
 /* Heights nearer than this are one surface: two triangles that share an edge over a cell's centre. */
@@ -126,7 +127,7 @@ static int sample_triangle(e3d_navigation *grid, const triangle *t)
             double y = t->p[0][1] + slope_x * (x - t->p[0][0]) + slope_z * (z - t->p[0][2]);
             sample s = {j * d->columns + i, (float)y, (float)slope_x, (float)slope_z,
                         (t->kind & E3D_SURFACE_WALKABLE) != 0};
-            if (!add_sample(grid, s))
+            if (isfinite(s.height) && !add_sample(grid, s))
                 return 0;
         }
     }
@@ -135,12 +136,14 @@ static int sample_triangle(e3d_navigation *grid, const triangle *t)
 
 e3d_status e3d_navigation_add_ground(e3d_navigation *grid, const e3d_navigation_mesh *mesh)
 {
+    e3d_fpenv saved = e3d_fpenv_enter();
+    int has_room = 1;
     triangle t;
-    for (int64_t number = 0; number < mesh->faces_count; number++)
+    for (int64_t number = 0; number < mesh->faces_count && has_room; number++)
         if (e3d_navigation_triangle(grid, mesh, number, &t) && t.is_ground && (t.kind & E3D_SURFACE_SOLID))
-            if (!sample_triangle(grid, &t))
-                return E3D_OUT_OF_MEMORY;
-    return E3D_OK;
+            has_room = sample_triangle(grid, &t);
+    e3d_fpenv_leave(saved);
+    return has_room ? E3D_OK : E3D_OUT_OF_MEMORY;
 }
 
 /* Sorts one cell's samples from below upward, equal heights in their order: there are few. */

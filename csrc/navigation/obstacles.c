@@ -7,11 +7,15 @@
  */
 #include <math.h>
 
+#include "core/fpenv.h"
 #include "navigation/navigation.h"
 
-/* A triangle cut by four planes has at most seven corners. */
+/* A triangle cut by four planes has at most seven corners; rounding may fold one that is very long, so that it
+ * crosses a plane again. What would go beyond the room is left out. */
+enum { ROOM = 16 };
+
 typedef struct polygon {
-    double p[8][3];
+    double p[ROOM][3];
     int count;
 } polygon;
 
@@ -22,14 +26,14 @@ static void cut(const polygon *in, polygon *out, int axis, double limit, double 
     for (int k = 0; k < in->count; k++) {
         const double *a = in->p[k], *b = in->p[k + 1 == in->count ? 0 : k + 1];
         double da = sign * (a[axis] - limit), db = sign * (b[axis] - limit);
-        if (da >= 0.0) {
+        if (da >= 0.0 && out->count < ROOM) {
             double *q = out->p[out->count++];
             q[0] = a[0], q[1] = a[1], q[2] = a[2];
         }
-        if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) {
+        if (((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) && out->count < ROOM) {
             double t = da / (da - db), *q = out->p[out->count++];
-            for (int k2 = 0; k2 < 3; k2++)
-                q[k2] = a[k2] + t * (b[k2] - a[k2]);
+            for (int c = 0; c < 3; c++)
+                q[c] = a[c] + t * (b[c] - a[c]);
             q[axis] = limit;
         }
     }
@@ -86,8 +90,10 @@ static void block(e3d_navigation *grid, const triangle *t)
 
 void e3d_navigation_add_obstacles(e3d_navigation *grid, const e3d_navigation_mesh *mesh)
 {
+    e3d_fpenv saved = e3d_fpenv_enter();
     triangle t;
     for (int64_t number = 0; number < mesh->faces_count; number++)
         if (e3d_navigation_triangle(grid, mesh, number, &t) && (t.kind & E3D_SURFACE_SOLID))
             block(grid, &t);
+    e3d_fpenv_leave(saved);
 }

@@ -290,3 +290,22 @@ def test_vertices_that_are_not_finite_count_for_nothing():
     broken.positions = positions
     grid = e3d.NavigationGrid([mesh, broken], bounds=((0, 0), (4, 4)))
     assert grid.walkable.all() and set(grid.heights.tolist()) == {0.0}
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_hostile_triangles_do_no_harm(seed):
+    rng = np.random.default_rng(seed)
+    positions = rng.uniform(-6, 6, (40, 3)).astype(np.float32)
+    odd = rng.random((40, 3)) < 0.1
+    positions[odd] = rng.choice([math.nan, math.inf, -math.inf, 1e30, -3e38, 1e-40], odd.sum())
+    mesh = e3d.Mesh(positions, rng.integers(0, 40, (60, 3)))
+    bounds, cell = ((-4, -4), (5, 6)), rng.uniform(0.05, 1.0)
+    options = {"bounds": bounds, "cell": cell, "max_slope": 1.5}
+    grid = e3d.NavigationGrid(mesh, radius=rng.uniform(0, 1), **options)
+    assert grid.starts[0] == 0 and grid.starts[-1] == len(grid.heights)
+    assert (np.diff(grid.starts) >= 0).all() and np.isfinite(grid.heights).all()
+    for k in np.flatnonzero(np.diff(grid.starts) > 1):
+        heights = grid.heights[grid.starts[k] : grid.starts[k + 1]].astype(np.float64)
+        assert (np.diff(heights) > grid.headroom - 1e-3).all()
+    free = e3d.NavigationGrid(mesh, radius=0.0, **options)
+    assert not (grid.walkable & ~free.walkable).any()

@@ -220,6 +220,8 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
     if (any_failed(context->renderer))
         return E3D_OUT_OF_MEMORY;
     count_submitted(context, stats);
+    if (stats->rounds > 1)
+        e3d_occlusion_judge(context, stats->clusters);
     add_counters(context, stats);
     stats->ms_geometry = (double)(binned - start) * 1e-6;
     stats->ms_total = (double)(e3d_now_ns() - start) * 1e-6;

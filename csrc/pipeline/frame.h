@@ -183,6 +183,7 @@ struct e3d_renderer {
     e3d_array tile_depths;      /* e3d_tile_depths */
     e3d_visible_tile *kept;     /* over the rounds of a frame */
     size_t kept_room;
+    int32_t frames_without_rounds; /* still to come: lately rounds did not pay */
     int (*poll)(void *);
     void *poll_user;
 };
@@ -260,6 +261,8 @@ int e3d_faces_away(const e3d_viewport *viewport, const e3d_facing *facing, const
 
 /* occlusion.c */
 int e3d_occlusion_pays(const e3d_context *context);
+/* After a frame of several rounds: the next ones go without where little was occluded. */
+void e3d_occlusion_judge(e3d_context *context, int64_t clusters);
 int e3d_occlusion_begin(e3d_context *context);
 int e3d_remember(e3d_context *context);
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);

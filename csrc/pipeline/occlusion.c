@@ -10,6 +10,9 @@
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
+/* Keeping tiles and trying boxes costs about what drawing a third of the clusters does (measured). */
+enum { FRAMES_BETWEEN_TRIALS = 32 };
+
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };
 
 /* Beyond this many samples the tiles of a frame are not worth their memory: 8 bytes a sample. */
@@ -59,9 +62,24 @@ int e3d_occlusion_pays(const e3d_context *context)
         return context->item_count > 1;
     if (context->item_count < 64 || frame->culling != E3D_CULLING_ALL)
         return 0;
+    if (context->renderer->frames_without_rounds > 0) {
+        context->renderer->frames_without_rounds--;
+        return 0;
+    }
     for (int32_t w = 0; w < context->renderer->threads; w++)
         covered += context->renderer->workers[w]->counters.blocks;
     return covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
+}
+
+void e3d_occlusion_judge(e3d_context *context, int64_t clusters)
+{
+    int64_t occluded = 0, in_view = clusters;
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_counters *c = &context->renderer->workers[w]->counters;
+        occluded += c->clusters_occluded;
+        in_view -= c->clusters_culled;
+    }
+    context->renderer->frames_without_rounds = 10 * occluded < 3 * in_view ? FRAMES_BETWEEN_TRIALS : 0;
 }
 
 /* ---- a box against what is drawn ---- */

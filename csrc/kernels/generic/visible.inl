@@ -357,20 +357,38 @@ static inline int visible_edge(const e3d_record *r, int k, e3d_piece *piece, con
     return 1;
 }
 
+/* The same for a triangle of at most 64 samples a side: 32 bits hold all of it. */
+static inline void visible_small_edges(const e3d_record *r, e3d_piece *p, const e3d_visible_tile *tile)
+{
+    int32_t px = 256 * (tile->x + p->x0) + 128, py = 256 * (tile->y + p->y0) + 128;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int32_t a = r->y[i] - r->y[j], b = r->x[j] - r->x[i];
+        int32_t value = a * (px - r->x[i]) + b * (py - r->y[i]), top_left = a > 0 || (a == 0 && b > 0);
+        p->e[k] = ((value - !top_left) >> 8) - a * p->x0 - b * p->y0;
+        p->a[k] = a;
+        p->b[k] = b;
+    }
+}
+
 static inline void visible_piece(const e3d_record *r, int32_t id, e3d_visible_tile *tile,
                                  const e3d_record_table *table)
 {
     e3d_piece p;
-    for (int k = 0; k < 3; k++)
-        if (!visible_edge(r, k, &p, tile))
-            return;
     visible_plane plane = visible_plane_of(r, tile);
+    int32_t right = visible_max3(r->x), bottom = visible_max3(r->y);
     p.base_x = plane.base_x;
     p.base_y = plane.base_y;
     p.x0 = visible_in_tile(p.base_x);
     p.y0 = visible_in_tile(p.base_y);
-    p.x1 = visible_in_tile(((visible_max3(r->x) - 128) >> 8) - tile->x);
-    p.y1 = visible_in_tile(((visible_max3(r->y) - 128) >> 8) - tile->y);
+    p.x1 = visible_in_tile(((right - 128) >> 8) - tile->x);
+    p.y1 = visible_in_tile(((bottom - 128) >> 8) - tile->y);
+    if (right - visible_min3(r->x) <= E3D_TILE * 256 && bottom - visible_min3(r->y) <= E3D_TILE * 256)
+        visible_small_edges(r, &p, tile);
+    else
+        for (int k = 0; k < 3; k++)
+            if (!visible_edge(r, k, &p, tile))
+                return;
     p.gx = r->gx;
     p.gy = r->gy;
     p.z0 = r->z0;
@@ -388,6 +406,8 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
 {
     for (int i = 0; i < count; i++) {
         const e3d_record *r = visible_record(table, ids[i]);
+        if (i + 4 < count)
+            __builtin_prefetch(visible_record(table, ids[i + 4]));
         if (r->meta & E3D_RECORD_TINY)
             visible_tiny(r, (int32_t)ids[i], tile, table);
         else

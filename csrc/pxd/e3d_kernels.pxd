@@ -42,7 +42,31 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_survivors:
         pass
 
+    ctypedef struct e3d_record:
+        pass
+
+    ctypedef struct e3d_record_request:
+        const e3d_vertices *vertices
+        const uint8_t *indices
+        const uint8_t *triangles
+        int count
+        int cull
+        int mirrored
+        uint32_t order
+        const int32_t *faces
+        const e3d_viewport *viewport
+
+    ctypedef struct e3d_tile_span:
+        pass
+
     ctypedef struct e3d_piece:
+        pass
+
+    ctypedef struct e3d_record_table:
+        const e3d_record *const *records
+        int32_t bits
+
+    ctypedef struct e3d_visible_tile:
         pass
 
     ctypedef struct e3d_tile_buffers:
@@ -73,10 +97,15 @@ cdef extern from "kernels/kernels.h" nogil:
                           const e3d_viewport *viewport, e3d_vertices *out)
         void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
                       const e3d_viewport *viewport, e3d_survivors *out)
+        int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans)
         void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+        void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table,
+                               const uint32_t *ids, int count)
+        void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table)
+        void (*raster_measure)(e3d_visible_tile *tile)
         int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
         void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)
         void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)

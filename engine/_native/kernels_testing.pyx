@@ -47,7 +47,10 @@ STRUCT_SIZES = {
     "viewport": sizeof(e3d_viewport),
     "vertices": sizeof(e3d_vertices),
     "survivors": sizeof(e3d_survivors),
+    "record": sizeof(e3d_record),
+    "tile_span": sizeof(e3d_tile_span),
     "piece": sizeof(e3d_piece),
+    "visible_tile": sizeof(e3d_visible_tile),
     "run": sizeof(e3d_run),
     "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
@@ -130,6 +133,30 @@ cdef class Kernels:
             self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull,
                              <const e3d_viewport *>&viewport[0], <e3d_survivors *>&out[0])
 
+    def record(self, const uint8_t[::1] vertices, const uint8_t[::1] indices,
+               const uint8_t[::1] triangles, int count, int cull, bint mirrored, uint32_t order,
+               const int32_t[::1] faces, const uint8_t[::1] viewport, uint8_t[::1] out,
+               uint8_t[::1] spans):
+        """``out`` and ``spans`` have room for a cluster's triangles; returns how many are made."""
+        cdef e3d_record_request request
+        cdef int made = 0
+        check_size(vertices, sizeof(e3d_vertices))
+        check_size(viewport, sizeof(e3d_viewport))
+        check_size(out, E3D_CLUSTER_TRIANGLES * sizeof(e3d_record))
+        check_size(spans, E3D_CLUSTER_TRIANGLES * sizeof(e3d_tile_span))
+        request.vertices = <const e3d_vertices *>&vertices[0]
+        request.indices = &indices[0]
+        request.triangles = &triangles[0]
+        request.count = count
+        request.cull = cull
+        request.mirrored = mirrored
+        request.order = order
+        request.faces = &faces[0]
+        request.viewport = <const e3d_viewport *>&viewport[0]
+        for _ in range(self.rounds):
+            made = self.table.record(&request, <e3d_record *>&out[0], <e3d_tile_span *>&spans[0])
+        return made
+
     def raster_depth(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                      const uint32_t[::1] orders):
         """Here and in the next three, one piece after the other."""
@@ -146,6 +173,30 @@ cdef class Kernels:
     def raster_mark(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                     const uint32_t[::1] orders):
         raster(self.table.raster_mark, self.rounds, pieces, z, slot, orders)
+
+    def raster_visible(self, uint8_t[::1] tile, const uint8_t[:, ::1] records,
+                       const uint32_t[::1] ids):
+        """``records`` is (workers, bytes), a power of two of workers: the table of a frame."""
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        check_size(tile, sizeof(e3d_visible_tile))
+        fill_table(&table, rows, records)
+        for _ in range(self.rounds):
+            self.table.raster_visible(<e3d_visible_tile *>&tile[0], &table, &ids[0],
+                                      <int>ids.shape[0])
+
+    def raster_settle(self, uint8_t[::1] tile, const uint8_t[:, ::1] records):
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        check_size(tile, sizeof(e3d_visible_tile))
+        fill_table(&table, rows, records)
+        for _ in range(self.rounds):
+            self.table.raster_settle(<e3d_visible_tile *>&tile[0], &table)
+
+    def raster_measure(self, uint8_t[::1] tile):
+        check_size(tile, sizeof(e3d_visible_tile))
+        for _ in range(self.rounds):
+            self.table.raster_measure(<e3d_visible_tile *>&tile[0])
 
     def find_runs(self, const int32_t[::1] slot, int width, int height, uint8_t[::1] out):
         """``out`` has room for as many runs as the tile has samples, and one; returns how many."""
@@ -215,6 +266,24 @@ cdef class Kernels:
                bint srgb, uint32_t[::1] rgba):
         for _ in range(self.rounds):
             self.table.encode(&red[0], &green[0], &blue[0], count, srgb, &rgba[0])
+
+
+cdef enum:
+    MOST_WORKERS = 8
+
+
+cdef int fill_table(e3d_record_table *table, const e3d_record **rows,
+                    const uint8_t[:, ::1] records) except -1:
+    cdef Py_ssize_t workers = records.shape[0], worker
+    table.bits = 0
+    while 1 << table.bits < workers:
+        table.bits += 1
+    if 1 << table.bits != workers or workers > MOST_WORKERS:
+        raise ValueError(f"{workers} workers are not a power of two up to {MOST_WORKERS}")
+    for worker in range(workers):
+        rows[worker] = <const e3d_record *>&records[worker, 0]
+    table.records = rows
+    return 0
 
 
 ctypedef void (*raster_kernel)(const e3d_piece *piece, const e3d_tile_buffers *tile)

@@ -6,6 +6,7 @@ from engine3d._native import kernels_testing
 
 PAD = kernels_testing.LIMITS["PAD"]
 TILE = kernels_testing.LIMITS["TILE"]
+BLOCK = 8  # samples a side of what has depth bounds of its own
 CLUSTER_TRIANGLES = kernels_testing.LIMITS["CLUSTER_TRIANGLES"]
 CLUSTER_VERTICES = kernels_testing.LIMITS["CLUSTER_VERTICES"]
 BATCH = kernels_testing.LIMITS["BATCH"]
@@ -15,6 +16,10 @@ BATCH_SURFACES = kernels_testing.LIMITS["BATCH_SURFACES"]
 NEAR, FAR, LEFT, RIGHT, BOTTOM, TOP = 1, 2, 4, 8, 16, 32
 OUTSIDE, BEHIND, BEYOND_GUARD, NONFINITE, BAD_SCREEN = 63, 64, 128, 256, 512
 NEEDS_CLIPPING = NEAR | BEHIND | BEYOND_GUARD
+
+# Flags of a record, and where the number of its corners or its cover begins.
+RECORD_BACK, RECORD_SWAPPED, RECORD_CUT, RECORD_FACE, RECORD_TINY = 1, 2, 4, 8, 16
+RECORD_SHIFT = 5
 
 # What interpolation is asked for.
 WANT_POSITION, WANT_NORMAL, WANT_UV, WANT_FLAT, WANT_LEVEL = 1, 2, 4, 8, 16
@@ -42,11 +47,23 @@ SURVIVORS = np.dtype(
         ("clips", "i4"),
     ]
 )
+RECORD = np.dtype(
+    [("x", "i4", 3), ("y", "i4", 3)]
+    + [(name, "f4") for name in ("z0", "gx", "gy", "zmin", "zmax")]
+    + [("iw", "f4", 3), ("order", "u4"), ("meta", "u4")]
+)
+TILE_SPAN = np.dtype([("first", "u4"), ("last", "u4")])
 PIECE = np.dtype(
     [("e", "i4", 3), ("a", "i4", 3), ("b", "i4", 3)]
     + [(name, "i4") for name in ("x0", "y0", "x1", "y1")]
     + [(name, "f4") for name in ("z0", "gx", "gy", "zmin", "zmax")]
     + [("base_x", "i4"), ("base_y", "i4"), ("slot", "u4"), ("order", "u4")]
+)
+_BLOCKS = (TILE // BLOCK) ** 2
+VISIBLE_TILE = np.dtype(
+    [("z", "f4", TILE * TILE + PAD), ("id", "i4", TILE * TILE + PAD)]
+    + [("zmin", "f4", _BLOCKS), ("zmax", "f4", _BLOCKS), ("noted_id", "i4", _BLOCKS)]
+    + [("noted", "u8"), ("stale", "u8"), ("x", "i4"), ("y", "i4")]
 )
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
 _ELEMENTS = BATCH_SURFACES + PAD
@@ -94,7 +111,10 @@ STRUCTS = {
     "viewport": VIEWPORT,
     "vertices": VERTICES,
     "survivors": SURVIVORS,
+    "record": RECORD,
+    "tile_span": TILE_SPAN,
     "piece": PIECE,
+    "visible_tile": VISIBLE_TILE,
     "run": RUN,
     "surfaces": SURFACES,
     "batch": BATCH_RECORD,

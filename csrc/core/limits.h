@@ -19,6 +19,7 @@ enum {
     E3D_CLUSTER_TRIANGLES = 64,  /* a cluster's triangles and vertices: 8-bit local indices */
     E3D_CLUSTER_VERTICES = 128,
     E3D_GROUP_CLUSTERS = 8,      /* clusters that are culled together first */
+    E3D_FEW_LIGHTS = 4,          /* more are left out where they don't reach */
     E3D_MAX_THREADS = 256
 };
 

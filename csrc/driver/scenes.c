@@ -251,7 +251,7 @@ static e3d_status add_materials(scene *s, random_stream *r)
 static void add_lights(scene *s, random_stream *r)
 {
     s->frame.lights = s->lights;
-    s->frame.light_count = random_below(r, SCENE_MAX_LIGHTS + 1);
+    s->frame.light_count = random_below(r, (random_once_in(r, 3) ? SCENE_MAX_LIGHTS : 4) + 1);
     for (int32_t i = 0; i < s->frame.light_count; i++) {
         e3d_light *light = &s->lights[i];
         light->kind = (e3d_light_kind)random_below(r, 2);

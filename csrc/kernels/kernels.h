@@ -193,9 +193,11 @@ enum {
     E3D_WANT_SURFACE = 32 /* any of these, or barycentrics */
 };
 
+/* `reach`: of each light, and E3D_PAD more, its position and the square of its range; a NaN where nothing is out of it. */
 typedef struct e3d_lighting {
     const e3d_light *lights;
     int light_count;
+    const float *reach[4];
     float ambient[3], clamp[2], eye[4];
 } e3d_lighting;
 

@@ -78,7 +78,7 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
         destroy_worker(renderer->workers[w]);
     free(renderer->workers);
     e3d_array_free(&renderer->draws);
-    e3d_array *arrays[] = {&renderer->instances, &renderer->tasks, &renderer->items, &renderer->seen,
+    e3d_array *arrays[] = {&renderer->instances, &renderer->reach, &renderer->tasks, &renderer->items, &renderer->seen,
                            &renderer->tile_depths};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         e3d_array_free(arrays[i]);

@@ -134,6 +134,7 @@ typedef struct e3d_tile_memory {
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling: 1 where a sample has its own colour */
     float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling only */
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
+    e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
     e3d_batch batch;
     e3d_surfaces surfaces;       /* of the batch */
     e3d_run batch_runs[E3D_BATCH]; /* the batch's samples, as runs */
@@ -178,6 +179,7 @@ struct e3d_renderer {
     const e3d_kernels *kernels;
     e3d_worker **workers;
     e3d_array draws, instances;
+    e3d_array reach;            /* float, of e3d_lighting */
     e3d_array tasks, items;     /* e3d_item, near ones first */
     e3d_array seen;             /* uint8_t for each group of the frame: bit k tells whether the last frame showed cluster k */
     e3d_array tile_depths;      /* e3d_tile_depths */
@@ -226,6 +228,7 @@ typedef struct e3d_context {
     int32_t tiles_x, tiles_y;
     int sorted;        /* painter or none: bins are made after sorting */
     int srgb;          /* the encoder of this frame (R34) */
+    int blockwise;     /* samples are shaded in blocks of 16 x 16, which few of the lights reach */
     int draw_faces;    /* faces are needed at all */
     int wants;         /* E3D_WANT_* and E3D_NEED_* of the visible samples; 0: no shading */
     int32_t line_half, point_half; /* 1/256 sample */

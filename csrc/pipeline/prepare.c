@@ -248,6 +248,32 @@ static int wants_of(const e3d_frame *frame, const e3d_targets *t)
     return wants;
 }
 
+/* The lights' positions and ranges as the light kernel reads them, a vector of lights at a time. */
+static int prepare_lights(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    size_t room = (size_t)frame->light_count + E3D_PAD;
+    if (!e3d_array_reserve(&context->renderer->reach, 4 * room, sizeof(float)))
+        return 0;
+    float *rows = context->renderer->reach.data;
+    int ranged = 0;
+    for (int k = 0; k < 4; k++)
+        context->lighting.reach[k] = rows + (size_t)k * room;
+    for (size_t n = 0; n < room; n++) {
+        const e3d_light *light = n < (size_t)frame->light_count ? &frame->lights[n] : NULL;
+        int point = light && light->kind == E3D_LIGHT_POINT;
+        for (int k = 0; k < 3; k++)
+            rows[(size_t)k * room + n] = point ? light->position[k] : 0.0f;
+        rows[3 * room + n] = point ? light->range * light->range : NAN;
+        ranged += point && light->range < INFINITY;
+    }
+    context->lighting.lights = frame->lights;
+    context->lighting.light_count = frame->light_count;
+    context->blockwise = ranged > E3D_FEW_LIGHTS && (context->wants & E3D_NEED_COLOR) &&
+                         frame->mode == E3D_MODE_LIT;
+    return 1;
+}
+
 static void prepare_constants(e3d_context *context)
 {
     const e3d_frame *frame = context->frame;
@@ -255,8 +281,6 @@ static void prepare_constants(e3d_context *context)
         context->view[k] = (float)frame->view_from_world[k];
     for (int c = 0; c < 256; c++)
         context->unorm8[c] = (float)(frame->decode_srgb ? SRGB_TO_LINEAR16[c] : c * 257) * E3D_UNORM16;
-    context->lighting.lights = frame->lights;
-    context->lighting.light_count = frame->light_count;
     memcpy(context->lighting.ambient, frame->ambient, sizeof frame->ambient);
     memcpy(context->lighting.clamp, frame->light_clamp, sizeof frame->light_clamp);
     memcpy(context->lighting.eye, frame->eye, sizeof frame->eye);
@@ -306,6 +330,8 @@ e3d_status e3d_prepare(e3d_context *context)
         return E3D_OUT_OF_MEMORY;
     context->instances = renderer->instances.data;
     prepare_constants(context);
+    if (!prepare_lights(context))
+        return E3D_OUT_OF_MEMORY;
     atomic_store(&context->next, 0);
     e3d_pool_run(context->instance_count > 2 * INSTANCES_A_TASK ? renderer->threads : 1,
                  instances_work, context);

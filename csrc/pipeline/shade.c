@@ -214,13 +214,63 @@ static void shade_group(const e3d_context *context, e3d_worker *worker, const e3
     shade_batch(context, worker, tile, group, wanted);
 }
 
-int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
+static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs,
+                     int32_t count)
 {
-    e3d_run *runs = worker->tile->runs;
     if (!e3d_find_pieces(context, worker, runs, count))
         return 0;
     const e3d_group *groups = worker->groups.data;
     for (size_t g = 0; g < worker->groups.count; g++)
         shade_group(context, worker, tile, &groups[g], runs);
+    const e3d_visible_piece *pieces = worker->pieces.data;
+    for (size_t p = 0; p < worker->pieces.count; p++)
+        pieces[p].slot->piece = -1;
     return 1;
+}
+
+/* ---- blocks: a batch of neighbours is in reach of few lights ---- */
+
+enum { BLOCK = 16, BLOCKS_A_ROW = E3D_TILE / BLOCK, BLOCKS = BLOCKS_A_ROW * BLOCKS_A_ROW };
+
+static int block_of(int sample)
+{
+    return sample / (E3D_TILE * BLOCK) * BLOCKS_A_ROW + sample % E3D_TILE / BLOCK;
+}
+
+/* Cuts the runs at the blocks' edges, and counts them or puts them at next[block]. */
+static void cut_runs(const e3d_run *runs, int32_t count, int32_t next[BLOCKS], e3d_run *out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        int sample = runs[i].sample, end = sample + runs[i].length;
+        while (sample < end) {
+            int edge = sample - sample % BLOCK + BLOCK, block = block_of(sample);
+            edge = edge < end ? edge : end;
+            if (out)
+                out[next[block]] = (e3d_run){runs[i].owner, (uint16_t)sample, (uint16_t)(edge - sample)};
+            next[block]++;
+            sample = edge;
+        }
+    }
+}
+
+static int shade_blocks(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
+{
+    e3d_tile_memory *memory = worker->tile;
+    int32_t number[BLOCKS] = {0}, next[BLOCKS], first = 0;
+    cut_runs(memory->runs, count, number, NULL);
+    for (int b = 0; b < BLOCKS; b++) {
+        next[b] = first;
+        first += number[b];
+    }
+    cut_runs(memory->runs, count, next, memory->blocks);
+    for (int b = 0; b < BLOCKS; b++)
+        if (!shade_all(context, worker, tile, memory->blocks + next[b] - number[b], number[b]))
+            return 0;
+    return 1;
+}
+
+int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
+{
+    return context->blockwise ? shade_blocks(context, worker, tile, count)
+                              : shade_all(context, worker, tile, worker->tile->runs, count);
 }

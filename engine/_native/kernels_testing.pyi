@@ -90,6 +90,7 @@ class Kernels:
         self,
         batch: _Bytes,
         lights: _Bytes,
+        reach: _Floats,
         ambient: _Floats,
         clamp: _Floats,
         eye: _Floats,

@@ -241,12 +241,17 @@ cdef class Kernels:
             self.table.tint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], by_vertex,
                             by_instance)
 
-    def light(self, uint8_t[::1] batch, const uint8_t[::1] lights, const float[::1] ambient,
-              const float[::1] clamp, const float[::1] eye, float shininess):
+    def light(self, uint8_t[::1] batch, const uint8_t[::1] lights, const float[:, ::1] reach,
+              const float[::1] ambient, const float[::1] clamp, const float[::1] eye,
+              float shininess):
+        """``reach``: (4, lights + PAD)."""
         cdef e3d_lighting lighting
+        cdef int row
         check_size(batch, sizeof(e3d_batch))
         lighting.light_count = <int>(lights.shape[0] // sizeof(e3d_light))
         lighting.lights = <const e3d_light *>&lights[0] if lighting.light_count else NULL
+        for row in range(4):
+            lighting.reach[row] = &reach[row, 0]
         memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
         memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
         memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, ZERO, clamp, dot, greatest, power, unit
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
-from kernels.layouts import LIGHT
+from kernels.layouts import LIGHT, PAD
 from kernels.surfaces import ROUNDS, fill, planes, random_batches
 
 DIRECTIONAL, POINT = 0, 1
@@ -24,6 +24,16 @@ def random_lights(rng, count):
     unlimited = (lights["falloff"] == INVERSE_SQUARE) & (rng.random(count) < 0.5)
     lights["range"][unlimited] = np.inf
     return lights
+
+
+def reach_of(lights):
+    """What the kernel leaves lights out by: (4, lights and pad), positions and squared ranges."""
+    reach = np.full((4, len(lights) + PAD), np.nan, np.float32)
+    point = lights["kind"] == POINT
+    reach[:3, : len(lights)] = np.where(point, lights["position"].T, np.float32(0))
+    squares = lights["range"] * lights["range"]
+    reach[3, : len(lights)] = np.where(point, squares, np.float32(np.nan))
+    return reach
 
 
 def towards(light, position):
@@ -91,8 +101,9 @@ def test_light(kernels, shininess):
         ambient = rng.random(3).astype(np.float32)
         light_clamp = np.float32([(0, np.inf), (0.1, 1)][seed])
         eye = np.float32([(0.5, 2, 4, 1), (0, 0.6, 0.8, 0)][seed])
+        reach = reach_of(lights)
         for row in batches.rows:
-            kernels.light(row, lights.view(np.uint8), ambient, light_clamp, eye, shininess)
+            kernels.light(row, lights.view(np.uint8), reach, ambient, light_clamp, eye, shininess)
         energy, shine = lit(
             lights, ambient, light_clamp, eye, shininess, planes(position), planes(normal)
         )
@@ -105,12 +116,42 @@ def test_light(kernels, shininess):
 
 
 @all_backends
+@pytest.mark.parametrize("count", [5, 270])
+def test_lights_out_of_reach(kernels, count):
+    """Most lights are left out, and never one that adds anything: batches lie close together."""
+    rng = np.random.default_rng(count)
+    batches = random_batches(rng)
+    shape = batches.fields["position"].shape
+    size = rng.choice([0.0, 0.01, 0.3], shape[0])[:, None, None]
+    centre = rng.uniform(-3, 3, (shape[0], 3, 1))
+    position = (centre + size * rng.uniform(-1, 1, shape)).astype(np.float32)
+    normal = random_normals(rng, batches)
+    lights = random_lights(rng, count)
+    lights["range"] = np.where(np.isinf(lights["range"]), np.inf, rng.uniform(0.01, 2, count))
+    edge = position[np.arange(count) % len(position), :, 0] - lights["position"]
+    # a sample at the very end of the range
+    exact = np.sqrt((edge**2).sum(axis=1)).astype(np.float32)
+    lights["range"][::2] = np.where(np.isinf(lights["range"][::2]), np.inf, exact[::2])
+    position[::50, 0] = np.nan  # nothing is left out
+    batches.fields["position"], batches.fields["normal"] = position, normal
+    ambient, light_clamp = np.float32([0.1, 0.2, 0.3]), np.float32([0, np.inf])
+    eye, reach = np.float32([0.5, 2, 4, 1]), reach_of(lights)
+    for row in batches.rows:
+        kernels.light(row, lights.view(np.uint8), reach, ambient, light_clamp, eye, 0.0)
+    energy, _ = lit(lights, ambient, light_clamp, eye, 0.0, planes(position), planes(normal))
+    for k in range(3):
+        got = batches.fields["energy"][:, k]
+        check_lanes(f"energy[{k}]", got, energy[k], batches.fields["count"])
+
+
+@all_backends
 def test_without_lights(kernels):
     """Ambient light alone, clamped."""
     batches = random_batches(np.random.default_rng(0))
     ambient, nothing = np.float32([0.05, 0.5, 5]), np.zeros(0, np.uint8)
+    reach, eye = reach_of(nothing.view(LIGHT)), np.float32([0, 0, 1, 0])
     for row in batches.rows:
-        kernels.light(row, nothing, ambient, np.float32([0.1, 1]), np.float32([0, 0, 1, 0]), 0.0)
+        kernels.light(row, nothing, reach, ambient, np.float32([0.1, 1]), eye, 0.0)
     counts = batches.fields["count"]
     for k, value in enumerate((0.1, 0.5, 1.0)):
         expected = np.full(batches.fields["energy"][:, k].shape, value, np.float32)

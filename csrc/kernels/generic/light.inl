@@ -78,25 +78,127 @@ static inline void light_view(const e3d_lighting *lighting, lit_lanes *lit)
         unit_length(&lit->view[0], &lit->view[1], &lit->view[2]);
 }
 
-static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
+/* ---- lights that may reach a batch ---- */
+
+typedef struct light_box {
+    float low[3], high[3];
+} light_box;
+
+static inline int light_is_finite(const e3d_batch *batch, int i)
+{
+    vf32 zero = v_setf(0.0f), sum = zero;
+    for (int k = 0; k < 3; k++) {
+        vf32 p = v_loadf(batch->position[k] + i);
+        sum = v_add(sum, v_sub(p, p)); /* 0, or a NaN */
+    }
+    return !v_any(v_mnot(v_eq(sum, zero)));
+}
+
+/* The box of the batch's positions; 0 where one isn't finite. */
+static inline int light_bounds(const e3d_batch *batch, light_box *box)
+{
+    for (int i = 0; i < batch->count; i += V_LANES)
+        if (!light_is_finite(batch, i))
+            return 0;
+    for (int k = 0; k < 3; k++) {
+        vf32 low = v_loadf(batch->position[k]), high = low;
+        for (int i = V_LANES; i < batch->count; i += V_LANES) {
+            vf32 p = v_loadf(batch->position[k] + i);
+            low = v_min(low, p);
+            high = v_max(high, p);
+        }
+        float lows[V_LANES], highs[V_LANES];
+        v_storef(lows, low);
+        v_storef(highs, high);
+        box->low[k] = lows[0];
+        box->high[k] = highs[0];
+        for (int lane = 1; lane < V_LANES; lane++) {
+            box->low[k] = lows[lane] < box->low[k] ? lows[lane] : box->low[k];
+            box->high[k] = highs[lane] > box->high[k] ? highs[lane] : box->high[k];
+        }
+    }
+    return 1;
+}
+
+/* The squared distance of R31 from a box: every rounding is monotonic, so none of the box's samples is nearer. */
+static inline vf32 light_distance2(const e3d_lighting *lighting, int n, const light_box *box)
+{
+    vf32 d[3];
+    for (int k = 0; k < 3; k++) {
+        vf32 at = v_loadf(lighting->reach[k] + n);
+        vf32 below = v_sub(v_setf(box->low[k]), at), above = v_sub(at, v_setf(box->high[k]));
+        d[k] = v_max(v_max(below, above), v_setf(0.0f));
+    }
+    return dot_three(d, d);
+}
+
+/* Lights first .. end - 1 that may reach the box; NULL: all of them. Those that are left out would add nothing. */
+static inline int light_choose(const e3d_lighting *lighting, int first, int end, const light_box *box,
+                               int32_t *chosen)
+{
+    int count = 0;
+    for (int n = first; n < end; n += V_LANES) {
+        uint32_t bits = (uint32_t)((1ull << V_LANES) - 1);
+        if (box)
+            bits = v_bits(v_mnot(v_ge(light_distance2(lighting, n, box), v_loadf(lighting->reach[3] + n))));
+        for (; bits; bits &= bits - 1) {
+            chosen[count] = n + __builtin_ctz(bits);
+            count += chosen[count] < end;
+        }
+    }
+    return count;
+}
+
+/* ---- the sums ---- */
+
+static inline void light_start(e3d_batch *batch, const e3d_lighting *lighting)
+{
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < batch->count; i += V_LANES) {
+            v_storef(batch->energy[k] + i, v_setf(lighting->ambient[k]));
+            v_storef(batch->shine[k] + i, v_setf(0.0f));
+        }
+}
+
+static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, const int32_t *chosen, int count,
+                             float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         lit_lanes lit;
         for (int k = 0; k < 3; k++) {
             lit.position[k] = v_loadf(batch->position[k] + i);
             lit.normal[k] = v_loadf(batch->normal[k] + i);
-            lit.energy[k] = v_setf(lighting->ambient[k]);
-            lit.shine[k] = lit.view[k] = v_setf(0.0f);
+            lit.energy[k] = v_loadf(batch->energy[k] + i);
+            lit.shine[k] = v_loadf(batch->shine[k] + i);
+            lit.view[k] = v_setf(0.0f);
         }
         if (shininess > 0.0f)
             light_view(lighting, &lit);
-        for (int n = 0; n < lighting->light_count; n++)
-            light_one(&lighting->lights[n], shininess, &lit);
+        for (int n = 0; n < count; n++)
+            light_one(&lighting->lights[chosen[n]], shininess, &lit);
         for (int k = 0; k < 3; k++) {
-            vf32 low = v_max(lit.energy[k], v_setf(lighting->clamp[0]));
-            v_storef(batch->energy[k] + i, v_min(low, v_setf(lighting->clamp[1])));
+            v_storef(batch->energy[k] + i, lit.energy[k]);
             v_storef(batch->shine[k] + i, lit.shine[k]);
         }
+    }
+}
+
+static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
+{
+    enum { AT_ONCE = 256 };
+    int32_t chosen[AT_ONCE + E3D_PAD];
+    light_box box;
+    int boxed = lighting->light_count > E3D_FEW_LIGHTS && light_bounds(batch, &box);
+    light_start(batch, lighting);
+    for (int first = 0; first < lighting->light_count; first += AT_ONCE) {
+        int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
+        int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
+        light_add(batch, lighting, chosen, count, shininess);
+    }
+    for (int k = 0; k < 3; k++) {
+        vf32 low = v_setf(lighting->clamp[0]), high = v_setf(lighting->clamp[1]);
+        for (int i = 0; i < batch->count; i += V_LANES)
+            v_storef(batch->energy[k] + i, v_min(v_max(v_loadf(batch->energy[k] + i), low), high));
     }
 }
 

@@ -31,6 +31,8 @@ LAMP = {"color": (1.0, 0.74, 0.42), "intensity": 1.5, "range": 17.0, "falloff": 
 HEADLIGHT = {"color": (0.95, 0.95, 1.0), "intensity": 1.2, "range": 14.0, "falloff": "window"}
 #: Metres of street that a car drives before it starts again, at most.
 DRIVE = 600.0
+#: The streets along Z that they drive on, counted from the middle, and how far beside its middle.
+STREETS = (-3, -2, -1, 0, 1)
 LANE = 2.4
 VIEW_RADIUS = 150.0
 #: Where one starts to walk, and where one looks: yaw and pitch.
@@ -71,9 +73,9 @@ def city(triangles: int | None = None) -> Subject:
 
 def _walker(town: World) -> Walker:
     """Who walks in the city, near its middle."""
-    box = np.stack([mesh.bounds for mesh in town.districts])
-    low = np.maximum(box[:, 0].min(axis=0), -WALK_RADIUS)[[0, 2]]
-    high = np.minimum(box[:, 1].max(axis=0), WALK_RADIUS)[[0, 2]]
+    boxes = np.stack([mesh.bounds for mesh in town.districts])
+    low = np.maximum(boxes[:, 0].min(axis=0), -WALK_RADIUS)[[0, 2]]
+    high = np.minimum(boxes[:, 1].max(axis=0), WALK_RADIUS)[[0, 2]]
     grid = NavigationGrid(
         town.districts, walkable=town.walkable, ignore=town.foliage, bounds=(low, high)
     )
@@ -104,8 +106,10 @@ class _Traffic:
     """Cars that drive along the streets, each with a light before it."""
 
     def __init__(self, scene: Scene, town: World) -> None:
-        reach = min(DRIVE, float(town.lamps[:, 2].max() - town.lamps[:, 2].min()))
-        self._length = max(reach - 20.0, PITCH)
+        x, _, z = town.lamps.T
+        self._length = max(min(DRIVE, float(z.max() - z.min())) - 20.0, PITCH)
+        streets = [PITCH * number for number in STREETS]
+        self._streets = [street for street in streets if x.min() < street + PITCH / 2 < x.max()]
         meshes = [car(name, town.materials) for name in CARS]
         self._cars = []
         for number in range(CAR_LIGHTS):
@@ -116,7 +120,7 @@ class _Traffic:
     def drive(self, time: float) -> None:
         """Put each car where it is at a time; right-hand traffic on streets along Z."""
         for number, node in enumerate(self._cars):
-            street = (number // 2 % 5 - 3) * PITCH
+            street = self._streets[number // 2 % len(self._streets)]
             way = 1.0 if number % 2 else -1.0
             start = number * 0.618 % 1.0
             laps = 1 + number % 2

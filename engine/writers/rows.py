@@ -30,8 +30,12 @@ def write_integers(file: BinaryIO, pattern: str, rows: np.ndarray) -> None:
 
 def float_words(values: np.ndarray) -> list[bytes]:
     """Return the shortest words for float32 numbers, ``1`` rather than ``1.0``."""
-    words = np.asarray(values, np.float32).ravel().astype("S24").tolist()
-    return [word[:-2] if word.endswith(b".0") else word for word in words]
+    # Models repeat themselves: each number is put into words once. By their bits, 0 is not -0.
+    bits = np.ascontiguousarray(values, np.float32).ravel().view(np.int32)
+    distinct, number = np.unique(bits, return_inverse=True)
+    words = distinct.view(np.float32).astype("S24").tolist()
+    words = [word[:-2] if word.endswith(b".0") else word for word in words]
+    return np.array(words, object)[number.reshape(-1)].tolist()
 
 
 def _blocks(rows: np.ndarray):

@@ -310,7 +310,9 @@ class Mesh:
         _check_length(self._arrays.get("edge_visible"), len(faces), "edge_visible", "faces")
         ids = self._arrays.get("material_ids")
         if ids is None or len(ids) != len(faces):
-            self._arrays["material_ids"] = check_indices(np.zeros(len(faces), np.int32), "")
+            zeros = np.zeros(len(faces), np.int32)
+            zeros.setflags(write=False)
+            self._arrays["material_ids"] = check_indices(zeros, "")
 
 
 def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:

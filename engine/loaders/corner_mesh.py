@@ -16,6 +16,9 @@ from ..materials import Material
 from ..mesh import Mesh
 from .mtl import uv_transform
 
+# All positions as they are.
+_ALL = slice(None)
+
 
 class Vertices(NamedTuple):
     """The vertex lists of a file.
@@ -112,7 +115,7 @@ def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh
     vertex_of, of_position, extra = _vertices_for(used, of_position, count)
     is_split = uv_indices is not None or normal_indices is not None
     return Mesh(
-        vertices.positions[of_position],
+        vertices.positions if of_position is _ALL else vertices.positions[of_position],
         faces,
         normals=None if normals is None else _gather(normals, of_normal, extra),
         uvs=None if uv_indices is None else _finite(_gather(uvs, of_uv, extra)),
@@ -168,13 +171,15 @@ def _without_unused(positions, position_count):
     corners = np.ascontiguousarray(positions, np.int32).ravel()
     is_used = native.used_or_all(corners, position_count)
     if is_used is None:
-        return positions, (np.arange(position_count), None, None)
+        return positions, (_ALL, None, None)
     number = np.cumsum(is_used, dtype=np.int32) - 1
     return number[positions], (np.flatnonzero(is_used), None, None)
 
 
 def _vertices_for(used, of_position, position_count):
     """A vertex for each used position: one that the faces have, or a new one at the end."""
+    if of_position is _ALL:
+        return used, _ALL, 0
     vertex = np.full(position_count, -1, np.int32)
     vertex[of_position[::-1]] = np.arange(len(of_position), dtype=np.int32)[::-1]
     is_new = np.zeros(position_count, bool)

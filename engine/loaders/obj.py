@@ -10,13 +10,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..materials import Material
-from .corner_mesh import Triangles, Vertices
+from .corner_mesh import Triangles
 from .documents import Document
 from .ear_clipping import WorkBudget
 from .obj_file import Elements, ObjFile, read_obj_file
 from .obj_materials import give_companion_texture, read_library, used_materials
 from .obj_parts import ObjParts
-from .obj_states import ObjStates, last_before
+from .obj_states import ObjStates, run_lengths
 from .registry import Reader
 from .smoothing import fill_normals
 from .sources import Source
@@ -43,9 +43,7 @@ def read_obj(source: Source, split: bool = False) -> Document:
     cut = _cut(source, file, warnings)
     materials, material_ids = _materials(source, file, states, cut, warnings)
     triangles = _triangles(file.faces, cut, material_ids)
-    normals = _fill_normals(
-        file.vertices, triangles, states.smoothing_groups(len(file.faces.sizes))
-    )
+    normals = _fill_normals(file, triangles, states)
     parts = ObjParts(file, triangles, normals, states, materials)
     objects = parts.objects(source.stem, warnings) if split else [parts.whole(source.stem)]
     return Document("obj", objects, counts=parts.counts(), warnings=warnings.messages())
@@ -70,10 +68,12 @@ def _materials(source, file: ObjFile, states: ObjStates, cut: Triangulation | No
     """
     library = read_library(source, states.libraries, warnings)
     materials, material_of_use = used_materials(states.materials, library, warnings)
-    use = last_before(states.materials, len(file.faces.sizes))
-    use = use if cut is None else use[cut.polygons]
-    ids = np.array([*material_of_use, len(materials)], np.int32)[use]
-    if not materials or (use < 0).any():
+    faces = len(file.faces.sizes)
+    lengths = run_lengths(states.materials, faces)
+    ids = np.repeat(np.array([len(materials), *material_of_use], np.int32), lengths)
+    ids = ids if cut is None else ids[cut.polygons]
+    ids.setflags(write=False)
+    if not materials or (lengths[0] > 0 and (ids == len(materials)).any()):
         materials.append(Material())
     if not library and len(file.vertices.uvs):
         give_companion_texture(source, materials, warnings)
@@ -90,14 +90,20 @@ def _triangles(faces: Elements, cut: Triangulation | None, material_ids: np.ndar
     return Triangles(*corners, material_ids, cut.polygons, cut.edge_visible)
 
 
-def _fill_normals(vertices: Vertices, triangles: Triangles, groups: np.ndarray):
+def _fill_normals(file: ObjFile, triangles: Triangles, states: ObjStates):
     """Give the triangles the normals that they lack; returns what their indices refer to."""
+    vertices = file.vertices
+    if triangles.normals is None and not states.has_smoothing:
+        # What `fill_normals` comes to, without looking at each triangle.
+        return None
+    if triangles.normals is not None and triangles.normals.min(initial=0) >= 0:
+        return vertices.normals
     filled = fill_normals(
         vertices.positions,
         triangles.positions,
         triangles.normals,
         vertices.normals,
-        groups[triangles.polygons],
+        states.smoothing_groups(len(file.faces.sizes))[triangles.polygons],
         triangles.polygons,
     )
     if filled is None:

@@ -76,15 +76,17 @@ class ObjStates:
         self._smoothing_values = self._smoothing.values()
         self._warn_of_smoothing(warnings)
 
-    def smoothing_groups(self, faces: int) -> np.ndarray:
-        """Return the smoothing group of each face, 0 for flat.
+    @property
+    def has_smoothing(self) -> bool:
+        """Whether the file sets any smoothing group; without, all faces are in one."""
+        return len(self._smoothing) > 0
 
-        All are in one group if the file sets none at all.
-        """
-        if len(self._smoothing) == 0:
+    def smoothing_groups(self, faces: int) -> np.ndarray:
+        """Return the smoothing group of each face, 0 for flat."""
+        if not self.has_smoothing:
             return np.broadcast_to(np.int64(_SMOOTH), faces)
         values = np.concatenate([[FLAT], np.maximum(self._smoothing_values, FLAT)])
-        return values[last_before(self._smoothing, faces) + 1]
+        return np.repeat(values, run_lengths(self._smoothing, faces))
 
     def _warn_of_smoothing(self, warnings: WarningList) -> None:
         wrong = np.flatnonzero(self._smoothing_values < 0).tolist()
@@ -96,10 +98,9 @@ class ObjStates:
                 warnings.add(f"smoothing group {shown(word)} counts as off", line)
 
 
-def last_before(setters: Setters, faces: int) -> np.ndarray:
-    """Return the number of the last setting statement before each of the faces, -1 for none."""
-    lengths = np.diff(setters.before["faces"], prepend=0, append=faces)
-    return np.repeat(np.arange(-1, len(setters)), lengths)
+def run_lengths(setters: Setters, faces: int) -> np.ndarray:
+    """Return how many faces stand before the first statement, and behind each up to the next."""
+    return np.diff(setters.before["faces"], prepend=0, append=faces)
 
 
 def _warn_of_unknown(setters: Setters, warnings: WarningList) -> None:

@@ -26,6 +26,15 @@ def test_lines():
         assert row["dda_ns_per_line"] > 0 and row["bresenham_ns_per_line"] > 0
 
 
+def test_loaders():
+    rows = report(
+        "loaders.py", "--megabytes", "0.02", "--repeat", "1", "--only", "engine3d", "NumPy"
+    )
+    rows = rows["rows"]
+    assert [Path(row["file"]).suffix for row in rows] == [".obj"] * 2 + [".ply"] * 2 + [".stl"] * 2
+    assert all(row["milliseconds"] > 0 for row in rows)
+
+
 @pytest.mark.parametrize("suffix", ["svg", "png"])
 def test_simd_vs_scalar(tmp_path, suffix):
     chart = tmp_path / f"chart.{suffix}"

@@ -52,6 +52,10 @@ from .resources import Resources as Resources
 from .resources import ResourceStats as ResourceStats
 from .scene import Scene as Scene
 from .scene_loading import load_scene as load_scene
+from .spatial.colliders import BoxCollider as BoxCollider
+from .spatial.colliders import ColliderHit as ColliderHit
+from .spatial.colliders import MeshCollider as MeshCollider
+from .spatial.colliders import SphereCollider as SphereCollider
 from .spatial.rays import RayHit as RayHit
 from .spatial.rays import RayHits as RayHits
 from .textures import Texture as Texture

@@ -25,6 +25,8 @@ from .native_handles import MeshNeeds, native_mesh, native_texture
 from .scene import Scene
 from .scene_arrays import NodeArrays
 
+_MANY = 1024  # instances that are worth a tree of their boxes
+_SETTLED = 3  # frames in which they did not change
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 
 
@@ -53,6 +55,8 @@ class DrawList:
         self._watched: list[tuple[object, int]] = []
         self._material_lists: list[tuple[Mesh, list[Material]]] = []
         self._marks = False
+        self._many: list[tuple[int, InstancedMesh]] = []  # with their index in the native list
+        self._trees, self._frames = False, 0
         self._placed: tuple | None = None
         self._frustum: np.ndarray | None = None
         self._widen = 1.0
@@ -88,8 +92,19 @@ class DrawList:
         scene._update()
         if self._needs != needs or self._normals != normals or not self._lists(scene):
             self._rebuild(scene, needs, normals)
+        if self._many and not self._trees:
+            self._settle()
         self._place(scene._arrays, frustum, 1.0 + marks if self._marks or needs.edges else 1.0)
         self._list_lights(scene, headlight)
+
+    def _settle(self) -> None:
+        """Make trees of many instances, once these have stayed as they are for some frames."""
+        self._frames += 1
+        if self._frames == _SETTLED:
+            for index, instances in self._many:
+                self.native.set_instance_tree(index, instances._tree())
+            self._trees = True
+            self._placed = None
 
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
@@ -109,7 +124,8 @@ class DrawList:
         self._placed = self._lights_listed = None
         self.native.clear()
         self._watched, self._material_lists = [], []
-        self._marks = False
+        self._marks = self._trees = False
+        self._many, self._frames = [], 0
         bases: dict[Mesh, int] = {}
         for obj in scene._objects.objects:
             if obj is None:
@@ -129,6 +145,8 @@ class DrawList:
         index = self.native.add_object(native, bases[mesh])
         if obj is not mesh:
             self._watched.append((obj, obj.version))
+            if len(obj) >= _MANY:
+                self._many.append((index, obj))
             colors = obj.colors
             eight_bit = colors is not None and colors.dtype == np.uint8
             self.native.set_instances(
@@ -149,9 +167,11 @@ class DrawList:
         if frustum is not None:
             selection = np.empty((arrays.count + 63) // 64, np.uint64)
             arrays.select(frustum, widen, selection)
-        if moved or selection is None or not np.array_equal(selection, self._selection):
+        same = selection is not None and np.array_equal(selection, self._selection)
+        if moved or not same or self._trees:
             names = ("flags", "object", "id", "world")
-            self.native.place(arrays.count, *(arrays.columns[name] for name in names), selection)
+            rows = (arrays.columns[name] for name in names)
+            self.native.place(arrays.count, *rows, selection, frustum, widen)
         self.changes += moved
         self._placed, self._selection = placed, selection
         self._frustum, self._widen = frustum, widen

@@ -34,6 +34,7 @@ class Node:
     __slots__ = (
         "__weakref__",
         "_arrays",
+        "_collider",
         "_name",
         "_object",
         "_pose",
@@ -49,6 +50,7 @@ class Node:
         self._scene = scene
         self._object = obj
         self._name = name
+        self._collider = None
         self._pose_version = self._world_version = -1
         self.id = number
 
@@ -197,6 +199,20 @@ class Node:
     @static.setter
     def static(self, value: bool) -> None:
         self._arrays.set_flag(self._slot, STATIC, bool(value))
+
+    @property
+    def collider(self):
+        """BoxCollider, SphereCollider, MeshCollider or None; see `Scene.overlap_box`."""
+        return self._collider
+
+    @collider.setter
+    def collider(self, value) -> None:
+        from .spatial.colliders import check_collider
+
+        check_collider(self, value)
+        self._collider = value
+        if self._scene is not None:
+            self._scene._set_collider(self)
 
     @property
     def world_pose(self) -> np.ndarray:

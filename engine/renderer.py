@@ -252,7 +252,7 @@ class Renderer:
             )
             frame._seen = view, cull
             frame.stats["nodes"] = scene._arrays.count - scene._removed
-            frame.stats["nodes_in_frustum"] = self._draw_list.native.draw_count
+            frame.stats["nodes_in_frustum"] = self._draw_list.native.node_count
         return frame
 
     def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:

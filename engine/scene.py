@@ -29,6 +29,7 @@ from .scene_objects import ObjectTable
 
 if TYPE_CHECKING:
     from .frame import Frame
+    from .spatial.colliders import ColliderHit
     from .spatial.rays import RayHit, RayHits
 
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
@@ -70,6 +71,8 @@ class Scene:
         self._removals = 0  # nodes that were ever removed
         self._cameras: dict[int, Node] = {}
         self._lights: dict[int, Node] = {}
+        self._colliders: dict[int, Node] = {}
+        self._placed_colliders: tuple | None = None
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
         self.warnings: list[str] = []
@@ -200,6 +203,7 @@ class Scene:
             self._objects.release(gone._object)
             self._cameras.pop(gone.id, None)
             self._lights.pop(gone.id, None)
+            self._colliders.pop(gone.id, None)
             self._removed += 1
             self._removals += 1
         self._nodes = self._names = None
@@ -329,6 +333,72 @@ class Scene:
         from .spatial.rays import pick
 
         return pick(self, frame, x, y)
+
+    def overlap_box(self, low, high) -> tuple[Node, ...]:
+        """Return the visible nodes whose colliders have a point in a box.
+
+        Parameters
+        ----------
+        low, high : (3,) float
+            Corners in world space.
+
+        Returns
+        -------
+        nodes : tuple of Node
+            In the order in which they were added.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from .spatial.colliders import overlap_box
+
+        return overlap_box(self, low, high)
+
+    def overlap_sphere(self, center, radius: float) -> tuple[Node, ...]:
+        """Return the visible nodes whose colliders have a point in a ball; as `overlap_box`.
+
+        Parameters
+        ----------
+        center : (3,) float
+        radius : float
+        """
+        from .spatial.colliders import overlap_sphere
+
+        return overlap_sphere(self, center, radius)
+
+    def raycast_colliders(
+        self, origin, direction, *, max_distance: float = math.inf
+    ) -> ColliderHit | None:
+        """Return where a ray first meets the collider of a visible node.
+
+        Parameters
+        ----------
+        origin, direction : (3,) float
+            World space; the direction may have any length but zero.
+        max_distance : float
+
+        Returns
+        -------
+        hit : ColliderHit or None
+            Node, distance, position.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from .spatial.colliders import raycast_colliders
+
+        return raycast_colliders(self, origin, direction, max_distance)
+
+    def _set_collider(self, node: Node) -> None:
+        """Keep the nodes that have colliders, in the order of adding."""
+        self._placed_colliders = None
+        if node.collider is None:
+            self._colliders.pop(node.id, None)
+        elif node.id not in self._colliders:
+            self._colliders[node.id] = node
+            self._colliders = dict(sorted(self._colliders.items()))
 
     def _node_of(self, number: int) -> Node | None:
         """The node of an id, if it is in the scene."""

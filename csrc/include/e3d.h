@@ -152,6 +152,7 @@ typedef struct e3d_draw {
     const float *instance_colors_f32;   /* (instances, 4) or NULL */
     int32_t node_id;                 /* what object_id outputs */
     int32_t material_base;           /* frame material = material_base + mesh material id */
+    int32_t first_instance;          /* added to what instance_id outputs: of many, some may be drawn */
 } e3d_draw;
 
 typedef enum e3d_mode {

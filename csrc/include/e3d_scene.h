@@ -87,12 +87,6 @@ void e3d_graph_find_world(e3d_graph *graph, int32_t slot);
 void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects);
 /* Touches the nodes of objects whose box changed: dirty is (objects,). */
 void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects);
-/* The draws of what shows, in the order of slots: objects[number] with the node's id and world pose.
- * selection: a bit a slot, or NULL for all. Returns how many; draws has room for `count`. */
-int32_t e3d_graph_draws(int32_t count, const uint8_t *flags, const int32_t *object, const int32_t *id,
-                        const double *world, const uint64_t *selection, const e3d_draw *objects,
-                        int32_t object_count, e3d_draw *draws);
-
 /* ---- Boxes ---- */
 
 /* The boxes of a mesh's instances in the space of their node: (count, E3D_BOX); none where a pose is not finite. */
@@ -119,6 +113,44 @@ int e3d_tree_refit(e3d_tree *tree, const double *boxes, int32_t count, const int
  * the factor widen (1: none), for what is drawn wider than it is. */
 void e3d_tree_select(const e3d_tree *tree, const double *boxes, const double clip_from_world[16],
                      double widen, uint64_t *bits);
+
+/* Sets the bits of the items whose boxes meet a box; touching counts. */
+void e3d_tree_overlaps(const e3d_tree *tree, const double low[3], const double high[3], uint64_t *bits);
+
+/* ---- Draws ---- */
+
+/* An object as nodes draw it; with a tree of e3d_instance_boxes, instances that do not show are left out. */
+typedef struct e3d_placed {
+    e3d_draw draw;
+    const e3d_tree *instances;
+} e3d_placed;
+
+typedef struct e3d_node_rows {
+    int32_t count;
+    const uint8_t *flags;
+    const int32_t *object, *id;
+    const double *world;
+} e3d_node_rows;
+
+typedef struct e3d_view_volume {
+    double clip_from_world[16];
+    double widen; /* as for e3d_tree_select */
+} e3d_view_volume;
+
+/* Zeroed at first; kept from frame to frame. */
+typedef struct e3d_draw_list {
+    e3d_draw *draws;
+    int32_t count, room;
+    int32_t nodes;    /* that are drawn */
+    uint64_t *bits;   /* scratch */
+    int32_t words;
+} e3d_draw_list;
+
+void e3d_draw_list_free(e3d_draw_list *list);
+/* Lists the draws of what shows, in the order of slots: objects[number] with the node's id and world pose.
+ * selection: a bit a slot, or NULL for all; view: NULL draws all instances. 0 when memory is out. */
+int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count);
 
 /* ---- Rays ---- */
 

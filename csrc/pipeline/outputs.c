@@ -115,7 +115,7 @@ static void scatter_ids(const e3d_context *context, const e3d_worker *worker, co
         if (t->object_id)
             t->object_id[at[i]] = piece->draw->draw->node_id;
         if (t->instance_id)
-            t->instance_id[at[i]] = piece->instance;
+            t->instance_id[at[i]] = piece->draw->draw->first_instance + piece->instance;
         if (t->material_id)
             t->material_id[at[i]] = groups[piece->group].material->id;
     }

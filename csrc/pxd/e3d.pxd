@@ -109,6 +109,7 @@ cdef extern from "e3d.h" nogil:
         const float *instance_colors_f32
         int32_t node_id
         int32_t material_base
+        int32_t first_instance
 
     ctypedef enum e3d_mode:
         E3D_MODE_LIT

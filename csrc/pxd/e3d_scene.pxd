@@ -51,11 +51,6 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_graph_find_world(e3d_graph *graph, int32_t slot)
     void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects)
     void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects)
-    int32_t e3d_graph_draws(
-        int32_t count, const uint8_t *flags, const int32_t *object, const int32_t *id,
-        const double *world, const uint64_t *selection, const e3d_draw *objects,
-        int32_t object_count, e3d_draw *draws,
-    )
 
     void e3d_instance_boxes(
         const float *poses, e3d_pose_kind kind, int32_t count, const double *box, double *boxes
@@ -77,6 +72,10 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_tree_select(
         const e3d_tree *tree, const double *boxes, const double *clip_from_world, double widen,
         uint64_t *bits,
+    )
+
+    void e3d_tree_overlaps(
+        const e3d_tree *tree, const double *low, const double *high, uint64_t *bits
     )
 
     ctypedef struct e3d_shape:
@@ -103,4 +102,30 @@ cdef extern from "e3d_scene.h" nogil:
         const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes,
         int32_t shape_count, const double *origin, const double *direction, double farthest,
         e3d_cull cull, e3d_hit *hit,
+    )
+
+    ctypedef struct e3d_placed:
+        e3d_draw draw
+        e3d_tree *instances
+
+    ctypedef struct e3d_node_rows:
+        int32_t count
+        const uint8_t *flags
+        const int32_t *object
+        const int32_t *id
+        const double *world
+
+    ctypedef struct e3d_view_volume:
+        double clip_from_world[16]
+        double widen
+
+    ctypedef struct e3d_draw_list:
+        e3d_draw *draws
+        int32_t count
+        int32_t nodes
+
+    void e3d_draw_list_free(e3d_draw_list *list)
+    bint e3d_graph_draws(
+        e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
+        const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count,
     )

@@ -1,29 +1,129 @@
-/* draws: from slots to the draws of a frame, in the order in which the nodes were added. */
+/* draws: from slots to the draws of a frame, in the order in which the nodes were added.
+ *
+ * Of many instances only those that may show are drawn, as runs of neighbours: instance, then face stays
+ * the order, and first_instance keeps their numbers.
+ */
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/fpenv.h"
 #include "e3d_scene.h"
+#include "scene/pose.h"
 
-int32_t e3d_graph_draws(int32_t count, const uint8_t *flags, const int32_t *object, const int32_t *id,
-                        const double *world, const uint64_t *selection, const e3d_draw *objects,
-                        int32_t object_count, e3d_draw *draws)
+/* A run goes on over so many instances that do not show: a draw of its own would cost more. */
+enum { GAP = 3 };
+
+void e3d_draw_list_free(e3d_draw_list *list)
+{
+    free(list->draws);
+    free(list->bits);
+    memset(list, 0, sizeof *list);
+}
+
+static e3d_draw *append(e3d_draw_list *list)
+{
+    if (list->count == list->room) {
+        int32_t room = list->room ? 2 * list->room : 64;
+        e3d_draw *draws = realloc(list->draws, (size_t)room * sizeof *draws);
+        if (!draws)
+            return NULL;
+        list->draws = draws;
+        list->room = room;
+    }
+    return &list->draws[list->count++];
+}
+
+static int append_run(e3d_draw_list *list, const e3d_draw *whole, int32_t first, int32_t end)
+{
+    e3d_draw *draw = append(list);
+    if (!draw)
+        return 0;
+    *draw = *whole;
+    draw->poses += (size_t)first * (whole->pose_kind == E3D_POSE_MATRIX ? 16 : 4);
+    draw->instances = end - first;
+    draw->first_instance = first;
+    if (draw->instance_colors_u8)
+        draw->instance_colors_u8 += 4 * (size_t)first;
+    if (draw->instance_colors_f32)
+        draw->instance_colors_f32 += 4 * (size_t)first;
+    return 1;
+}
+
+static int append_runs(e3d_draw_list *list, const e3d_draw *whole)
+{
+    int32_t first = -1, end = 0;
+    for (int32_t word = 0; word <= (whole->instances - 1) / 64; word++)
+        for (uint64_t bits = list->bits[word]; bits; bits &= bits - 1) {
+            int32_t instance = 64 * word + __builtin_ctzll(bits);
+            if (first >= 0 && instance - end > GAP) {
+                if (!append_run(list, whole, first, end))
+                    return 0;
+                first = -1;
+            }
+            first = first < 0 ? instance : first;
+            end = instance + 1;
+        }
+    return first < 0 || append_run(list, whole, first, end);
+}
+
+/* The instances that may show: the planes go into the node's space. */
+static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, const e3d_placed *object,
+                            const double world[16])
+{
+    double clip_from_node[16];
+    int32_t words = (object->draw.instances + 63) / 64;
+    if (words > list->words) {
+        uint64_t *bits = realloc(list->bits, (size_t)words * sizeof *bits);
+        if (!bits)
+            return 0;
+        list->bits = bits;
+        list->words = words;
+    }
+    memset(list->bits, 0, (size_t)words * sizeof *list->bits);
+    e3d_fpenv saved = e3d_fpenv_enter();
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++) {
+            const double *m = view->clip_from_world + 4 * r;
+            clip_from_node[4 * r + c] =
+                ((m[0] * world[c] + m[1] * world[4 + c]) + m[2] * world[8 + c]) + m[3] * world[12 + c];
+        }
+    e3d_fpenv_leave(saved);
+    e3d_tree_select(object->instances, NULL, clip_from_node, view->widen, list->bits);
+    return 1;
+}
+
+static int append_node(e3d_draw_list *list, const e3d_placed *object, const double world[12], int32_t id,
+                       const e3d_view_volume *view)
 {
     static const double LAST_ROW[4] = {0, 0, 0, 1};
-    int32_t drawn = 0;
-    for (int32_t slot = 0; slot < count; slot++) {
+    e3d_draw draw = object->draw;
+    memcpy(draw.world_from_node, world, 12 * sizeof *world);
+    memcpy(draw.world_from_node + 12, LAST_ROW, sizeof LAST_ROW);
+    draw.node_id = id;
+    list->nodes++;
+    if (view && object->instances)
+        return select_instances(list, view, object, draw.world_from_node) && append_runs(list, &draw);
+    e3d_draw *to = append(list);
+    if (to)
+        *to = draw;
+    return to != NULL;
+}
+
+int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count)
+{
+    list->count = list->nodes = 0;
+    for (int32_t slot = 0; slot < rows->count; slot++) {
         if (selection && !(selection[slot >> 6] >> (slot & 63) & 1)) {
             if (!(selection[slot >> 6] >> (slot & 63)))
                 slot |= 63; /* none are left in this word */
             continue;
         }
-        int32_t number = object[slot];
-        if (!(flags[slot] & E3D_NODE_SHOWN) || number < 0 || number >= object_count ||
-            !objects[number].mesh)
-            continue;
-        e3d_draw *draw = &draws[drawn++];
-        *draw = objects[number];
-        memcpy(draw->world_from_node, world + 12 * (size_t)slot, 12 * sizeof *world);
-        memcpy(draw->world_from_node + 12, LAST_ROW, sizeof LAST_ROW);
-        draw->node_id = id[slot];
+        int32_t number = rows->object[slot];
+        if ((rows->flags[slot] & E3D_NODE_SHOWN) && number >= 0 && number < object_count &&
+            objects[number].draw.mesh &&
+            !append_node(list, &objects[number], rows->world + 12 * (size_t)slot, rows->id[slot], view))
+            return 0;
     }
-    return drawn;
+    return 1;
 }

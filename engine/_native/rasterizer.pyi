@@ -5,6 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from .scene_graph import NativeTree
+
 _Bytes = npt.NDArray[np.uint8]
 _Floats = npt.NDArray[np.float32]
 _Doubles = npt.NDArray[np.float64]
@@ -51,7 +53,7 @@ class NativeTexture:
 
 class NativeDrawList:
     object_count: int
-    draw_count: int
+    node_count: int
     material_count: int
     light_count: int
     def __init__(self) -> None: ...
@@ -66,7 +68,10 @@ class NativeDrawList:
         id: _Integers,
         world: _Doubles,
         selection: npt.NDArray[np.uint64] | None,
+        clip_from_world: _Doubles | None,
+        widen: float,
     ) -> None: ...
+    def set_instance_tree(self, index: int, tree: NativeTree | None) -> None: ...
     def set_instances(
         self,
         index: int,

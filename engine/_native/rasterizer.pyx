@@ -16,7 +16,7 @@ from libc.string cimport memcpy, memset
 from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
 
 from e3d cimport *
-from e3d_scene cimport e3d_graph_draws
+from e3d_scene cimport *
 
 from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError
 
@@ -225,12 +225,12 @@ cdef void *resized(void *items, size_t count, size_t size) except NULL:
 cdef class NativeDrawList:
     """What a frame draws: objects, drawn wherever nodes place them, materials and lights."""
 
-    cdef e3d_draw *objects
-    cdef e3d_draw *draws
+    cdef e3d_placed *objects
+    cdef e3d_draw_list placed
     cdef e3d_material *materials
     cdef e3d_light *lights
-    cdef readonly int object_count, draw_count, material_count, light_count
-    cdef int object_capacity, draw_capacity, material_capacity, light_capacity
+    cdef readonly int object_count, material_count, light_count
+    cdef int object_capacity, material_capacity, light_capacity
     cdef list borrowed
 
     def __cinit__(self):
@@ -238,13 +238,14 @@ cdef class NativeDrawList:
 
     def __dealloc__(self):
         free(self.objects)
-        free(self.draws)
+        e3d_draw_list_free(&self.placed)
         free(self.materials)
         free(self.lights)
 
     def clear(self):
         """Forget objects, draws, materials and lights, and let go of their arrays."""
-        self.object_count = self.draw_count = self.material_count = self.light_count = 0
+        self.object_count = self.material_count = self.light_count = 0
+        self.placed.count = self.placed.nodes = 0
         self.borrowed = []
 
     def clear_lights(self):
@@ -252,15 +253,15 @@ cdef class NativeDrawList:
 
     def add_object(self, NativeMesh mesh, int32_t material_base):
         """Append what nodes refer to by its number, which is returned; None is never drawn."""
-        self.objects = <e3d_draw *>grown(
-            self.objects, self.object_count, &self.object_capacity, sizeof(e3d_draw)
+        self.objects = <e3d_placed *>grown(
+            self.objects, self.object_count, &self.object_capacity, sizeof(e3d_placed)
         )
-        cdef e3d_draw *entry = &self.objects[self.object_count]
-        memset(entry, 0, sizeof(e3d_draw))
+        cdef e3d_placed *entry = &self.objects[self.object_count]
+        memset(entry, 0, sizeof(e3d_placed))
         if mesh is not None:
-            entry.mesh = mesh.handle
-        entry.instances = 1
-        entry.material_base = material_base
+            entry.draw.mesh = mesh.handle
+        entry.draw.instances = 1
+        entry.draw.material_base = material_base
         self.borrowed.append(mesh)
         self.object_count += 1
         return self.object_count - 1
@@ -273,22 +274,45 @@ cdef class NativeDrawList:
         const int32_t[::1] id not None,
         const double[:, ::1] world not None,
         const uint64_t[::1] selection,
+        const double[:, ::1] clip_from_world,
+        double widen,
     ):
-        """Draw the objects of the first nodes: those that show, or of these those whose bit is set."""
+        """Draw the objects of the first nodes: those that show, or of these those whose bit is set.
+
+        With a matrix, instances outside of what it shows are left out as well.
+        """
+        cdef e3d_node_rows rows
+        cdef e3d_view_volume volume
+        cdef const e3d_view_volume *view = NULL
+        cdef const uint64_t *bits = NULL
         require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0]),
                 "the arrays of nodes are too short")
         require(world.shape[1] == 12, "world must be (nodes, 12)")
         require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
-        if count > self.draw_capacity:
-            self.draws = <e3d_draw *>resized(self.draws, 2 * count, sizeof(e3d_draw))
-            self.draw_capacity = 2 * count
-        cdef const uint64_t *bits = NULL
-        if selection is not None and count:
-            bits = &selection[0]
-        self.draw_count = 0 if count == 0 else e3d_graph_draws(
-            count, &flags[0], &object[0], &id[0], &world[0, 0], bits, self.objects,
-            self.object_count, self.draws,
-        )
+        memset(&rows, 0, sizeof(rows))
+        if count:
+            rows.count = count
+            rows.flags, rows.object, rows.id, rows.world = &flags[0], &object[0], &id[0], &world[0, 0]
+            if selection is not None:
+                bits = &selection[0]
+        if clip_from_world is not None:
+            require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+            memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+            volume.widen = widen
+            view = &volume
+        if not e3d_graph_draws(&self.placed, &rows, bits, view, self.objects, self.object_count):
+            raise OutOfMemoryError("no memory for the list of what to draw")
+
+    @property
+    def node_count(self):
+        """How many nodes are drawn."""
+        return self.placed.nodes
+
+    def set_instance_tree(self, int index, tree):
+        """Let instances be left out by a NativeTree of their boxes, or by none."""
+        require(0 <= index < self.object_count, "no such object")
+        self.objects[index].instances = NULL if tree is None else <e3d_tree *><size_t>tree.address
+        self.borrowed.append(tree)
 
     def set_instances(
         self,
@@ -299,7 +323,7 @@ cdef class NativeDrawList:
     ):
         """Draw the mesh once for each row of `poses`: (N, 16) matrices or (N, 4) offset and scale."""
         require(0 <= index < self.object_count, "no such object")
-        cdef e3d_draw *draw = &self.objects[index]
+        cdef e3d_draw *draw = &self.objects[index].draw
         require(poses.shape[1] in (4, 16), "poses must be (N, 16) or (N, 4)")
         draw.pose_kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
         draw.instances = <int32_t>poses.shape[0]
@@ -493,8 +517,8 @@ cdef class NativeRenderer:
         frame.material_count = draw_list.material_count
         frame.lights = draw_list.lights
         frame.light_count = draw_list.light_count
-        frame.draws = draw_list.draws
-        frame.draw_count = draw_list.draw_count
+        frame.draws = draw_list.placed.draws
+        frame.draw_count = draw_list.placed.count
         fill_targets(&outputs, targets, width, height)
         self.interruption = None
         self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL

@@ -11,7 +11,16 @@ BOX: int
 OBJECT_BOX: int
 
 class NativeTree:
+    count: int
     def __init__(self, boxes: NDArray[np.float64]) -> None: ...
+    def overlaps(
+        self,
+        low: NDArray[np.float64],
+        high: NDArray[np.float64],
+        bits: NDArray[np.uint64],
+    ) -> None: ...
+    @property
+    def address(self) -> int: ...
 
 class NativeShapes:
     def __init__(self, count: int) -> None: ...

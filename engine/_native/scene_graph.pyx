@@ -28,8 +28,10 @@ cdef class NativeTree:
     """A tree of boxes that stay as they are: of a mesh's triangles, or of instances."""
 
     cdef e3d_tree *tree
+    cdef readonly Py_ssize_t count
 
     def __cinit__(self, const double[:, ::1] boxes not None):
+        self.count = boxes.shape[0]
         if boxes.shape[1] != E3D_BOX:
             raise InvalidArgumentError("boxes must be (N, BOX)")
         self.tree = e3d_tree_create()
@@ -40,6 +42,23 @@ cdef class NativeTree:
 
     def __dealloc__(self):
         e3d_tree_destroy(self.tree)
+
+    def overlaps(
+        self,
+        const double[::1] low not None,
+        const double[::1] high not None,
+        uint64_t[::1] bits not None,
+    ):
+        """Set the bits of the items whose boxes meet a box."""
+        if low.shape[0] != 3 or high.shape[0] != 3 or 64 * bits.shape[0] < self.count:
+            raise InvalidArgumentError("a box has two corners, and a selection a bit an item")
+        if self.count:
+            e3d_tree_overlaps(self.tree, &low[0], &high[0], &bits[0])
+
+    @property
+    def address(self):
+        """Of the handle, for another module of this package; true for as long as this lives."""
+        return <size_t>self.tree
 
 
 cdef class NativeShapes:

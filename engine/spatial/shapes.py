@@ -28,6 +28,13 @@ def triangle_tree(mesh: Mesh) -> NativeTree:
     return tree
 
 
+def faces_in_box(mesh: Mesh, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """Return the numbers of the faces whose boxes meet a box of the mesh's space."""
+    bits = np.zeros((len(mesh.faces) + 63) // 64, np.uint64)
+    triangle_tree(mesh).overlaps(low, high, bits)
+    return np.flatnonzero(np.unpackbits(bits.view(np.uint8), bitorder="little"))
+
+
 def tell(shapes: NativeShapes, number: int, obj) -> None:
     """Tell the shape of a scene's object."""
     if isinstance(obj, InstancedMesh):

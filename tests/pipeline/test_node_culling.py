@@ -174,3 +174,51 @@ def test_nodes_beyond_all_numbers_are_drawn_or_not_but_lose_no_others():
     camera = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 3), (0, 0, 0))
     frame = e3d.render(scene, camera, size=(8, 8), outputs=("object_id",))
     assert seen.id in frame.object_id
+
+
+def many_instances(random, kind):
+    """More instances than are worth a tree, in a node that is turned and moved."""
+    places = random.uniform(-6, 6, (3000, 4))
+    places[:, 3] = random.uniform(0.01, 0.2, 3000)
+    places[5, 0] = np.nan
+    if kind == "matrices":
+        turns = linalg.quaternion_to_matrix(random.normal(size=(3000, 4)))
+        poses = turns * places[:, 3, np.newaxis, np.newaxis]
+        poses[:, :3, 3], poses[:, 3] = places[:, :3], (0, 0, 0, 1)
+    else:
+        poses = places
+    colors = random.integers(50, 255, (3000, 3), np.uint8)
+    mesh = e3d.box()
+    if kind == "lines":
+        mesh = e3d.Mesh([(0, 0, 0), (1, 1, 0)], lines=[(0, 1)], points=[0])
+        colors = colors / 255.0
+    return e3d.InstancedMesh(mesh, poses, colors=colors)
+
+
+@pytest.mark.parametrize("backend", ["scalar", "auto"])
+@pytest.mark.parametrize("kind", ["matrices", "offsets", "lines"])
+def test_instances_that_do_not_show_are_left_out(kind, backend):
+    random = np.random.default_rng(8)
+    scene = e3d.Scene()
+    scene.add(e3d.uv_sphere(0.3))
+    instances = many_instances(random, kind)
+    scene.add(instances, rotation=(0.3, 0.1, 0.5, 0.8), translation=(0.2, 0, 0), scale=(1, 2, -0.5))
+    scene.add(e3d.box((0.1, 3, 0.1)))
+    outputs = ("color", "object_id", "instance_id", "triangle_id", "ndc_depth")
+    with e3d.Renderer(60, 40, backend=backend) as renderer:
+        for k in range(8):
+            eye = (3 * math.sin(k), 1, 3 * math.cos(k))
+            camera = e3d.PerspectiveCamera(0.7, znear=0.1, zfar=4), e3d.look_at(eye, (0, k, 0))
+            pictures, drawn = [], []
+            for culling in ("frustum", "none"):
+                frame = renderer.render(
+                    scene, camera, outputs=outputs, culling=culling, line_width=9, point_size=12
+                )
+                pictures.append([getattr(frame, name).tobytes() for name in outputs])
+                drawn.append(frame.stats["instances"])
+            assert pictures[0] == pictures[1]
+            assert frame.instance_id.max() > 0
+            if k == 4:  # what changes is looked at anew
+                instances.poses = instances.poses[::-1]
+        assert drawn[0] < 1500
+        assert drawn[1] == 3002

@@ -1,0 +1,155 @@
+"""Colliders against brute force: points on surfaces, sampled finely, and exact cases."""
+
+import math
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d import linalg
+from engine3d.spatial.triangles import closest_points, triangles_meet_box
+
+
+def random_scene(seed):
+    random = np.random.default_rng(seed)
+    scene = e3d.Scene()
+    ball = e3d.icosphere(0.6, 2)
+    for k in range(60):
+        parent = scene.nodes[random.integers(k)] if k % 4 == 3 else None
+        node = scene.add(
+            ball if k % 3 else None,
+            parent=parent,
+            translation=random.normal(0, 3, 3),
+            rotation=random.normal(size=4),
+            scale=random.uniform(0.3, 1.5, 3),
+        )
+        kinds = (
+            lambda: e3d.SphereCollider(0.4, (0.1, 0, 0)),
+            lambda: e3d.BoxCollider((-1, 0, 0), (1, 0.5, 0.2)),
+            lambda: e3d.MeshCollider(e3d.box()),
+            lambda: e3d.MeshCollider(),
+            lambda: e3d.BoxCollider(),
+        )
+        node.collider = kinds[k % 5 if node.object is not None else k % 3]()
+        node.visible = k % 13 > 0
+    return scene, random
+
+
+def samples(node):
+    """Points of a node's collider in the world: of its surface for meshes, else of its inside."""
+    collider, pose = node.collider, node.world_pose
+    grid = np.stack(np.meshgrid(*[np.linspace(-1, 1, 13)] * 3), -1).reshape(-1, 3)
+    if isinstance(collider, e3d.SphereCollider):
+        inside = grid[(grid * grid).sum(axis=1) <= 1]
+        radius = collider.radius * np.sqrt((pose[:3, :3] ** 2).sum(axis=0)).max()
+        return linalg.transform_points(pose, collider.center) + inside * radius
+    if isinstance(collider, e3d.MeshCollider):
+        mesh = collider.mesh or node.object
+        weights = np.array([(i, j, 12 - i - j) for i in range(13) for j in range(13 - i)]) / 12
+        corners = mesh.positions[mesh.faces].astype(np.float64)
+        return linalg.transform_points(pose, (weights @ corners).reshape(-1, 3))
+    low, high = node.object.bounds if collider.box is None else collider.box
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    corners = linalg.transform_points(pose, low + np.array(corners) * (high - low))
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return (low + high) * 0.5 + grid * (high - low) * 0.5
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_overlaps_against_samples(seed):
+    scene, random = random_scene(seed)
+    points = {node: samples(node) for node in scene.nodes if node.shown}
+    for _ in range(40):
+        center, size = random.normal(0, 3, 3), random.uniform(0.2, 1.5, 3)
+        found = set(scene.overlap_box(center - size, center + size))
+        for node, cloud in points.items():
+            inside = (np.abs(cloud - center) <= size).all(axis=1).any()
+            near = (np.abs(cloud - center) <= size + 0.35).all(axis=1).any()
+            assert not inside or node in found
+            assert near or node not in found
+        assert found <= points.keys()
+        found = set(scene.overlap_sphere(center, size[0]))
+        for node, cloud in points.items():
+            distance = np.sqrt(((cloud - center) ** 2).sum(axis=1)).min()
+            assert not distance <= size[0] or node in found
+            assert distance <= size[0] + 0.35 or node not in found
+
+
+def test_rays_are_those_of_faces():
+    scene, random = random_scene(7)
+    for node in scene.nodes:
+        node.collider = None if node.object is None else e3d.MeshCollider()
+    for _ in range(40):
+        origin, direction = random.normal(0, 8, 3), random.normal(size=3)
+        hit, expected = scene.raycast_colliders(origin, direction), scene.raycast(origin, direction)
+        assert (hit is None) == (expected is None)
+        if hit is not None:
+            assert hit.node is expected.node
+            assert hit.distance == expected.distance
+
+
+def test_rays_against_boxes_and_spheres():
+    scene = e3d.Scene()
+    box = scene.add(translation=(5, 0, 0))
+    box.collider = e3d.BoxCollider((-1, -1, -1), (1, 1, 1))
+    ball = scene.add(translation=(0, 9, 0), scale=(1, 2, 1))
+    ball.collider = e3d.SphereCollider(1.5)
+    hit = scene.raycast_colliders((0, 0, 0), (3, 0, 0))
+    assert (hit.node, hit.distance, hit.position.tolist()) == (box, 4, [4, 0, 0])
+    hit = scene.raycast_colliders((0, 0, 0), (0, 1, 0))
+    assert (hit.node, hit.distance) == (ball, 6)
+    assert scene.raycast_colliders((5.5, 0, 0), (0, 0, 1)).distance == 0
+    assert scene.raycast_colliders((0, 0, 0), (1, 0, 0), max_distance=3.9) is None
+    assert scene.raycast_colliders((0, 0, 0), (-1, 0, 0)) is None
+    assert scene.raycast_colliders((0, 1.1, 0), (1, 0, 0)) is None
+    box.rotation = linalg.quaternion_from_axis_angle((0, 0, 1), math.pi / 4)
+    hit = scene.raycast_colliders((0, 0, 0), (1, 0, 0))
+    np.testing.assert_allclose(hit.distance, 5 - math.sqrt(2))
+
+
+def test_colliders_follow_what_changes():
+    scene = e3d.Scene()
+    mesh = e3d.box()
+    node = scene.add(mesh)
+    assert scene.overlap_box((-1, -1, -1), (1, 1, 1)) == ()
+    node.collider = e3d.BoxCollider()
+    assert scene.overlap_box((0.4, 0, 0), (1, 1, 1)) == (node,)
+    node.translation = (2, 0, 0)
+    assert scene.overlap_box((0.4, 0, 0), (1, 1, 1)) == ()
+    mesh.positions = mesh.positions * 3
+    assert scene.overlap_box((0.4, 0, 0), (1, 1, 1)) == (node,)
+    node.visible = False
+    assert scene.overlap_sphere((2, 0, 0), 1) == ()
+    node.visible = True
+    assert scene.overlap_sphere((2, 0, 0), 1) == (node,)
+    scene.remove(node)
+    assert scene.overlap_sphere((2, 0, 0), 1) == ()
+
+
+def test_triangles_that_only_their_edges_keep_apart():
+    corners = np.array([[(2.2, 0, 0), (0, 2.2, 0), (2.2, 2.2, 0)]], np.float64)
+    one = np.ones(3)
+    assert not triangles_meet_box(corners, -one, one)[0]
+    assert triangles_meet_box(corners * 0.9, -one, one)[0]
+    assert closest_points(corners, np.zeros(3))[0].tolist() == [1.1, 1.1, 0]
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda s, n: setattr(n, "collider", "box"), "collider must be"),
+        (lambda s, n: setattr(n, "collider", e3d.MeshCollider()), "own mesh"),
+        (lambda s, n: setattr(n, "collider", e3d.BoxCollider()), "own mesh"),
+        (lambda s, n: e3d.BoxCollider((0, 0, 0)), "both corners"),
+        (lambda s, n: e3d.BoxCollider((1, 0, 0), (0, 1, 1)), "above"),
+        (lambda s, n: e3d.SphereCollider(0), "radius"),
+        (lambda s, n: e3d.MeshCollider(3), "mesh must be"),
+        (lambda s, n: s.overlap_box((1, 1, 1), (0, 0, 0)), "above"),
+        (lambda s, n: s.overlap_sphere((0, 0, 0), -1), "radius"),
+        (lambda s, n: s.raycast_colliders((0, 0, 0), (0, 0, 0)), "direction"),
+    ],
+)
+def test_arguments(make, message):
+    scene = e3d.Scene()
+    with pytest.raises(e3d.InvalidArgumentError, match=message):
+        make(scene, scene.add())

@@ -60,7 +60,7 @@ class DrawList:
         self._placed: tuple | None = None
         self._frustum: np.ndarray | None = None
         self._widen = 1.0
-        self._selection: np.ndarray | None = None
+        self._selected: bytes | None = None
         self._lights_listed: list | None = None
         self.changes = 0
 
@@ -167,13 +167,21 @@ class DrawList:
         if frustum is not None:
             selection = np.empty((arrays.count + 63) // 64, np.uint64)
             arrays.select(frustum, widen, selection)
-        same = selection is not None and np.array_equal(selection, self._selection)
-        if moved or not same or self._trees:
-            names = ("flags", "object", "id", "world")
-            rows = (arrays.columns[name] for name in names)
-            self.native.place(arrays.count, *rows, selection, frustum, widen)
+        selected = None if selection is None else selection.tobytes()
+        if moved or selected is None or selected != self._selected or self._trees:
+            columns = arrays.columns
+            self.native.place(
+                arrays.count,
+                columns["flags"],
+                columns["object"],
+                columns["id"],
+                columns["world"],
+                selection,
+                frustum,
+                widen,
+            )
         self.changes += moved
-        self._placed, self._selection = placed, selection
+        self._placed, self._selected = placed, selected
         self._frustum, self._widen = frustum, widen
 
     def _watch_mesh(self, mesh: Mesh) -> None:

@@ -193,7 +193,7 @@ class Node:
 
     @property
     def static(self) -> bool:
-        """Whether the node is meant to stay where it is; it may still be moved, at a price."""
+        """Whether the node is meant to stay where it is: a note for programs; it may be moved."""
         return self._arrays.get_flag(self._slot, STATIC)
 
     @static.setter

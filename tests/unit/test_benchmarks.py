@@ -88,3 +88,9 @@ def test_worlds():
     assert all(row["cpu_milliseconds"] > 0 for row in rows)
     for word in ("64 spheres", "OBJ", "256 lights, street", "the same street"):
         assert any(word in row["what"] for row in rows)
+
+
+def test_scene_graph():
+    rows = report("scene_graph.py", "--side", "4", "--rounds", "2")["rows"]
+    assert len(rows) == 7
+    assert all(row["milliseconds"] >= 0 for row in rows)

@@ -21,10 +21,16 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from city_views import above_camera, city_scene, drive, street_camera, time_frames
 from lights import resolution
 
 import engine3d as e3d
+from engine3d.benchmarking.city_views import (
+    above_camera,
+    city_scene,
+    drive,
+    street_camera,
+    time_frames,
+)
 
 SIDE, SPACING = 34, 3.0
 PARTS = ("spheres", "city", "obj", "sizes")

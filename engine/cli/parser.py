@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 
+from ..benchmarking.names import WORKLOADS
 from ..version import __version__
 from . import options, values
 
@@ -28,6 +29,7 @@ def make_parser() -> argparse.ArgumentParser:
     _add_info(commands)
     _add_convert(commands)
     _add_city(commands)
+    _add_bench(commands)
     return parser
 
 
@@ -113,6 +115,56 @@ def _add_city(commands) -> None:
     )
 
 
+def _add_bench(commands) -> None:
+    names = tuple(WORKLOADS)
+    command = commands.add_parser(
+        "bench",
+        help="measure how fast this machine draws",
+        description="Measure how fast this machine draws scenes made here, stage by stage.",
+        epilog="\n  ".join(["workloads:", *(f"{one:<15} {WORKLOADS[one]}" for one in names)]),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_bench)
+    command.add_argument(
+        "--workloads",
+        type=values.some_of(names),
+        default=list(names),
+        metavar="NAME,…",
+        help="what to draw (default: everything below)",
+    )
+    command.add_argument(
+        "--backends",
+        type=values.some_of((*options.BACKENDS, "all")),
+        default=["auto"],
+        metavar="NAME,…",
+        help="all, or some of " + ", ".join(options.BACKENDS) + " (default: auto, the fastest)",
+    )
+    command.add_argument(
+        "--threads",
+        type=values.thread_counts,
+        metavar="N,…",
+        help="numbers of threads, 0 for as many as there may be (default: 1,0)",
+    )
+    command.add_argument(
+        "--resolution", type=values.resolution, default=(1920, 1080), metavar="WxH"
+    )
+    command.add_argument(
+        "--seconds",
+        type=values.positive,
+        default=45.0,
+        metavar="N",
+        help="about how long to take in all; few slow frames may take longer (default: 45)",
+    )
+    command.add_argument(
+        "--against",
+        choices=("llvmpipe",),
+        help="draw the plain picture in turns with Mesa's llvmpipe; needs engine3d[bench] and Mesa",
+    )
+    command.add_argument("--json", metavar="FILE", help="write the figures; - for standard output")
+    command.add_argument("--plot", metavar="FILE", help="draw a chart: SVG, PNG, JPEG or WebP")
+
+
 def _load_run():
     from .run import run
 
@@ -141,6 +193,12 @@ def _load_city():
     from .city import city
 
     return city
+
+
+def _load_bench():
+    from .bench import bench
+
+    return bench
 
 
 class _ListReaders(argparse.Action):

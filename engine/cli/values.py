@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import math
 import re
+from collections.abc import Callable, Sequence
 
 UPS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 MAX_SIDE = 16384
@@ -69,6 +70,24 @@ def integer(text: str) -> int:
 def thread_count(text: str) -> int:
     """Parse a number of threads, 0 for as many as the process may use."""
     return 0 if text == "0" else count(text)
+
+
+def thread_counts(text: str) -> list[int]:
+    """Parse numbers of threads with commas between them."""
+    return [thread_count(part) for part in text.split(",")]
+
+
+def some_of(names: Sequence[str]) -> Callable[[str], list[str]]:
+    """Return a function that parses some of the names, with commas between them."""
+
+    def parse(text: str) -> list[str]:
+        chosen = text.split(",")
+        for name in chosen:
+            if name not in names:
+                raise argparse.ArgumentTypeError(f"{name!r} is not one of {', '.join(names)}")
+        return chosen
+
+    return parse
 
 
 def vector(text: str) -> tuple[float, float, float]:

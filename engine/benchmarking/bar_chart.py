@@ -4,9 +4,15 @@ In:  rows of (label, one value for each series or None), names of the series.
 Out: a file; its suffix says whether it is SVG text or an image.
 """
 
-from pathlib import Path
+from __future__ import annotations
+
+import io
+import os
 from xml.sax.saxutils import escape
 
+from ..atomic_write import atomic_write
+
+_FORMATS = {".png": "PNG", ".jpg": "JPEG", ".webp": "WEBP"}
 COLORS = [(122, 132, 150), (214, 170, 60), (78, 160, 214), (64, 176, 120), (200, 90, 120)]
 INK, GRID, PAPER = (40, 44, 52), (214, 218, 224), (255, 255, 255)
 BAR, GAP, LEFT, TOP, PLOT, RIGHT = 12, 12, 236, 46, 480, 60
@@ -67,7 +73,7 @@ def as_svg(chart):
 
 
 def as_canvas(chart):
-    from engine3d import Canvas
+    from ..canvas import Canvas
 
     canvas = Canvas(chart.width, chart.height)
     for x, y, width, height, color in chart.rectangles:
@@ -78,9 +84,14 @@ def as_canvas(chart):
 
 
 def save(path, title, rows, series):
-    """Write the chart of rows [(label, values)] to a file."""
+    """Write the chart of rows [(label, values)] to a file, whole or not at all."""
     chart = lay_out(title, rows, series)
-    if Path(path).suffix.lower() == ".svg":
-        Path(path).write_text(as_svg(chart), "utf-8")
+    suffix = os.path.splitext(path)[1].lower()
+    if suffix == ".svg":
+        data = as_svg(chart).encode()
     else:
-        as_canvas(chart).image().convert("RGB").save(path)
+        buffer = io.BytesIO()
+        as_canvas(chart).image().convert("RGB").save(buffer, _FORMATS[suffix])
+        data = buffer.getvalue()
+    with atomic_write(path) as file:
+        file.write(data)

@@ -5,12 +5,17 @@ Out: scenes with as many lights as asked for, a walk along the same street in a 
      view from above; CPU and wall-clock milliseconds a frame, the medians of several.
 """
 
+from __future__ import annotations
+
 import statistics
 import time
 
 import numpy as np
 
-import engine3d as e3d
+from ..cameras import PerspectiveCamera
+from ..lights import DirectionalLight, PointLight
+from ..linalg import look_at
+from ..scene import Scene
 
 #: Where the walk begins: eyes over the pavement of the street in the middle, looking along it.
 START, TARGET = (6.2, 1.85, 60.0), (0.0, 5.0, -60.0)
@@ -24,9 +29,9 @@ def city_scene(world, lights=256, reach=17.0, moving=32):
     The first `moving` lights drive along the street, the others hang in the lamps that are nearest
     to the walk. With more lights than lamps the others float over the roofs.
     """
-    scene = e3d.Scene((78, 96, 138), ambient=(0.11, 0.13, 0.20))
+    scene = Scene((78, 96, 138), ambient=(0.11, 0.13, 0.20))
     world.add_to(scene)
-    scene.add(e3d.DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.42))
+    scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.42))
     moving = min(moving, lights // 4)
     offsets = world.lamps - np.array(START)
     lamps = world.lamps[np.argsort((offsets * offsets).sum(axis=1), kind="stable")]
@@ -36,8 +41,8 @@ def city_scene(world, lights=256, reach=17.0, moving=32):
     if np.isfinite(reach):
         settings.update(range=reach, falloff="window")
     for place in places[: lights - moving]:
-        scene.add(e3d.PointLight(**settings), translation=place)
-    cars = [scene.add(e3d.PointLight(**settings)) for _ in range(moving)]
+        scene.add(PointLight(**settings), translation=place)
+    cars = [scene.add(PointLight(**settings)) for _ in range(moving)]
     drive(cars, 0)
     return scene, cars
 
@@ -52,15 +57,15 @@ def drive(cars, frame):
 def street_camera(frame):
     """The view at street level, a step farther each frame."""
     eye = (START[0], START[1], START[2] - STEP * frame)
-    camera = e3d.PerspectiveCamera(yfov=1.0, znear=0.1, zfar=4000.0)
-    return camera, e3d.look_at(eye, TARGET)
+    camera = PerspectiveCamera(yfov=1.0, znear=0.1, zfar=4000.0)
+    return camera, look_at(eye, TARGET)
 
 
 def above_camera(frame):
     """The view from above, a little farther each frame."""
     eye = (ABOVE[0] - STEP * frame, ABOVE[1], ABOVE[2])
-    camera = e3d.PerspectiveCamera(yfov=0.9, znear=5.0, zfar=6000.0)
-    return camera, e3d.look_at(eye, ABOVE_TARGET)
+    camera = PerspectiveCamera(yfov=0.9, znear=5.0, zfar=6000.0)
+    return camera, look_at(eye, ABOVE_TARGET)
 
 
 def time_frames(renderer, scene, camera, frames, before=lambda frame: None, **options):

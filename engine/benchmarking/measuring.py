@@ -1,0 +1,201 @@
+"""Timing frames: one renderer at a time, or a renderer and a peer in turns.
+
+In:  a workload, a renderer, seconds to spend.
+Out: a row of figures: medians over the frames, whatever else the machine did in some of them.
+
+The time of a frame is what a caller waits for a finished array. Frames before it warm up.
+"""
+
+from __future__ import annotations
+
+import statistics
+import time
+
+import numpy as np
+
+from ..colors import linear_color
+from ..renderer import Renderer
+from .workloads import Workload
+
+#: Milliseconds: after a frame as slow, one more is the result.
+SLOW = 1500.0
+LEAST, MOST = 3, 300
+ROUNDS = 5
+STAGES = ("ms_geometry", "ms_raster", "ms_shade", "ms_resolve", "ms_total")
+
+
+class Drawing:
+    """Draws frame after frame of a workload.
+
+    Parameters
+    ----------
+    workload : Workload
+    size : (int, int)
+    backend, threads
+        As for `Renderer`.
+    options
+        Beside those of the workload, for `Renderer.render`.
+    """
+
+    def __init__(self, workload: Workload, size, backend="auto", threads=0, **options) -> None:
+        self.workload = workload
+        self.renderer = Renderer(
+            *size, backend=backend, threads=threads, color_space=workload.color_space
+        )
+        self._options = {**workload.options, **options}
+
+    def draw(self, frame: int) -> np.ndarray:
+        """Draw a frame and return its output."""
+        workload = self.workload
+        drawn = self.renderer.render(workload.scene, workload.view(frame), **self._options)
+        self.stats = drawn.stats
+        return getattr(drawn, workload.output)
+
+    def close(self) -> None:
+        self.renderer.close()
+
+
+class Timer:
+    """Times the frames of what has a method ``draw(frame)``.
+
+    Attributes
+    ----------
+    milliseconds : list of float
+        Of each frame timed.
+    stages : list of dict
+        The statistics of each, where there are any.
+    picture : array
+        The last that was drawn.
+    """
+
+    def __init__(self, drawing) -> None:
+        self._drawing = drawing
+        self._frame = 0
+        self.milliseconds: list[float] = []
+        self.stages: list[dict] = []
+
+    def one(self) -> float:
+        """Draw a frame; return its milliseconds."""
+        self._frame += 1
+        start = time.perf_counter()
+        picture = self._drawing.draw(self._frame)
+        taken = 1e3 * (time.perf_counter() - start)
+        self.picture = picture  # the one before is let go only now, as callers do
+        return taken
+
+    def warm_up(self) -> bool:
+        """Draw the first frame; return whether the next one is the result, because it was slow."""
+        slow = self.one() > SLOW
+        if slow:
+            self._keep(self.one())
+        else:
+            self.one()
+        return slow
+
+    def run(self, seconds: float, least: int = LEAST) -> float:
+        """Time frames for a while; return the median of these."""
+        begun, deadline = len(self.milliseconds), time.perf_counter() + seconds
+        count = 0
+        while count < least or (time.perf_counter() < deadline and count < MOST):
+            self._keep(self.one())
+            count += 1
+        return statistics.median(self.milliseconds[begun:])
+
+    def _keep(self, milliseconds: float) -> None:
+        self.milliseconds.append(milliseconds)
+        self.stages.append(getattr(self._drawing, "stats", None) or {})
+
+    @property
+    def median(self) -> float:
+        return statistics.median(self.milliseconds)
+
+
+def measure(workload: Workload, size, backend="auto", threads=0, seconds: float = 1.0) -> dict:
+    """Return the figures of a workload on one backend and number of threads.
+
+    Returns
+    -------
+    dict
+        ``workload``, ``backend``, ``threads``, ``frames``, ``milliseconds`` a frame, those of the
+        stages (``ms_geometry`` …), ``triangles_per_second``, ``pixels_per_second``.
+    """
+    drawing = Drawing(workload, size, backend, threads)
+    try:
+        timer = Timer(drawing)
+        if not timer.warm_up():
+            timer.run(seconds)
+    finally:
+        drawing.close()
+    return _row(workload, size, timer)
+
+
+def compare(workload: Workload, size, peer, backend="auto", threads=0, seconds=2.0) -> dict:
+    """Return the figures of a workload beside those of a peer, which take turns.
+
+    Parameters
+    ----------
+    peer
+        Has ``name``; ``draw(frame)``, which returns an array; ``as_output(array)``, which makes
+        of it what the workload's output would be.
+
+    Returns
+    -------
+    dict
+        As of `measure`, with ``peer``: its ``name``, ``frames``, ``milliseconds``, ``picture``;
+        ``times_as_fast``, the median over rounds; ``picture``: what `describe` returns.
+    """
+    drawing = Drawing(workload, size, backend, threads)
+    try:
+        ours, theirs = Timer(drawing), Timer(peer)
+        slow = [timer.warm_up() for timer in (ours, theirs)]
+        pictures = [ours.picture, peer.as_output(theirs.picture)]
+        pictures = [describe(picture, workload) for picture in pictures]
+        if any(slow):
+            for timer in (ours, theirs):
+                if not timer.milliseconds:
+                    timer.run(0.0)
+            ratios = [theirs.median / ours.median]
+        else:
+            share = seconds / ROUNDS / 2
+            ratios = [theirs.run(share, 1) / ours.run(share, 1) for _ in range(ROUNDS)]
+    finally:
+        drawing.close()
+    row = _row(workload, size, ours)
+    row["picture"] = pictures[0]
+    row["peer"] = {
+        "name": peer.name,
+        "frames": len(theirs.milliseconds),
+        "milliseconds": theirs.median,
+        "picture": pictures[1],
+    }
+    row["times_as_fast"] = statistics.median(ratios)
+    return row
+
+
+def describe(picture: np.ndarray, workload: Workload) -> dict:
+    """Return the share of a picture that is covered, and the mean of its channels."""
+    if picture.ndim == 3:
+        background = 255 * linear_color(workload.scene.background, "linear") + 0.5
+        colors = picture[:, :, :3].astype(np.int16)
+        covered = (np.abs(colors - background.astype(np.int16)) > 1).any(axis=2)
+        mean = colors.mean(axis=(0, 1))
+    else:
+        covered = np.isfinite(picture) if picture.dtype.kind == "f" else picture >= 0
+        mean = picture[covered].mean(keepdims=True) if covered.any() else np.zeros(1)
+    return {"covered": float(covered.mean()), "mean": [float(value) for value in mean]}
+
+
+def _row(workload: Workload, size, timer: Timer) -> dict:
+    stages = {name: statistics.median(one[name] for one in timer.stages) for name in STAGES}
+    last, taken = timer.stages[-1], timer.median
+    return {
+        "workload": workload.name,
+        "backend": last["backend"],
+        "threads": last["threads"],
+        "frames": len(timer.milliseconds),
+        "milliseconds": taken,
+        **stages,
+        "triangles": workload.triangles,
+        "triangles_per_second": 1e3 * workload.triangles / taken,
+        "pixels_per_second": 1e3 * size[0] * size[1] / taken,
+    }

@@ -79,6 +79,7 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     free(renderer->workers);
     e3d_array_free(&renderer->draws);
     e3d_array *arrays[] = {&renderer->instances, &renderer->reach, &renderer->tasks, &renderer->items, &renderer->seen,
+                           &renderer->seen_before, &renderer->rows, &renderer->rows_before,
                            &renderer->tile_depths};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         e3d_array_free(arrays[i]);

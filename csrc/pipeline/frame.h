@@ -173,6 +173,13 @@ typedef struct e3d_named {
     int32_t id, slot;
 } e3d_named;
 
+/* A draw of a frame, as the next frame finds it again. */
+typedef struct e3d_memory_row {
+    const e3d_mesh *mesh;
+    int64_t base; /* of its groups */
+    int32_t node, first, instances, groups;
+} e3d_memory_row;
+
 struct e3d_renderer {
     e3d_backend backend;
     int32_t threads;
@@ -181,6 +188,8 @@ struct e3d_renderer {
     e3d_array draws, instances;
     e3d_array reach;            /* float, of e3d_lighting */
     e3d_array tasks, items;     /* e3d_item, near ones first */
+    e3d_array rows, rows_before; /* e3d_memory_row of each draw: what `seen` and `seen_before` are of */
+    e3d_array seen_before;
     e3d_array seen;             /* uint8_t for each group of the frame: bit k tells whether the last frame showed cluster k */
     e3d_array tile_depths;      /* e3d_tile_depths */
     e3d_visible_tile *kept;     /* over the rounds of a frame */
@@ -267,6 +276,7 @@ int e3d_occlusion_pays(const e3d_context *context);
 /* After a frame of several rounds: the next ones go without where little was occluded. */
 void e3d_occlusion_judge(e3d_context *context, int64_t clusters);
 int e3d_occlusion_begin(e3d_context *context);
+/* Finds what the last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
 int e3d_remember(e3d_context *context);
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
 void e3d_draw_kept_tiles(e3d_context *context);

@@ -169,16 +169,67 @@ void e3d_draw_kept_tiles(e3d_context *context)
 
 /* ---- what the last frame showed ---- */
 
-/* Whether the renderer remembers a frame of as many groups; else it begins anew. -1 when memory is out. */
+static e3d_memory_row row_of(const e3d_draw_state *state)
+{
+    const e3d_draw *draw = state->draw;
+    return (e3d_memory_row){state->mesh, state->group_base, draw->node_id, draw->first_instance, draw->instances,
+                            state->mesh->group_count};
+}
+
+/* Takes over what both frames know of the instances of one draw; how many groups that is. */
+static int64_t take_over(const e3d_memory_row *from, const uint8_t *old, const e3d_memory_row *to, uint8_t *seen)
+{
+    int32_t first = from->first > to->first ? from->first : to->first;
+    int32_t from_end = from->first + from->instances, to_end = to->first + to->instances;
+    int32_t end = from_end < to_end ? from_end : to_end;
+    if (from->mesh != to->mesh || from->groups != to->groups || first >= end)
+        return 0;
+    int64_t count = (int64_t)(end - first) * to->groups;
+    memcpy(seen + to->base + (int64_t)(first - to->first) * to->groups,
+           old + from->base + (int64_t)(first - from->first) * to->groups, (size_t)count);
+    return count;
+}
+
+/* Both lists rise by node, and in a node by instance, as far as they can be matched. */
+static int64_t match_rows(e3d_renderer *renderer, size_t old_count, const e3d_memory_row *rows, size_t count)
+{
+    const e3d_memory_row *old = renderer->rows_before.data;
+    int64_t known = 0;
+    size_t at = 0;
+    for (size_t d = 0; d < count; d++) {
+        while (at < old_count && (old[at].node < rows[d].node ||
+                                  (old[at].node == rows[d].node && old[at].first + old[at].instances <= rows[d].first)))
+            at++;
+        for (size_t j = at; j < old_count && old[j].node == rows[d].node &&
+                            old[j].first < rows[d].first + rows[d].instances; j++)
+            known += take_over(&old[j], renderer->seen_before.data, &rows[d], renderer->seen.data);
+    }
+    return known;
+}
+
+static void exchange(e3d_array *a, e3d_array *b)
+{
+    e3d_array kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
 int e3d_remember(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
-    int same = renderer->seen.count == (size_t)context->groups && context->groups;
-    if (!e3d_array_reserve(&renderer->seen, (size_t)context->groups + 1, 1))
+    size_t count = (size_t)context->frame->draw_count, groups = (size_t)context->groups;
+    exchange(&renderer->rows, &renderer->rows_before);
+    exchange(&renderer->seen, &renderer->seen_before);
+    size_t old_count = renderer->rows_before.count;
+    renderer->rows.count = 0; /* until it is whole */
+    if (!e3d_array_reserve(&renderer->rows, count + 1, sizeof(e3d_memory_row)) ||
+        !e3d_array_reserve(&renderer->seen, groups + 1, 1))
         return -1;
-    if (!same)
-        memset(renderer->seen.data, 0, (size_t)context->groups);
-    renderer->seen.count = (size_t)context->groups;
+    e3d_memory_row *rows = renderer->rows.data;
+    for (size_t d = 0; d < count; d++)
+        rows[d] = row_of(&context->draws[d]);
+    memset(renderer->seen.data, 0, groups);
+    renderer->rows.count = count;
     context->seen = renderer->seen.data;
-    return same;
+    return 2 * match_rows(renderer, old_count, rows, count) > context->groups;
 }

@@ -67,7 +67,7 @@ def random_tile(rng, kind):
 def depth_plane(rng, piece):
     """Random planes: steep, constant, equal to others, and with the worst finite numbers."""
     steepness = rng.choice([0.0, 1e-4, 0.02, 1.0])
-    piece["z0"], low, high = rng.choice([-1.0, 0.25, 0.5, 1.0, rng.uniform(-1, 1.2)], 3)
+    piece["z0"], low, high = rng.choice([-1.0, -0.0, 0.0, 0.5, 1.0, rng.uniform(-1, 1.2)], 3)
     piece["gx"], piece["gy"] = rng.uniform(-steepness, steepness, 2)
     piece["zmin"], piece["zmax"] = min(low, high), max(low, high)
     if rng.random() < 0.1:
@@ -115,7 +115,7 @@ def expect_depth(piece, covered, new, z, slot, orders):
     first = (slot >= 0) & (int(piece["order"][0]) < taken)
     wins = covered & (new < z)
     ties = covered & (new == z) & first
-    z[wins] = new[wins]
+    z[wins | ties] = new[wins | ties]  # of two zeros, the sign
     slot[wins | ties] = piece["slot"][0]
 
 

@@ -38,10 +38,15 @@ static inline uint32_t raster_ties(uint32_t equal, const int32_t *slot, const e3
     return won;
 }
 
-static inline void raster_take_ties(uint32_t won, int32_t *slot, const e3d_piece *piece)
+static inline void raster_take_ties(uint32_t won, vf32 z, float *depth, int32_t *slot, const e3d_piece *piece)
 {
-    for (; won; won &= won - 1) /* the depth is already the same */
-        slot[__builtin_ctz(won)] = (int32_t)piece->slot;
+    float lanes[V_LANES];
+    v_storef(lanes, z);
+    for (; won; won &= won - 1) { /* of two zeros, the depth takes the sign */
+        int lane = __builtin_ctz(won);
+        depth[lane] = lanes[lane];
+        slot[lane] = (int32_t)piece->slot;
+    }
 }
 
 /* One vector of samples: `inside` of them are covered. */
@@ -64,7 +69,7 @@ static inline void raster_write(int use, vmask inside, vf32 z, int at, const ras
         v_storef(depth, v_self(pass, z, old));
         v_storei(slot, v_seli(pass, c->slot, before));
         if (equal)
-            raster_take_ties(raster_ties(equal, slot, piece, tile), slot, piece);
+            raster_take_ties(raster_ties(equal, slot, piece, tile), z, depth, slot, piece);
     } else {
         if (use == RASTER_OVERWRITE)
             v_storef(depth, v_self(pass, z, old));

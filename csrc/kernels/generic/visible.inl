@@ -50,13 +50,18 @@ static inline int visible_comes_first(const e3d_record *r, int32_t kept, const e
     return kept >= 0 && r->order < visible_record(table, (uint32_t)kept)->order;
 }
 
-static inline void visible_ties(uint32_t equal, int32_t *kept, const e3d_record *r, int32_t id,
+/* Lanes of equal depth; of two zeros the depth takes the sign, too. */
+static inline void visible_ties(uint32_t equal, vf32 z, float *depth, int32_t *kept, const e3d_record *r, int32_t id,
                                 const e3d_record_table *table)
 {
+    float lanes[V_LANES];
+    v_storef(lanes, z);
     for (; equal; equal &= equal - 1) {
         int lane = __builtin_ctz(equal);
-        if (visible_comes_first(r, kept[lane], table))
-            kept[lane] = id;
+        if (!visible_comes_first(r, kept[lane], table))
+            continue;
+        depth[lane] = lanes[lane];
+        kept[lane] = id;
     }
 }
 
@@ -74,7 +79,7 @@ static inline void visible_write(vmask inside, vf32 z, int at, const e3d_record 
         v_storei(kept, v_seli(pass, v_seti(id), v_loadi(kept)));
     }
     if (equal)
-        visible_ties(equal, kept, r, id, table);
+        visible_ties(equal, z, depth, kept, r, id, table);
 }
 
 /* ---- blocks ---- */
@@ -329,6 +334,7 @@ static inline void visible_tiny(const e3d_record *r, int32_t id, e3d_visible_til
             tile->zmin[block] = tile->zmin[block] < z ? tile->zmin[block] : z;
             tile->stale |= 1ull << block;
         } else if (z == tile->z[at] && visible_comes_first(r, tile->id[at], table)) {
+            tile->z[at] = z;
             tile->id[at] = id;
         }
     }

@@ -2,7 +2,7 @@
  *
  * Facing is the sign of the area between snapped corners (R9), so a cluster goes only where snapping cannot turn any of its
  * triangles. With M the linear part of the clip matrix's rows x, y, w and e the eye (where all three vanish),
- *     area on the screen = 256 half_w * 256 half_h / 2^2 * det(M) * 2 area * n.(p - e) / (w0 w1 w2),
+ *     twice the area on the screen = 256 half_w * 256 half_h * det(M) * 2 area * n.(p - e) / (w0 w1 w2),
  * while corners that move by up to d on each axis change it by at most 4 d (|edge_x| + |edge_y|) + 8 d^2 for the longest edge.
  * Cones after Shirmun and Abi-Ezzi (1993).
  */
@@ -17,7 +17,10 @@ static double determinant(const float *x, const float *y, const float *w)
            (double)x[2] * ((double)y[0] * w[1] - (double)y[1] * w[0]);
 }
 
-static float length_of(const float v[3]) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+static float length_of(const float v[3])
+{
+    return (float)sqrt((double)v[0] * v[0] + (double)v[1] * v[1] + (double)v[2] * v[2]);
+}
 
 static float row_at(const float *row, const float p[3])
 {
@@ -42,7 +45,7 @@ void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_
         out->eye[k] = (float)(determinant(a[0], a[1], a[2]) / det);
     }
     out->sign = det < 0 ? 1 : -1; /* the screen's Y is down */
-    out->scale = (float)fabs(det) * viewport->scale_x * viewport->scale_y;
+    out->scale = fabs(det) * viewport->scale_x * viewport->scale_y;
     out->length[0] = length_of(x);
     out->length[1] = length_of(y);
     out->length[2] = length_of(w);
@@ -64,6 +67,9 @@ static float distance_of(const e3d_cluster *c, const float centre[3], float radi
            (1e-5f * sqrtf(square) + 1e-6f * places);
 }
 
+/* Clip coordinates of at most so many w are within the guard band, and within twice the picture. */
+static float within(float guard) { return guard > 2 ? 2 : 0.999f * guard; }
+
 int e3d_faces_away(const e3d_viewport *viewport, const e3d_facing *f, const float clip[16], const e3d_cluster *c,
                    int drop)
 {
@@ -78,22 +84,23 @@ int e3d_faces_away(const e3d_viewport *viewport, const e3d_facing *f, const floa
     float distance = distance_of(c, centre, radius, f->eye, (float)(f->sign * drop));
     if (!(distance > 0))
         return 0;
-    float w = row_at(clip + 12, centre), spread = f->length[2] * radius, least = w - 1.001f * spread;
-    float most = w + 1.001f * spread, x = fabsf(row_at(clip, centre)) + f->length[0] * radius;
-    float y = fabsf(row_at(clip + 4, centre)) + f->length[1] * radius;
-    float z = row_at(clip + 8, centre) - f->length[3] * radius;
-    /* Nothing is clipped: neither near plane nor guard band, which are far from twice the picture. */
-    if (!(least > 0x1p-10f * most) || !(x < 2 * least) || !(y < 2 * least) || !(z > -0.999f * least))
-        return 0;
-    float terms = c->altitude; /* what rounding of clip coordinates may come to, in units of w */
+    float terms = c->altitude, longest = f->length[0] + f->length[1] + 3 * f->length[2] + f->length[3];
     for (int k = 0; k < 3; k++)
         terms += fabsf(centre[k]) + half[k];
-    float longest = f->length[0] + f->length[1] + 3 * f->length[2];
-    float offset = fabsf(clip[3]) + fabsf(clip[7]) + 3 * fabsf(clip[15]);
+    float offset = fabsf(clip[3]) + fabsf(clip[7]) + fabsf(clip[11]) + 3 * fabsf(clip[15]);
+    float slack = 0x1p-20f * (terms * longest + offset); /* what rounding of clip coordinates may come to */
+    float w = row_at(clip + 12, centre), spread = 1.001f * f->length[2] * radius + slack;
+    float least = w - spread, most = w + spread, x = fabsf(row_at(clip, centre)) + f->length[0] * radius + slack;
+    float y = fabsf(row_at(clip + 4, centre)) + f->length[1] * radius + slack;
+    float z = row_at(clip + 8, centre) - f->length[3] * radius - slack;
+    /* Nothing is clipped (R7), and all is within twice the picture. */
+    if (!(least > E3D_W_MIN) || !(least > 0x1p-10f * most) || !(x < within(viewport->guard_x) * least) ||
+        !(y < within(viewport->guard_y) * least) || !(z > -0.999f * least))
+        return 0;
     float larger = viewport->scale_x > viewport->scale_y ? viewport->scale_x : viewport->scale_y;
-    float moved = 0.6f + larger * 0x1p-20f * (2 + (terms * longest + offset) / least);
+    float moved = 0.6f + larger * (0x1p-19f + slack / least);
     float edges = viewport->scale_x * (f->length[0] + 2 * f->length[2]) +
                   viewport->scale_y * (f->length[1] + 2 * f->length[2]);
-    float area = c->altitude * distance * f->scale / (most * most * most);
+    double area = c->altitude * (double)distance * f->scale / ((double)most * most * most); /* float may overflow */
     return area > 1.01f * (4 * moved * edges / least + 8 * moved * moved / c->altitude);
 }

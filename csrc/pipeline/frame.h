@@ -29,7 +29,7 @@ static inline int64_t e3d_now_ns(void)
 typedef struct e3d_facing {
     float eye[3];    /* object space */
     int32_t sign;    /* of the screen's area where n.(p - eye) is positive; 0: cannot be told */
-    float scale;     /* of areas */
+    double scale;    /* of areas */
     float length[4]; /* of the clip matrix's rows x, y, w, z, without translation */
 } e3d_facing;
 

@@ -79,3 +79,123 @@ def test_culling_camera_leaves_out_what_is_not_in_its_frustum():
         frozen = renderer.render(scene, above, outputs=("object_id",), culling_camera=ahead)
     assert len(np.unique(everything)) == 3
     assert np.array_equal(frozen.object_id, np.where(everything == seen.id, seen.id, -1))
+
+
+# ---- clusters that face away ----
+
+
+def compare(renderer, scene, view, **options):
+    """All ways to cull give the same bytes; returns how many clusters are left out one by one."""
+    frames = {}
+    for culling in ("none", "frustum", "all", "always", "always"):
+        frame = renderer.render(scene, view, outputs=OUTPUTS, culling=culling, **options)
+        frames[culling] = [getattr(frame, name).tobytes() for name in OUTPUTS], frame.stats
+        assert frames[culling][0] == frames["none"][0], culling
+    return frames["frustum"][1]["clusters_culled"]
+
+
+def random_rotation(rng):
+    quaternion = rng.normal(size=4)
+    return np.asarray(e3d.linalg.quaternion_to_matrix(quaternion))[:3, :3]
+
+
+def relief(rng, side, height):
+    """A square of two units with bumps: open, so that nothing hides the faces that look away."""
+    x, y = np.meshgrid(*[np.linspace(-1, 1, side)] * 2)
+    at = np.arange(side * side).reshape(side, side)
+    a, b, c, d = at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]
+    faces = np.concatenate([np.stack(t, -1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
+    return e3d.Mesh(np.stack([x, y, rng.normal(0, height, x.shape)], -1).reshape(-1, 3), faces)
+
+
+def cloud(rng, unit, centre):
+    """Spheres and reliefs of all sizes from less than a sample on, turned, stretched, mirrored."""
+    scene = e3d.Scene()
+    at = np.eye(4)
+    at[:3, 3] = centre
+    for mesh in (e3d.uv_sphere(1.0, (24, 16)), relief(rng, 20, 0.02), relief(rng, 9, 0.5)):
+        poses = np.tile(np.eye(4), (40, 1, 1))
+        for pose in poses:
+            sizes = unit * 10 ** rng.uniform(-3.5, 0) * rng.uniform(0.2, 1, 3)
+            pose[:3, :3] = random_rotation(rng) * (sizes * rng.choice([-1, 1], 3))
+            pose[:3, 3] = unit * rng.normal(0, 1.5, 3)
+        scene.add(e3d.InstancedMesh(mesh, poses.astype(np.float32)), pose=at)
+    two = [e3d.Material(color=(1, 0, 0), two_sided=True), e3d.Material()]
+    side = relief(rng, 20, 0.1)
+    side = e3d.Mesh(
+        side.positions, side.faces, materials=two, material_ids=np.arange(len(side.faces)) % 2
+    )
+    scene.add(side, translation=centre, scale=unit)
+    return scene
+
+
+def cameras(unit, width, height):
+    yield e3d.PerspectiveCamera(yfov=0.9, znear=0.01 * unit, zfar=100 * unit)
+    yield e3d.PerspectiveCamera(yfov=2.6, znear=1.5 * unit, zfar=9 * unit)  # cuts much
+    yield e3d.OrthographicCamera(ymag=2 * unit, znear=0.01 * unit, zfar=100 * unit)
+    yield e3d.IntrinsicsCamera(
+        fx=3 * width,
+        fy=0.4 * height,
+        cx=-0.3 * width,
+        cy=1.2 * height,
+        znear=0.1 * unit,
+        zfar=99 * unit,
+    )
+
+
+@pytest.mark.parametrize("cull", ["back", "front", "none"])
+@pytest.mark.parametrize(("unit", "far"), [(1, 0), (1, 1e6), (1e-6, 0), (1e4, 3)])
+def test_facing_changes_no_byte(cull, unit, far):
+    rng = np.random.default_rng(int(unit) + int(far))
+    centre = np.array([1, -0.5, 0.25]) * far
+    scene, culled = cloud(rng, unit, centre), 0
+    for number, (width, height) in enumerate([(64, 48), (131, 97), (256, 192)]):
+        with e3d.Renderer(width, height, threads=1 + number % 2) as renderer:
+            for camera in cameras(unit, width, height):
+                eye = centre + unit * rng.normal(0, 1, 3) * rng.choice([0.5, 4])
+                pose = e3d.look_at(eye, centre, (0, 1, 0.1))
+                culled += compare(renderer, scene, (camera, pose), cull=cull)
+    assert culled > 0
+
+
+def test_what_faces_away_is_left_out():
+    """About half of a large sphere in view; none where both sides show."""
+    scene = e3d.Scene()
+    scene.add(e3d.uv_sphere(1.0, (96, 64)))
+    view = e3d.PerspectiveCamera(yfov=0.6), e3d.look_at((0, 0, 4), (0, 0, 0), (0, 1, 0))
+    with e3d.Renderer(640, 480) as renderer:
+        both = renderer.render(scene, view, cull="none").stats
+        for cull in ("back", "front"):
+            stats = renderer.render(scene, view, cull=cull).stats
+            assert both["clusters_culled"] == 0
+            assert 0.1 < stats["clusters_culled"] / stats["clusters"] < 0.5
+
+
+def slivers(rng, size):
+    """A strip of long triangles about as thin as what snapping moves, in units of 1/size."""
+    count = int(rng.integers(33, 500))
+    x = np.arange(count + 1) + rng.uniform(-0.3, 0.3, count + 1)
+    x = x * 10 ** rng.uniform(-2.5, -0.5) * 0.03  # a sample is 0.03 wide
+    corners = np.concatenate([np.stack([x, np.full_like(x, y), 0 * x], -1) for y in (-1, 1)])
+    a, b = np.arange(count), np.arange(count) + count + 1
+    faces = np.concatenate([np.stack([a, a + 1, b + 1], -1), np.stack([a, b + 1, b], -1)])
+    return e3d.Mesh((corners / size).astype(np.float32), faces)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e13])
+def test_slivers_that_snapping_turns(size):
+    """In tiny coordinates, too, with poses that make them large: products that float32 lacks."""
+    view = e3d.PerspectiveCamera(yfov=0.9), e3d.look_at((0, 0, 6), (0, 0, 0), (0, 1, 0))
+    culled = 0
+    with e3d.Renderer(256, 192, threads=1) as renderer:
+        for seed in range(30):
+            rng = np.random.default_rng(seed)
+            poses = np.tile(np.eye(4), (20, 1, 1))
+            for pose in poses:
+                pose[:3, :3] = random_rotation(rng) * size * rng.uniform(0.1, 1)
+                pose[:3, 3] = rng.normal(0, 1.2, 3)
+            scene = e3d.Scene()
+            scene.add(e3d.InstancedMesh(slivers(rng, size), poses.astype(np.float32)))
+            for cull in ("back", "front"):
+                culled += compare(renderer, scene, view, cull=cull)
+    assert culled > 0

@@ -239,7 +239,7 @@ typedef struct e3d_kernels {
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
     /* color = (color * energy + specular * shine) + emissive; specular may be NULL */
     void (*combine)(e3d_batch *batch, const float specular[3], const float emissive[3]);
-    /* Planes of colours, already clamped to [0, 1], to RGBA8 with alpha 255. */
+    /* Planes of colours, which are clamped to [0, 1], to RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);
 } e3d_kernels;

@@ -355,7 +355,7 @@ int32_t e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t 
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
 int32_t e3d_face_of(const e3d_visible_piece *piece);
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
-/* batch->color, clamped, is that of its samples. */
+/* batch->color is that of its samples. */
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
 /* The batch's samples show the background again: forward shading may have drawn there before. */
 void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);

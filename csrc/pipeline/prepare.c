@@ -201,10 +201,8 @@ static uint32_t encode_one(const e3d_context *context, const float color[3], flo
 {
     float planes[3][1 + E3D_PAD] = {{0}};
     uint32_t rgba[1 + E3D_PAD];
-    for (int k = 0; k < 3; k++) {
-        float v = color[k] > 0.0f ? color[k] : 0.0f;
-        planes[k][0] = v < 1.0f ? v : 1.0f;
-    }
+    for (int k = 0; k < 3; k++)
+        planes[k][0] = color[k];
     context->kernels->encode(planes[0], planes[1], planes[2], 1, context->srgb, rgba);
     return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
 }

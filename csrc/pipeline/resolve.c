@@ -64,7 +64,7 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
     for (int i = 0; i < batch->count; i++) {
         memory->rgba[batch->sample[i]] = 1;
         for (int k = 0; k < 3; k++)
-            memory->color[k][batch->sample[i]] = batch->color[k][i];
+            memory->color[k][batch->sample[i]] = unit(batch->color[k][i]);
     }
 }
 
@@ -138,7 +138,7 @@ static void resolve_samples(const e3d_context *context, e3d_worker *worker, cons
             float mean[3];
             alpha[x] = average(context, memory, (y * E3D_TILE + x) * axis, mean);
             for (int k = 0; k < 3; k++)
-                batch->color[k][x] = unit(mean[k]);
+                batch->color[k][x] = mean[k];
         }
         context->kernels->encode(batch->color[0], batch->color[1], batch->color[2], count,
                                  context->srgb, memory->encoded);
@@ -150,14 +150,25 @@ static void resolve_samples(const e3d_context *context, e3d_worker *worker, cons
     }
 }
 
+/* Rows of pixels, `step` apart, to the picture. Its rows are too far apart for the processor to foresee the next. */
+static void write_rows(const e3d_context *context, const e3d_tile *tile, const uint32_t *rgba, int step)
+{
+    enum { AHEAD = 8, LINE = 64 };
+    size_t pitch = 4 * (size_t)context->frame->width, bytes = 4 * (size_t)tile->width;
+    uint8_t *row = context->targets->color + (size_t)tile->y * pitch + 4 * (size_t)tile->x;
+    for (int y = 0; y < tile->height; y++, row += pitch, rgba += step) {
+        for (size_t at = 0; at < bytes && y + AHEAD < tile->height; at += LINE)
+            __builtin_prefetch(row + AHEAD * pitch + at, 1);
+        memcpy(row, rgba, bytes);
+    }
+}
+
 void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile)
 {
     e3d_outputs_begin(context, tile);
     e3d_outputs_no_depth(context, tile);
-    for (int y = 0; context->targets->color && y < tile->height; y++)
-        memcpy(context->targets->color +
-                   4 * ((size_t)(tile->y + y) * context->frame->width + tile->x),
-               context->background_row, 4 * (size_t)tile->width);
+    if (context->targets->color)
+        write_rows(context, tile, context->background_row, 0);
 }
 
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
@@ -169,8 +180,5 @@ void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile 
         resolve_samples(context, worker, tile);
         return;
     }
-    for (int y = 0; y < tile->height; y++)
-        memcpy(context->targets->color +
-                   4 * ((size_t)(tile->y + y) * context->frame->width + tile->x),
-               worker->tile->rgba + y * E3D_TILE, 4 * (size_t)tile->width);
+    write_rows(context, tile, worker->tile->rgba, E3D_TILE);
 }

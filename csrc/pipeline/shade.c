@@ -94,16 +94,6 @@ static void light(const e3d_context *context, const e3d_group *group, e3d_batch 
     context->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive);
 }
 
-static void clamp_colors(e3d_batch *batch)
-{
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < batch->count; i++) {
-            float v = batch->color[k][i];
-            v = v > 0.0f ? v : 0.0f;
-            batch->color[k][i] = v < 1.0f ? v : 1.0f;
-        }
-}
-
 static void find_colors(const e3d_context *context, const e3d_worker *worker, const e3d_group *group,
                         e3d_batch *batch)
 {
@@ -120,7 +110,6 @@ static void find_colors(const e3d_context *context, const e3d_worker *worker, co
     case E3D_MODE_UNLIT:
     case E3D_MODE_OVERDRAW: break;
     }
-    clamp_colors(batch);
 }
 
 /* ---- batches ---- */

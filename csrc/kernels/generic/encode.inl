@@ -1,8 +1,13 @@
-/* encode: colours in [0, 1] to 8 bits (R34).
+/* encode: colours, clamped to [0, 1] (R33), to 8 bits (R34).
  *
  * The sRGB code is the number of thresholds <= v. A guess from the float's exponent and first mantissa
  * bits is at most ENCODE_STEPS too small (encode_tables.h is made so), and is then counted up.
  */
+
+static inline vf32 encode_clamp(const float *v)
+{
+    return v_min(v_max(v_loadf(v), v_setf(0.0f)), v_setf(1.0f));
+}
 
 static inline vi32 encode_srgb(vf32 v)
 {
@@ -25,7 +30,7 @@ static void kernel_encode(const float *red, const float *green, const float *blu
                           uint32_t *rgba)
 {
     for (int i = 0; i < count; i += V_LANES) {
-        vf32 r = v_loadf(red + i), g = v_loadf(green + i), b = v_loadf(blue + i);
+        vf32 r = encode_clamp(red + i), g = encode_clamp(green + i), b = encode_clamp(blue + i);
         vi32 cr = srgb ? encode_srgb(r) : encode_linear(r);
         vi32 cg = srgb ? encode_srgb(g) : encode_linear(g);
         vi32 cb = srgb ? encode_srgb(b) : encode_linear(b);

@@ -220,8 +220,8 @@ typedef struct e3d_kernels {
     void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     /* Draws records into the tile. */
     void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count);
-    /* Writes the samples of all noted blocks. */
-    void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table);
+    /* Writes the samples of all noted blocks: the IDs, and the depths where these are needed. */
+    void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Finds the zmax of all stale blocks. */
     void (*raster_measure)(e3d_visible_tile *tile);
     /* The runs of the first width x height samples of a tile that show something, row by row; their number. */

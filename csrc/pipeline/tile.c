@@ -245,7 +245,8 @@ static int draw_visible(tile_job *job)
     if (!job->kept)
         e3d_visible_clear(worker->visible, &job->tile);
     e3d_visible_draw(context, worker->visible, job->number);
-    context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE]);
+    int depths = context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
+    context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], depths);
     int64_t rastered = e3d_now_ns();
     worker->counters.ns_raster += rastered - start;
     if (context->wants) {

@@ -105,7 +105,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table,
                                const uint32_t *ids, int count)
-        void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table)
+        void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
         void (*raster_measure)(e3d_visible_tile *tile)
         int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
         void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)

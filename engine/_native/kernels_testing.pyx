@@ -185,13 +185,13 @@ cdef class Kernels:
             self.table.raster_visible(<e3d_visible_tile *>&tile[0], &table, &ids[0],
                                       <int>ids.shape[0])
 
-    def raster_settle(self, uint8_t[::1] tile, const uint8_t[:, ::1] records):
+    def raster_settle(self, uint8_t[::1] tile, const uint8_t[:, ::1] records, bint depths=True):
         cdef e3d_record_table table
         cdef const e3d_record *rows[MOST_WORKERS]
         check_size(tile, sizeof(e3d_visible_tile))
         fill_table(&table, rows, records)
         for _ in range(self.rounds):
-            self.table.raster_settle(<e3d_visible_tile *>&tile[0], &table)
+            self.table.raster_settle(<e3d_visible_tile *>&tile[0], &table, depths)
 
     def raster_measure(self, uint8_t[::1] tile):
         check_size(tile, sizeof(e3d_visible_tile))

@@ -109,6 +109,15 @@ static void visible_unfold(e3d_visible_tile *tile, const e3d_record_table *table
     }
 }
 
+static inline void visible_unfold_ids(e3d_visible_tile *tile, int block)
+{
+    int at = block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
+    vi32 id = v_seti(tile->noted_id[block]);
+    for (int y = 0; y < RASTER_BLOCK; y++)
+        for (int x = 0; x < RASTER_BLOCK; x += V_LANES)
+            v_storei(tile->id + at + y * E3D_TILE + x, id);
+}
+
 /* The farthest depth of a block whose samples are written, anew. */
 static void visible_measure(e3d_visible_tile *tile, int block)
 {
@@ -421,10 +430,16 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     }
 }
 
-static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table *table)
+static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
 {
-    for (uint64_t left = tile->noted; left; left &= left - 1)
-        visible_unfold(tile, table, __builtin_ctzll(left));
+    for (uint64_t left = tile->noted; left; left &= left - 1) {
+        int block = __builtin_ctzll(left);
+        if (depths)
+            visible_unfold(tile, table, block);
+        else
+            visible_unfold_ids(tile, block);
+    }
+    tile->noted = 0;
 }
 
 static void kernel_raster_measure(e3d_visible_tile *tile)

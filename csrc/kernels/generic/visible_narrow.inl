@@ -6,9 +6,9 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     E3D_NARROW_TABLE.raster_visible(tile, table, ids, count);
 }
 
-static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table *table)
+static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
 {
-    E3D_NARROW_TABLE.raster_settle(tile, table);
+    E3D_NARROW_TABLE.raster_settle(tile, table, depths);
 }
 
 static void kernel_raster_measure(e3d_visible_tile *tile)

@@ -34,8 +34,9 @@ TIMER_SOURCES += ["csrc/core/encode_tables.c", "csrc/core/srgb_tables.c"]
 # Kernel -> its heading, and the element that a time is given for.
 KERNELS = {
     "transform": ("transform", "vertex"),
-    "raster_large": ("raster", "sample"),
-    "raster_small": ("raster", "small tri"),
+    "record": ("record", "triangle"),
+    "visible_large": ("visible", "sample"),
+    "visible_small": ("visible", "small tri"),
     "texture": ("texture", "sample"),
     "light": ("light", "sample"),
     "encode": ("encode", "pixel"),

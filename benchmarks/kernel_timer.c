@@ -10,9 +10,9 @@
 
 #include "core/fpenv.h"
 #include "driver/random.h"
-#include "kernels/kernels.h"
+#include "kernels/coverage.h"
 
-enum { PIECES = 512, TEXTURE_SIDE = 256, TEXTURE_LEVELS = 3, COLORS = 4096, LIGHTS = 3 };
+enum { TEXTURE_SIDE = 256, TEXTURE_LEVELS = 3, COLORS = 4096, LIGHTS = 3 };
 
 /* One repetition lasts at least this long, in seconds; the fastest of REPETITIONS counts. */
 #define ENOUGH 0.002
@@ -52,118 +52,99 @@ static void run_transform(void)
                      transform_work.matrix, &transform_work.viewport, &transform_work.out);
 }
 
-/* ---- raster: triangles in one tile ---- */
+/* ---- record and visible: triangles in one tile ---- */
 
-static struct {
-    e3d_piece pieces[2][PIECES]; /* large and small ones */
-    uint32_t orders[PIECES];
-    _Alignas(64) float z[E3D_TILE_SAMPLES];
-    _Alignas(64) int32_t slot[E3D_TILE_SAMPLES];
+enum { CLUSTERS = 12, TRIANGLES = E3D_CLUSTER_VERTICES / 3, PIECES = CLUSTERS * TRIANGLES };
+
+typedef struct raster_work {
+    e3d_vertices vertices[CLUSTERS];
+    e3d_record records[PIECES];
+    uint32_t ids[PIECES];
+    int count;
+    _Alignas(64) e3d_visible_tile tile;
 } raster_work;
 
-static int32_t floor_shift(int64_t value)
-{
-    return (int32_t)(value >> 8); /* rounds down, of negative values too */
-}
+static raster_work large_work, small_work;
 
-/* R12 for the edge a -> b of a triangle that turns clockwise. */
-static void make_edge(e3d_piece *piece, int k, const int32_t a[2], const int32_t b[2])
-{
-    int32_t dx = b[0] - a[0], dy = b[1] - a[1];
-    int top_left = dy < 0 || (dy == 0 && dx > 0);
-    int64_t e = (int64_t)dx * (128 - a[1]) - (int64_t)dy * (128 - a[0]) - !top_left;
-    piece->e[k] = floor_shift(e);
-    piece->a[k] = -dy;
-    piece->b[k] = dx;
-}
+static struct {
+    uint8_t indices[3 * E3D_CLUSTER_TRIANGLES], triangles[E3D_CLUSTER_TRIANGLES + E3D_PAD];
+    int32_t faces[E3D_CLUSTER_TRIANGLES];
+} cluster;
 
-static int32_t clamped_sample(int32_t position)
-{
-    int32_t sample = position >> 8;
-    return sample < 0 ? 0 : sample > E3D_TILE - 1 ? E3D_TILE - 1 : sample;
-}
+static const e3d_viewport TILE_VIEWPORT = {E3D_TILE, E3D_TILE, 128.0f * E3D_TILE, 128.0f * E3D_TILE, 1024.0f, 1024.0f};
 
-static void make_piece(random_stream *r, float extent, uint32_t slot, e3d_piece *piece)
+static void record_all(raster_work *work)
 {
-    int32_t v[3][2], low[2], high[2];
-    float centre[2];
-    int64_t area = 0;
-    while (area == 0) {
-        for (int axis = 0; axis < 2; axis++) {
-            centre[axis] = random_float(r, 0.0f, E3D_TILE);
-            for (int i = 0; i < 3; i++)
-                v[i][axis] = (int32_t)(256.0f * (centre[axis] + random_float(r, -extent, extent)));
-        }
-        area = (int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) -
-               (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
-    }
-    for (int k = 0; k < 3; k++) {
-        int from = area > 0 ? k : 2 - k, to = area > 0 ? (k + 1) % 3 : (4 - k) % 3;
-        make_edge(piece, k, v[from], v[to]);
-    }
-    for (int axis = 0; axis < 2; axis++) {
-        low[axis] = high[axis] = v[0][axis];
-        for (int i = 1; i < 3; i++) {
-            low[axis] = v[i][axis] < low[axis] ? v[i][axis] : low[axis];
-            high[axis] = v[i][axis] > high[axis] ? v[i][axis] : high[axis];
-        }
-    }
-    piece->x0 = clamped_sample(low[0]);
-    piece->x1 = clamped_sample(high[0]);
-    piece->y0 = clamped_sample(low[1]);
-    piece->y1 = clamped_sample(high[1]);
-    piece->z0 = random_float(r, 0.0f, 1.0f);
-    piece->gx = random_float(r, -0.01f, 0.01f);
-    piece->gy = random_float(r, -0.01f, 0.01f);
-    piece->zmin = -1.0f;
-    piece->zmax = 1.0f;
-    piece->slot = slot;
-}
-
-static void make_raster(random_stream *r)
-{
-    for (uint32_t i = 0; i < PIECES; i++) {
-        make_piece(r, 40.0f, i, &raster_work.pieces[0][i]);
-        make_piece(r, 4.0f, i, &raster_work.pieces[1][i]);
-        raster_work.pieces[0][i].order = raster_work.pieces[1][i].order = i;
-        raster_work.orders[i] = i;
+    e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
+    work->count = 0;
+    for (int c = 0; c < CLUSTERS; c++) {
+        const e3d_record_request request = {.vertices = &work->vertices[c], .indices = cluster.indices,
+                                            .triangles = cluster.triangles, .count = TRIANGLES,
+                                            .order = (uint32_t)(c * TRIANGLES), .faces = cluster.faces,
+                                            .viewport = &TILE_VIEWPORT};
+        work->count += table->record(&request, work->records + work->count, spans);
     }
 }
 
-static long covered_samples(const e3d_piece *piece)
+static void make_corner(random_stream *r, const float centre[2], float extent, e3d_vertices *v, int i)
+{
+    v->sx[i] = (int32_t)(256.0f * (centre[0] + random_float(r, -extent, extent)));
+    v->sy[i] = (int32_t)(256.0f * (centre[1] + random_float(r, -extent, extent)));
+    v->zn[i] = random_float(r, 0.0f, 1.0f);
+    v->iw[i] = 1.0f;
+}
+
+/* Triangles of about `extent` samples, anywhere in the tile. */
+static void make_raster(random_stream *r, float extent, raster_work *work)
+{
+    for (int t = 0; t < TRIANGLES; t++) {
+        cluster.triangles[t] = (uint8_t)t;
+        cluster.faces[t] = t;
+        for (int k = 0; k < 3; k++)
+            cluster.indices[k * E3D_CLUSTER_TRIANGLES + t] = (uint8_t)(3 * t + k);
+    }
+    for (int i = 0; i < PIECES; i++) {
+        const float centre[2] = {random_float(r, 0.0f, E3D_TILE), random_float(r, 0.0f, E3D_TILE)};
+        for (int k = 0; k < 3; k++)
+            make_corner(r, centre, extent, &work->vertices[i / TRIANGLES], i % TRIANGLES * 3 + k);
+    }
+    record_all(work);
+    for (int i = 0; i < work->count; i++)
+        work->ids[i] = (uint32_t)i;
+}
+
+static long covered_samples(const raster_work *work)
 {
     long covered = 0;
-    for (int y = piece->y0; y <= piece->y1; y++)
-        for (int x = piece->x0; x <= piece->x1; x++) {
-            int inside = 1;
-            for (int k = 0; k < 3; k++)
-                inside &= piece->e[k] + piece->a[k] * x + piece->b[k] * y >= 0;
-            covered += inside;
-        }
+    for (int i = 0; i < work->count; i++)
+        for (int y = 0; y < E3D_TILE; y++)
+            for (int x = 0; x < E3D_TILE; x++) {
+                int inside = 1;
+                for (int k = 0; k < 3; k++)
+                    inside &= e3d_edge_at(&work->records[i], k, x, y).e >= 0;
+                covered += inside;
+            }
     return covered;
 }
 
-static long covered_by_all(void)
+static void draw_all(raster_work *work)
 {
-    long covered = 0;
-    for (int i = 0; i < PIECES; i++)
-        covered += covered_samples(&raster_work.pieces[0][i]);
-    return covered;
-}
-
-static void raster_all(const e3d_piece *pieces)
-{
-    const e3d_tile_buffers tile = {raster_work.z, raster_work.slot, raster_work.orders};
-    for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
-        raster_work.z[i] = 2.0f;
-        raster_work.slot[i] = E3D_NO_SLOT;
+    const e3d_record *const records[1] = {work->records};
+    const e3d_record_table records_of = {records, 0};
+    e3d_visible_tile *tile = &work->tile;
+    for (int b = 0; b < E3D_TILE_BLOCKS; b++) {
+        tile->zmin[b] = tile->zmax[b] = E3D_BEYOND_FAR;
+        tile->noted_id[b] = E3D_NO_SLOT;
     }
-    for (int i = 0; i < PIECES; i++)
-        table->raster_depth(&pieces[i], &tile);
+    tile->noted = ~(uint64_t)0;
+    tile->stale = 0;
+    table->raster_visible(tile, &records_of, work->ids, work->count);
+    table->raster_settle(tile, &records_of);
 }
 
-static void run_raster_large(void) { raster_all(raster_work.pieces[0]); }
-static void run_raster_small(void) { raster_all(raster_work.pieces[1]); }
+static void run_record(void) { record_all(&small_work); }
+static void run_visible_large(void) { draw_all(&large_work); }
+static void run_visible_small(void) { draw_all(&small_work); }
 
 /* ---- texture and light: one batch ---- */
 
@@ -298,7 +279,8 @@ int main(void)
 #endif
     random_stream r = {.state = 1};
     make_transform(&r);
-    make_raster(&r);
+    make_raster(&r, 40.0f, &large_work);
+    make_raster(&r, 4.0f, &small_work);
     make_texture(&r);
     make_lights(&r);
     make_batch(&r);
@@ -306,9 +288,11 @@ int main(void)
     const workload works[] = {
         {"transform", E3D_CLUSTER_VERTICES, run_transform, transform_work.out.x,
          sizeof(float) * E3D_CLUSTER_VERTICES},
-        {"raster_large", covered_by_all(), run_raster_large, raster_work.slot,
-         sizeof raster_work.slot},
-        {"raster_small", PIECES, run_raster_small, raster_work.z, sizeof raster_work.z},
+        {"record", PIECES, run_record, small_work.records, sizeof small_work.records},
+        {"visible_large", covered_samples(&large_work), run_visible_large, large_work.tile.id,
+         sizeof(int32_t) * E3D_TILE_SAMPLES},
+        {"visible_small", small_work.count, run_visible_small, small_work.tile.z,
+         sizeof(float) * E3D_TILE_SAMPLES},
         {"texture", E3D_BATCH, run_texture, shade_work.batch.color[0], sizeof(float) * E3D_BATCH},
         {"light", E3D_BATCH, run_light, shade_work.batch.shine[0], sizeof(float) * E3D_BATCH},
         {"encode", COLORS, run_encode, encode_work.rgba, sizeof(uint32_t) * COLORS},

@@ -4,7 +4,7 @@ In:  a `Kernels` object of engine3d._native.kernels_testing, with `rounds` calls
 Out: KERNEL_WORKLOADS, name -> (unit, maker); a maker returns (elements a round, function), and the
      function takes a Kernels object and makes its rounds.
 
-The records of the kernels' structs, and the pieces of triangles, are those of the tests.
+The layouts of the kernels' structs, and what is said of triangles, are those of the tests.
 """
 
 import sys
@@ -22,15 +22,17 @@ from kernels.layouts import (
     CLUSTER_VERTICES,
     LIGHT,
     PAD,
-    PIECE,
+    RECORD,
     RUN,
     SURFACES,
     SURVIVORS,
     TILE,
+    TILE_SPAN,
     VERTICES,
+    VISIBLE_TILE,
     viewport_of,
 )
-from kernels.pieces import Triangle, piece_of
+from kernels.pieces import Triangle, meta_of, plane_through
 
 LANES = BATCH + PAD
 COLORS = 4096
@@ -58,50 +60,76 @@ def setup():
     return CLUSTER_TRIANGLES, lambda kernels: kernels.setup(*arguments)
 
 
-def aligned(count, dtype):
-    """An array of 4-byte elements that starts at a cache line, as a tile's buffers do."""
-    room = np.empty(4 * count + 64, np.uint8)
-    start = -room.ctypes.data % 64
-    return room[start : start + 4 * count].view(dtype)
+def record():
+    """What setup leaves of a cluster: triangles of a few samples, of which every other is tiny."""
+    rng = np.random.default_rng(6)
+    vertices = np.zeros(1, VERTICES)
+    vertices["zn"], vertices["iw"] = rng.uniform(0, 1, (2, 1, CLUSTER_VERTICES))
+    spread = np.repeat([200, 1500], CLUSTER_VERTICES // 2)
+    for name, side in (("sx", 1280), ("sy", 720)):
+        vertices[name] = 128 * side + rng.integers(-spread, spread)
+    indices = rng.integers(0, CLUSTER_VERTICES // 2, (3, CLUSTER_TRIANGLES), np.uint8)
+    indices[:, 1::2] += CLUSTER_VERTICES // 2
+    triangles = np.arange(CLUSTER_TRIANGLES + PAD, dtype=np.uint8) % CLUSTER_TRIANGLES
+    faces = np.arange(CLUSTER_TRIANGLES, dtype=np.int32)
+    out = np.zeros(CLUSTER_TRIANGLES, RECORD).view(np.uint8)
+    spans = np.zeros(CLUSTER_TRIANGLES, TILE_SPAN).view(np.uint8)
+    asked = (triangles, CLUSTER_TRIANGLES, 0, False, 0, faces)
+    viewport = viewport_of(1280, 720).view(np.uint8)
+    arguments = (vertices.view(np.uint8), indices.ravel(), *asked, viewport, out, spans)
+    return CLUSTER_TRIANGLES, lambda kernels: kernels.record(*arguments)
 
 
-def random_piece(rng, extent, least):
+def random_record(rng, extent, least):
     """A triangle of about `extent` samples somewhere in a tile, and how many it covers."""
     rows, columns = np.mgrid[0:TILE, 0:TILE]
     while True:
         centre = rng.uniform(0, TILE, 2)
         corners = (256 * (centre + rng.uniform(-extent, extent, (3, 2)))).astype(np.int64)
         triangle = Triangle(corners[:, 0], corners[:, 1], TILE, TILE)
-        piece = None if triangle.empty else piece_of(triangle, 0, 0)
-        if piece is None:
-            continue
+        meta = None if triangle.empty else meta_of(triangle)
         covered = int(triangle.covers(columns, rows).sum())
-        if covered >= least:
+        if meta is not None and covered >= least:
             break
-    piece["z0"], piece["gx"], piece["gy"] = rng.random(), *rng.uniform(-0.01, 0.01, 2)
-    piece["zmin"], piece["zmax"] = -1, 1
-    return piece, covered
+    made, zn = np.zeros(1, RECORD), rng.random(3, np.float32)
+    made["x"], made["y"], made["meta"] = triangle.x, triangle.y, meta
+    made["z0"], made["gx"], made["gy"] = plane_through(triangle, zn)
+    made["zmin"], made["zmax"] = zn.min(), zn.max()
+    return made, covered
 
 
-def raster(extent, least, pieces_made, counted):
-    """Triangles over each other in a tile that is cleared first; `counted` are the elements."""
+def empty_tile():
+    """A tile of which nothing is written, at a cache line as in a frame."""
+    room = np.zeros(VISIBLE_TILE.itemsize + 64, np.uint8)
+    start = -room.ctypes.data % 64
+    tile = room[start : start + VISIBLE_TILE.itemsize]
+    fields = tile.view(VISIBLE_TILE)
+    fields["zmin"] = fields["zmax"] = BEYOND_FAR
+    fields["noted_id"], fields["noted"] = -1, 2**64 - 1
+    return tile
+
+
+def visible(extent, least, count, counted):
+    """Triangles over each other in a tile that is empty first; `counted` are the elements."""
     rng = np.random.default_rng(2)
-    made = [random_piece(rng, extent, least) for _ in range(pieces_made)]
-    pieces = np.concatenate([piece for piece, _ in made]).astype(PIECE)
-    pieces["slot"] = pieces["order"] = np.arange(pieces_made)
-    orders = np.arange(pieces_made, dtype=np.uint32)
-    z, slot = aligned(TILE * TILE + PAD, np.float32), aligned(TILE * TILE + PAD, np.int32)
+    made = [random_record(rng, extent, least) for _ in range(count)]
+    records = np.concatenate([row for row, _ in made])
+    records["order"] = np.arange(count)
+    table, ids = records.view(np.uint8)[None], np.arange(count, dtype=np.uint32)
+    tile = empty_tile()
+    blocks = VISIBLE_TILE.fields["zmin"][1]  # where what is known of blocks begins
+    empty = tile[blocks:].copy()
 
     def run(kernels):
         rounds, kernels.rounds = kernels.rounds, 1
         for _ in range(rounds):
-            z.fill(BEYOND_FAR)
-            slot.fill(-1)
-            kernels.raster_depth(pieces.view(np.uint8), z, slot, orders)
+            tile[blocks:] = empty
+            kernels.raster_visible(tile, table, ids)
+            kernels.raster_settle(tile, table)
         kernels.rounds = rounds
 
     covered = sum(samples for _, samples in made)
-    return (covered if counted == "samples" else pieces_made), run
+    return (covered if counted == "samples" else count), run
 
 
 def find_runs():
@@ -171,9 +199,11 @@ def encode():
 KERNEL_WORKLOADS = {
     "transform": ("vertex", transform),
     "setup": ("triangle", setup),
-    "raster, whole tiles": ("sample", lambda: raster(4000.0, TILE * TILE, 100, "samples")),
-    "raster, big triangles": ("sample", lambda: raster(64.0, 400, 300, "samples")),
-    "raster, small triangles": ("triangle", lambda: raster(4.0, 0, 2000, "triangles")),
+    "record": ("triangle", record),
+    "visible, whole tiles": ("sample", lambda: visible(4000.0, TILE * TILE, 100, "samples")),
+    "visible, big triangles": ("sample", lambda: visible(64.0, 400, 300, "samples")),
+    "visible, small triangles": ("triangle", lambda: visible(4.0, 0, 2000, "triangles")),
+    "visible, tiny triangles": ("triangle", lambda: visible(1.0, 1, 2000, "triangles")),
     "runs": ("sample", find_runs),
     "interpolate": ("sample", interpolate),
     "texture, bilinear": ("sample", lambda: textured("bilinear")),

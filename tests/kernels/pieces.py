@@ -1,10 +1,11 @@
-"""Triangles in 64 bits, and the raster kernels' view of them in a tile.
+"""Triangles in 64 bits, and the raster kernels' view of them.
 
 In:  snapped corners in 1/256 sample, the viewport's size, the tile's first sample. Out: what a
-     triangle covers by R10 and R12, and its `PIECE`, prepared as the pipeline does.
+     triangle covers by R10 and R12, its `PIECE` in a tile, and what its `RECORD` says.
 """
 
 import numpy as np
+from kernels import layouts
 from kernels.layouts import PIECE, TILE
 
 
@@ -61,3 +62,31 @@ def piece_of(triangle, tile_x, tile_y):
     piece["y0"], piece["y1"] = np.clip([triangle.top - tile_y, triangle.bottom - tile_y], 0, span)
     piece["base_x"], piece["base_y"] = triangle.left - tile_x, triangle.top - tile_y
     return piece
+
+
+def plane_through(triangle, zn):
+    """R13 of depths at the corners: z0, gx, gy."""
+    x, y, zn = triangle.x.astype(float), triangle.y.astype(float), zn.astype(float)
+    ax, ay, cx, cy = x[1] - x[0], y[1] - y[0], x[2] - x[0], y[2] - y[0]
+    d1, d2, r = zn[1] - zn[0], zn[2] - zn[0], 256 / float(triangle.area)
+    gx, gy = (d1 * cy - d2 * ay) * r, (d2 * ax - d1 * cx) * r
+    ex, ey = (
+        (256 * first + 128 - v) / 256 for first, v in ((triangle.left, x[0]), (triangle.top, y[0]))
+    )
+    return (zn[0] + ex * gx) + ey * gy, gx, gy
+
+
+def meta_of(triangle):
+    """The flags of a face's record, with the cover of a tiny one; None where it has no cover."""
+    meta = layouts.RECORD_FACE
+    if triangle.right - triangle.left > 1 or triangle.bottom - triangle.top > 1:
+        return meta
+    cover = 0
+    for row in range(triangle.top, triangle.bottom + 1):
+        for column in range(triangle.left, triangle.right + 1):
+            bit = 2 * (row - triangle.top) + column - triangle.left
+            cover |= int(triangle.covers(column, row)) << bit
+    sides = max(np.ptp(triangle.x), np.ptp(triangle.y))
+    if sides > 32767:
+        return meta
+    return meta | layouts.RECORD_TINY | cover << layouts.RECORD_SHIFT if cover else None

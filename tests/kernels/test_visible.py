@@ -13,7 +13,7 @@ from kernels import layouts
 from kernels.arithmetic import clamp
 from kernels.harness import POISON, all_backends, bits, hostile
 from kernels.layouts import BLOCK, RECORD, TILE, VISIBLE_TILE
-from kernels.pieces import Triangle
+from kernels.pieces import Triangle, meta_of, plane_through
 from kernels.test_raster import BEYOND_FAR, LARGEST, random_corners, random_tile
 
 RECORDS = 60  # a tile
@@ -41,18 +41,6 @@ def corners_of(rng, kind, tile_x, tile_y):
     return random_corners(rng, kind, tile_x, tile_y)
 
 
-def plane_through(triangle, zn):
-    """R13 of depths at the corners: z0, gx, gy."""
-    x, y, zn = triangle.x.astype(float), triangle.y.astype(float), zn.astype(float)
-    ax, ay, cx, cy = x[1] - x[0], y[1] - y[0], x[2] - x[0], y[2] - y[0]
-    d1, d2, r = zn[1] - zn[0], zn[2] - zn[0], 256 / float(triangle.area)
-    gx, gy = (d1 * cy - d2 * ay) * r, (d2 * ax - d1 * cx) * r
-    ex, ey = (
-        (256 * first + 128 - v) / 256 for first, v in ((triangle.left, x[0]), (triangle.top, y[0]))
-    )
-    return (zn[0] + ex * gx) + ey * gy, gx, gy
-
-
 def depths_of(rng, record, triangle, wild):
     """A plane through three corners; often one of few, so that depths are equal; or any finite."""
     few = np.float32([-0.0, 0.0, 0.25, 0.5, 1.0, BEYOND_FAR, 1.5])
@@ -68,21 +56,6 @@ def depths_of(rng, record, triangle, wild):
     record["z0"], record["gx"], record["gy"] = plane
     record["zmin"], record["zmax"] = zn.min(), zn.max()
     return True
-
-
-def meta_of(triangle):
-    meta = layouts.RECORD_FACE
-    if triangle.right - triangle.left > 1 or triangle.bottom - triangle.top > 1:
-        return meta
-    cover = 0
-    for row in range(triangle.top, triangle.bottom + 1):
-        for column in range(triangle.left, triangle.right + 1):
-            bit = 2 * (row - triangle.top) + column - triangle.left
-            cover |= int(triangle.covers(column, row)) << bit
-    sides = max(np.ptp(triangle.x), np.ptp(triangle.y))
-    if sides > 32767:
-        return meta
-    return meta | layouts.RECORD_TINY | cover << layouts.RECORD_SHIFT if cover else None
 
 
 def record_of(rng, kind, place, wild):

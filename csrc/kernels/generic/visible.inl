@@ -141,7 +141,7 @@ static inline void visible_block(const e3d_piece *p, const raster_constants *c, 
                                  const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     int x = block % VISIBLE_BLOCKS * RASTER_BLOCK, top = block / VISIBLE_BLOCKS * RASTER_BLOCK;
-    if (tile->stale >> block & 1) {
+    if ((tile->stale >> block & 1) && near > tile->zmin[block]) { /* else it cannot be behind */
         visible_measure(tile, block);
         if (near > tile->zmax[block])
             return;

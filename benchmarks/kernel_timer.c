@@ -139,7 +139,7 @@ static void draw_all(raster_work *work)
     tile->noted = ~(uint64_t)0;
     tile->stale = 0;
     table->raster_visible(tile, &records_of, work->ids, work->count);
-    table->raster_settle(tile, &records_of);
+    table->raster_settle(tile, &records_of, 1);
 }
 
 static void run_record(void) { record_all(&small_work); }

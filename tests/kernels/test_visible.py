@@ -33,8 +33,8 @@ def corners_of(rng, kind, tile_x, tile_y):
         return (centre + rng.uniform(-1, 1, (3, 2)) * rng.choice([256, 380])).astype(np.int64)
     if kind == "whole":  # most of the tile's blocks, or all
         return (centre + rng.uniform(-1, 1, (3, 2)) * 256 * rng.choice([150, 900])).astype(np.int64)
-    if kind == "limit":  # sides of about a tile: where 32 bits stop to hold an edge at once
-        side = 256 * TILE + rng.integers(-1, 2, 2)
+    if kind == "limit":  # sides of a tile or several: where 32 bits stop to hold an edge at once
+        side = 256 * TILE * rng.choice([1, 1, 4, 20], 2) + rng.integers(-1, 2, 2)
         place = (centre - side * rng.random(2)).astype(np.int64)
         half = rng.permutation([(0, 0), (1, 0), (1, 1), (0, 1)])[:3]
         return place + half * side
@@ -51,6 +51,8 @@ def depths_of(rng, record, triangle, wild):
     plane = np.array(plane_through(triangle, zn)).astype(np.float32)
     if wild and rng.random() < 0.5:
         plane = hostile(rng, 3, rate=1.0, finite=True)
+    elif wild and rng.random() < 0.7:  # what overflows a few samples on, in both ways at once
+        plane[1:] = rng.choice([-1, 1], 2) * 2 ** rng.uniform(118, 127.9, 2)
     if not np.isfinite(plane).all():
         return False
     record["z0"], record["gx"], record["gy"] = plane
@@ -177,6 +179,16 @@ class Tile:
         assert other.fields["noted"] == 0
         return other
 
+    def check_settled_ids(self, kernels, table, settled):
+        """Where no depths are asked for: the same IDs, and no depth is written."""
+        other = Tile(0, 0)
+        other.bytes[:] = self.bytes
+        kernels.raster_settle(other.bytes, table, False)
+        other.check_poison()
+        assert other.fields["noted"] == 0
+        assert np.array_equal(other.fields["id"], settled.fields["id"])
+        assert np.array_equal(bits(other.fields["z"]), bits(self.fields["z"]))
+
     def check_poison(self):
         edges = np.concatenate([self._room[:GUARD], self._room[-GUARD:]]).view(np.uint32)
         assert (edges == POISON).all()
@@ -220,7 +232,9 @@ def test_what_shows(kernels, parts, measured):
         some = scene(seed)
         for arrival in some.arrivals:
             tile = draw_parts(kernels, some, arrival, parts, measured)
-            some.check(tile.settled(kernels, some.table))
+            settled = tile.settled(kernels, some.table)
+            some.check(settled)
+            tile.check_settled_ids(kernels, some.table, settled)
 
 
 def test_scenes_are_hard():

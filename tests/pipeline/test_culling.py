@@ -68,6 +68,26 @@ def test_what_is_hidden_is_left_out():
         assert fewer["triangles_setup"] < 0.05 * stats["triangles_setup"]
 
 
+def test_equal_depths_go_to_the_first_in_order():
+    """What was not there last time lies in one plane with what is drawn first, and wins."""
+    scene = e3d.Scene()
+    first = scene.add(e3d.quad(), scale=0.7)
+    places = np.stack(np.meshgrid(*[np.linspace(-3, 3, 7)] * 2), -1).reshape(-1, 2)
+    poses = np.c_[places, np.zeros(len(places)), np.full(len(places), 1)].astype(np.float32)
+    scene.add(e3d.InstancedMesh(e3d.quad(), poses))
+    rng = np.random.default_rng(0)
+    with e3d.Renderer(160, 120) as renderer:
+        for _ in range(40):
+            camera = e3d.PerspectiveCamera(yfov=0.8, znear=rng.uniform(0.01, 1), zfar=50)
+            view = camera, e3d.look_at((0, 0, rng.uniform(2, 9)), (0, 0, 0), (0, 1, 0))
+            for first.visible in (False, True):
+                frame = renderer.render(scene, view, outputs=("object_id",), culling="always")
+            assert frame.stats["rounds"] == 2
+            expected = renderer.render(scene, view, outputs=("object_id",), culling="none")
+            assert np.array_equal(frame.object_id, expected.object_id)
+            assert (frame.object_id == first.id).any()
+
+
 def test_culling_camera_leaves_out_what_is_not_in_its_frustum():
     scene = e3d.Scene()
     seen = scene.add(e3d.icosphere(), translation=(0, 0, -6))

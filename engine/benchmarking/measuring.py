@@ -17,7 +17,7 @@ from ..colors import linear_color
 from ..renderer import Renderer
 from .workloads import Workload
 
-#: Milliseconds: after a frame as slow, one more is the result.
+#: Milliseconds: a frame as slow is not drawn many times.
 SLOW = 1500.0
 LEAST, MOST = 3, 300
 ROUNDS = 5
@@ -84,13 +84,12 @@ class Timer:
         return taken
 
     def warm_up(self) -> bool:
-        """Draw the first frame; return whether the next one is the result, because it was slow."""
-        slow = self.one() > SLOW
-        if slow:
-            self._keep(self.one())
-        else:
-            self.one()
-        return slow
+        """Draw two frames; return whether the second is the result, because it was slow."""
+        self.one()
+        second = self.one()
+        if second > SLOW:
+            self._keep(second)
+        return second > SLOW
 
     def run(self, seconds: float, least: int = LEAST) -> float:
         """Time frames for a while; return the median of these."""

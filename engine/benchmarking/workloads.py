@@ -87,7 +87,12 @@ def _triangles(thing) -> int:
 
 def make(name: str, plain: bool = False) -> Workload:
     """Return a workload by its name."""
-    scene, (eye, target, (yfov, near, far)), options = _MAKERS[name](plain)
+    return _workload(name, _MAKERS[name](plain), plain)
+
+
+def _workload(name: str, parts, plain: bool = False) -> Workload:
+    """Put a workload together: a scene, (eye, target, (yfov, znear, zfar)), options."""
+    scene, (eye, target, (yfov, near, far)), options = parts
     return Workload(
         name,
         scene,
@@ -97,6 +102,20 @@ def make(name: str, plain: bool = False) -> Workload:
         options,
         "linear" if plain else "srgb",
     )
+
+
+def layers(count: int) -> Workload:
+    """Return a number of walls behind each other that fill the picture, back to front."""
+    return _workload("layers", _layers(False, count, back_to_front=True))
+
+
+def spheres_on_a_plane(side: int) -> Workload:
+    """Return ``side * side`` instances of a sphere of 1,000 triangles, all side by side in view."""
+    scene = _scene()
+    poses = _rows(side, 2.0 / side, 0.95 / side)[:, [0, 2, 1, 3]]
+    scene.add(InstancedMesh(uv_sphere(1.0, (25, 21)), poses))
+    view = (0.0, 0.0, 2.6), (0.0, 0.0, 0.0), (0.8, 0.5, 10.0)
+    return _workload("spheres on a plane", (scene, view, {}))
 
 
 def _scene() -> Scene:
@@ -173,8 +192,8 @@ def _above(plain):
     return scene, (city_views.ABOVE, city_views.ABOVE_TARGET, (0.9, 5.0, 6000.0)), {}
 
 
-def layers(count: int = LAYERS, plain: bool = False, back_to_front: bool = False):
-    """Return walls behind each other that fill the picture, as one mesh, and their view."""
+def _layers(plain, count=LAYERS, back_to_front=False):
+    """Walls behind each other that fill the picture, as one mesh."""
     distance = np.linspace(2.0, 40.0, count)
     distance = distance[::-1] if back_to_front else distance
     corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
@@ -214,8 +233,8 @@ _MAKERS = {
     "city-street": _street,
     "city-above": _above,
     "city-lights": lambda plain: _street(plain, LIGHTS),
-    "fill-front": lambda plain: layers(plain=plain),
-    "fill-back": lambda plain: layers(plain=plain, back_to_front=True),
+    "fill-front": _layers,
+    "fill-back": lambda plain: _layers(plain, back_to_front=True),
     "spheres": lambda plain: _spheres(((34, 26, 44), (0, 0, 0), (0.94, 1.0, 150.0))),
     "spheres-inside": lambda plain: _spheres(((4.5, 2.5, 3.5), (-2, -1, -17), (0.7, 0.2, 80.0))),
 }

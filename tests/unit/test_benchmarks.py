@@ -1,5 +1,6 @@
 """The benchmarks run and report what they say; how fast anything is is not tested."""
 
+import importlib
 import json
 import shutil
 import subprocess
@@ -7,6 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from engine3d.benchmarking import line_chart
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
@@ -94,3 +97,123 @@ def test_scene_graph():
     rows = report("scene_graph.py", "--side", "4", "--rounds", "2")["rows"]
     assert len(rows) == 7
     assert all(row["milliseconds"] >= 0 for row in rows)
+
+
+@pytest.fixture
+def compare(monkeypatch):
+    """The module benchmarks/compare.py."""
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    return importlib.import_module("compare")
+
+
+def measured(ratio, spread=0.01):
+    return {"ratio": ratio, "spread": spread}
+
+
+@pytest.mark.parametrize(
+    ("now", "expected"),
+    [(2.0, ""), (1.81, ""), (1.79, "slower"), (2.19, ""), (2.21, "faster")],
+)
+def test_a_ratio_is_lost_beyond_its_margin_only(compare, now, expected):
+    assert compare.verdict({"ratio": 2.0, "margin": 0.1}, measured(now)) == expected
+
+
+def test_ratios_without_a_partner_are_no_regression(compare):
+    rows = compare.compare({"a": {"ratio": 1.0, "margin": 0.1}}, {"b": measured(2.0)}, "ab")
+    assert [row["verdict"] for row in rows] == ["not measured", "new"]
+    assert [compare.line(row).split() for row in rows] == [
+        ["a", "1.00", "10%", "not", "measured"],
+        ["b", "2.00", "new"],
+    ]
+
+
+def test_margins_follow_the_noise_within_limits(compare):
+    spreads = [0.0, 0.2, 3.0]
+    margins = [compare.entry(measured(2.0, spread))["margin"] for spread in spreads]
+    assert margins == [compare.LEAST_MARGIN, 0.2, compare.MOST_MARGIN]
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"), [([1.0, 2.0], ""), ([1.0, 1.0], "slower"), ([2.0], "")]
+)
+def test_what_fell_is_measured_again(compare, values, expected):
+    ratio = compare.RATIOS[0]
+    stored = {ratio.name: {"ratio": 2.0, "margin": 0.1}}
+    left = iter(values)
+    rows = compare.run(
+        [(ratio, True)], stored, 1.0, lambda row: None, lambda *_: measured(next(left))
+    )
+    assert rows[0]["verdict"] == expected and list(left) == []
+
+
+def test_an_update_keeps_what_was_not_measured(compare):
+    first, second = (ratio.name for ratio in compare.RATIOS[:2])
+    old = {"ratios": {second: {"ratio": 3.0, "margin": 0.1}, "gone": {"ratio": 1, "margin": 1}}}
+    new = compare.updated(old, {first: measured(2.0)})["ratios"]
+    assert new == {
+        first: {"ratio": 2.0, "margin": compare.LEAST_MARGIN},
+        second: {"ratio": 3.0, "margin": 0.1},
+    }
+
+
+def test_a_round_is_other_over_better(compare):
+    ratios = importlib.import_module("ratios")
+    assert ratios.summary([2.0, 4.0, 3.0, 3.0, 3.0]) == {"ratio": 3.0, "spread": 1 / 3}
+    clock = iter(range(0, 10**6, 7))
+
+    class Sleeper:
+        def __init__(self, ticks):
+            self._ticks = ticks
+
+        def draw(self, frame):
+            for _ in range(self._ticks):
+                next(clock)
+
+    rounds = ratios._rounds(Sleeper(1), Sleeper(5), lambda: next(clock), 0.0)
+    assert list(rounds) == [3.0] * ratios.LEAST_ROUNDS
+
+
+@pytest.mark.parametrize(("stored", "status"), [(1e-6, 0), (1e6, 1)])
+def test_the_exit_status_tells_of_a_regression(tmp_path, stored, status):
+    name = "fill-back: deferred over forward"
+    baseline = tmp_path / "baseline.json"
+    baseline.write_text(json.dumps({"ratios": {name: {"ratio": stored, "margin": 0.4}}}))
+    arguments = ["--baseline", str(baseline), "--only", name, "--seconds", "0.01", "--json"]
+    command = [sys.executable, str(BENCHMARKS / "compare.py"), *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == status, done.stderr
+    assert json.loads(done.stdout)["slower"] == [name] * status
+
+
+def test_the_baseline_holds_ratios_that_exist(compare):
+    stored = json.loads(compare.BASELINE.read_text())["ratios"]
+    names = [ratio.name for ratio in compare.RATIOS]
+    assert len(set(names)) == len(names) and stored and set(stored) <= set(names)
+    assert all(entry["ratio"] > 0 and entry["margin"] < 0.5 for entry in stored.values())
+
+
+def test_scaling(tmp_path, monkeypatch):
+    chart = tmp_path / "scaling.svg"
+    series = ["--series", "triangles", "--series", "layers"]
+    small = ["--triangles", "5000", "--seconds", "0.001", "--plot", str(chart)]
+    rows = report("scaling.py", *series, *small)["rows"]
+    assert [row["size"] for row in rows] == [1000, 4000, 1, 2, 4, 8, 16, 32, 64]
+    assert ["growth" in row for row in rows] == [False, True, False, *[True] * 6]
+    assert chart.read_text().count("<line") == 1 + 6
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    scaling = importlib.import_module("scaling")
+    assert scaling.growth((100, 2.0), (1000, 20.0)) == 1.0
+    assert scaling.growth((100, 2.0), (200, 16.0)) == 4.0
+
+
+def test_steady():
+    (row,) = report("steady.py", "--workload", "textured", "--frames", "3")["rows"]
+    assert row["first_over_second"] == row["first_milliseconds"] / row["second_milliseconds"]
+    assert row["faults_a_frame"] >= 0 and row["steady_milliseconds"] > 0
+
+
+def test_a_line_chart_spans_whole_powers():
+    axis = line_chart._Axis([30, 4000])
+    assert [value for value, _ in axis.ticks()] == [10, 100, 1000, 10000]
+    assert axis.place(100) == pytest.approx(1 / 3)
+    assert [value for value, _ in line_chart._Axis([3, 3]).ticks()] == [2, 4]

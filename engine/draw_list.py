@@ -14,7 +14,6 @@ import weakref
 import numpy as np
 
 from ._native.rasterizer import FALLOFFS, NativeDrawList
-from .colors import linear_color
 from .display_colors import shading_color
 from .instances import InstancedMesh
 from .lights import DirectionalLight
@@ -199,10 +198,10 @@ class DrawList:
             self._watched.append((texture, texture.version))
             texture = native_texture(texture, self._color_space)
         self.native.add_material(
-            linear_color(material.color, self._color_space),
-            linear_color(material.specular, self._color_space),
+            shading_color(material.color, self._color_space),
+            shading_color(material.specular, self._color_space),
             max(material.shininess, _SMALLEST_SHININESS),
-            linear_color(material.emissive, self._color_space),
+            shading_color(material.emissive, self._color_space),
             texture,
             number,
             material.two_sided,

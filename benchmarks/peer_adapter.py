@@ -22,7 +22,6 @@ class Peer:
     def __init__(self, scene):
         self.source = scene
         self.output = OUTPUTS.get(scene.mode, "color")
-        self.shading = "forward" if scene.mode == "lights" else "deferred"
         ambient = (float(scene.ambient),) * 3
         self.scene = e3d.Scene(background=tuple(map(float, scene.clear[:3])), ambient=ambient)
         for draw in scene.draws:

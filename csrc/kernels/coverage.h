@@ -49,4 +49,22 @@ static inline e3d_edge e3d_edge_at(const e3d_record *r, int k, int32_t x, int32_
     return edge;
 }
 
+/* Edge k of a piece, R12 at the first sample (x, y) of a tile. 0 if it rejects the whole tile; an edge that the tile satisfies is
+ * left out, so that the others fit 32 bits. */
+static inline int e3d_piece_edge(const e3d_record *r, int k, int32_t x, int32_t y, e3d_piece *piece)
+{
+    const int64_t span = E3D_TILE - 1;
+    e3d_edge edge = e3d_edge_at(r, k, x, y);
+    int64_t a = edge.a * span, b = edge.b * span;
+    if (edge.e + (a > 0 ? a : 0) + (b > 0 ? b : 0) < 0)
+        return 0;
+    int crosses = edge.e + (a < 0 ? a : 0) + (b < 0 ? b : 0) < 0;
+    piece->e[k] = crosses ? (int32_t)edge.e : 0;
+    piece->a[k] = crosses ? edge.a : 0;
+    piece->b[k] = crosses ? edge.b : 0;
+    return 1;
+}
+
+static inline int32_t e3d_in_tile(int32_t v) { return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1 : v; }
+
 #endif

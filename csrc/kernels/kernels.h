@@ -115,6 +115,11 @@ typedef struct e3d_record_table {
     int32_t bits;
 } e3d_record_table;
 
+static inline const e3d_record *e3d_record_at(const e3d_record_table *table, uint32_t id)
+{
+    return table->records[id & ((1u << table->bits) - 1)] + (id >> table->bits);
+}
+
 enum { E3D_TILE_BLOCKS = E3D_TILE_SAMPLES / 64 };
 
 /* The visible surface of a tile, and of its blocks of 8 x 8 samples, row by row. A noted block is covered whole by one

@@ -89,3 +89,13 @@ int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_se
     int64_t tile = (int64_t)(span.first >> 16) * context->tiles_x + (span.first & 0xFFFF);
     return push(set, (e3d_bin *)set->bins.data + tile, id);
 }
+
+/* Whether any thread has a record for the tile. */
+int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
+{
+    const e3d_renderer *renderer = context->renderer;
+    for (int32_t w = 0; w < renderer->threads; w++)
+        if (((const e3d_bin *)renderer->workers[w]->pass[pass].bins.data)[tile].first != E3D_NO_BLOCK)
+            return 1;
+    return 0;
+}

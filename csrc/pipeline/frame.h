@@ -262,8 +262,8 @@ void e3d_view_box(const e3d_viewport *viewport, const float clip[16], const floa
 /* Lists the frame's items; 0 when memory is out. */
 int e3d_find_items(e3d_context *context);
 const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);
-const e3d_draw_state *e3d_draw_of_unit(const e3d_context *context, int64_t unit);
-const e3d_draw_state *e3d_draw_of_group(const e3d_context *context, int64_t group);
+/* The last draw that starts at or before a number; base: offset of the e3d_draw_state's start of such numbers. */
+const e3d_draw_state *e3d_find_draw(const e3d_context *context, size_t base, int64_t number);
 
 /* facing.c */
 void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_facing *out);
@@ -324,6 +324,7 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 }
 /* Whether `more` records have IDs and memory. */
 int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
+int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
 /* After the records have their places: the tables that tell a record by its ID. */
 void e3d_tables_set(e3d_context *context);
 
@@ -342,7 +343,6 @@ int e3d_keeps_slots(const e3d_context *context);
 /* visible.c: the visible surface by record ID, for whatever shades it afterwards */
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number);
-const e3d_record *e3d_record_of(const e3d_context *context, int pass, uint32_t id);
 /* The runs of what shows, owned by slots; their number, or -1 when memory is out. */
 int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* The next free slot is this record's; 0 when memory is out. */

@@ -112,15 +112,6 @@ int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
 
 /* ---- a round's tiles ---- */
 
-static int has_bins(const e3d_context *context, int64_t tile)
-{
-    const e3d_renderer *renderer = context->renderer;
-    for (int32_t w = 0; w < renderer->threads; w++)
-        if (((const e3d_bin *)renderer->workers[w]->pass[E3D_PASS_SCENE].bins.data)[tile].first != E3D_NO_BLOCK)
-            return 1;
-    return 0;
-}
-
 static void note_depths(const e3d_visible_tile *visible, e3d_tile_depths *depths)
 {
     float most = visible->zmax[0];
@@ -152,7 +143,7 @@ static void kept_work(void *argument, int number)
         int64_t tile = atomic_fetch_add(&context->next, 1);
         if (tile >= e3d_tile_count(context))
             return;
-        if (has_bins(context, tile))
+        if (e3d_has_bin(context, E3D_PASS_SCENE, tile))
             draw_kept(context, context->renderer->workers[number], tile);
     }
 }

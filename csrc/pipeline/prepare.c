@@ -105,26 +105,12 @@ static void instances_work(void *argument, int worker)
     }
 }
 
-/* The last draw that starts at or before a unit or a group. */
-const e3d_draw_state *e3d_draw_of_unit(const e3d_context *context, int64_t unit)
+const e3d_draw_state *e3d_find_draw(const e3d_context *context, size_t base, int64_t number)
 {
     int32_t low = 0, high = context->frame->draw_count - 1;
     while (low < high) {
         int32_t middle = low + (high - low + 1) / 2;
-        if (context->draws[middle].unit_base <= unit)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return &context->draws[low];
-}
-
-const e3d_draw_state *e3d_draw_of_group(const e3d_context *context, int64_t group)
-{
-    int32_t low = 0, high = context->frame->draw_count - 1;
-    while (low < high) {
-        int32_t middle = low + (high - low + 1) / 2;
-        if (context->draws[middle].group_base <= group)
+        if (*(const int64_t *)((const char *)&context->draws[middle] + base) <= number)
             low = middle;
         else
             high = middle - 1;

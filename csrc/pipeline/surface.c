@@ -5,19 +5,6 @@
 
 /* ---- which primitive a piece is of ---- */
 
-static const e3d_draw_state *draw_of_order(const e3d_context *context, uint32_t order)
-{
-    int32_t low = 0, high = context->frame->draw_count - 1;
-    while (low < high) {
-        int32_t middle = low + (high - low + 1) / 2;
-        if (context->draws[middle].order_base <= order)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return &context->draws[low];
-}
-
 /* The instance that was found last, and the order of its first primitive: mostly the next piece is of it, too. */
 typedef struct instance_finder {
     const e3d_draw_state *draw;
@@ -30,7 +17,7 @@ static void find_primitive(const e3d_context *context, uint32_t order, instance_
                            e3d_visible_piece *out)
 {
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
-        const e3d_draw_state *draw = draw_of_order(context, order);
+        const e3d_draw_state *draw = e3d_find_draw(context, offsetof(e3d_draw_state, order_base), order);
         uint32_t primitives = (uint32_t)draw->primitives;
         if (draw != finder->draw)
             finder->group = -1;

@@ -6,40 +6,20 @@
 
 /* ---- a record in a tile ---- */
 
-static int32_t clamp_to_tile(int32_t v)
-{
-    return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1 : v;
-}
-
-/* 0 if an edge rejects the whole tile. Edges that the tile satisfies are left out, so that the others fit 32 bits. */
-static int prepare_edges(const e3d_record *record, const e3d_tile *tile, e3d_piece *piece)
-{
-    const int64_t span = E3D_TILE - 1;
-    for (int k = 0; k < 3; k++) {
-        e3d_edge edge = e3d_edge_at(record, k, tile->x, tile->y);
-        int64_t a = edge.a * span, b = edge.b * span;
-        if (edge.e + (a > 0 ? a : 0) + (b > 0 ? b : 0) < 0)
-            return 0;
-        int crosses = edge.e + (a < 0 ? a : 0) + (b < 0 ? b : 0) < 0;
-        piece->e[k] = crosses ? (int32_t)edge.e : 0;
-        piece->a[k] = crosses ? edge.a : 0;
-        piece->b[k] = crosses ? edge.b : 0;
-    }
-    return 1;
-}
-
+/* 0 if an edge rejects the whole tile. */
 static int prepare_piece(const e3d_context *context, const e3d_record *record, const e3d_tile *tile,
                          uint32_t slot, e3d_piece *piece)
 {
-    if (!prepare_edges(record, tile, piece))
-        return 0;
+    for (int k = 0; k < 3; k++)
+        if (!e3d_piece_edge(record, k, tile->x, tile->y, piece))
+            return 0;
     e3d_box box = e3d_sample_box(record->x, record->y, &context->viewport);
     piece->base_x = box.x0 - tile->x;
     piece->base_y = box.y0 - tile->y;
-    piece->x0 = clamp_to_tile(box.x0 - tile->x);
-    piece->y0 = clamp_to_tile(box.y0 - tile->y);
-    piece->x1 = clamp_to_tile(box.x1 - tile->x);
-    piece->y1 = clamp_to_tile(box.y1 - tile->y);
+    piece->x0 = e3d_in_tile(box.x0 - tile->x);
+    piece->y0 = e3d_in_tile(box.y0 - tile->y);
+    piece->x1 = e3d_in_tile(box.x1 - tile->x);
+    piece->y1 = e3d_in_tile(box.y1 - tile->y);
     piece->z0 = record->z0;
     piece->gx = record->gx;
     piece->gy = record->gy;
@@ -75,7 +55,7 @@ static int run_block(tile_job *job, int pass, const e3d_bin_block *block, piece_
 {
     e3d_worker *worker = job->worker;
     for (uint32_t i = 0; i < block->count; i++) {
-        const e3d_record *record = e3d_record_of(job->context, pass, block->id[i]);
+        const e3d_record *record = e3d_record_at(&job->context->tables[pass], block->id[i]);
         e3d_piece piece;
         if (!prepare_piece(job->context, record, &job->tile, (uint32_t)worker->slots.count, &piece))
             continue;
@@ -153,7 +133,7 @@ static void find_edge_limits(tile_job *job)
             continue;
         const e3d_record *kept = e3d_keeps_slots(job->context)
                                      ? slots[visible->id[i]].record
-                                     : e3d_record_of(job->context, E3D_PASS_SCENE, (uint32_t)visible->id[i]);
+                                     : e3d_record_at(&job->context->tables[E3D_PASS_SCENE], (uint32_t)visible->id[i]);
         float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
         float limit = visible->z[i] + (slope < range ? slope : range);
         if (limit < E3D_BEYOND_FAR)
@@ -292,14 +272,8 @@ static int draw_marks(tile_job *job)
 
 static int is_empty(const tile_job *job)
 {
-    const e3d_renderer *renderer = job->context->renderer;
-    for (int32_t w = 0; w < renderer->threads; w++)
-        for (int pass = 0; pass < E3D_PASSES; pass++) {
-            const e3d_bin *bins = renderer->workers[w]->pass[pass].bins.data;
-            if (bins[job->number].first != E3D_NO_BLOCK)
-                return 0;
-        }
-    return 1;
+    return !e3d_has_bin(job->context, E3D_PASS_SCENE, job->number) &&
+           !e3d_has_bin(job->context, E3D_PASS_WIRE, job->number);
 }
 
 e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)

@@ -31,12 +31,6 @@ void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int
     }
 }
 
-const e3d_record *e3d_record_of(const e3d_context *context, int pass, uint32_t id)
-{
-    const e3d_record_table *table = &context->tables[pass];
-    return table->records[id & ((1u << table->bits) - 1)] + (id >> table->bits);
-}
-
 /* ---- slots ---- */
 
 static const float *corners_of(const e3d_context *context, int pass, uint32_t id, const e3d_record *record)
@@ -51,7 +45,7 @@ int e3d_add_slot(const e3d_context *context, e3d_worker *worker, int pass, uint3
 {
     if (!e3d_array_reserve(&worker->slots, worker->slots.count + 1, sizeof(e3d_slot)))
         return 0;
-    const e3d_record *record = e3d_record_of(context, pass, id);
+    const e3d_record *record = e3d_record_at(&context->tables[pass], id);
     ((e3d_slot *)worker->slots.data)[worker->slots.count++] =
         (e3d_slot){record, corners_of(context, pass, id, record), -1};
     return 1;

@@ -13,11 +13,6 @@ typedef struct visible_plane {
     int32_t base_x, base_y; /* relative to the tile */
 } visible_plane;
 
-static inline const e3d_record *visible_record(const e3d_record_table *table, uint32_t id)
-{
-    return table->records[id & ((1u << table->bits) - 1)] + (id >> table->bits);
-}
-
 static inline int32_t visible_min3(const int32_t v[3])
 {
     int32_t least = v[0] < v[1] ? v[0] : v[1];
@@ -47,7 +42,7 @@ static inline visible_plane visible_plane_of(const e3d_record *r, const e3d_visi
 
 static inline int visible_comes_first(const e3d_record *r, int32_t kept, const e3d_record_table *table)
 {
-    return kept >= 0 && r->order < visible_record(table, (uint32_t)kept)->order;
+    return kept >= 0 && r->order < e3d_record_at(table, (uint32_t)kept)->order;
 }
 
 /* Lanes of equal depth; of two zeros the depth takes the sign, too. */
@@ -98,7 +93,7 @@ static void visible_unfold(e3d_visible_tile *tile, const e3d_record_table *table
             }
         return;
     }
-    visible_plane p = visible_plane_of(visible_record(table, (uint32_t)id), tile);
+    visible_plane p = visible_plane_of(e3d_record_at(table, (uint32_t)id), tile);
     raster_constants c = {v_setf(p.z0), v_setf(p.gx), v_setf(p.gy), v_setf(p.zmin), v_setf(p.zmax), v_seti(id)};
     for (int x = 0; x < RASTER_BLOCK; x += V_LANES) {
         vf32 column = raster_column(&c, at % E3D_TILE + x - p.base_x);
@@ -351,28 +346,7 @@ static inline void visible_tiny(const e3d_record *r, int32_t id, e3d_visible_til
 
 /* ---- a record in a tile ---- */
 
-static inline int32_t visible_in_tile(int32_t v)
-{
-    return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1 : v;
-}
-
-/* R12 at the tile's first sample. 0 if an edge rejects the whole tile; an edge that the tile satisfies is left out, so that
- * the others fit 32 bits. */
-static inline int visible_edge(const e3d_record *r, int k, e3d_piece *piece, const e3d_visible_tile *tile)
-{
-    const int64_t span = E3D_TILE - 1;
-    e3d_edge edge = e3d_edge_at(r, k, tile->x, tile->y);
-    int64_t a = edge.a * span, b = edge.b * span;
-    if (edge.e + (a > 0 ? a : 0) + (b > 0 ? b : 0) < 0)
-        return 0;
-    int crosses = edge.e + (a < 0 ? a : 0) + (b < 0 ? b : 0) < 0;
-    piece->e[k] = crosses ? (int32_t)edge.e : 0;
-    piece->a[k] = crosses ? edge.a : 0;
-    piece->b[k] = crosses ? edge.b : 0;
-    return 1;
-}
-
-/* The same for a triangle of at most 64 samples a side: 32 bits hold all of it. */
+/* The edges of a triangle of at most 64 samples a side: 32 bits hold all of them. */
 static inline void visible_small_edges(const e3d_record *r, e3d_piece *p, const e3d_visible_tile *tile)
 {
     int32_t px = 256 * (tile->x + p->x0) + 128, py = 256 * (tile->y + p->y0) + 128;
@@ -394,15 +368,15 @@ static inline void visible_piece(const e3d_record *r, int32_t id, e3d_visible_ti
     int32_t right = visible_max3(r->x), bottom = visible_max3(r->y);
     p.base_x = plane.base_x;
     p.base_y = plane.base_y;
-    p.x0 = visible_in_tile(p.base_x);
-    p.y0 = visible_in_tile(p.base_y);
-    p.x1 = visible_in_tile(((right - 128) >> 8) - tile->x);
-    p.y1 = visible_in_tile(((bottom - 128) >> 8) - tile->y);
+    p.x0 = e3d_in_tile(p.base_x);
+    p.y0 = e3d_in_tile(p.base_y);
+    p.x1 = e3d_in_tile(((right - 128) >> 8) - tile->x);
+    p.y1 = e3d_in_tile(((bottom - 128) >> 8) - tile->y);
     if (right - visible_min3(r->x) <= E3D_TILE * 256 && bottom - visible_min3(r->y) <= E3D_TILE * 256)
         visible_small_edges(r, &p, tile);
     else
         for (int k = 0; k < 3; k++)
-            if (!visible_edge(r, k, &p, tile))
+            if (!e3d_piece_edge(r, k, tile->x, tile->y, &p))
                 return;
     p.gx = r->gx;
     p.gy = r->gy;
@@ -420,9 +394,9 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
                                   int count)
 {
     for (int i = 0; i < count; i++) {
-        const e3d_record *r = visible_record(table, ids[i]);
+        const e3d_record *r = e3d_record_at(table, ids[i]);
         if (i + 4 < count)
-            __builtin_prefetch(visible_record(table, ids[i + 4]));
+            __builtin_prefetch(e3d_record_at(table, ids[i + 4]));
         if (r->meta & E3D_RECORD_TINY)
             visible_tiny(r, (int32_t)ids[i], tile, table);
         else

@@ -128,11 +128,20 @@ def packages():
 
 
 class Build(build):
-    """Keeps each kind of build in its own folder."""
+    """Keeps each kind of build in its own folder, and nothing there of modules since deleted."""
 
     def initialize_options(self):
         super().initialize_options()
         self.build_base = build_base()
+
+    def run(self):
+        super().run()
+        # A wheel takes the whole folder, with what an earlier build left there.
+        commands = [self.get_finalized_command(name) for name in ("build_py", "build_ext")]
+        made = {os.path.abspath(path) for command in commands for path in command.get_outputs()}
+        for path in Path(self.build_lib).absolute().rglob("*"):
+            if path.is_file() and str(path) not in made:
+                path.unlink()
 
 
 class BuildStaticLibraries(build_clib):

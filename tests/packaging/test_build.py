@@ -76,6 +76,18 @@ def test_unchanged_files_are_not_rebuilt(build, tiny_tree):
     assert made == {path: path.stat().st_mtime_ns for path in tiny_tree.glob("build/**/*.o")}
 
 
+def test_deleted_modules_leave_the_build_folder(run_python, tiny_tree):
+    def modules_built():
+        run_python("setup.py", "-q", "build", cwd=tiny_tree)
+        return {path.name.partition(".")[0] for path in tiny_tree.glob("build/*/lib*/**/*.*")}
+
+    (tiny_tree / "engine/gone.py").write_text("", "utf-8")
+    before = modules_built()
+    assert {"version", "number", "gone"} <= before
+    (tiny_tree / "engine/gone.py").unlink()
+    assert modules_built() == before - {"gone"}
+
+
 @pytest.mark.parametrize("cflags", ["-Ofast -march=native -flto", "-ffast-math -O0"])
 def test_flags_of_the_user_cannot_change_results(build, cflags):
     assert build(CFLAGS=cflags) == 42

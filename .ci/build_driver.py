@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Builds csrc/driver/ and the C core into one program, without Python's own flags.
 
-In:  --output FILE, --compiler CC (a cross compiler too), --static, --fuzz (libFuzzer's entry, with
-     clang only), and ENGINE3D_BUILD as in setup.py, which also gives the libraries and the flags.
-Out: the program. Nothing is kept between runs.
+In:  --output FILE, --compiler CC (a cross compiler too), --static, and ENGINE3D_BUILD as in
+     setup.py, which also gives the libraries and the flags. With --fuzz, by clang only, the core
+     goes with each target of csrc/fuzz/ instead, and --output is their folder.
+Out: the program, or the targets. Nothing is kept between runs.
 """
 
 import argparse
@@ -16,8 +17,14 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-# Comparisons aren't traced: nearly all are of pixels, and the tracing takes most of the time.
-FUZZ_FLAGS = ["-fsanitize=fuzzer-no-link", "-fno-sanitize-coverage=trace-cmp"]
+FUZZ_FLAGS = ["-fsanitize=fuzzer-no-link,float-cast-overflow"]
+FUZZ_FLAGS += ["-fno-sanitize-recover=float-cast-overflow"]
+# What compares bytes of a file. Elsewhere most comparisons are of pixels and coordinates, and the
+# tracing would take most of the time.
+TRACED = ("csrc/loaders/", "csrc/fuzz/decimal", "csrc/images/tga")
+UNTRACED_FLAGS = ["-fno-sanitize-coverage=trace-cmp"]
+# What a target that lets memory run out calls in their place.
+WRAPPED = ("malloc", "calloc", "realloc", "aligned_alloc")
 
 
 def rules_for(compiler):
@@ -29,10 +36,12 @@ def rules_for(compiler):
     return rules
 
 
-def compile_all(compiler, rules, extra, folder):
-    """Compile the core and the driver; return the objects."""
-    other = "driver.c" if extra == FUZZ_FLAGS else "fuzz.c"
-    driver = [str(path) for path in Path("csrc/driver").glob("*.c") if path.name != other]
+def compile_all(compiler, rules, fuzz, folder):
+    """Compile the core and the driver, or the targets; return the object of each source."""
+    driver = [str(path) for path in Path("csrc/driver").glob("*.c")]
+    if fuzz:
+        driver.remove("csrc/driver/driver.c")
+        driver += [str(path) for path in Path("csrc/fuzz").glob("*.c")]
     jobs = [(source, [*rules["WARNINGS"], *rules["common_flags"]()], []) for source in driver]
     for _, info in rules["static_libraries"]():
         macros = [f"-D{name}={value}" for name, value in info["macros"]]
@@ -42,12 +51,33 @@ def compile_all(compiler, rules, extra, folder):
     def compile_one(job):
         source, flags, macros = job
         target = str(Path(folder) / (source.replace("/", "_") + ".o"))
+        extra = FUZZ_FLAGS if fuzz else []
+        if fuzz and not source.startswith(TRACED):
+            extra = [*extra, *UNTRACED_FLAGS]
         command = [compiler, *macros, *includes, *flags, *extra, "-c", source, "-o", target]
         subprocess.run(command, check=True)
-        return target
+        return source, target
 
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        return list(pool.map(compile_one, jobs))
+        return dict(pool.map(compile_one, jobs))
+
+
+def link(compiler, rules, objects, extra, output):
+    command = [compiler, *rules["common_flags"](), *extra, *objects, "-lm"]
+    subprocess.run([*command, "-o", str(output)], check=True)
+
+
+def link_targets(compiler, rules, objects, folder):
+    """Link each file of csrc/fuzz/ that has libFuzzer's entry with all that have none."""
+    entry = "LLVMFuzzerTestOneInput("
+    targets = [s for s in objects if s.startswith("csrc/fuzz/") and entry in Path(s).read_text()]
+    common = [target for source, target in objects.items() if source not in targets]
+    folder.mkdir(parents=True, exist_ok=True)
+    for source in targets:
+        extra = ["-fsanitize=fuzzer,float-cast-overflow"]
+        if "__wrap_malloc" in Path(source).read_text():
+            extra += [f"-Wl,--wrap={name}" for name in WRAPPED]
+        link(compiler, rules, [*common, objects[source]], extra, folder / Path(source).stem)
 
 
 def main():
@@ -60,13 +90,13 @@ def main():
     output = arguments.output.resolve()
     os.chdir(ROOT)
     rules = rules_for(arguments.compiler)
-    extra = FUZZ_FLAGS if arguments.fuzz else []
-    link = ["-fsanitize=fuzzer"] if arguments.fuzz else []
-    link += ["-static"] if arguments.static else []
     with tempfile.TemporaryDirectory() as folder:
-        objects = compile_all(arguments.compiler, rules, extra, folder)
-        command = [arguments.compiler, *rules["common_flags"](), *link, *objects, "-lm"]
-        subprocess.run([*command, "-o", str(output)], check=True)
+        objects = compile_all(arguments.compiler, rules, arguments.fuzz, folder)
+        if arguments.fuzz:
+            link_targets(arguments.compiler, rules, objects, output)
+        else:
+            static = ["-static"] if arguments.static else []
+            link(arguments.compiler, rules, objects.values(), static, output)
 
 
 if __name__ == "__main__":

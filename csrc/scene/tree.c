@@ -152,9 +152,10 @@ static void find_keys(key *keys, int32_t count, const double *boxes)
     for (int32_t first = 0; first < count; first += 4) {
         e3d_v4i x[3] = {{0}};
         for (int32_t i = first; i < first + 4 && i < count; i++)
-            for (int k = 0; k < 3; k++)
-                x[k][i - first] =
-                    (int32_t)((middle(boxes + E3D_BOX * (size_t)keys[i].item, k) - low[k]) * scale);
+            for (int k = 0; k < 3; k++) {
+                double place = (middle(boxes + E3D_BOX * (size_t)keys[i].item, k) - low[k]) * scale;
+                x[k][i - first] = place > 0 ? (int32_t)place : 0; /* NaN where an endless distance is scaled by 0 */
+            }
         transpose(x);
         for (int32_t i = first; i < first + 4 && i < count; i++)
             keys[i].code = spread((uint32_t)x[0][i - first]) << 2 | spread((uint32_t)x[1][i - first]) << 1 |

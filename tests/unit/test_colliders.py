@@ -153,3 +153,14 @@ def test_arguments(make, message):
     scene = e3d.Scene()
     with pytest.raises(e3d.InvalidArgumentError, match=message):
         make(scene, scene.add())
+
+
+def test_a_box_without_end_meets_every_mesh_and_nothing_beside_them():
+    # Trees hold room for faces that there are none of: such a box must not take them for faces.
+    scene = e3d.Scene()
+    random = np.random.default_rng(1)
+    for count in range(1, 60):
+        positions = random.random((3 * count, 3))
+        mesh = e3d.Mesh(positions, np.arange(3 * count).reshape(-1, 3))
+        scene.add(mesh).collider = e3d.MeshCollider()
+    assert scene.overlap_box((-1e300,) * 3, (1e300,) * 3) == scene.nodes

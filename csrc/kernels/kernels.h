@@ -153,7 +153,7 @@ enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 typedef float e3d_surface_floats[E3D_BATCH_SURFACES + E3D_PAD];
 typedef int32_t e3d_surface_words[E3D_BATCH_SURFACES + E3D_PAD];
 
-/* What the visible pieces of a batch bring to its samples, one an element. */
+/* What visible pieces bring to their samples, one an element. */
 typedef struct e3d_surfaces {
     int32_t count, matrices;
     int32_t irregular;             /* how many are clipped, or not of a face of three-component vertices */
@@ -176,8 +176,8 @@ typedef struct e3d_surfaces {
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 
-/* Samples of one material on their way to a colour. The first is of surface 0, each other of the same as the one before it or
- * of the next. `sample` and `surface` repeat the last for E3D_PAD elements more: whole vectors read them. */
+/* Samples of one material on their way to a colour. Each but the first is of the same surface as the one before it or of
+ * the next. `sample` and `surface` repeat the last for E3D_PAD elements more: whole vectors read them. */
 typedef struct e3d_batch {
     int count;
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */
@@ -205,6 +205,18 @@ typedef struct e3d_lighting {
     const float *reach[4];
     float ambient[3], clamp[2], eye[4];
 } e3d_lighting;
+
+/* How the samples of a batch become pixels. */
+typedef struct e3d_paint {
+    int wanted;                      /* E3D_WANT_* */
+    const e3d_texture_view *texture; /* may be NULL */
+    const float *base;               /* colour of the material */
+    int by_vertex, by_instance;      /* colours to multiply with */
+    const e3d_lighting *lighting;    /* NULL: unlit */
+    float shininess;
+    const float *specular, *emissive; /* of lit samples; specular may be NULL */
+    int srgb;
+} e3d_paint;
 
 /* ---- the table ---- */
 
@@ -247,6 +259,8 @@ typedef struct e3d_kernels {
     /* Planes of colours, which are clamped to [0, 1], to RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);
+    /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. */
+    void (*paint)(const e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
 } e3d_kernels;
 
 /* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */

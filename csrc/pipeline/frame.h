@@ -136,7 +136,7 @@ typedef struct e3d_tile_memory {
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
     e3d_batch batch;
-    e3d_surfaces surfaces;       /* of the batch */
+    e3d_surfaces surfaces;       /* of the batch and its neighbours */
     e3d_run batch_runs[E3D_BATCH]; /* the batch's samples, as runs */
     int32_t batch_run_count;
     uint32_t encoded[E3D_BATCH + E3D_PAD];
@@ -351,7 +351,7 @@ int e3d_add_slot(const e3d_context *context, e3d_worker *worker, int pass, uint3
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
 /* surface.c */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count);
-int32_t e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t piece, int wanted);
+void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t piece, int wanted);
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
 int32_t e3d_face_of(const e3d_visible_piece *piece);
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);

@@ -129,6 +129,35 @@ static int wanted_of(const e3d_context *context, const e3d_group *group)
     return group->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 
+/* Whether samples go straight to pixels: no other output, one sample a pixel, few lights. */
+static int is_painted(const e3d_context *context, const e3d_group *group)
+{
+    const e3d_frame *frame = context->frame;
+    int lit = frame->mode == E3D_MODE_LIT;
+    return !(context->wants & E3D_NEED_OUTPUTS) && frame->samples_axis == 1 && (lit || frame->mode == E3D_MODE_UNLIT) &&
+           !(group->face && frame->wireframe == E3D_WIRE_ONLY) &&
+           (!lit || context->lighting.light_count <= E3D_FEW_LIGHTS);
+}
+
+static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
+{
+    const e3d_material *m = group->material;
+    int lit = context->frame->mode == E3D_MODE_LIT && group->face, shiny = e3d_is_shiny(m);
+    const e3d_paint paint = {
+        .wanted = wanted,
+        .texture = group->textured ? e3d_texture_get_view(m->texture) : NULL,
+        .base = m->color,
+        .by_vertex = group->by_vertex,
+        .by_instance = group->by_instance,
+        .lighting = lit ? &context->lighting : NULL,
+        .shininess = shiny ? m->shininess : 0.0f,
+        .specular = shiny ? m->specular : NULL,
+        .emissive = m->emissive,
+        .srgb = context->srgb,
+    };
+    context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
+}
+
 static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
                         const e3d_group *group, int wanted)
 {
@@ -139,10 +168,12 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
         batch->surface[i] = batch->surface[batch->count - 1];
     }
     worker->counters.shaded += batch->count;
-    if (wanted & E3D_WANT_SURFACE) {
-        e3d_find_surfaces(context, worker, tile, wanted);
-        context->kernels->interpolate(batch, surfaces, wanted);
+    if (is_painted(context, group)) {
+        paint_batch(context, worker, group, wanted);
+        return;
     }
+    if (wanted & E3D_WANT_SURFACE)
+        context->kernels->interpolate(batch, surfaces, wanted);
     if (context->wants & E3D_NEED_ALBEDO)
         find_albedo(context, group, batch, surfaces);
     if (context->wants & E3D_NEED_OUTPUTS)
@@ -158,49 +189,53 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
-static void clear_batch(e3d_tile_memory *memory)
-{
-    memory->batch.count = memory->batch_run_count = 0;
-    memory->surfaces.count = memory->surfaces.matrices = memory->surfaces.irregular = 0;
-}
-
-/* Writes whole fours, past the run's end: the next run, or padding, is written there afterwards. */
-static void append_run(e3d_tile_memory *memory, const e3d_run *run, int32_t surface)
+/* Writes whole vectors, past the run's end: the next run, or padding, is written there afterwards. */
+static void append_run(e3d_tile_memory *memory, e3d_run run, int32_t surface)
 {
     e3d_batch *batch = &memory->batch;
-    int32_t *samples = batch->sample + batch->count, *surfaces = batch->surface + batch->count;
-    for (int i = 0; i < run->length; i += 4)
-        for (int k = 0; k < 4; k++) {
-            samples[i + k] = run->sample + i + k;
+    int32_t *restrict samples = batch->sample + batch->count, *restrict surfaces = batch->surface + batch->count;
+    for (int i = 0; i < run.length; i += E3D_PAD)
+        for (int k = 0; k < E3D_PAD; k++) {
+            samples[i + k] = run.sample + i + k;
             surfaces[i + k] = surface;
         }
-    batch->count += run->length;
-    memory->batch_runs[memory->batch_run_count++] = *run;
+    batch->count += run.length;
+    memory->batch_runs[memory->batch_run_count++] = run;
 }
 
-/* Piece after piece; one that doesn't fit a batch has a surface in each. */
+/* The samples of pieces whose surfaces, 0 and so on, are known. */
+static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
+                         const e3d_group *group, int32_t first, int32_t end, const e3d_run *runs, int wanted)
+{
+    const e3d_visible_piece *pieces = worker->pieces.data;
+    e3d_tile_memory *memory = worker->tile;
+    int32_t surface = 0;
+    memory->batch.count = memory->batch_run_count = 0;
+    for (int32_t p = first; p != end; p = pieces[p].next, surface++)
+        for (int32_t r = pieces[p].first_run; r >= 0; r = runs[r].owner) {
+            if (memory->batch.count + runs[r].length > E3D_BATCH) {
+                shade_batch(context, worker, tile, group, wanted);
+                memory->batch.count = memory->batch_run_count = 0;
+            }
+            append_run(memory, runs[r], surface);
+        }
+    shade_batch(context, worker, tile, group, wanted);
+}
+
 static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
                         const e3d_group *group, const e3d_run *runs)
 {
     const e3d_visible_piece *pieces = worker->pieces.data;
-    e3d_tile_memory *memory = worker->tile;
+    e3d_surfaces *surfaces = &worker->tile->surfaces;
     int wanted = wanted_of(context, group);
-    clear_batch(memory);
-    for (int32_t p = group->first; p >= 0; p = pieces[p].next) {
-        int32_t surface = -1;
-        for (int32_t r = pieces[p].first_run; r >= 0; r = runs[r].owner) {
-            if (memory->batch.count + runs[r].length > E3D_BATCH ||
-                (surface < 0 && memory->surfaces.count == E3D_BATCH_SURFACES)) {
-                shade_batch(context, worker, tile, group, wanted);
-                clear_batch(memory);
-                surface = -1;
-            }
-            if (surface < 0)
-                surface = e3d_add_surface(context, worker, p, wanted);
-            append_run(memory, &runs[r], surface);
-        }
+    for (int32_t first = group->first, p = first; first >= 0; first = p) {
+        surfaces->count = surfaces->matrices = surfaces->irregular = 0;
+        for (; p >= 0 && surfaces->count < E3D_BATCH_SURFACES; p = pieces[p].next)
+            e3d_add_surface(context, worker, p, wanted);
+        if (wanted & E3D_WANT_SURFACE)
+            e3d_find_surfaces(context, worker, tile, wanted);
+        shade_pieces(context, worker, tile, group, first, p, runs, wanted);
     }
-    shade_batch(context, worker, tile, group, wanted);
 }
 
 static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs,

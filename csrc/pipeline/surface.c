@@ -229,8 +229,8 @@ static void add_record(const e3d_record *record, e3d_surfaces *s, int32_t n)
     s->swapped[n] = (record->meta & E3D_RECORD_SWAPPED) != 0;
 }
 
-/* The number in the batch of a piece's surface, without what e3d_find_surfaces adds. */
-int32_t e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t number, int wanted)
+/* The next surface is that of a piece, without what e3d_find_surfaces adds. */
+void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t number, int wanted)
 {
     const e3d_visible_piece *piece = (const e3d_visible_piece *)worker->pieces.data + number;
     const e3d_group *group = (const e3d_group *)worker->groups.data + piece->group;
@@ -239,7 +239,7 @@ int32_t e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t 
     int32_t vertex[3], n = s->count++, face = e3d_face_of(piece);
     s->piece[n] = number;
     if (!(wanted & E3D_WANT_SURFACE))
-        return n;
+        return;
     int count = vertices_of(piece, vertex);
     s->irregular += piece->slot->corners || face < 0 || mesh->components == 4;
     add_record(piece->slot->record, s, n);
@@ -253,7 +253,6 @@ int32_t e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t 
         add_vectors(mesh->uvs, 2, vertex, count, s->uv, 2, n);
     if (context->wants & E3D_NEED_ALBEDO)
         add_colors(context, piece, group, vertex, count, s, n);
-    return n;
 }
 
 /* ---- what the kernel leaves to do ---- */

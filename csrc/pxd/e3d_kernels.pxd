@@ -91,6 +91,18 @@ cdef extern from "kernels/kernels.h" nogil:
         float clamp[2]
         float eye[4]
 
+    ctypedef struct e3d_paint:
+        int wanted
+        const e3d_texture_view *texture
+        const float *base
+        int by_vertex
+        int by_instance
+        const e3d_lighting *lighting
+        float shininess
+        const float *specular
+        const float *emissive
+        int srgb
+
     ctypedef struct e3d_kernels:
         void (*transform)(const float *positions, int stride, int count, const float *matrix,
                           const e3d_viewport *viewport, e3d_vertices *out)
@@ -118,5 +130,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
+        void (*paint)(const e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint,
+                      uint32_t *rgba)
 
     const e3d_kernels *e3d_kernels_for(e3d_backend backend)

@@ -106,3 +106,19 @@ class Kernels:
         srgb: bool,
         rgba: _Words,
     ) -> None: ...
+    def paint(
+        self,
+        batch: _Bytes,
+        surfaces: _Bytes,
+        wanted: int,
+        texture: tuple[_Bytes, int, _Integers, int, int] | None,
+        base: _Floats,
+        by_vertex: bool,
+        by_instance: bool,
+        lighting: tuple[_Bytes, _Floats, _Floats, _Floats, _Floats] | None,
+        shininess: float,
+        specular: _Floats | None,
+        emissive: _Floats,
+        srgb: bool,
+        rgba: _Words,
+    ) -> None: ...

@@ -245,16 +245,8 @@ cdef class Kernels:
               const float[::1] ambient, const float[::1] clamp, const float[::1] eye,
               float shininess):
         """``reach``: (4, lights + PAD)."""
-        cdef e3d_lighting lighting
-        cdef int row
+        cdef e3d_lighting lighting = lighting_of(lights, reach, ambient, clamp, eye)
         check_size(batch, sizeof(e3d_batch))
-        lighting.light_count = <int>(lights.shape[0] // sizeof(e3d_light))
-        lighting.lights = <const e3d_light *>&lights[0] if lighting.light_count else NULL
-        for row in range(4):
-            lighting.reach[row] = &reach[row, 0]
-        memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
-        memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
-        memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
         for _ in range(self.rounds):
             self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)
 
@@ -271,6 +263,38 @@ cdef class Kernels:
                bint srgb, uint32_t[::1] rgba):
         for _ in range(self.rounds):
             self.table.encode(&red[0], &green[0], &blue[0], count, srgb, &rgba[0])
+
+    def paint(self, const uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
+              const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
+              const float[::1] specular, const float[::1] emissive, bint srgb, uint32_t[::1] rgba):
+        """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
+
+        ``specular`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements.
+        """
+        cdef e3d_paint paint
+        cdef e3d_texture_view view
+        cdef e3d_lighting lights
+        check_size(batch, sizeof(e3d_batch))
+        check_size(surfaces, sizeof(e3d_surfaces))
+        if texture is not None:
+            texels, texel_bytes, sizes, filter, wrap = texture
+            view = texture_view(texels, texel_bytes, sizes, filter, wrap)
+        if lighting is not None:
+            of, reach, ambient, clamp, eye = lighting
+            lights = lighting_of(of, reach, ambient, clamp, eye)
+        paint.wanted = wanted
+        paint.texture = NULL if texture is None else &view
+        paint.base = &base[0]
+        paint.by_vertex = by_vertex
+        paint.by_instance = by_instance
+        paint.lighting = NULL if lighting is None else &lights
+        paint.shininess = shininess
+        paint.specular = NULL if specular is None else &specular[0]
+        paint.emissive = &emissive[0]
+        paint.srgb = srgb
+        for _ in range(self.rounds):
+            self.table.paint(<const e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
+                             &paint, &rgba[0])
 
 
 cdef enum:
@@ -306,6 +330,21 @@ cdef int raster(raster_kernel kernel, int rounds, const uint8_t[::1] pieces, flo
         for number in range(count):
             kernel(first + number, &tile)
     return 0
+
+
+cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] reach,
+                              const float[::1] ambient, const float[::1] clamp,
+                              const float[::1] eye):
+    cdef e3d_lighting lighting
+    cdef int row
+    lighting.light_count = <int>(lights.shape[0] // sizeof(e3d_light))
+    lighting.lights = <const e3d_light *>&lights[0] if lighting.light_count else NULL
+    for row in range(4):
+        lighting.reach[row] = &reach[row, 0]
+    memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
+    memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
+    memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
+    return lighting
 
 
 cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int texel_bytes,

@@ -4,11 +4,6 @@
  * bits is at most ENCODE_STEPS too small (encode_tables.h is made so), and is then counted up.
  */
 
-static inline vf32 encode_clamp(const float *v)
-{
-    return v_min(v_max(v_loadf(v), v_setf(0.0f)), v_setf(1.0f));
-}
-
 static inline vi32 encode_srgb(vf32 v)
 {
     vi32 bucket = v_subi(v_shr(v_asi(v), ENCODE_SHIFT), v_seti(ENCODE_FIRST));
@@ -26,15 +21,23 @@ static inline vi32 encode_linear(vf32 v)
     return v_trunc(v_add(v_mul(v_setf(255.0f), v), v_setf(0.5f)));
 }
 
+/* One vector of colours. */
+static inline vi32 encode_vector(const vf32 color[3], int srgb)
+{
+    vi32 code[3];
+    for (int k = 0; k < 3; k++) {
+        vf32 v = v_min(v_max(color[k], v_setf(0.0f)), v_setf(1.0f));
+        code[k] = srgb ? encode_srgb(v) : encode_linear(v);
+    }
+    vi32 low = v_ori(code[0], v_shl(code[1], 8)), high = v_ori(v_shl(code[2], 16), v_seti((int32_t)0xFF000000));
+    return v_ori(low, high);
+}
+
 static void kernel_encode(const float *red, const float *green, const float *blue, int count, int srgb,
                           uint32_t *rgba)
 {
     for (int i = 0; i < count; i += V_LANES) {
-        vf32 r = encode_clamp(red + i), g = encode_clamp(green + i), b = encode_clamp(blue + i);
-        vi32 cr = srgb ? encode_srgb(r) : encode_linear(r);
-        vi32 cg = srgb ? encode_srgb(g) : encode_linear(g);
-        vi32 cb = srgb ? encode_srgb(b) : encode_linear(b);
-        vi32 low = v_ori(cr, v_shl(cg, 8)), high = v_ori(v_shl(cb, 16), v_seti((int32_t)0xFF000000));
-        v_storei(rgba + i, v_ori(low, high));
+        const vf32 color[3] = {v_loadf(red + i), v_loadf(green + i), v_loadf(blue + i)};
+        v_storei(rgba + i, encode_vector(color, srgb));
     }
 }

@@ -87,19 +87,25 @@ static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, i
     }
 }
 
+/* R24 */
+static inline void tint_vector(const e3d_surfaces *s, const element_lanes *lanes, const vf32 b[3], int by_vertex,
+                               int by_instance, vf32 color[3])
+{
+    for (int c = 0; c < 3 && by_vertex; c++)
+        color[c] = v_mul(color[c], interpolate_one(s->color[c], lanes, lanes->same, b));
+    for (int c = 0; c < 3 && by_instance; c++)
+        color[c] = v_mul(color[c], take(s->instance_color[c], lanes, lanes->same));
+}
+
 static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         element_lanes lanes = lanes_of(batch->surface + i);
         const vf32 b[3] = {v_loadf(batch->b[0] + i), v_loadf(batch->b[1] + i), v_loadf(batch->b[2] + i)};
-        for (int c = 0; c < 3; c++) {
-            vf32 v = v_loadf(batch->color[c] + i);
-            if (by_vertex)
-                v = v_mul(v, interpolate_one(surfaces->color[c], &lanes, lanes.same, b));
-            if (by_instance)
-                v = v_mul(v, take(surfaces->instance_color[c], &lanes, lanes.same));
-            v_storef(batch->color[c] + i, v);
-        }
+        vf32 color[3] = {v_loadf(batch->color[0] + i), v_loadf(batch->color[1] + i), v_loadf(batch->color[2] + i)};
+        tint_vector(surfaces, &lanes, b, by_vertex, by_instance, color);
+        for (int c = 0; c < 3; c++)
+            v_storef(batch->color[c] + i, color[c]);
     }
 }
 
@@ -147,20 +153,24 @@ static inline vf32 level_length2(const e3d_surface_floats step[3], const element
     return v_add(square[0], square[1]);
 }
 
-static void kernel_select_level(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture)
+/* R26: 256 levels a level. */
+static inline vi32 level_of(const e3d_surfaces *s, const element_lanes *lanes, const vf32 uv[2], vf32 r,
+                            const e3d_texture_view *texture)
 {
     const vf32 size[2] = {v_setf((float)texture->levels[0].width), v_setf((float)texture->levels[0].height)};
     vf32 one = v_setf(1.0f);
-    vi32 last = v_seti((texture->level_count - 1) * 256);
+    vf32 q = v_max(level_length2(s->step[0], lanes, uv, r, size), level_length2(s->step[1], lanes, uv, r, size));
+    vmask minified = v_gt(q, one);
+    q = v_min(v_self(minified, q, one), v_setf(0x1p100f));
+    vi32 lod = v_rint(v_mul(log2_poly(q), v_setf(128.0f)));
+    return v_mini(v_seli(minified, lod, v_seti(0)), v_seti((texture->level_count - 1) * 256));
+}
+
+static void kernel_select_level(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture)
+{
     for (int i = 0; i < batch->count; i += V_LANES) {
         element_lanes lanes = lanes_of(batch->surface + i);
-        vf32 r = v_loadf(batch->r + i);
-        const vf32 value[2] = {v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i)};
-        vf32 q = v_max(level_length2(surfaces->step[0], &lanes, value, r, size),
-                       level_length2(surfaces->step[1], &lanes, value, r, size));
-        vmask minified = v_gt(q, one);
-        q = v_min(v_self(minified, q, one), v_setf(0x1p100f));
-        vi32 lod = v_rint(v_mul(log2_poly(q), v_setf(128.0f)));
-        v_storei(batch->lod + i, v_mini(v_seli(minified, lod, v_seti(0)), last));
+        const vf32 uv[2] = {v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i)};
+        v_storei(batch->lod + i, level_of(surfaces, &lanes, uv, v_loadf(batch->r + i), texture));
     }
 }

@@ -183,6 +183,11 @@ static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, con
     }
 }
 
+static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
+{
+    return v_min(v_max(energy, v_setf(lighting->clamp[0])), v_setf(lighting->clamp[1]));
+}
+
 static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
 {
     enum { AT_ONCE = 256 };
@@ -195,22 +200,34 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
         light_add(batch, lighting, chosen, count, shininess);
     }
-    for (int k = 0; k < 3; k++) {
-        vf32 low = v_setf(lighting->clamp[0]), high = v_setf(lighting->clamp[1]);
+    for (int k = 0; k < 3; k++)
         for (int i = 0; i < batch->count; i += V_LANES)
-            v_storef(batch->energy[k] + i, v_min(v_max(v_loadf(batch->energy[k] + i), low), high));
+            v_storef(batch->energy[k] + i, light_clamp(lighting, v_loadf(batch->energy[k] + i)));
+}
+
+/* R31: color = (color * energy + specular * shine) + emissive */
+static inline void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
+                                  const float emissive[3], vf32 color[3])
+{
+    for (int k = 0; k < 3; k++) {
+        color[k] = v_mul(color[k], energy[k]);
+        if (specular)
+            color[k] = v_add(color[k], v_mul(v_setf(specular[k]), shine[k]));
+        color[k] = v_add(color[k], v_setf(emissive[k]));
     }
 }
 
 static void kernel_combine(e3d_batch *batch, const float specular[3], const float emissive[3])
 {
-    for (int k = 0; k < 3; k++) {
-        vf32 glow = v_setf(emissive[k]), ks = v_setf(specular ? specular[k] : 0.0f);
-        for (int i = 0; i < batch->count; i += V_LANES) {
-            vf32 c = v_mul(v_loadf(batch->color[k] + i), v_loadf(batch->energy[k] + i));
-            if (specular)
-                c = v_add(c, v_mul(ks, v_loadf(batch->shine[k] + i)));
-            v_storef(batch->color[k] + i, v_add(c, glow));
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vf32 color[3], energy[3], shine[3];
+        for (int k = 0; k < 3; k++) {
+            color[k] = v_loadf(batch->color[k] + i);
+            energy[k] = v_loadf(batch->energy[k] + i);
+            shine[k] = v_loadf(batch->shine[k] + i);
         }
+        combine_vector(energy, shine, specular, emissive, color);
+        for (int k = 0; k < 3; k++)
+            v_storef(batch->color[k] + i, color[k]);
     }
 }

@@ -24,6 +24,7 @@
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
+#include "kernels/generic/paint.inl"
 
 const e3d_kernels E3D_TABLE = {
     .transform = kernel_transform,
@@ -46,4 +47,5 @@ const e3d_kernels E3D_TABLE = {
     .light = kernel_light,
     .combine = kernel_combine,
     .encode = kernel_encode,
+    .paint = kernel_paint,
 };

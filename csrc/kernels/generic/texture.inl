@@ -167,21 +167,31 @@ static inline void texture_place_at(const e3d_texture_view *view, const texture_
     texture_place(view, start, width, height, s, t, places, i);
 }
 
-static inline texel_lanes texture_nearest(const e3d_texture_view *view, vf32 s, vf32 t)
+static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)
 {
-    const e3d_level *level = &view->levels[0];
     vi32 x = v_mini(v_trunc(v_mul(s, v_setf((float)level->width))), v_seti(level->width - 1));
     vi32 y = v_mini(v_trunc(v_mul(t, v_setf((float)level->height))), v_seti(level->height - 1));
     vi32 one = v_seti(1), stride = v_seti(level->width + 2);
-    vi32 at = v_addi(v_addi(x, one), v_muli(v_addi(y, one), stride));
+    return v_addi(v_addi(x, one), v_muli(v_addi(y, one), stride));
+}
+
+static inline texel_lanes texture_fetch(const e3d_texture_view *view, vi32 at)
+{
+    const void *texels = view->levels[0].texels;
     if (view->texel_bytes == 4) {
-        vi32 texel = v_gatheri(level->texels, at), byte = v_seti(255), scale = v_seti(257);
+        vi32 texel = v_gatheri(texels, at), byte = v_seti(255), scale = v_seti(257);
         return (texel_lanes){{v_muli(v_andi(texel, byte), scale), v_muli(v_andi(v_shr(texel, 8), byte), scale),
                               v_muli(v_andi(v_shr(texel, 16), byte), scale)}};
     }
-    vi32 red_green = v_gatheri(level->texels, v_shl(at, 1));
-    vi32 blue_alpha = v_gatheri(level->texels, v_addi(v_shl(at, 1), one)), low = v_seti(0xFFFF);
+    vi32 red_green = v_gatheri(texels, v_shl(at, 1));
+    vi32 blue_alpha = v_gatheri(texels, v_addi(v_shl(at, 1), v_seti(1))), low = v_seti(0xFFFF);
     return (texel_lanes){{v_andi(red_green, low), v_shr(red_green, 16), v_andi(blue_alpha, low)}};
+}
+
+static inline void texture_color(const texel_lanes *texel, const float base[3], vf32 color[3])
+{
+    for (int k = 0; k < 3; k++)
+        color[k] = v_mul(v_setf(base[k]), v_mul(v_float(texel->c[k]), v_setf(E3D_UNORM16)));
 }
 
 /* Lanes after the last sample hold levels of an earlier batch, perhaps of a texture with more of them:
@@ -192,73 +202,81 @@ static inline vi32 load_level(const e3d_batch *batch, int i, int level_count)
     return v_mini(v_maxi(v_loadi(batch->lod + i), v_seti(0)), last);
 }
 
-static inline vf32 texture_s(const e3d_batch *batch, int i, int wrap)
+static inline void texture_store(e3d_batch *batch, int i, const float base[3], const texel_lanes *texel)
 {
-    return texture_wrap(v_loadf(batch->uv[0] + i), wrap);
-}
-
-static inline vf32 texture_t(const e3d_batch *batch, int i, int wrap)
-{
-    return texture_wrap(v_sub(v_setf(1.0f), v_loadf(batch->uv[1] + i)), wrap);
-}
-
-static inline void texture_store(e3d_batch *batch, int i, const float base[3], texel_lanes texel)
-{
+    vf32 color[3];
+    texture_color(texel, base, color);
     for (int k = 0; k < 3; k++)
-        v_storef(batch->color[k] + i,
-                 v_mul(v_setf(base[k]), v_mul(v_float(texel.c[k]), v_setf(E3D_UNORM16))));
+        v_storef(batch->color[k] + i, color[k]);
 }
 
-static void texture_nearest_all(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
+/* ---- every filter in two steps: find all places, then read all texels ---- */
+
+/* What the second step needs. */
+typedef struct texture_plan {
+    const e3d_texture_view *view;
+    texture_levels levels;       /* trilinear */
+    texture_places near, far;    /* far only where its weight isn't 0: (256 a + 128) >> 8 = a */
+    int32_t lod[E3D_BATCH + E3D_PAD];
+} texture_plan;
+
+static inline void texture_begin(texture_plan *plan, const e3d_texture_view *view)
 {
-    for (int i = 0; i < batch->count; i += V_LANES)
-        texture_store(batch, i, base,
-                      texture_nearest(view, texture_s(batch, i, view->wrap), texture_t(batch, i, view->wrap)));
+    plan->view = view;
+    if (view->filter == E3D_TRILINEAR)
+        plan->levels = texture_tabulate(view);
 }
 
-static void texture_bilinear_all(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
+/* Of one vector; lod: trilinear only. */
+static inline void texture_find(texture_plan *plan, int i, vf32 u, vf32 v, vi32 lod)
 {
-    texture_places places;
-    vi32 start = v_seti(0), width = v_seti(view->levels[0].width), height = v_seti(view->levels[0].height);
-    for (int i = 0; i < batch->count; i += V_LANES)
-        texture_place(view, start, width, height, texture_s(batch, i, view->wrap),
-                      texture_t(batch, i, view->wrap), &places, i);
-    for (int i = 0; i < batch->count; i += V_LANES)
-        texture_store(batch, i, base, texture_mix(view, &places, i));
-}
-
-static void texture_trilinear_all(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
-{
-    texture_levels levels = texture_tabulate(view);
-    texture_places near, far; /* far only where its weight isn't 0: (256 a + 128) >> 8 = a */
+    const e3d_texture_view *view = plan->view;
+    vf32 s = texture_wrap(u, view->wrap), t = texture_wrap(v_sub(v_setf(1.0f), v), view->wrap);
+    if (view->filter == E3D_NEAREST) {
+        v_storei(plan->near.top + i, texture_nearest_at(&view->levels[0], s, t));
+        return;
+    }
+    if (view->filter == E3D_BILINEAR) {
+        const e3d_level *level = &view->levels[0];
+        texture_place(view, v_seti(0), v_seti(level->width), v_seti(level->height), s, t, &plan->near, i);
+        return;
+    }
     int last = view->level_count - 1;
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        vf32 s = texture_s(batch, i, view->wrap), t = texture_t(batch, i, view->wrap);
-        vi32 lod = load_level(batch, i, view->level_count), level = v_shr(lod, 8);
-        int guess = batch->lod[i] >> 8;
-        texture_place_at(view, &levels, level, guess, s, t, &near, i);
-        if (v_any(v_gti(v_andi(lod, v_seti(255)), v_seti(0))))
-            texture_place_at(view, &levels, v_mini(v_addi(level, v_seti(1)), v_seti(last)),
-                             guess < last ? guess + 1 : last, s, t, &far, i);
+    v_storei(plan->lod + i, lod);
+    vi32 level = v_shr(lod, 8);
+    int guess = plan->lod[i] >> 8;
+    texture_place_at(view, &plan->levels, level, guess, s, t, &plan->near, i);
+    if (v_any(v_gti(v_andi(lod, v_seti(255)), v_seti(0))))
+        texture_place_at(view, &plan->levels, v_mini(v_addi(level, v_seti(1)), v_seti(last)),
+                         guess < last ? guess + 1 : last, s, t, &plan->far, i);
+}
+
+static inline texel_lanes texture_read(const texture_plan *plan, int i)
+{
+    const e3d_texture_view *view = plan->view;
+    if (view->filter == E3D_NEAREST)
+        return texture_fetch(view, v_loadi(plan->near.top + i));
+    texel_lanes a = texture_mix(view, &plan->near, i);
+    if (view->filter == E3D_BILINEAR)
+        return a;
+    vi32 weight = v_andi(v_loadi(plan->lod + i), v_seti(255));
+    if (v_any(v_gti(weight, v_seti(0)))) {
+        texel_lanes b = texture_mix(view, &plan->far, i);
+        for (int k = 0; k < 3; k++)
+            a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
     }
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        vi32 weight = v_andi(load_level(batch, i, view->level_count), v_seti(255));
-        texel_lanes a = texture_mix(view, &near, i);
-        if (v_any(v_gti(weight, v_seti(0)))) {
-            texel_lanes b = texture_mix(view, &far, i);
-            for (int k = 0; k < 3; k++)
-                a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
-        }
-        texture_store(batch, i, base, a);
-    }
+    return a;
 }
 
 static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
 {
-    if (view->filter == E3D_NEAREST)
-        texture_nearest_all(batch, view, base);
-    else if (view->filter == E3D_BILINEAR)
-        texture_bilinear_all(batch, view, base);
-    else
-        texture_trilinear_all(batch, view, base);
+    texture_plan plan;
+    texture_begin(&plan, view);
+    for (int i = 0; i < batch->count; i += V_LANES)
+        texture_find(&plan, i, v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i),
+                     load_level(batch, i, view->level_count));
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        texel_lanes texel = texture_read(&plan, i);
+        texture_store(batch, i, base, &texel);
+    }
 }

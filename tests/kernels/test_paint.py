@@ -1,0 +1,121 @@
+"""paint gives the pixels that the kernels of each step give one after the other."""
+
+import itertools
+
+import numpy as np
+import pytest
+from kernels.harness import all_backends, every_count, hostile
+from kernels.layouts import (
+    BATCH,
+    PAD,
+    TILE,
+    WANT_FLAT,
+    WANT_LEVEL,
+    WANT_NORMAL,
+    WANT_POSITION,
+    WANT_UV,
+)
+from kernels.surfaces import bytes_of, random_batches, random_surfaces
+from kernels.test_light import random_lights, reach_of
+from kernels.test_texture import bordered, chain_sizes
+
+from engine3d._native.rasterizer import FILTERS, WRAPS
+
+UNTOUCHED = 0x12345678
+SAMPLES = TILE * TILE
+
+
+def random_samples(rng, batches):
+    """Each sample once, as whole rows, as short runs and scattered; repeated to the pad's end."""
+    fields = batches.fields
+    fields["count"] = np.maximum(every_count(rng, BATCH, len(fields)), 1)
+    for row in fields:
+        run = int(rng.choice([1, 5, 16, 64]))
+        starts = rng.permutation(SAMPLES // run)[: BATCH // run + 1] * run
+        samples = (starts[:, None] + np.arange(run)).ravel()
+        last = np.minimum(np.arange(BATCH + PAD), row["count"] - 1)
+        row["sample"] = samples[last]
+        row["surface"] = row["surface"][last]
+
+
+def random_texture(rng, filter_name, texel_bytes):
+    sizes = chain_sizes(37, 50, levels=16 if filter_name == "trilinear" else 1)
+    count = int((sizes[:, 0].astype(np.int64) * sizes[:, 1]).sum())
+    kind = np.uint8 if texel_bytes == 4 else np.uint16
+    texels = rng.integers(0, 256 if texel_bytes == 4 else 65536, (count, 4)).astype(kind)
+    wrap = rng.choice(list(WRAPS))
+    stored = bordered(texels, sizes, wrap)
+    return stored, texel_bytes, sizes, FILTERS[filter_name], WRAPS[wrap]
+
+
+def random_material(rng, texture, lit):
+    """The arguments of paint from `wanted` to `srgb`, some of the choices at random."""
+    wanted = 32 | (WANT_UV if texture else 0)
+    if texture and texture[3] == FILTERS["trilinear"]:
+        wanted |= WANT_LEVEL
+    lighting, shiny = None, bool(rng.integers(2))
+    if lit:
+        wanted |= WANT_NORMAL | WANT_POSITION | (WANT_FLAT if rng.integers(2) else 0)
+        lights = random_lights(rng, int(rng.integers(0, 5)))
+        eye = np.float32([(0.5, 2, 4, 1), (0, 0.6, 0.8, 0)][rng.integers(2)])
+        clamp = np.float32([(0, np.inf), (0.1, 1)][rng.integers(2)])
+        ambient = rng.random(3).astype(np.float32)
+        lighting = lights.view(np.uint8), reach_of(lights), ambient, clamp, eye
+    return {
+        "wanted": wanted,
+        "texture": texture,
+        "base": rng.random(3).astype(np.float32),
+        "by_vertex": bool(rng.integers(2)),
+        "by_instance": bool(rng.integers(2)),
+        "lighting": lighting,
+        "shininess": 20.0 if shiny else 0.0,
+        "specular": rng.random(3).astype(np.float32) if shiny else None,
+        "emissive": hostile(rng, 3, 0.2, finite=True),
+        "srgb": bool(rng.integers(2)),
+    }
+
+
+def step_by_step(kernels, row, batch, surfaces, m):
+    """The tile after every kernel in turn."""
+    kernels.interpolate(row, surfaces, m["wanted"])
+    batch["color"] = m["base"][:, None]
+    if m["texture"]:
+        stored, texel_bytes, sizes, filter_number, wrap = m["texture"]
+        if filter_number == FILTERS["trilinear"]:
+            kernels.select_level(row, surfaces, stored, sizes, filter_number, wrap)
+        kernels.texture(row, stored, texel_bytes, sizes, filter_number, wrap, m["base"])
+    if m["by_vertex"] or m["by_instance"]:
+        kernels.tint(row, surfaces, m["by_vertex"], m["by_instance"])
+    if m["lighting"]:
+        kernels.light(row, *m["lighting"], m["shininess"])
+        kernels.combine(row, m["specular"], m["emissive"])
+    pixels, tile = np.zeros(BATCH + PAD, np.uint32), np.full(SAMPLES + PAD, UNTOUCHED, np.uint32)
+    count = int(batch["count"])
+    kernels.encode(*(np.ascontiguousarray(c) for c in batch["color"]), count, m["srgb"], pixels)
+    tile[batch["sample"][:count]] = pixels[:count]
+    return tile
+
+
+@all_backends
+@pytest.mark.parametrize("filter_name", [None, *FILTERS])
+@pytest.mark.parametrize("lit", [False, True])
+def test_paint(kernels, filter_name, lit):
+    rng = np.random.default_rng(7)
+    surfaces, batches = random_surfaces(rng), random_batches(rng)
+    random_samples(rng, batches)
+    surfaces = bytes_of(surfaces)
+    differing = set()
+    for row, fields, texel_bytes in zip(
+        batches.rows, batches.fields, itertools.cycle([4, 8]), strict=False
+    ):
+        texture = random_texture(rng, filter_name, texel_bytes) if filter_name else None
+        material = random_material(rng, texture, lit)
+        tile = np.full(SAMPLES + PAD, UNTOUCHED, np.uint32)
+        before = row.copy()
+        kernels.paint(row, surfaces, *material.values(), tile)
+        assert np.array_equal(row, before), "the batch was written"
+        expected = step_by_step(kernels, row, fields, surfaces, material)
+        assert np.array_equal(tile, expected), f"{fields['count']} samples, {material}"
+        differing.update(tile[fields["sample"][: fields["count"]]])
+    assert len(differing) > 1000  # colours, not the one value of a broken test
+    batches.check_gaps()

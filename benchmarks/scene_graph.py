@@ -1,4 +1,4 @@
-"""What thousands of nodes cost: moving them, finding what a camera shows, rays.
+"""What thousands of nodes cost: moving them, finding what a camera shows, drawing, rays.
 
 In:  the installed engine3d.
 Out: a table, or with --json one object: milliseconds of CPU time, the median of several rounds, on
@@ -78,12 +78,25 @@ def measure(side, rounds):
     def select(view):
         return lambda number: scene._arrays.select(view, 1.0, bits)
 
+    renderer = e3d.Renderer(64, 36)
+
+    def draw(eye, batching):
+        def work(number):
+            pose = e3d.look_at(eye + (0, 0, 0.001 * number), middle + (1, 2, 3))
+            renderer.render(scene, (camera, pose), batching=batching)
+
+        return work
+
     works = {
         "select, camera inside": select(inside),
         "select, camera outside": select(outside),
         "move one node": move_one,
         "move all by their parent": move_all,
         "move each at random": wander,
+        "draw, all in view": draw(middle - 1.6 * side, True),
+        "draw, all in view, a draw a node": draw(middle - 1.6 * side, False),
+        "draw, camera inside": draw(middle, True),
+        "draw, camera inside, a draw a node": draw(middle, False),
         f"{RAYS} rays": cast,
     }
     scene._update()
@@ -105,9 +118,9 @@ def main():
         report = {"engine3d": e3d.__version__, "nodes": arguments.side**3, **machine}
         json.dump({**report, "rows": list(rows)}, sys.stdout)
         return
-    print(f"{arguments.side**3:,} nodes, one thread: {'ms':>16}")
+    print(f"{arguments.side**3:,} nodes, one thread: {'ms':>20}")
     for row in rows:
-        print(f"{row['work']:<30} {row['milliseconds']:>12.3f}", flush=True)
+        print(f"{row['work']:<36} {row['milliseconds']:>12.3f}", flush=True)
 
 
 if __name__ == "__main__":

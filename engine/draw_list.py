@@ -58,7 +58,7 @@ class DrawList:
         self._trees, self._frames = False, 0
         self._placed: tuple | None = None
         self._frustum: np.ndarray | None = None
-        self._widen = 1.0
+        self._how = 1.0, True
         self._selected: bytes | None = None
         self._lights_listed: list | None = None
         self.changes = 0
@@ -71,6 +71,7 @@ class DrawList:
         headlight,
         frustum: np.ndarray | None,
         marks: float,
+        batching: bool,
     ) -> None:
         """Make the native list draw ``scene``.
 
@@ -87,13 +88,16 @@ class DrawList:
             clip_from_world of a camera: nodes outside of what it shows are left out.
         marks : float
             How far lines and points may reach beyond where they are, as a share of half the image.
+        batching : bool
+            Nodes of one mesh are drawn as one.
         """
         scene._update()
         if self._needs != needs or self._normals != normals or not self._lists(scene):
             self._rebuild(scene, needs, normals)
         if self._many and not self._trees:
             self._settle()
-        self._place(scene._arrays, frustum, 1.0 + marks if self._marks or needs.edges else 1.0)
+        widen = 1.0 + marks if self._marks or needs.edges else 1.0
+        self._place(scene._arrays, frustum, widen, batching)
         self._list_lights(scene, headlight)
 
     def _settle(self) -> None:
@@ -155,11 +159,14 @@ class DrawList:
                 None if eight_bit else colors,
             )
 
-    def _place(self, arrays: NodeArrays, frustum: np.ndarray | None, widen: float) -> None:
+    def _place(
+        self, arrays: NodeArrays, frustum: np.ndarray | None, widen: float, batching: bool
+    ) -> None:
         """List the draws of what may show, where it is now."""
         placed = arrays, arrays.changes
         moved = self._placed != placed
-        if not moved and self._frustum is frustum and self._widen == widen:
+        how = widen, batching
+        if not moved and self._frustum is frustum and self._how == how:
             return
         self._placed = None  # for if anything below raises
         selection = None
@@ -167,7 +174,8 @@ class DrawList:
             selection = np.empty((arrays.count + 63) // 64, np.uint64)
             arrays.select(frustum, widen, selection)
         selected = None if selection is None else selection.tobytes()
-        if moved or selected is None or selected != self._selected or self._trees:
+        same = selected is not None and selected == self._selected and batching == self._how[1]
+        if moved or self._trees or not same:
             columns = arrays.columns
             self.native.place(
                 arrays.count,
@@ -178,10 +186,11 @@ class DrawList:
                 selection,
                 frustum,
                 widen,
+                batching,
             )
         self.changes += moved
         self._placed, self._selected = placed, selected
-        self._frustum, self._widen = frustum, widen
+        self._frustum, self._how = frustum, how
 
     def _watch_mesh(self, mesh: Mesh) -> None:
         """Add the materials of a mesh, and remember what would make them out of date."""

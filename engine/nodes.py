@@ -193,7 +193,10 @@ class Node:
 
     @property
     def static(self) -> bool:
-        """Whether the node is meant to stay where it is: a note for programs; it may be moved."""
+        """Whether the node is meant to stay where it is: a note for programs; it may be moved.
+
+        Nodes of the same mesh are drawn together whether they are static or not.
+        """
         return self._arrays.get_flag(self._slot, STATIC)
 
     @static.setter

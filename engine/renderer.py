@@ -147,6 +147,7 @@ class Renderer:
         point_size: float = 1.0,
         culling: str = "all",
         culling_camera=None,
+        batching: bool = True,
     ) -> Frame:
         """Draw a frame.
 
@@ -189,6 +190,8 @@ class Renderer:
         culling_camera : Node or (Camera, pose), optional
             Draw only what this camera's frustum holds, seen from ``camera``: to look at what
             culling leaves out.
+        batching : bool
+            Hand nodes of the same mesh to the core as one draw. The picture is the same.
 
         Returns
         -------
@@ -234,6 +237,7 @@ class Renderer:
                 headlight,
                 None if culling == "none" else frustum,
                 options.mark_size / min(self._width, self._height),
+                bool(batching),
             )
             near, far = view.depth_range(scene.bounds) if options.mode == "depth" else (0.0, 1.0)
             frame.stats = self._native.render(
@@ -253,6 +257,7 @@ class Renderer:
             frame._seen = view, cull
             frame.stats["nodes"] = scene._arrays.count - scene._removed
             frame.stats["nodes_in_frustum"] = self._draw_list.native.node_count
+            frame.stats["draws_unbatched"] = self._draw_list.native.unbatched_count
         return frame
 
     def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:

@@ -175,13 +175,30 @@ static void random_pose(double *m, random_stream *r)
     m[15] = 1.0;
 }
 
+static void add_nodes(scene *s, random_stream *r, e3d_draw *draw)
+{
+    double *worlds = scene_array(s, 12 * (size_t)draw->instances, sizeof *worlds);
+    for (int32_t i = 0; i < draw->instances; i++) {
+        double pose[16];
+        random_pose(pose, r);
+        for (int k = 0; k < 12; k++)
+            worlds[12 * i + k] = pose[k];
+    }
+    draw->node_worlds = worlds;
+    draw->node_ids = random_indices(s, r, draw->instances, 1000);
+}
+
 static void add_instances(scene *s, random_stream *r, e3d_draw *draw)
 {
-    draw->pose_kind = (e3d_pose_kind)random_below(r, 3);
+    draw->pose_kind = (e3d_pose_kind)random_below(r, 4);
     draw->instances = 1;
     if (draw->pose_kind == E3D_POSE_NONE)
         return;
     draw->instances = random_below(r, 6);
+    if (draw->pose_kind == E3D_POSE_NODES) {
+        add_nodes(s, r, draw);
+        return;
+    }
     int32_t size = draw->pose_kind == E3D_POSE_MATRIX ? 16 : 4;
     float *poses = random_floats(s, r, size * draw->instances, -1.0f, 1.0f);
     for (int32_t i = 0; size == 16 && i < draw->instances; i++) {
@@ -200,6 +217,23 @@ static void add_instances(scene *s, random_stream *r, e3d_draw *draw)
         draw->instance_colors_f32 = random_floats(s, r, 4 * draw->instances, 0.0f, 1.0f);
 }
 
+/* Every draw once, but those of nodes once for each; shuffled. */
+static void add_order(scene *s, random_stream *r)
+{
+    e3d_frame *frame = &s->frame;
+    int32_t *order = scene_array(s, 6 * SCENE_MAX_MESHES, sizeof *order), count = 0;
+    for (int32_t d = 0; d < frame->draw_count; d++)
+        for (int32_t i = 0; i < (s->draws[d].pose_kind == E3D_POSE_NODES ? s->draws[d].instances : 1); i++)
+            order[count++] = d;
+    for (int32_t i = count - 1; i > 0; i--) {
+        int32_t other = random_below(r, i + 1), kept = order[i];
+        order[i] = order[other];
+        order[other] = kept;
+    }
+    frame->order = order;
+    frame->order_count = count;
+}
+
 static e3d_status add_draws(scene *s, random_stream *r)
 {
     e3d_status status = E3D_OK;
@@ -214,6 +248,8 @@ static e3d_status add_draws(scene *s, random_stream *r)
     }
     s->frame.draws = s->draws;
     s->frame.draw_count = count;
+    if (status == E3D_OK)
+        add_order(s, r);
     return status;
 }
 

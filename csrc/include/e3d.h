@@ -138,7 +138,8 @@ typedef struct e3d_light {
 typedef enum e3d_pose_kind {
     E3D_POSE_NONE = 0,      /* one instance, at the node's own pose */
     E3D_POSE_MATRIX,        /* (instances, 16) float32, node from instance, row-major */
-    E3D_POSE_OFFSET_SCALE   /* (instances, 4) float32: offset x y z, uniform scale */
+    E3D_POSE_OFFSET_SCALE,  /* (instances, 4) float32: offset x y z, uniform scale */
+    E3D_POSE_NODES          /* nodes that share a mesh: each has a pose in the world and an id of its own */
 } e3d_pose_kind;
 
 /* One node's mesh. Primitives of an instance are ordered: faces, then lines, then points. */
@@ -153,6 +154,9 @@ typedef struct e3d_draw {
     int32_t node_id;                 /* what object_id outputs */
     int32_t material_base;           /* frame material = material_base + mesh material id */
     int32_t first_instance;          /* added to what instance_id outputs: of many, some may be drawn */
+    /* E3D_POSE_NODES, in place of world_from_node, node_id and first_instance: */
+    const double *node_worlds;       /* (instances, 12) world from node: three rows of four */
+    const int32_t *node_ids;         /* (instances,) what object_id outputs */
 } e3d_draw;
 
 typedef enum e3d_mode {
@@ -210,6 +214,10 @@ typedef struct e3d_frame {
     int32_t light_count;
     const e3d_draw *draws;
     int32_t draw_count;
+    /* Numbers of draws, in the order of drawing: each once, but one of E3D_POSE_NODES once for each of its nodes.
+     * NULL: the draws as given, none of which is of E3D_POSE_NODES. */
+    const int32_t *order;
+    int32_t order_count;
     e3d_culling culling;
     const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
 } e3d_frame;

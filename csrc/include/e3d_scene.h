@@ -137,20 +137,35 @@ typedef struct e3d_view_volume {
     double widen; /* as for e3d_tree_select */
 } e3d_view_volume;
 
+/* The nodes of one object. */
+typedef struct e3d_batch {
+    int32_t nodes;      /* that are drawn */
+    int32_t draw;       /* of all of them; -1: none yet */
+    int32_t first, end; /* those that have their row */
+} e3d_batch;
+
 /* Zeroed at first; kept from frame to frame. */
 typedef struct e3d_draw_list {
     e3d_draw *draws;
     int32_t count, room;
+    int32_t *order;   /* as in e3d_frame; as many as there were draws without batches */
+    int32_t order_count, order_room;
     int32_t nodes;    /* that are drawn */
+    double *worlds;   /* (nodes, 12) and (nodes,): of batched nodes, batch after batch */
+    int32_t *ids, *slots;
+    int32_t node_room;
+    e3d_batch *batches; /* of each object */
+    int32_t batch_room;
     uint64_t *bits;   /* scratch */
     int32_t words;
 } e3d_draw_list;
 
 void e3d_draw_list_free(e3d_draw_list *list);
 /* Lists the draws of what shows, in the order of slots: objects[number] with the node's id and world pose.
- * selection: a bit a slot, or NULL for all; view: NULL draws all instances. 0 when memory is out. */
+ * selection: a bit a slot, or NULL for all; view: NULL draws all instances; batch: nodes of one mesh are one draw.
+ * 0 when memory is out. */
 int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count);
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int batch);
 
 /* ---- Rays ---- */
 

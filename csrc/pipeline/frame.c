@@ -78,7 +78,7 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
         destroy_worker(renderer->workers[w]);
     free(renderer->workers);
     e3d_array_free(&renderer->draws);
-    e3d_array *arrays[] = {&renderer->instances, &renderer->reach, &renderer->tasks, &renderer->items, &renderer->seen,
+    e3d_array *arrays[] = {&renderer->instances, &renderer->turns, &renderer->reach, &renderer->tasks, &renderer->items, &renderer->seen,
                            &renderer->seen_before, &renderer->rows, &renderer->rows_before,
                            &renderer->tile_depths};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
@@ -95,6 +95,15 @@ void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *us
 
 /* ---- arguments ---- */
 
+static int poses_are_valid(const e3d_frame *f, const e3d_draw *draw)
+{
+    if (draw->pose_kind == E3D_POSE_NONE)
+        return draw->instances == 1;
+    if (draw->pose_kind == E3D_POSE_NODES)
+        return f->order && (!draw->instances || (draw->node_worlds && draw->node_ids));
+    return !draw->instances || draw->poses;
+}
+
 static int frame_is_valid(const e3d_frame *f)
 {
     if (f->width < 1 || f->height < 1 || f->width > E3D_MAX_SIZE || f->height > E3D_MAX_SIZE ||
@@ -102,14 +111,12 @@ static int frame_is_valid(const e3d_frame *f)
         return 0;
     if (!(f->line_width > 0 && f->line_width <= 256) || !(f->point_size > 0 && f->point_size <= 256))
         return 0;
-    if (f->draw_count < 0 || f->material_count < 0 || f->light_count < 0)
+    if (f->draw_count < 0 || f->material_count < 0 || f->light_count < 0 ||
+        (f->order && f->order_count < 0))
         return 0;
     for (int32_t d = 0; d < f->draw_count; d++) {
         const e3d_draw *draw = &f->draws[d];
-        if (!draw->mesh || draw->instances < 0 ||
-            (draw->pose_kind == E3D_POSE_NONE ? draw->instances != 1
-                                              : draw->instances && !draw->poses) ||
-            draw->material_base < 0 ||
+        if (!draw->mesh || draw->instances < 0 || !poses_are_valid(f, draw) || draw->material_base < 0 ||
             (int64_t)draw->material_base + draw->mesh->material_most >= f->material_count)
             return 0;
     }

@@ -41,19 +41,26 @@ typedef struct e3d_instance {
     int32_t mirrored;
     int32_t draw;
     int32_t shows; /* its mesh's box may be in view */
+    uint32_t order; /* of its first primitive */
 } e3d_instance;
 
-/* A draw in the frame: where its instances, primitives and units of work start. */
+/* A draw in the frame: where its instances and units of work start. */
 typedef struct e3d_draw_state {
     const e3d_draw *draw;
     const e3d_mesh *mesh;
-    int64_t order_base, unit_base, group_base;
-    int32_t instance_base;
+    int64_t instance_base, unit_base, group_base;
     int32_t primitives;  /* an instance */
+    int32_t placed;      /* instances that have their place in the order */
     int32_t line_units, point_units, edge_units; /* an instance */
     int32_t units;       /* their sum */
     int32_t any_two_sided;
 } e3d_draw_state;
+
+/* Whose turn it is in the order of drawing: all instances of a draw, or one node of several. */
+typedef struct e3d_turn {
+    uint32_t order; /* of the first primitive */
+    int32_t draw, instance;
+} e3d_turn;
 
 /* ---- left by geometry ---- */
 
@@ -173,7 +180,7 @@ typedef struct e3d_named {
     int32_t id, slot;
 } e3d_named;
 
-/* A draw of a frame, as the next frame finds it again. */
+/* A turn of a frame, as the next frame finds it again. */
 typedef struct e3d_memory_row {
     const e3d_mesh *mesh;
     int64_t base; /* of its groups */
@@ -185,10 +192,10 @@ struct e3d_renderer {
     int32_t threads;
     const e3d_kernels *kernels;
     e3d_worker **workers;
-    e3d_array draws, instances;
+    e3d_array draws, instances, turns;
     e3d_array reach;            /* float, of e3d_lighting */
     e3d_array tasks, items;     /* e3d_item, near ones first */
-    e3d_array rows, rows_before; /* e3d_memory_row of each draw: what `seen` and `seen_before` are of */
+    e3d_array rows, rows_before; /* e3d_memory_row of each turn: what `seen` and `seen_before` are of */
     e3d_array seen_before;
     e3d_array seen;             /* uint8_t for each group of the frame: bit k tells whether the last frame showed cluster k */
     e3d_array tile_depths;      /* e3d_tile_depths */
@@ -221,7 +228,8 @@ typedef struct e3d_context {
     e3d_viewport viewport;
     e3d_draw_state *draws;
     e3d_instance *instances;
-    int32_t instance_count;
+    int32_t instance_count, turn_count;
+    const e3d_turn *turns;
     int64_t units, groups;
     const e3d_item *items;
     int64_t item_count;
@@ -264,6 +272,8 @@ int e3d_find_items(e3d_context *context);
 const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);
 /* The last draw that starts at or before a number; base: offset of the e3d_draw_state's start of such numbers. */
 const e3d_draw_state *e3d_find_draw(const e3d_context *context, size_t base, int64_t number);
+/* The last turn that starts at or before an order. */
+const e3d_turn *e3d_find_turn(const e3d_context *context, uint32_t order);
 
 /* facing.c */
 void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_facing *out);
@@ -374,6 +384,16 @@ void e3d_outputs_depth(const e3d_context *context, const e3d_worker *worker, con
 static inline int e3d_is_shiny(const e3d_material *m)
 {
     return m->specular[0] != 0.0f || m->specular[1] != 0.0f || m->specular[2] != 0.0f;
+}
+
+/* What object_id and instance_id output. */
+static inline int32_t e3d_object_id(const e3d_draw *draw, int32_t instance)
+{
+    return draw->pose_kind == E3D_POSE_NODES ? draw->node_ids[instance] : draw->node_id;
+}
+static inline int32_t e3d_instance_id(const e3d_draw *draw, int32_t instance)
+{
+    return draw->pose_kind == E3D_POSE_NODES ? 0 : draw->first_instance + instance;
 }
 
 static inline int64_t e3d_tile_count(const e3d_context *c) { return (int64_t)c->tiles_x * c->tiles_y; }

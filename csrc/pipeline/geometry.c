@@ -218,8 +218,7 @@ static void run_item(walker *w, const e3d_item *item)
         return;
     w->instance = &context->instances[item->instance];
     w->draw = &context->draws[w->instance->draw];
-    w->order = (uint32_t)(w->draw->order_base +
-                          (int64_t)(item->instance - (uint32_t)w->draw->instance_base) * w->draw->primitives);
+    w->order = w->instance->order;
     const e3d_group_box *group = &w->draw->mesh->groups[item->group];
     unsigned shown = draw_group(w, item, group, choice == E3D_SEEN_ITEMS ? seen : ~seen);
     if (context->kept && choice != E3D_SEEN_ITEMS)

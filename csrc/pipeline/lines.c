@@ -120,8 +120,8 @@ static void run_edges(unit_walk *w, int32_t unit)
 void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
                    int32_t unit)
 {
-    unit_walk w = {context, worker, draw, &context->instances[draw->instance_base + instance],
-                   (uint32_t)(draw->order_base + (int64_t)instance * draw->primitives)};
+    const e3d_instance *of = &context->instances[draw->instance_base + instance];
+    unit_walk w = {context, worker, draw, of, of->order};
     if (unit < draw->line_units)
         run_lines(&w, unit);
     else if ((unit -= draw->line_units) < draw->point_units)

@@ -160,11 +160,14 @@ void e3d_draw_kept_tiles(e3d_context *context)
 
 /* ---- what the last frame showed ---- */
 
-static e3d_memory_row row_of(const e3d_draw_state *state)
+static e3d_memory_row row_of(const e3d_context *context, const e3d_turn *turn)
 {
+    const e3d_draw_state *state = &context->draws[turn->draw];
     const e3d_draw *draw = state->draw;
-    return (e3d_memory_row){state->mesh, state->group_base, draw->node_id, draw->first_instance, draw->instances,
-                            state->mesh->group_count};
+    int32_t groups = state->mesh->group_count, node = e3d_object_id(draw, turn->instance);
+    int64_t base = state->group_base + (int64_t)turn->instance * groups;
+    return (e3d_memory_row){state->mesh, base, node, e3d_instance_id(draw, turn->instance),
+                            draw->pose_kind == E3D_POSE_NODES ? 1 : draw->instances, groups};
 }
 
 /* Takes over what both frames know of the instances of one draw; how many groups that is. */
@@ -208,7 +211,7 @@ static void exchange(e3d_array *a, e3d_array *b)
 int e3d_remember(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
-    size_t count = (size_t)context->frame->draw_count, groups = (size_t)context->groups;
+    size_t count = (size_t)context->turn_count, groups = (size_t)context->groups;
     exchange(&renderer->rows, &renderer->rows_before);
     exchange(&renderer->seen, &renderer->seen_before);
     size_t old_count = renderer->rows_before.count;
@@ -218,7 +221,7 @@ int e3d_remember(e3d_context *context)
         return -1;
     e3d_memory_row *rows = renderer->rows.data;
     for (size_t d = 0; d < count; d++)
-        rows[d] = row_of(&context->draws[d]);
+        rows[d] = row_of(context, &context->turns[d]);
     memset(renderer->seen.data, 0, groups);
     renderer->rows.count = count;
     context->seen = renderer->seen.data;

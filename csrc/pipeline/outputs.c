@@ -113,9 +113,9 @@ static void scatter_ids(const e3d_context *context, const e3d_worker *worker, co
         if (t->triangle_id)
             t->triangle_id[at[i]] = e3d_face_of(piece);
         if (t->object_id)
-            t->object_id[at[i]] = piece->draw->draw->node_id;
+            t->object_id[at[i]] = e3d_object_id(piece->draw->draw, piece->instance);
         if (t->instance_id)
-            t->instance_id[at[i]] = piece->draw->draw->first_instance + piece->instance;
+            t->instance_id[at[i]] = e3d_instance_id(piece->draw->draw, piece->instance);
         if (t->material_id)
             t->material_id[at[i]] = groups[piece->group].material->id;
     }

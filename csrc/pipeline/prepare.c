@@ -55,12 +55,17 @@ static void clip_matrix(const double clip_from_world[16], const double world[16]
         out[k] = (float)clip[k];
 }
 
+static const double LAST_ROW[4] = {0, 0, 0, 1};
+
 static void prepare_instance(const e3d_frame *frame, const e3d_viewport *viewport, const e3d_draw *draw, int32_t instance, int units,
                              e3d_instance *out)
 {
     double pose[16], world[16];
     if (draw->pose_kind == E3D_POSE_NONE) {
         memcpy(world, draw->world_from_node, sizeof world);
+    } else if (draw->pose_kind == E3D_POSE_NODES) {
+        memcpy(world, draw->node_worlds + 12 * (size_t)instance, 12 * sizeof *world);
+        memcpy(world + 12, LAST_ROW, sizeof LAST_ROW);
     } else {
         pose_matrix(draw, instance, pose);
         multiply(draw->world_from_node, pose, world);
@@ -87,20 +92,16 @@ static void instances_work(void *argument, int worker)
     e3d_context *context = argument;
     (void)worker;
     for (;;) {
-        int64_t first = atomic_fetch_add(&context->next, INSTANCES_A_TASK), draw = 0;
+        int64_t first = atomic_fetch_add(&context->next, INSTANCES_A_TASK);
         if (first >= context->instance_count)
             return;
-        while (draw + 1 < context->frame->draw_count &&
-               context->draws[draw + 1].instance_base <= first)
-            draw++;
+        const e3d_draw_state *state = e3d_find_draw(context, offsetof(e3d_draw_state, instance_base), first);
         for (int64_t i = first; i < first + INSTANCES_A_TASK && i < context->instance_count; i++) {
-            while (draw + 1 < context->frame->draw_count &&
-                   context->draws[draw + 1].instance_base <= i)
-                draw++;
-            const e3d_draw_state *state = &context->draws[draw];
+            while (i >= state->instance_base + state->draw->instances)
+                state++;
             prepare_instance(context->frame, &context->viewport, state->draw, (int32_t)(i - state->instance_base), state->units,
                              &context->instances[i]);
-            context->instances[i].draw = (int32_t)draw;
+            context->instances[i].draw = (int32_t)(state - context->draws);
         }
     }
 }
@@ -118,6 +119,19 @@ const e3d_draw_state *e3d_find_draw(const e3d_context *context, size_t base, int
     return &context->draws[low];
 }
 
+const e3d_turn *e3d_find_turn(const e3d_context *context, uint32_t order)
+{
+    int32_t low = 0, high = context->turn_count - 1;
+    while (low < high) {
+        int32_t middle = low + (high - low + 1) / 2;
+        if (context->turns[middle].order <= order)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return &context->turns[low];
+}
+
 static int32_t units_of(int32_t count) { return (count + E3D_LINES_A_UNIT - 1) / E3D_LINES_A_UNIT; }
 
 static int has_two_sided(const e3d_frame *frame)
@@ -131,25 +145,24 @@ static int has_two_sided(const e3d_frame *frame)
 static e3d_status prepare_draws(e3d_context *context)
 {
     const e3d_frame *frame = context->frame;
-    int64_t orders = 0, instances = 0, units = 0, groups = 0;
+    int64_t primitives = 0, instances = 0, units = 0, groups = 0;
     int two_sided = has_two_sided(frame);
     for (int32_t d = 0; d < frame->draw_count; d++) {
         const e3d_draw *draw = &frame->draws[d];
         const e3d_mesh_desc *desc = &draw->mesh->desc;
         int edges = frame->wireframe != E3D_WIRE_NONE && context->targets->color != NULL;
         e3d_draw_state *s = &context->draws[d];
-        *s = (e3d_draw_state){.draw = draw, .mesh = draw->mesh, .order_base = orders,
-                              .unit_base = units, .group_base = groups, .instance_base = (int32_t)instances,
-                              .any_two_sided = two_sided};
+        *s = (e3d_draw_state){.draw = draw, .mesh = draw->mesh, .instance_base = instances, .unit_base = units,
+                              .group_base = groups, .any_two_sided = two_sided};
         s->line_units = units_of(desc->lines_count);
         s->point_units = units_of(desc->points_count);
         s->edge_units = edges ? units_of(desc->edges_count) : 0;
         s->units = s->line_units + s->point_units + s->edge_units;
         int64_t all = (int64_t)desc->faces_count + desc->lines_count + desc->points_count;
-        if (all > INT32_MAX || orders + all * draw->instances > INT32_MAX ||
+        if (all > INT32_MAX || primitives + all * draw->instances > INT32_MAX ||
             instances + draw->instances > INT32_MAX)
             return E3D_TOO_MANY_PRIMITIVES;
-        orders += all * draw->instances;
+        primitives += all * draw->instances;
         instances += draw->instances;
         s->primitives = (int32_t)all;
         units += (int64_t)s->units * draw->instances;
@@ -158,6 +171,46 @@ static e3d_status prepare_draws(e3d_context *context)
     context->instance_count = (int32_t)instances;
     context->units = units;
     context->groups = context->draw_faces ? groups : 0;
+    return E3D_OK;
+}
+
+/* Gives the next instances of a draw their place in the order; 0 if it has no more. */
+static int place_instances(e3d_context *context, e3d_draw_state *state, uint32_t order, int32_t count)
+{
+    if (state->placed + count > state->draw->instances)
+        return 0;
+    e3d_instance *instances = context->instances + state->instance_base + state->placed;
+    for (int32_t i = 0; i < count; i++)
+        instances[i].order = order + (uint32_t)i * (uint32_t)state->primitives;
+    state->placed += count;
+    return 1;
+}
+
+/* R16 */
+static e3d_status prepare_turns(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    int32_t count = frame->order ? frame->order_count : frame->draw_count;
+    uint32_t order = 0;
+    if (!e3d_array_reserve(&context->renderer->turns, (size_t)count + 1, sizeof(e3d_turn)))
+        return E3D_OUT_OF_MEMORY;
+    e3d_turn *turns = context->renderer->turns.data;
+    for (int32_t t = 0; t < count; t++) {
+        int32_t d = frame->order ? frame->order[t] : t;
+        if (d < 0 || d >= frame->draw_count)
+            return E3D_INVALID_ARGUMENT;
+        e3d_draw_state *state = &context->draws[d];
+        int32_t instances = state->draw->pose_kind == E3D_POSE_NODES ? 1 : state->draw->instances;
+        turns[t] = (e3d_turn){order, d, state->placed};
+        if (!place_instances(context, state, order, instances))
+            return E3D_INVALID_ARGUMENT;
+        order += (uint32_t)instances * (uint32_t)state->primitives;
+    }
+    for (int32_t d = 0; d < frame->draw_count; d++)
+        if (context->draws[d].placed != context->draws[d].draw->instances)
+            return E3D_INVALID_ARGUMENT;
+    context->turns = turns;
+    context->turn_count = count;
     return E3D_OK;
 }
 
@@ -313,6 +366,9 @@ e3d_status e3d_prepare(e3d_context *context)
                            sizeof(e3d_instance)))
         return E3D_OUT_OF_MEMORY;
     context->instances = renderer->instances.data;
+    status = prepare_turns(context);
+    if (status != E3D_OK)
+        return status;
     prepare_constants(context);
     if (!prepare_lights(context))
         return E3D_OUT_OF_MEMORY;

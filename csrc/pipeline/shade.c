@@ -35,7 +35,7 @@ static void show_numbers(const e3d_frame *frame, const e3d_worker *worker, e3d_b
             set_bytes(batch, i, random_bytes((uint32_t)piece->local));
         else
             set_bytes(batch, i,
-                      number_bytes(frame->mode == E3D_MODE_OBJECT_ID ? piece->draw->draw->node_id : piece->local));
+                      number_bytes(frame->mode == E3D_MODE_OBJECT_ID ? e3d_object_id(piece->draw->draw, piece->instance) : piece->local));
     }
 }
 

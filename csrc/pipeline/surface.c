@@ -17,13 +17,14 @@ static void find_primitive(const e3d_context *context, uint32_t order, instance_
                            e3d_visible_piece *out)
 {
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
-        const e3d_draw_state *draw = e3d_find_draw(context, offsetof(e3d_draw_state, order_base), order);
-        uint32_t primitives = (uint32_t)draw->primitives;
+        const e3d_turn *turn = e3d_find_turn(context, order);
+        const e3d_draw_state *draw = &context->draws[turn->draw];
+        uint32_t primitives = (uint32_t)draw->primitives, instances = (order - turn->order) / primitives;
         if (draw != finder->draw)
             finder->group = -1;
         finder->draw = draw;
-        finder->instance = (int32_t)((order - (uint32_t)draw->order_base) / primitives);
-        finder->first = (uint32_t)draw->order_base + (uint32_t)finder->instance * primitives;
+        finder->instance = turn->instance + (int32_t)instances;
+        finder->first = turn->order + instances * primitives;
     }
     out->draw = finder->draw;
     out->instance = finder->instance;
@@ -243,7 +244,7 @@ void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t num
     int count = vertices_of(piece, vertex);
     s->irregular += piece->slot->corners || face < 0 || mesh->components == 4;
     add_record(piece->slot->record, s, n);
-    add_matrices(context, s, n, piece->draw->instance_base + piece->instance);
+    add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
     s->back[n] = (piece->slot->record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
     if (wanted & E3D_WANT_POSITION)
         add_vectors(mesh->components == 3 ? mesh->positions : NULL, 3, vertex, count, s->position, 3, n);

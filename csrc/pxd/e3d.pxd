@@ -98,6 +98,7 @@ cdef extern from "e3d.h" nogil:
         E3D_POSE_NONE
         E3D_POSE_MATRIX
         E3D_POSE_OFFSET_SCALE
+        E3D_POSE_NODES
 
     ctypedef struct e3d_draw:
         const e3d_mesh *mesh
@@ -110,6 +111,8 @@ cdef extern from "e3d.h" nogil:
         int32_t node_id
         int32_t material_base
         int32_t first_instance
+        const double *node_worlds
+        const int32_t *node_ids
 
     ctypedef enum e3d_mode:
         E3D_MODE_LIT
@@ -181,6 +184,8 @@ cdef extern from "e3d.h" nogil:
         int32_t light_count
         const e3d_draw *draws
         int32_t draw_count
+        const int32_t *order
+        int32_t order_count
         e3d_culling culling
         const double *frozen_clip_from_world
 

@@ -122,10 +122,12 @@ cdef extern from "e3d_scene.h" nogil:
     ctypedef struct e3d_draw_list:
         e3d_draw *draws
         int32_t count
+        int32_t *order
+        int32_t order_count
         int32_t nodes
 
     void e3d_draw_list_free(e3d_draw_list *list)
     bint e3d_graph_draws(
         e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-        const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count,
+        const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, bint batch,
     )

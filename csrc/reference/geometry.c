@@ -150,17 +150,42 @@ static e3d_status build_instance(ref_scene *scene, const e3d_draw *draw, int32_t
     return status;
 }
 
-e3d_status ref_build_geometry(ref_scene *scene, int with_edges)
+static int32_t instances_of(const e3d_draw *draw)
+{
+    return draw->pose_kind == E3D_POSE_NONE ? 1 : draw->instances;
+}
+
+/* All instances of a draw, or the next one of several nodes. */
+static e3d_status take_turn(ref_scene *scene, const e3d_draw *draw, int32_t *done, int with_edges)
 {
     e3d_status status = E3D_OK;
-    for (int32_t d = 0; d < scene->frame->draw_count; d++) {
-        const e3d_draw *draw = &scene->frame->draws[d];
-        int32_t instances = draw->pose_kind == E3D_POSE_NONE ? 1 : draw->instances;
-        for (int32_t number = 0; number < instances && status == E3D_OK; number++)
-            status = build_instance(scene, draw, number, with_edges);
-        if (status != E3D_OK)
-            return status;
-        scene->stats.draws++;
+    int32_t end = *done + (draw->pose_kind == E3D_POSE_NODES ? 1 : instances_of(draw));
+    if (end > instances_of(draw))
+        return E3D_INVALID_ARGUMENT;
+    for (; *done < end && status == E3D_OK; ++*done)
+        status = build_instance(scene, draw, *done, with_edges);
+    return status;
+}
+
+e3d_status ref_build_geometry(ref_scene *scene, int with_edges)
+{
+    const e3d_frame *frame = scene->frame;
+    e3d_status status = E3D_OK;
+    int32_t *done = calloc((size_t)frame->draw_count + 1, sizeof *done); /* nodes of each draw */
+    int32_t turns = frame->order ? frame->order_count : frame->draw_count;
+    if (!done)
+        return E3D_OUT_OF_MEMORY;
+    for (int32_t turn = 0; turn < turns && status == E3D_OK; turn++) {
+        int32_t d = frame->order ? frame->order[turn] : turn;
+        if (d < 0 || d >= frame->draw_count)
+            status = E3D_INVALID_ARGUMENT;
+        else
+            status = take_turn(scene, &frame->draws[d], &done[d], with_edges);
     }
+    for (int32_t d = 0; d < frame->draw_count && status == E3D_OK; d++)
+        if (done[d] != instances_of(&frame->draws[d]))
+            status = E3D_INVALID_ARGUMENT;
+    free(done);
+    scene->stats.draws = frame->draw_count;
     return status;
 }

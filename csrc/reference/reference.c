@@ -25,6 +25,13 @@ static double milliseconds(void)
 
 static int size_is_valid(float size) { return size > 0.0f && size <= 256.0f; }
 
+static int has_poses(const e3d_draw *draw)
+{
+    if (draw->pose_kind == E3D_POSE_NONE || draw->instances == 0)
+        return 1;
+    return draw->pose_kind == E3D_POSE_NODES ? draw->node_worlds && draw->node_ids : !!draw->poses;
+}
+
 static e3d_status check_frame(const e3d_frame *frame, const e3d_targets *targets)
 {
     if (!frame || !targets || frame->width < 1 || frame->height < 1 || frame->width > E3D_MAX_SIZE ||
@@ -37,7 +44,7 @@ static e3d_status check_frame(const e3d_frame *frame, const e3d_targets *targets
     int64_t primitives = 0;
     for (int32_t d = 0; d < frame->draw_count; d++) {
         const e3d_draw *draw = &frame->draws[d];
-        if (!draw->mesh || (draw->pose_kind != E3D_POSE_NONE && draw->instances > 0 && !draw->poses))
+        if (!draw->mesh || !has_poses(draw))
             return E3D_INVALID_ARGUMENT;
         const e3d_mesh_desc *mesh = e3d_mesh_view(draw->mesh);
         int64_t each = (int64_t)mesh->faces_count + mesh->lines_count + mesh->points_count;

@@ -134,8 +134,8 @@ static void write_surface(const e3d_targets *targets, size_t pixel, const ref_su
 {
     const ref_primitive *primitive = &surface->piece->primitive;
     write_id(targets->triangle_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
-    write_id(targets->object_id, pixel, surface->instance->draw->node_id);
-    write_id(targets->instance_id, pixel, surface->instance->draw->first_instance + surface->instance->number);
+    write_id(targets->object_id, pixel, surface->instance->object_id);
+    write_id(targets->instance_id, pixel, surface->instance->instance_id);
     write_id(targets->material_id, pixel, primitive->material->id);
     write_floats(targets->ndc_depth, pixel, &ndc_depth, 1);
     write_floats(targets->depth, pixel, &surface->metric_depth, 1);

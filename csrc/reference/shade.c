@@ -51,7 +51,7 @@ void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
         id_color(primitive->local, out);
         return;
     case E3D_MODE_OBJECT_ID:
-        id_color((uint32_t)surface->instance->draw->node_id, out);
+        id_color((uint32_t)surface->instance->object_id, out);
         return;
     case E3D_MODE_DEPTH:
         depth_color(frame, surface->metric_depth, out);

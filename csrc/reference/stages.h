@@ -19,6 +19,7 @@ typedef struct ref_instance {
     const e3d_draw *draw;
     const e3d_mesh_desc *mesh;
     int32_t number; /* in its draw */
+    int32_t object_id, instance_id;
     int mirrored;
     float clip_from_object[4][4];
     float world_from_object[3][4];

@@ -68,7 +68,14 @@ void ref_instance_init(ref_instance *out, const e3d_frame *frame, const e3d_draw
 {
     double pose[16], world_from_object[16], clip_from_object[16];
     memcpy(world_from_object, draw->world_from_node, sizeof world_from_object);
-    if (draw->pose_kind != E3D_POSE_NONE) {
+    out->object_id = draw->node_id;
+    out->instance_id = draw->first_instance + number;
+    if (draw->pose_kind == E3D_POSE_NODES) {
+        out->object_id = draw->node_ids[number];
+        out->instance_id = 0;
+        memcpy(world_from_object, draw->node_worlds + 12 * (size_t)number, 12 * sizeof *world_from_object);
+        memcpy(world_from_object + 12, (const double[4]){0, 0, 0, 1}, 4 * sizeof *world_from_object);
+    } else if (draw->pose_kind != E3D_POSE_NONE) {
         read_pose(pose, draw, number);
         multiply(world_from_object, draw->world_from_node, pose);
     }

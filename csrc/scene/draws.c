@@ -1,5 +1,6 @@
-/* draws: from slots to the draws of a frame, in the order in which the nodes were added.
+/* draws: from slots to the draws of a frame, and the order in which the nodes were added.
  *
+ * Nodes that draw the same mesh become one draw, whose nodes take their turns in that order.
  * Of many instances only those that may show are drawn, as runs of neighbours: instance, then face stays
  * the order, and first_instance keeps their numbers.
  */
@@ -16,18 +17,46 @@ enum { GAP = 3 };
 void e3d_draw_list_free(e3d_draw_list *list)
 {
     free(list->draws);
+    free(list->order);
+    free(list->worlds);
+    free(list->ids);
+    free(list->slots);
+    free(list->batches);
     free(list->bits);
     memset(list, 0, sizeof *list);
 }
 
+/* Room for `count` elements behind the pointer that `array` points to; 0 when memory is out. */
+static int reserve(void *array, int32_t count, size_t size)
+{
+    void *data;
+    memcpy(&data, array, sizeof data);
+    data = realloc(data, (size_t)count * size);
+    if (data)
+        memcpy(array, &data, sizeof data);
+    return data != NULL;
+}
+
+/* A place in the order for a draw. */
+static int take_turn(e3d_draw_list *list, int32_t draw)
+{
+    if (list->order_count == list->order_room) {
+        int32_t room = list->order_room ? 2 * list->order_room : 64;
+        if (!reserve(&list->order, room, sizeof *list->order))
+            return 0;
+        list->order_room = room;
+    }
+    list->order[list->order_count++] = draw;
+    return 1;
+}
+
+/* A draw without a place in the order. */
 static e3d_draw *append(e3d_draw_list *list)
 {
     if (list->count == list->room) {
         int32_t room = list->room ? 2 * list->room : 64;
-        e3d_draw *draws = realloc(list->draws, (size_t)room * sizeof *draws);
-        if (!draws)
+        if (!reserve(&list->draws, room, sizeof *list->draws))
             return NULL;
-        list->draws = draws;
         list->room = room;
     }
     return &list->draws[list->count++];
@@ -46,7 +75,7 @@ static int append_run(e3d_draw_list *list, const e3d_draw *whole, int32_t first,
         draw->instance_colors_u8 += 4 * (size_t)first;
     if (draw->instance_colors_f32)
         draw->instance_colors_f32 += 4 * (size_t)first;
-    return 1;
+    return take_turn(list, list->count - 1);
 }
 
 static int append_runs(e3d_draw_list *list, const e3d_draw *whole)
@@ -100,19 +129,73 @@ static int append_node(e3d_draw_list *list, const e3d_placed *object, const doub
     memcpy(draw.world_from_node, world, 12 * sizeof *world);
     memcpy(draw.world_from_node + 12, LAST_ROW, sizeof LAST_ROW);
     draw.node_id = id;
-    list->nodes++;
     if (view && object->instances)
         return select_instances(list, view, object, draw.world_from_node) && append_runs(list, &draw);
     e3d_draw *to = append(list);
     if (to)
         *to = draw;
-    return to != NULL;
+    return to && take_turn(list, list->count - 1);
 }
 
-int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count)
+/* ---- batches ---- */
+
+/* One draw for all nodes of a mesh, made when the first of them is met. */
+static int begin_batch(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch)
 {
-    list->count = list->nodes = 0;
+    e3d_draw *draw = append(list);
+    if (!draw)
+        return 0;
+    *draw = object->draw;
+    draw->pose_kind = E3D_POSE_NODES;
+    draw->instances = batch->nodes;
+    draw->node_worlds = list->worlds + 12 * (size_t)batch->first;
+    draw->node_ids = list->ids + batch->first;
+    batch->draw = list->count - 1;
+    return 1;
+}
+
+static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, const double world[12],
+                         int32_t id)
+{
+    if (batch->draw < 0 && !begin_batch(list, object, batch))
+        return 0;
+    memcpy(list->worlds + 12 * (size_t)batch->end, world, 12 * sizeof *world);
+    list->ids[batch->end++] = id;
+    return take_turn(list, batch->draw);
+}
+
+/* Where the rows of each object's nodes start. */
+static void lay_out_batches(e3d_draw_list *list, int32_t objects)
+{
+    int32_t first = 0;
+    for (int32_t i = 0; i < objects; i++) {
+        list->batches[i].first = list->batches[i].end = first;
+        first += list->batches[i].nodes;
+    }
+}
+
+/* ---- nodes ---- */
+
+static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t objects)
+{
+    if (objects > list->batch_room) {
+        if (!reserve(&list->batches, objects, sizeof *list->batches))
+            return 0;
+        list->batch_room = objects;
+    }
+    if (slots > list->node_room) {
+        if (!reserve(&list->worlds, slots, 12 * sizeof *list->worlds) ||
+            !reserve(&list->ids, slots, sizeof *list->ids) || !reserve(&list->slots, slots, sizeof *list->slots))
+            return 0;
+        list->node_room = slots;
+    }
+    return 1;
+}
+
+/* Lists the slots that are drawn, and counts them for each object. */
+static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
+                       const e3d_placed *objects, int32_t object_count)
+{
     for (int32_t slot = 0; slot < rows->count; slot++) {
         if (selection && !(selection[slot >> 6] >> (slot & 63) & 1)) {
             if (!(selection[slot >> 6] >> (slot & 63)))
@@ -121,8 +204,31 @@ int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64
         }
         int32_t number = rows->object[slot];
         if ((rows->flags[slot] & E3D_NODE_SHOWN) && number >= 0 && number < object_count &&
-            objects[number].draw.mesh &&
-            !append_node(list, &objects[number], rows->world + 12 * (size_t)slot, rows->id[slot], view))
+            objects[number].draw.mesh) {
+            list->slots[list->nodes++] = slot;
+            list->batches[number].nodes++;
+        }
+    }
+}
+
+int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int batch)
+{
+    list->count = list->order_count = list->nodes = 0;
+    if (!reserve_all(list, rows->count, object_count))
+        return 0;
+    for (int32_t i = 0; i < object_count; i++)
+        list->batches[i] = (e3d_batch){.draw = -1};
+    list_slots(list, rows, selection, objects, object_count);
+    lay_out_batches(list, object_count);
+    for (int32_t i = 0; i < list->nodes; i++) {
+        int32_t slot = list->slots[i], number = rows->object[slot];
+        const e3d_placed *object = &objects[number];
+        const double *world = rows->world + 12 * (size_t)slot;
+        e3d_batch *of = &list->batches[number];
+        int together = batch && of->nodes > 1 && object->draw.pose_kind == E3D_POSE_NONE;
+        if (!(together ? append_member(list, object, of, world, rows->id[slot])
+                       : append_node(list, object, world, rows->id[slot], view)))
             return 0;
     }
     return 1;

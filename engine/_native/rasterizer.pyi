@@ -54,6 +54,7 @@ class NativeTexture:
 class NativeDrawList:
     object_count: int
     node_count: int
+    unbatched_count: int
     material_count: int
     light_count: int
     def __init__(self) -> None: ...
@@ -70,6 +71,7 @@ class NativeDrawList:
         selection: npt.NDArray[np.uint64] | None,
         clip_from_world: _Doubles | None,
         widen: float,
+        batch: bool,
     ) -> None: ...
     def set_instance_tree(self, index: int, tree: NativeTree | None) -> None: ...
     def set_instances(

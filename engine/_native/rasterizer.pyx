@@ -245,7 +245,7 @@ cdef class NativeDrawList:
     def clear(self):
         """Forget objects, draws, materials and lights, and let go of their arrays."""
         self.object_count = self.material_count = self.light_count = 0
-        self.placed.count = self.placed.nodes = 0
+        self.placed.count = self.placed.order_count = self.placed.nodes = 0
         self.borrowed = []
 
     def clear_lights(self):
@@ -276,10 +276,12 @@ cdef class NativeDrawList:
         const uint64_t[::1] selection,
         const double[:, ::1] clip_from_world,
         double widen,
+        bint batch,
     ):
         """Draw the objects of the first nodes: those that show, or of these those whose bit is set.
 
-        With a matrix, instances outside of what it shows are left out as well.
+        With a matrix, instances outside of what it shows are left out as well. With ``batch``,
+        nodes of the same object are one draw.
         """
         cdef e3d_node_rows rows
         cdef e3d_view_volume volume
@@ -300,13 +302,19 @@ cdef class NativeDrawList:
             memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
             volume.widen = widen
             view = &volume
-        if not e3d_graph_draws(&self.placed, &rows, bits, view, self.objects, self.object_count):
+        if not e3d_graph_draws(&self.placed, &rows, bits, view, self.objects, self.object_count,
+                               batch):
             raise OutOfMemoryError("no memory for the list of what to draw")
 
     @property
     def node_count(self):
         """How many nodes are drawn."""
         return self.placed.nodes
+
+    @property
+    def unbatched_count(self):
+        """How many draws there are without batches."""
+        return self.placed.order_count
 
     def set_instance_tree(self, int index, tree):
         """Let instances be left out by a NativeTree of their boxes, or by none."""
@@ -519,6 +527,8 @@ cdef class NativeRenderer:
         frame.light_count = draw_list.light_count
         frame.draws = draw_list.placed.draws
         frame.draw_count = draw_list.placed.count
+        frame.order = draw_list.placed.order
+        frame.order_count = draw_list.placed.order_count
         fill_targets(&outputs, targets, width, height)
         self.interruption = None
         self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL

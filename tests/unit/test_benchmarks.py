@@ -95,7 +95,7 @@ def test_worlds():
 
 def test_scene_graph():
     rows = report("scene_graph.py", "--side", "4", "--rounds", "2")["rows"]
-    assert len(rows) == 7
+    assert len(rows) == 11
     assert all(row["milliseconds"] >= 0 for row in rows)
 
 

@@ -187,6 +187,7 @@ class DrawList:
                 frustum,
                 widen,
                 batching,
+                moved,
             )
         self.changes += moved
         self._placed, self._selected = placed, selected

@@ -78,7 +78,9 @@ class Frame:
         The outputs that it holds.
     stats : dict
         Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), the
-        number of threads and tiles, and the backend.
+        number of threads and tiles, and the backend. ``nodes``, ``clusters`` and ``triangles`` are
+        all that the scene holds; with ``_in_frustum``, ``_unoccluded`` and ``_drawn`` behind them,
+        what is left after each stage of culling.
     """
 
     color = _Output("(H, W, 4) uint8 RGBA; alpha is 255, and 0 where a background of None shows.")

@@ -255,9 +255,8 @@ class Renderer:
                 chosen,
             )
             frame._seen = view, cull
-            frame.stats["nodes"] = scene._arrays.count - scene._removed
-            frame.stats["nodes_in_frustum"] = self._draw_list.native.node_count
-            frame.stats["draws_unbatched"] = self._draw_list.native.unbatched_count
+            nodes = scene._arrays.count - scene._removed
+            frame.stats = {"nodes": nodes, **frame.stats}
         return frame
 
     def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:

@@ -161,6 +161,12 @@ typedef struct e3d_draw_list {
 } e3d_draw_list;
 
 void e3d_draw_list_free(e3d_draw_list *list);
+/* What all nodes would draw that are shown, wherever they are. */
+typedef struct e3d_totals {
+    int64_t clusters, triangles;
+} e3d_totals;
+e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count);
+
 /* Lists the draws of what shows, in the order of slots: objects[number] with the node's id and world pose.
  * selection: a bit a slot, or NULL for all; view: NULL draws all instances; batch: nodes of one mesh are one draw.
  * 0 when memory is out. */

@@ -150,8 +150,8 @@ static void add_item(e3d_context *context, e3d_worker *worker, const e3d_draw_st
     if (bounded && box->any_finite)
         e3d_view_box(&context->viewport, e3d_culling_matrix(context->frame, instance), box->lo, box->hi, &item.view);
     if (bounded && context->frame->culling != E3D_CULLING_NONE && (!box->any_finite || item.view.state == E3D_BOX_OUTSIDE)) {
-        worker->counters.clusters_culled += box->clusters;
-        worker->counters.triangles_culled += box->triangles;
+        worker->counters.clusters[E3D_FATE_OUTSIDE] += box->clusters;
+        worker->counters.triangles[E3D_FATE_OUTSIDE] += box->triangles;
         return;
     }
     const e3d_box *b = &item.view.blocks;
@@ -178,8 +178,8 @@ static void cull_groups(e3d_context *context, e3d_worker *worker, int64_t first,
             if (context->instances[number].shows)
                 add_item(context, worker, draw, number, group, unit);
             else {
-                worker->counters.clusters_culled += draw->mesh->groups[group].clusters;
-                worker->counters.triangles_culled += draw->mesh->groups[group].triangles;
+                worker->counters.clusters[E3D_FATE_OUTSIDE] += draw->mesh->groups[group].clusters;
+                worker->counters.triangles[E3D_FATE_OUTSIDE] += draw->mesh->groups[group].triangles;
             }
     }
 }

@@ -78,7 +78,7 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
         destroy_worker(renderer->workers[w]);
     free(renderer->workers);
     e3d_array_free(&renderer->draws);
-    e3d_array *arrays[] = {&renderer->instances, &renderer->turns, &renderer->reach, &renderer->tasks, &renderer->items, &renderer->seen,
+    e3d_array *arrays[] = {&renderer->instances, &renderer->turns, &renderer->marks, &renderer->reach, &renderer->tasks, &renderer->items, &renderer->seen,
                            &renderer->seen_before, &renderer->rows, &renderer->rows_before,
                            &renderer->tile_depths};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
@@ -147,39 +147,6 @@ static int any_failed(const e3d_renderer *renderer)
     return 0;
 }
 
-static void count_submitted(const e3d_context *context, e3d_stats *stats)
-{
-    stats->draws = context->frame->draw_count;
-    stats->instances = context->instance_count;
-    for (int32_t d = 0; d < context->frame->draw_count; d++) {
-        const e3d_draw_state *s = &context->draws[d];
-        stats->clusters += (int64_t)s->mesh->cluster_count * s->draw->instances;
-        stats->triangles += (int64_t)s->mesh->desc.faces_count * s->draw->instances;
-    }
-}
-
-static void add_counters(const e3d_context *context, e3d_stats *stats)
-{
-    int32_t threads = context->renderer->threads;
-    for (int32_t w = 0; w < threads; w++) {
-        const e3d_counters *c = &context->renderer->workers[w]->counters;
-        stats->clusters_culled += c->clusters_culled;
-        stats->clusters_occluded += c->clusters_occluded;
-        stats->triangles_occluded += c->triangles_occluded;
-        stats->triangles_culled += c->triangles_culled;
-        stats->triangles_clipped += c->triangles_clipped;
-        stats->triangles_setup += c->records;
-        stats->bin_entries += c->bin_entries;
-        stats->pixels_shaded += c->shaded;
-        stats->ms_raster += (double)c->ns_raster * 1e-6 / threads;
-        stats->ms_shade += (double)c->ns_shade * 1e-6 / threads;
-        stats->ms_resolve += (double)c->ns_resolve * 1e-6 / threads;
-    }
-    stats->threads = threads;
-    stats->tiles = (int32_t)e3d_tile_count(context);
-    stats->backend = context->renderer->backend;
-}
-
 /* Draws some of the items, and keeps what they cover for the rounds to come. */
 static int draw_round(e3d_context *context, e3d_stats *stats, e3d_round round)
 {
@@ -227,10 +194,9 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
     e3d_tiles(context);
     if (any_failed(context->renderer))
         return E3D_OUT_OF_MEMORY;
-    count_submitted(context, stats);
+    e3d_count(context, stats);
     if (stats->rounds > 1)
-        e3d_occlusion_judge(context, stats->clusters);
-    add_counters(context, stats);
+        e3d_occlusion_judge(context, stats);
     stats->ms_geometry = (double)(binned - start) * 1e-6;
     stats->ms_total = (double)(e3d_now_ns() - start) * 1e-6;
     return context->cancelled ? E3D_CANCELLED : E3D_OK;
@@ -245,8 +211,11 @@ e3d_status e3d_render(e3d_renderer *renderer, const e3d_frame *frame, const e3d_
     memset(stats, 0, sizeof *stats);
     if (!frame_is_valid(frame))
         return E3D_INVALID_ARGUMENT;
-    if (renderer->backend == E3D_BACKEND_SCALAR)
-        return e3d_reference_render(frame, targets, stats);
+    if (renderer->backend == E3D_BACKEND_SCALAR) {
+        e3d_status done = e3d_reference_render(frame, targets, stats);
+        e3d_count_submitted(frame, stats);
+        return done;
+    }
     e3d_context context = {.renderer = renderer,
                            .kernels = renderer->kernels,
                            .frame = frame,

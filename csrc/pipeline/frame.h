@@ -109,9 +109,17 @@ typedef struct e3d_tile_depths {
 } e3d_tile_depths;
 #define E3D_NOTHING_KEPT 4.0f /* greater than any depth: nothing was drawn there */
 
+/* What becomes of a cluster: it is transformed and drawn, or left out. */
+typedef enum e3d_fate { E3D_FATE_DRAWN = 0, E3D_FATE_OUTSIDE, E3D_FATE_AWAY, E3D_FATE_OCCLUDED, E3D_FATES } e3d_fate;
+
+/* Of an instance: a cluster was not occluded; one was drawn. */
+enum { E3D_MARK_UNOCCLUDED = 1, E3D_MARK_DRAWN = 2 };
+
 typedef struct e3d_counters {
     int64_t blocks; /* that the boxes of the items in view may touch */
-    int64_t clusters_culled, clusters_occluded, triangles_culled, triangles_occluded, triangles_clipped, records, bin_entries, shaded;
+    int64_t clusters[E3D_FATES], triangles[E3D_FATES]; /* by what became of their cluster */
+    int64_t triangles_rejected, triangles_drawn; /* of clusters that show */
+    int64_t triangles_clipped, records, bin_entries, shaded;
     int64_t ns_raster, ns_shade, ns_resolve;
 } e3d_counters;
 
@@ -193,6 +201,7 @@ struct e3d_renderer {
     const e3d_kernels *kernels;
     e3d_worker **workers;
     e3d_array draws, instances, turns;
+    e3d_array marks;            /* uint8_t of each instance: E3D_MARK_ */
     e3d_array reach;            /* float, of e3d_lighting */
     e3d_array tasks, items;     /* e3d_item, near ones first */
     e3d_array rows, rows_before; /* e3d_memory_row of each turn: what `seen` and `seen_before` are of */
@@ -228,6 +237,7 @@ typedef struct e3d_context {
     e3d_viewport viewport;
     e3d_draw_state *draws;
     e3d_instance *instances;
+    uint8_t *marks;
     int32_t instance_count, turn_count;
     const e3d_turn *turns;
     int64_t units, groups;
@@ -258,6 +268,10 @@ typedef struct e3d_context {
     int64_t last_poll;
 } e3d_context;
 
+/* counts.c */
+/* Counts what the frame submits, and takes it all for drawn. */
+void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats);
+void e3d_count(const e3d_context *context, e3d_stats *stats);
 /* prepare.c */
 e3d_status e3d_prepare(e3d_context *context);
 /* geometry.c */
@@ -284,7 +298,7 @@ int e3d_faces_away(const e3d_viewport *viewport, const e3d_facing *facing, const
 /* occlusion.c */
 int e3d_occlusion_pays(const e3d_context *context);
 /* After a frame of several rounds: the next ones go without where little was occluded. */
-void e3d_occlusion_judge(e3d_context *context, int64_t clusters);
+void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats);
 int e3d_occlusion_begin(e3d_context *context);
 /* Finds what the last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
 int e3d_remember(e3d_context *context);

@@ -58,7 +58,9 @@ static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *
         corner[k] = (e3d_corner){v->sx[i], v->sy[i], v->zn[i], v->iw[i], {0, 0, 0}};
     }
     e3d_primitive primitive = face_primitive(w, w->draw->mesh->faces[cluster->first + triangle]);
+    int64_t before = w->worker->counters.records;
     e3d_emit(w->context, w->worker, corner, &primitive);
+    w->worker->counters.triangles_drawn += w->worker->counters.records > before;
 }
 
 static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
@@ -78,6 +80,7 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
     }
     int count = e3d_clip_triangle(corner, viewport, polygon);
     w->worker->counters.triangles_clipped++;
+    int64_t before = w->worker->counters.records;
     for (int i = 0; i < count; i++) {
         good[i] = e3d_project(polygon[i].v, 1, viewport, &projected[i]);
         for (int k = 0; k < 3; k++)
@@ -90,6 +93,7 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
             const e3d_corner piece[3] = {projected[0], projected[i], projected[i + 1]};
             e3d_emit(w->context, w->worker, piece, &primitive);
         }
+    w->worker->counters.triangles_drawn += w->worker->counters.records > before;
 }
 
 /* Whether a record that was made without regard to its facing is culled by it. */
@@ -124,6 +128,7 @@ static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t 
         int32_t face = (int32_t)(records[i].order - w->order);
         if (w->draw->any_two_sided && is_culled(w, face, &records[i]))
             continue;
+        w->worker->counters.triangles_drawn++;
         if (!e3d_bin_record(w->context, w->worker, set, number, spans[i]))
             w->worker->failed = 1;
     }
@@ -144,7 +149,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     const uint8_t *indices = mesh->indices + cluster->indices;
     e3d_survivors *s = &worker->survivors;
     kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), viewport, s);
-    worker->counters.triangles_culled += cluster->triangles - s->draws - s->clips;
+    worker->counters.triangles_rejected += cluster->triangles - s->draws - s->clips;
     if (!w->context->sorted)
         draw_triangles(w, cluster, indices);
     for (int i = 0; i < s->draws && w->context->sorted; i++)
@@ -155,33 +160,39 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 
 /* ---- items ---- */
 
-/* What becomes of a cluster. */
-enum { SHOWS, CULLED, OCCLUDED };
-
 static int faces_away(const walker *w, const e3d_cluster *cluster)
 {
     return e3d_faces_away(&w->context->viewport, &w->instance->facing, w->instance->clip, cluster, drop_sign(w));
 }
 
-static int fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster)
+static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster)
 {
     e3d_box_view view;
     int tested = w->context->round.tested;
     const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
-    if (!cluster->any_finite || faces_away(w, cluster))
-        return CULLED;
+    if (!cluster->any_finite)
+        return E3D_FATE_OUTSIDE;
+    if (faces_away(w, cluster))
+        return item->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
+                   ? E3D_FATE_AWAY
+                   : E3D_FATE_OUTSIDE;
     if (!tested && item->view.state == E3D_BOX_INSIDE)
-        return SHOWS;
+        return E3D_FATE_DRAWN;
     e3d_view_box(&w->context->viewport, clip, cluster->lo, cluster->hi, &view);
     if (view.state == E3D_BOX_OUTSIDE)
-        return CULLED;
-    return tested && e3d_is_hidden(w->context, &view) ? OCCLUDED : SHOWS;
+        return E3D_FATE_OUTSIDE;
+    return tested && e3d_is_hidden(w->context, &view) ? E3D_FATE_OCCLUDED : E3D_FATE_DRAWN;
 }
 
-static void count_left_out(e3d_counters *counters, const e3d_cluster *cluster, int fate)
+/* Threads may mark the same instance. */
+static void mark(walker *w, const e3d_item *item, e3d_fate fate)
 {
-    *(fate == CULLED ? &counters->clusters_culled : &counters->clusters_occluded) += 1;
-    *(fate == CULLED ? &counters->triangles_culled : &counters->triangles_occluded) += cluster->triangles;
+    uint8_t *marks = &w->context->marks[item->instance];
+    uint8_t bits = fate == E3D_FATE_DRAWN        ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN
+                   : fate == E3D_FATE_AWAY ? E3D_MARK_UNOCCLUDED
+                                            : 0;
+    if (bits & ~__atomic_load_n(marks, __ATOMIC_RELAXED))
+        __atomic_fetch_or(marks, bits, __ATOMIC_RELAXED);
 }
 
 /* Draws the group's clusters that are in `wanted` and may show; returns all that may. Bit k is cluster k. */
@@ -196,15 +207,16 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
         const e3d_cluster *cluster = &mesh->clusters[group->first_cluster + k];
         if (round->choice == E3D_SEEN_ITEMS && !(wanted >> k & 1))
             continue; /* its turn comes in the next round */
-        int fate = hidden ? OCCLUDED : each ? fate_of(w, item, cluster) : SHOWS;
-        if (fate == SHOWS)
+        e3d_fate fate = hidden ? E3D_FATE_OCCLUDED : each ? fate_of(w, item, cluster) : E3D_FATE_DRAWN;
+        if (fate == E3D_FATE_DRAWN)
             shown |= 1u << k;
         if (!(wanted >> k & 1))
             continue;
-        if (fate == SHOWS)
+        if (fate == E3D_FATE_DRAWN)
             draw_cluster(w, cluster);
-        else if (round->choice != E3D_SEEN_ITEMS)
-            count_left_out(&w->worker->counters, cluster, fate);
+        w->worker->counters.clusters[fate]++;
+        w->worker->counters.triangles[fate] += cluster->triangles;
+        mark(w, item, fate);
     }
     return shown;
 }

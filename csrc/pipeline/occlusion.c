@@ -71,15 +71,10 @@ int e3d_occlusion_pays(const e3d_context *context)
     return covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 
-void e3d_occlusion_judge(e3d_context *context, int64_t clusters)
+void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats)
 {
-    int64_t occluded = 0, in_view = clusters;
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_counters *c = &context->renderer->workers[w]->counters;
-        occluded += c->clusters_occluded;
-        in_view -= c->clusters_culled;
-    }
-    context->renderer->frames_without_rounds = 10 * occluded < 3 * in_view ? FRAMES_BETWEEN_TRIALS : 0;
+    int64_t tried = stats->clusters_drawn + stats->clusters_occluded;
+    context->renderer->frames_without_rounds = 10 * stats->clusters_occluded < 3 * tried ? FRAMES_BETWEEN_TRIALS : 0;
 }
 
 /* ---- a box against what is drawn ---- */

@@ -366,6 +366,9 @@ e3d_status e3d_prepare(e3d_context *context)
                            sizeof(e3d_instance)))
         return E3D_OUT_OF_MEMORY;
     context->instances = renderer->instances.data;
+    if (!e3d_array_reserve(&renderer->marks, (size_t)context->instance_count + 1, 1))
+        return E3D_OUT_OF_MEMORY;
+    context->marks = memset(renderer->marks.data, 0, (size_t)context->instance_count);
     status = prepare_turns(context);
     if (status != E3D_OK)
         return status;

@@ -209,9 +209,17 @@ cdef extern from "e3d.h" nogil:
         int64_t draws
         int64_t instances
         int64_t clusters
+        int64_t triangles
+        int64_t clusters_in_frustum
+        int64_t clusters_unoccluded
+        int64_t clusters_drawn
+        int64_t triangles_in_frustum
+        int64_t triangles_unoccluded
+        int64_t triangles_drawn
+        int64_t nodes_unoccluded
+        int64_t nodes_drawn
         int64_t clusters_culled
         int64_t clusters_occluded
-        int64_t triangles
         int64_t triangles_occluded
         int64_t triangles_culled
         int64_t triangles_clipped

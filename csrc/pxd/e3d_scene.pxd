@@ -1,6 +1,6 @@
 # Mirrors csrc/include/e3d_scene.h, which explains every name.
 
-from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t, uint64_t
 
 from e3d cimport e3d_cull, e3d_draw, e3d_pose_kind
 
@@ -126,6 +126,13 @@ cdef extern from "e3d_scene.h" nogil:
         int32_t order_count
         int32_t nodes
 
+    ctypedef struct e3d_totals:
+        int64_t clusters
+        int64_t triangles
+
+    e3d_totals e3d_graph_totals(
+        const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count
+    )
     void e3d_draw_list_free(e3d_draw_list *list)
     bint e3d_graph_draws(
         e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,

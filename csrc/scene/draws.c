@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/fpenv.h"
+#include "core/mesh.h"
 #include "e3d_scene.h"
 #include "scene/pose.h"
 
@@ -192,6 +193,26 @@ static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t objects)
     return 1;
 }
 
+/* Whether a slot draws anything, wherever it is. */
+static int draws_at(const e3d_node_rows *rows, int32_t slot, const e3d_placed *objects, int32_t object_count)
+{
+    int32_t number = rows->object[slot];
+    return (rows->flags[slot] & E3D_NODE_SHOWN) && number >= 0 && number < object_count &&
+           objects[number].draw.mesh;
+}
+
+e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count)
+{
+    e3d_totals totals = {0};
+    for (int32_t slot = 0; slot < rows->count; slot++)
+        if (draws_at(rows, slot, objects, object_count)) {
+            const e3d_draw *draw = &objects[rows->object[slot]].draw;
+            totals.clusters += (int64_t)draw->mesh->cluster_count * draw->instances;
+            totals.triangles += (int64_t)draw->mesh->desc.faces_count * draw->instances;
+        }
+    return totals;
+}
+
 /* Lists the slots that are drawn, and counts them for each object. */
 static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
                        const e3d_placed *objects, int32_t object_count)
@@ -202,11 +223,9 @@ static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uin
                 slot |= 63; /* none are left in this word */
             continue;
         }
-        int32_t number = rows->object[slot];
-        if ((rows->flags[slot] & E3D_NODE_SHOWN) && number >= 0 && number < object_count &&
-            objects[number].draw.mesh) {
+        if (draws_at(rows, slot, objects, object_count)) {
             list->slots[list->nodes++] = slot;
-            list->batches[number].nodes++;
+            list->batches[rows->object[slot]].nodes++;
         }
     }
 }

@@ -53,8 +53,6 @@ class NativeTexture:
 
 class NativeDrawList:
     object_count: int
-    node_count: int
-    unbatched_count: int
     material_count: int
     light_count: int
     def __init__(self) -> None: ...
@@ -72,6 +70,7 @@ class NativeDrawList:
         clip_from_world: _Doubles | None,
         widen: float,
         batch: bool,
+        moved: bool,
     ) -> None: ...
     def set_instance_tree(self, index: int, tree: NativeTree | None) -> None: ...
     def set_instances(

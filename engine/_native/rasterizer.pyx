@@ -227,6 +227,7 @@ cdef class NativeDrawList:
 
     cdef e3d_placed *objects
     cdef e3d_draw_list placed
+    cdef e3d_totals totals
     cdef e3d_material *materials
     cdef e3d_light *lights
     cdef readonly int object_count, material_count, light_count
@@ -277,11 +278,13 @@ cdef class NativeDrawList:
         const double[:, ::1] clip_from_world,
         double widen,
         bint batch,
+        bint moved,
     ):
         """Draw the objects of the first nodes: those that show, or of these those whose bit is set.
 
         With a matrix, instances outside of what it shows are left out as well. With ``batch``,
-        nodes of the same object are one draw.
+        nodes of the same object are one draw. ``moved`` tells that something else is in the scene,
+        or elsewhere, since the last time.
         """
         cdef e3d_node_rows rows
         cdef e3d_view_volume volume
@@ -302,19 +305,11 @@ cdef class NativeDrawList:
             memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
             volume.widen = widen
             view = &volume
+        if moved:
+            self.totals = e3d_graph_totals(&rows, self.objects, self.object_count)
         if not e3d_graph_draws(&self.placed, &rows, bits, view, self.objects, self.object_count,
                                batch):
             raise OutOfMemoryError("no memory for the list of what to draw")
-
-    @property
-    def node_count(self):
-        """How many nodes are drawn."""
-        return self.placed.nodes
-
-    @property
-    def unbatched_count(self):
-        """How many draws there are without batches."""
-        return self.placed.order_count
 
     def set_instance_tree(self, int index, tree):
         """Let instances be left out by a NativeTree of their boxes, or by none."""
@@ -538,7 +533,7 @@ cdef class NativeRenderer:
             error, self.interruption = self.interruption, None
             raise error
         check(status)
-        return stats_as_dict(&stats)
+        return stats_as_dict(&stats, draw_list)
 
 
 cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height) except -1:
@@ -600,16 +595,29 @@ cdef float *vectors_of(float[:, :, ::1] array, int width, int height, int channe
     return &array[0, 0, 0]
 
 
-cdef dict stats_as_dict(const e3d_stats *stats):
+cdef dict stats_as_dict(const e3d_stats *stats, NativeDrawList draw_list):
+    cdef e3d_totals *totals = &draw_list.totals
     return {
         "draws": stats.draws,
+        "draws_unbatched": draw_list.placed.order_count,
+        "materials": draw_list.material_count,
+        "lights": draw_list.light_count,
         "instances": stats.instances,
-        "clusters": stats.clusters,
-        "clusters_culled": stats.clusters_culled,
+        "nodes_in_frustum": draw_list.placed.nodes,
+        "nodes_unoccluded": stats.nodes_unoccluded,
+        "nodes_drawn": stats.nodes_drawn,
+        "clusters": totals.clusters,
+        "clusters_in_frustum": stats.clusters_in_frustum,
+        "clusters_unoccluded": stats.clusters_unoccluded,
+        "clusters_drawn": stats.clusters_drawn,
+        "clusters_culled": stats.clusters_culled + totals.clusters - stats.clusters,
         "clusters_occluded": stats.clusters_occluded,
-        "triangles": stats.triangles,
+        "triangles": totals.triangles,
+        "triangles_in_frustum": stats.triangles_in_frustum,
+        "triangles_unoccluded": stats.triangles_unoccluded,
+        "triangles_drawn": stats.triangles_drawn,
+        "triangles_culled": stats.triangles_culled + totals.triangles - stats.triangles,
         "triangles_occluded": stats.triangles_occluded,
-        "triangles_culled": stats.triangles_culled,
         "triangles_clipped": stats.triangles_clipped,
         "triangles_setup": stats.triangles_setup,
         "bin_entries": stats.bin_entries,

@@ -42,6 +42,7 @@ def render(args: argparse.Namespace) -> int:
         threads=args.threads,
         samples=args.samples or 1,
         transparent=args.no_background,
+        report=report.frame if args.verbose else None,
     ) as studio:
         view = options.place_view(args, studio, turns=args.turntable is not None)
         if args.turntable is not None:

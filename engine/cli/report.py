@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 import time
 
+from ..display.counts import count_line
+
 
 class Report:
     """Prints progress if asked to; times count from when it was made.
@@ -18,6 +20,7 @@ class Report:
     def __init__(self, verbose: bool):
         self._verbose = verbose
         self._start = time.perf_counter()
+        self._frames = 0
 
     def line(self, text: str) -> None:
         """Print one line with the seconds since the start."""
@@ -28,6 +31,12 @@ class Report:
         """Say what is shown."""
         details = ", ".join(" ".join(line.split()) for line in subject.details)
         self.line(f"loaded {subject.path or subject.title}" + (f": {details}" if details else ""))
+
+    def frame(self, frame) -> None:
+        """Say how much of the scene a frame had to draw, and how long it took."""
+        self._frames += 1
+        milliseconds = frame.stats["ms_total"]
+        self.line(f"frame {self._frames}: {milliseconds:.1f} ms; {count_line(frame.stats)}")
 
     def drawn(self, studio, frame) -> None:
         """Say what drew a frame, and the frame's statistics."""

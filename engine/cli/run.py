@@ -37,11 +37,11 @@ def run(args: argparse.Namespace) -> int:
     report.loaded(subject)
     if not args.headless and reason is None:
         try:
-            _show(args, subject)
+            _show(args, subject, report)
             return 0
         except DisplayError as error:
             reason = str(error)
-    return _write(args, subject, reason)
+    return _write(args, subject, reason, report)
 
 
 def _check(args: argparse.Namespace) -> None:
@@ -66,7 +66,7 @@ def _missing_screen() -> str | None:
     return None
 
 
-def _studio(args: argparse.Namespace, subject, size, samples: int) -> Studio:
+def _studio(args: argparse.Namespace, subject, size, samples: int, report: Report) -> Studio:
     return Studio(
         subject,
         options.settings(args),
@@ -74,10 +74,11 @@ def _studio(args: argparse.Namespace, subject, size, samples: int) -> Studio:
         backend=args.backend,
         threads=args.threads,
         samples=args.samples or samples,
+        report=report.frame if args.verbose else None,
     )
 
 
-def _show(args: argparse.Namespace, subject) -> None:
+def _show(args: argparse.Namespace, subject, report: Report) -> None:
     """Open a window and stay until it closes."""
     from ..display.viewer import Viewer
     from ..display.window import Window
@@ -85,7 +86,7 @@ def _show(args: argparse.Namespace, subject) -> None:
     size = args.resolution or WINDOW_SIZE
     with (
         Window(f"{subject.title} - engine3d", *size, vsync=args.vsync) as window,
-        _studio(args, subject, size, 1) as studio,
+        _studio(args, subject, size, 1, report) as studio,
     ):
         viewer = Viewer(
             studio,
@@ -100,13 +101,13 @@ def _show(args: argparse.Namespace, subject) -> None:
         viewer.run(args.frames)
 
 
-def _write(args: argparse.Namespace, subject, reason: str | None) -> int:
+def _write(args: argparse.Namespace, subject, reason: str | None, report: Report) -> int:
     """Write an animation instead, and say where; ``reason`` tells why no window opened."""
     count = args.frames or FILE_FRAMES
     path = Path(args.output) if args.output else _new_path(subject, count)
     if reason is not None:
         print(f"engine3d: {reason}: rendering a turntable to {path} instead", file=sys.stderr)
-    with _studio(args, subject, FILE_SIZE, FILE_SAMPLES) as studio:
+    with _studio(args, subject, FILE_SIZE, FILE_SAMPLES, report) as studio:
         view = options.place_view(args, studio)
         walks = args.camera == "fps"
         if count == 1:

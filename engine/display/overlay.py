@@ -7,6 +7,7 @@ translucent blocks in the corners; what does not fit the picture is clipped.
 from __future__ import annotations
 
 from ..canvas import text_size
+from .counts import count_names, count_table
 from .keymap import GESTURES, SECTIONS
 from .viewpoint import Viewpoint
 
@@ -122,7 +123,14 @@ def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[st
         f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
         f"{size[0]}x{size[1]}" + (f", {samples} samples a pixel" if samples > 1 else ""),
     ]
+    tabled = count_names()
+    if tabled <= stats.keys():
+        lines += count_table(stats)
+    else:
+        tabled = set()
     for name, value in stats.items():
+        if name in tabled:
+            continue
         text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
         lines.append(f"{name.replace('_', ' '):<20}{text:>12}")
     return lines

@@ -34,6 +34,8 @@ class Studio:
         As in `Renderer`.
     transparent : bool
         Whether pixels that show no surface get alpha 0.
+    report : callable, optional
+        Called with each frame.
     """
 
     def __init__(
@@ -46,8 +48,10 @@ class Studio:
         threads: int = 0,
         samples: int = 1,
         transparent: bool = False,
+        report=None,
     ):
         self._transparent = transparent
+        self._report = report
         self._options = {"backend": backend, "threads": threads}
         self.samples = samples
         self.size = size
@@ -169,6 +173,8 @@ class Studio:
         )
         if self.settings.axes or self.settings.metadata:
             self._draw_overlays(frame.canvas(), view)
+        if self._report is not None:
+            self._report(frame)
         return frame
 
     def _camera(self, view: Viewpoint):

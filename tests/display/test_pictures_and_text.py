@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import engine3d as e3d
 from engine3d.canvas import Canvas
 from engine3d.display.animation_files import (
     ANIMATION_FORMATS,
     numbered_path,
     save_animation,
 )
+from engine3d.display.counts import count_names
 from engine3d.display.guides import grid, grid_step
 from engine3d.display.overlay import draw_axes, draw_block, draw_help, statistics_lines
 from engine3d.display.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
@@ -140,3 +142,16 @@ def test_a_file_watch_reports_a_change_once_it_has_settled(tmp_path, monkeypatch
     path.unlink()
     assert not watch.changed()
     assert not FileWatch(None).changed()
+
+
+def test_the_table_of_counts_is_that_of_the_frame():
+    frame = e3d.render(e3d.Scene(), size=(8, 8))
+    stats = {name: 1000 + k for k, name in enumerate(sorted(count_names()))} | {"draws": 3}
+    lines = statistics_lines(0.02, (8, 8), 1, {**frame.stats, **stats})
+    table = {line.split()[0]: line.split()[1:] for line in lines[3:6]}
+    assert lines[2].split() == ["total", "in", "frustum", "unoccluded", "drawn"]
+    for what in ("nodes", "clusters", "triangles"):
+        names = (what, f"{what}_in_frustum", f"{what}_unoccluded", f"{what}_drawn")
+        assert table[what] == [f"{stats[name]:,}" for name in names]
+    assert any(line.split() == ["draws", "3"] for line in lines[6:])
+    assert not any("in frustum" in line for line in lines[6:])

@@ -1,0 +1,39 @@
+"""How much of a scene a frame had to draw: nodes, clusters and triangles, stage by stage.
+
+In: `Frame.stats`. Out: a table for the overlay, a line for the log.
+"""
+
+from __future__ import annotations
+
+COUNTED = ("nodes", "clusters", "triangles")
+#: What a column is called, and how the names of its counters end.
+STAGES = {
+    "total": "",
+    "in frustum": "_in_frustum",
+    "unoccluded": "_unoccluded",
+    "drawn": "_drawn",
+}
+
+
+def count_names() -> set[str]:
+    """Return the names of all counters of the table."""
+    return {what + ending for what in COUNTED for ending in STAGES.values()}
+
+
+def count_table(stats: dict) -> list[str]:
+    """Return the table, a line each for its head and for what is counted."""
+    rows = [f"{'':<9}" + "".join(f"{stage:>12}" for stage in STAGES)]
+    for what in COUNTED:
+        numbers = (stats[what + ending] for ending in STAGES.values())
+        rows.append(f"{what:<9}" + "".join(f"{number:>12,}" for number in numbers))
+    return rows
+
+
+def count_line(stats: dict) -> str:
+    """Return the same in one line, with materials and lights."""
+    parts = []
+    for what in COUNTED:
+        stages = (f"{stats[what + ending]} {stage}" for stage, ending in STAGES.items())
+        parts.append(f"{what} {', '.join(stages)}")
+    parts += [f"{what} {stats[what]}" for what in ("materials", "lights")]
+    return "; ".join(parts)

@@ -12,7 +12,15 @@ import weakref
 
 import numpy as np
 
+_LINE = 64
 _MAX_FREE = 4  # blocks kept for each size: a steady loop needs one or two for each output
+
+
+def _aligned(size: int) -> np.ndarray:
+    """Return fresh bytes that begin with a cache line: tiles then share few with neighbours."""
+    room = np.empty(size + _LINE, np.uint8)
+    start = -room.ctypes.data % _LINE
+    return room[start : start + size]
 
 
 class OutputPool:
@@ -31,7 +39,7 @@ class OutputPool:
         try:
             block = self._free[size].pop()
         except (KeyError, IndexError):
-            block = np.empty(size, np.uint8)
+            block = _aligned(size)
         # The base of an array made from a memoryview is not an array, so NumPy does not look
         # through it: every view of a view holds on to `owner`, whose end is the end of them all.
         owner = np.frombuffer(memoryview(block), np.uint8)

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/srgb_tables.h"
+#include "core/stream.h"
 #include "pipeline/frame.h"
 
 static float unit(float v)
@@ -150,17 +151,18 @@ static void resolve_samples(const e3d_context *context, e3d_worker *worker, cons
     }
 }
 
-/* Rows of pixels, `step` apart, to the picture. Its rows are too far apart for the processor to foresee the next. */
+/* Rows of pixels, `step` apart, to the picture: large ones don't stay in the caches anyway. */
 static void write_rows(const e3d_context *context, const e3d_tile *tile, const uint32_t *rgba, int step)
 {
-    enum { AHEAD = 8, LINE = 64 };
+    enum { LARGE = 1 << 21 };
     size_t pitch = 4 * (size_t)context->frame->width, bytes = 4 * (size_t)tile->width;
     uint8_t *row = context->targets->color + (size_t)tile->y * pitch + 4 * (size_t)tile->x;
-    for (int y = 0; y < tile->height; y++, row += pitch, rgba += step) {
-        for (size_t at = 0; at < bytes && y + AHEAD < tile->height; at += LINE)
-            __builtin_prefetch(row + AHEAD * pitch + at, 1);
-        memcpy(row, rgba, bytes);
-    }
+    int large = pitch * (size_t)context->frame->height >= LARGE;
+    for (int y = 0; y < tile->height; y++, row += pitch, rgba += step)
+        if (large)
+            e3d_stream(row, rgba, bytes);
+        else
+            memcpy(row, rgba, bytes);
 }
 
 void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile)

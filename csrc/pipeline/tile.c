@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "core/pool.h"
+#include "core/stream.h"
 #include "pipeline/frame.h"
 
 /* ---- a record in a tile ---- */
@@ -328,7 +329,7 @@ static void tiles_work(void *argument, int number)
     while (!atomic_load(&context->stop)) {
         int64_t tile = atomic_fetch_add(&context->next, 1);
         if (tile >= e3d_tile_count(context))
-            return;
+            break;
         if (!draw_tile(context, worker, tile)) {
             worker->failed = 1;
             atomic_store(&context->stop, 1);
@@ -336,6 +337,7 @@ static void tiles_work(void *argument, int number)
         if (number == 0)
             poll(context);
     }
+    e3d_stream_end();
 }
 
 void e3d_tiles(e3d_context *context)

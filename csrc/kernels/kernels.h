@@ -142,7 +142,8 @@ typedef struct e3d_tile_buffers {
 
 /* ---- shade ---- */
 
-/* Neighbouring samples of one row of a tile that show the same: a slot, later the next run of the same (-1: none). */
+/* Neighbouring samples of one row of a tile that show the same: a slot; then the next run of the same (-1: none); at last a
+ * surface. */
 typedef struct e3d_run {
     int32_t owner;
     uint16_t sample, length;
@@ -243,6 +244,8 @@ typedef struct e3d_kernels {
     void (*raster_measure)(e3d_visible_tile *tile);
     /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
     int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
+    /* The samples of runs, at least one, that are owned by surfaces: what is known of a batch at first. */
+    void (*spread_runs)(const e3d_run *runs, int count, e3d_batch *batch);
     /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */
     void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted);
     void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted);

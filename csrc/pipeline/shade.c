@@ -158,15 +158,14 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
 }
 
+/* The batch's samples are those of its first `runs` runs. */
 static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                        const e3d_group *group, int wanted)
+                        const e3d_group *group, int32_t runs, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
     const e3d_surfaces *surfaces = &worker->tile->surfaces;
-    for (int i = batch->count; i < batch->count + E3D_PAD; i++) { /* whole vectors read these */
-        batch->sample[i] = batch->sample[batch->count - 1];
-        batch->surface[i] = batch->surface[batch->count - 1];
-    }
+    context->kernels->spread_runs(worker->tile->batch_runs, runs, batch);
+    worker->tile->batch_run_count = runs;
     worker->counters.shaded += batch->count;
     if (is_painted(context, group)) {
         paint_batch(context, worker, group, wanted);
@@ -189,37 +188,23 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
-/* Writes whole vectors, past the run's end: the next run, or padding, is written there afterwards. */
-static void append_run(e3d_tile_memory *memory, e3d_run run, int32_t surface)
-{
-    e3d_batch *batch = &memory->batch;
-    int32_t *restrict samples = batch->sample + batch->count, *restrict surfaces = batch->surface + batch->count;
-    for (int i = 0; i < run.length; i += E3D_PAD)
-        for (int k = 0; k < E3D_PAD; k++) {
-            samples[i + k] = run.sample + i + k;
-            surfaces[i + k] = surface;
-        }
-    batch->count += run.length;
-    memory->batch_runs[memory->batch_run_count++] = run;
-}
-
 /* The samples of pieces whose surfaces, 0 and so on, are known. */
 static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
                          const e3d_group *group, int32_t first, int32_t end, const e3d_run *runs, int wanted)
 {
     const e3d_visible_piece *pieces = worker->pieces.data;
     e3d_tile_memory *memory = worker->tile;
-    int32_t surface = 0;
-    memory->batch.count = memory->batch_run_count = 0;
+    int32_t surface = 0, samples = 0, count = 0;
     for (int32_t p = first; p != end; p = pieces[p].next, surface++)
         for (int32_t r = pieces[p].first_run; r >= 0; r = runs[r].owner) {
-            if (memory->batch.count + runs[r].length > E3D_BATCH) {
-                shade_batch(context, worker, tile, group, wanted);
-                memory->batch.count = memory->batch_run_count = 0;
+            if (samples + runs[r].length > E3D_BATCH) {
+                shade_batch(context, worker, tile, group, count, wanted);
+                samples = count = 0;
             }
-            append_run(memory, runs[r], surface);
+            memory->batch_runs[count++] = (e3d_run){surface, runs[r].sample, runs[r].length};
+            samples += runs[r].length;
         }
-    shade_batch(context, worker, tile, group, wanted);
+    shade_batch(context, worker, tile, group, count, wanted);
 }
 
 static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,

@@ -120,6 +120,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
         void (*raster_measure)(e3d_visible_tile *tile)
         int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
+        void (*spread_runs)(const e3d_run *runs, int count, e3d_batch *batch)
         void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)
         void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
         void (*select_level)(e3d_batch *batch, const e3d_surfaces *surfaces,

@@ -206,6 +206,12 @@ cdef class Kernels:
             count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
         return count
 
+    def spread_runs(self, const uint8_t[::1] runs, uint8_t[::1] batch):
+        check_size(batch, sizeof(e3d_batch))
+        for _ in range(self.rounds):
+            self.table.spread_runs(<const e3d_run *>&runs[0],
+                                   <int>(runs.shape[0] // sizeof(e3d_run)), <e3d_batch *>&batch[0])
+
     def surface(self, uint8_t[::1] surfaces, int tile_x, int tile_y, int wanted):
         """In place: with several rounds, what was transformed is transformed again."""
         check_size(surfaces, sizeof(e3d_surfaces))

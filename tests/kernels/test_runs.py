@@ -1,10 +1,10 @@
-"""find_runs: neighbouring samples of a row that show the same slot."""
+"""find_runs: neighbouring samples of a row that show the same slot; spread_runs: their samples."""
 
 import itertools
 
 import numpy as np
-from kernels.harness import POISON, Records, all_backends
-from kernels.layouts import PAD, RUN, TILE
+from kernels.harness import POISON, Records, all_backends, check_poisoned
+from kernels.layouts import BATCH, BATCH_RECORD, PAD, RUN, TILE
 
 TILES = 250  # of 4096 samples: 10^6 and more
 ROOM = np.dtype([("runs", RUN, TILE * TILE + 1)])
@@ -58,3 +58,31 @@ def test_every_width(kernels):
     for slots in (np.full_like(alternating, 7), np.full_like(alternating, -1), alternating):
         for width in range(1, TILE + 1):
             check(kernels, slots, width, 3)
+
+
+def random_runs(rng):
+    """Runs of at most a batch's samples in all, and at least one."""
+    lengths = rng.choice([1, 2, 3, 7, 8, 9, 15, 16, 17, 63, 64], BATCH)
+    lengths = lengths[np.cumsum(lengths) <= rng.integers(64, BATCH + 1)]
+    runs = np.zeros(len(lengths), RUN)
+    runs["owner"], runs["length"] = np.arange(len(runs)) // 2, lengths
+    runs["sample"] = rng.integers(0, TILE * TILE - 64, len(runs))
+    return runs
+
+
+@all_backends
+def test_spread_runs(kernels):
+    rng = np.random.default_rng(1)
+    batches = Records(BATCH_RECORD, 500)
+    for row, fields in zip(batches.rows, batches.fields, strict=True):
+        runs = random_runs(rng)
+        kernels.spread_runs(runs.view(np.uint8), row)
+        count = int(runs["length"].sum())
+        samples = np.concatenate([run["sample"] + np.arange(run["length"]) for run in runs])
+        expected = {"sample": samples, "surface": np.repeat(runs["owner"], runs["length"])}
+        assert fields["count"] == count
+        for name, values in expected.items():
+            got = fields[name][: count + PAD]
+            assert np.array_equal(got, np.append(values, [values[-1]] * PAD)), name
+        check_poisoned(fields, ["b", "r", "position", "normal", "uv", "color", "lod"])
+    batches.check_gaps()

@@ -1,4 +1,4 @@
-/* runs: neighbouring samples of a row that show the same slot, found a vector at a time. */
+/* runs: neighbouring samples of a row that show the same slot, found and spread out again a vector at a time. */
 
 /* Bit x: sample x differs from sample x + 1, or is the row's last. */
 static inline uint64_t runs_ends(const int32_t *row, int width)
@@ -27,4 +27,23 @@ static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run 
         }
     }
     return count;
+}
+
+/* Whole vectors are written past a run's end: the next run, or the pad, is written there afterwards. */
+static void kernel_spread_runs(const e3d_run *runs, int count, e3d_batch *batch)
+{
+    int n = 0, pad = 0;
+    for (int r = 0; r < count; r++) {
+        vi32 sample = v_addi(v_seti(runs[r].sample), v_iota()), surface = v_seti(runs[r].owner);
+        for (int i = 0; i < runs[r].length; i += V_LANES) {
+            v_storei(batch->sample + n + i, sample);
+            v_storei(batch->surface + n + i, surface);
+            sample = v_addi(sample, v_seti(V_LANES));
+        }
+        n += runs[r].length;
+    }
+    for (batch->count = n; pad < E3D_PAD; pad += V_LANES) {
+        v_storei(batch->sample + n + pad, v_seti(batch->sample[n - 1]));
+        v_storei(batch->surface + n + pad, v_seti(batch->surface[n - 1]));
+    }
 }

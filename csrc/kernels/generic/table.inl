@@ -39,6 +39,7 @@ const e3d_kernels E3D_TABLE = {
     .raster_settle = kernel_raster_settle,
     .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
+    .spread_runs = kernel_spread_runs,
     .surface = kernel_surface,
     .interpolate = kernel_interpolate,
     .select_level = kernel_select_level,

@@ -157,6 +157,7 @@ class DrawList:
                 obj._flat_poses(),
                 colors if eight_bit else None,
                 None if eight_bit else colors,
+                obj._ids,
             )
 
     def _place(
@@ -181,7 +182,7 @@ class DrawList:
                 arrays.count,
                 columns["flags"],
                 columns["object"],
-                columns["id"],
+                columns["object_id"],
                 columns["world"],
                 selection,
                 frustum,

@@ -50,6 +50,7 @@ class InstancedMesh:
     def __init__(self, mesh: Mesh, poses, *, colors=None) -> None:
         self._box_of: tuple | None = None
         self._tree_of: tuple | None = None
+        self._ids: np.ndarray | None = None  # what instance_id shows; None: the rows' numbers
         self.mesh = mesh
         self.replace(poses, colors)
 
@@ -81,9 +82,15 @@ class InstancedMesh:
     def replace(self, poses, colors=None) -> None:
         """Set poses and colours together; their number may change."""
         checked = _check_poses(poses)
+        self._ids = None
         self._colors = _check_colors(colors, len(checked))
         self._poses = checked
         self.version += 1
+
+    def _replace_by_rows(self, rows: np.ndarray, poses, colors) -> None:
+        """Draw some rows of others' poses and colours, under the numbers that they have there."""
+        self.replace(poses[rows], None if colors is None else colors[rows])
+        self._ids = rows.astype(np.int32)
 
     def bounds_in_node(self) -> np.ndarray | None:
         """Return the box around all instances in the node's space, (2, 3) float64, or None."""

@@ -246,6 +246,11 @@ class Node:
         what = "group" if self._object is None else type(self._object).__name__
         return f"<Node {self.id} {self.name!r}: {what}>"
 
+    def _show_as(self, other: Node) -> None:
+        """Let frames show another node's id for this one."""
+        self._arrays.columns["object_id"][self._slot] = other.id
+        self._arrays.changes += 1
+
     def _rotation_and_scale(self) -> tuple[np.ndarray, np.ndarray]:
         rotation, scale = np.empty(4), np.empty(3)
         self._arrays.copy_parts(self._slot, rotation, scale)

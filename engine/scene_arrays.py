@@ -20,6 +20,7 @@ _COLUMNS = {
     "previous": (np.int32, ()),
     "object": (np.int32, ()),
     "id": (np.int32, ()),
+    "object_id": (np.int32, ()),  # what frames show: the node's own id, or that of another
     "flags": (np.uint8, ()),
     "pose": (np.float64, (12,)),
     "rotation": (np.float64, (4,)),
@@ -57,6 +58,7 @@ class NodeArrays(NativeGraph):
             self._make_room(2 * self.room)
         slot = self.add(parent, number, identity)
         self.nodes.append(node)
+        self.columns["object_id"][slot] = identity
         return slot
 
     def world_poses(self, slots: np.ndarray) -> np.ndarray:
@@ -84,7 +86,7 @@ class NodeArrays(NativeGraph):
         for name, (dtype, row) in _COLUMNS.items():
             columns[name] = np.zeros((room, *row), dtype)
             columns[name][: self.count] = self.columns.get(name, columns[name])[: self.count]
-        self.attach(**columns)
+        self.attach(**{name: column for name, column in columns.items() if name != "object_id"})
         self.columns = columns
 
 

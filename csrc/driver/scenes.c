@@ -210,6 +210,8 @@ static void add_instances(scene *s, random_stream *r, e3d_draw *draw)
     if (random_once_in(r, 6))
         poison(poses, size * draw->instances, r, 30);
     draw->poses = poses;
+    if (random_once_in(r, 3))
+        draw->instance_ids = random_indices(s, r, draw->instances, 1000);
     int32_t colors = random_below(r, 3);
     if (colors == 1)
         draw->instance_colors_u8 = random_bytes(s, r, 4 * draw->instances);

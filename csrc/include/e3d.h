@@ -154,6 +154,7 @@ typedef struct e3d_draw {
     int32_t node_id;                 /* what object_id outputs */
     int32_t material_base;           /* frame material = material_base + mesh material id */
     int32_t first_instance;          /* added to what instance_id outputs: of many, some may be drawn */
+    const int32_t *instance_ids;     /* (instances,) what instance_id outputs instead, or NULL */
     /* E3D_POSE_NODES, in place of world_from_node, node_id and first_instance: */
     const double *node_worlds;       /* (instances, 12) world from node: three rows of four */
     const int32_t *node_ids;         /* (instances,) what object_id outputs */

@@ -407,6 +407,8 @@ static inline int32_t e3d_object_id(const e3d_draw *draw, int32_t instance)
 }
 static inline int32_t e3d_instance_id(const e3d_draw *draw, int32_t instance)
 {
+    if (draw->instance_ids)
+        return draw->instance_ids[instance];
     return draw->pose_kind == E3D_POSE_NODES ? 0 : draw->first_instance + instance;
 }
 

@@ -161,8 +161,9 @@ static e3d_memory_row row_of(const e3d_context *context, const e3d_turn *turn)
     const e3d_draw *draw = state->draw;
     int32_t groups = state->mesh->group_count, node = e3d_object_id(draw, turn->instance);
     int64_t base = state->group_base + (int64_t)turn->instance * groups;
-    return (e3d_memory_row){state->mesh, base, node, e3d_instance_id(draw, turn->instance),
-                            draw->pose_kind == E3D_POSE_NODES ? 1 : draw->instances, groups};
+    if (draw->pose_kind == E3D_POSE_NODES)
+        return (e3d_memory_row){state->mesh, base, node, 0, 1, groups};
+    return (e3d_memory_row){state->mesh, base, node, draw->first_instance, draw->instances, groups};
 }
 
 /* Takes over what both frames know of the instances of one draw; how many groups that is. */

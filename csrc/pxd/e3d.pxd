@@ -111,6 +111,7 @@ cdef extern from "e3d.h" nogil:
         int32_t node_id
         int32_t material_base
         int32_t first_instance
+        const int32_t *instance_ids
         const double *node_worlds
         const int32_t *node_ids
 

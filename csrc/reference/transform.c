@@ -69,7 +69,7 @@ void ref_instance_init(ref_instance *out, const e3d_frame *frame, const e3d_draw
     double pose[16], world_from_object[16], clip_from_object[16];
     memcpy(world_from_object, draw->world_from_node, sizeof world_from_object);
     out->object_id = draw->node_id;
-    out->instance_id = draw->first_instance + number;
+    out->instance_id = draw->instance_ids ? draw->instance_ids[number] : draw->first_instance + number;
     if (draw->pose_kind == E3D_POSE_NODES) {
         out->object_id = draw->node_ids[number];
         out->instance_id = 0;

@@ -72,6 +72,8 @@ static int append_run(e3d_draw_list *list, const e3d_draw *whole, int32_t first,
     draw->poses += (size_t)first * (whole->pose_kind == E3D_POSE_MATRIX ? 16 : 4);
     draw->instances = end - first;
     draw->first_instance = first;
+    if (draw->instance_ids)
+        draw->instance_ids += first;
     if (draw->instance_colors_u8)
         draw->instance_colors_u8 += 4 * (size_t)first;
     if (draw->instance_colors_f32)

@@ -186,6 +186,35 @@ def city() -> np.ndarray:
     return sheet(tiles, 2)
 
 
+def impostors() -> np.ndarray:
+    """Teapots as meshes, as their impostors, and what the impostors look like from near."""
+    mesh = load("teapot.obj")
+    impostor = e3d.Impostor(mesh, views=10, texels=32)
+    random = np.random.default_rng(3)
+    poses = np.zeros((120, 4, 4))
+    for number in range(len(poses)):
+        turn = linalg.rotation_y(random.uniform(0, 2 * math.pi))
+        row, column = divmod(number, 12)
+        place = ((column - 5.5) * 5.0, 0.0, -9.0 * row)
+        poses[number] = linalg.multiply(linalg.translation(place), turn)
+    camera, pose = look((0.0, 60.0, 90.0), (0.0, 0.0, -36.0), yfov=0.42)
+    size = (420, 280)
+    tiles = []
+    for caption, zoom, card in (
+        ("716,640 triangles", 1, None),
+        ("as impostors", 1, impostor),
+        ("the same from near", 4, impostor),
+    ):
+        teapots = e3d.DetailedInstances([(mesh, 0.0)], poses, impostor=card, impostor_pixels=1000.0)
+        scene = e3d.Scene(background=(196, 211, 222))
+        add_daylight(scene)
+        teapots.add_to(scene)
+        teapots.update(camera, pose, size)
+        near = e3d.PerspectiveCamera(0.42 / zoom, znear=1.0, zfar=300.0)
+        tiles.append((caption, draw(scene, (near, pose), size)))
+    return sheet(tiles, 3)
+
+
 PICTURES = {
     "models": models,
     "modes": modes,
@@ -193,6 +222,7 @@ PICTURES = {
     "scenes": scenes,
     "viewer": viewer,
     "city": city,
+    "impostors": impostors,
 }
 
 

@@ -79,6 +79,7 @@ class NativeDrawList:
         poses: _Floats,
         colors_u8: _Bytes | None = None,
         colors_f32: _Floats | None = None,
+        ids: _Integers | None = None,
     ) -> None: ...
     def add_material(
         self,

@@ -323,6 +323,7 @@ cdef class NativeDrawList:
         const float[:, ::1] poses not None,
         const uint8_t[:, ::1] colors_u8=None,
         const float[:, ::1] colors_f32=None,
+        const int32_t[::1] ids=None,
     ):
         """Draw the mesh once for each row of `poses`: (N, 16) matrices or (N, 4) offset and scale."""
         require(0 <= index < self.object_count, "no such object")
@@ -331,6 +332,10 @@ cdef class NativeDrawList:
         draw.pose_kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
         draw.instances = <int32_t>poses.shape[0]
         draw.poses = &poses[0, 0] if poses.shape[0] else NULL
+        draw.instance_ids = NULL
+        if ids is not None and poses.shape[0]:
+            require(ids.shape[0] == poses.shape[0], "ids: (N,)")
+            draw.instance_ids = &ids[0]
         draw.instance_colors_u8 = NULL
         draw.instance_colors_f32 = NULL
         if colors_u8 is not None and poses.shape[0]:
@@ -339,7 +344,7 @@ cdef class NativeDrawList:
         elif colors_f32 is not None and poses.shape[0]:
             require(colors_f32.shape[0] == poses.shape[0] and colors_f32.shape[1] == 4, "colors: (N, 4)")
             draw.instance_colors_f32 = &colors_f32[0, 0]
-        self.borrowed.append((poses, colors_u8, colors_f32))
+        self.borrowed.append((poses, colors_u8, colors_f32, ids))
 
     def add_material(
         self, color, specular, float shininess, emissive, NativeTexture texture, int32_t id,

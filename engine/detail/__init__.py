@@ -1,10 +1,11 @@
 """Levels of detail: coarser meshes for what is small on the screen. Nothing uses them by itself.
 
-`simplify` makes coarser meshes; `DetailedInstances` draws each instance with the coarsest that
-nobody can tell from the finest.
+`simplify` makes coarser meshes, `Impostor` flat cards; `DetailedInstances` draws each instance with
+the coarsest that nobody can tell from the finest.
 """
 
+from .impostors import Impostor
 from .instances import DetailedInstances
 from .simplification import simplify
 
-__all__ = ["DetailedInstances", "simplify"]
+__all__ = ["DetailedInstances", "Impostor", "simplify"]

@@ -18,6 +18,7 @@ from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..mesh import Mesh
 from ..scene import Node, Scene
+from .impostors import Impostor, bounding_ball
 from .simplification import simplify
 
 RATIOS = (0.5, 0.2, 0.08)
@@ -40,14 +41,19 @@ class DetailedInstances:
     hysteresis : float
         From 0 up to, not including, 1: an instance turns coarser when its error is then below
         ``pixels * (1 - hysteresis)``.
+    impostor : Impostor, optional
+        Of the first mesh: what is drawn instead of any level where its error is small enough. The
+        picture changes.
+    impostor_pixels : float
+        The largest error of the impostor on the screen.
 
     Attributes
     ----------
     levels : tuple of (Mesh, float)
     instances : tuple of InstancedMesh
-        One a level.
+        One a level, then one a card of the impostor.
     level : (N,) int
-        The level of each instance.
+        The level of each instance; the number of levels where it is the impostor.
 
     Raises
     ------
@@ -64,31 +70,45 @@ class DetailedInstances:
         colors=None,
         pixels: float = 1.0,
         hysteresis: float = 0.3,
+        impostor: Impostor | None = None,
+        impostor_pixels: float = 4.0,
     ) -> None:
         self.levels = _made_levels(levels) if isinstance(levels, Mesh) else _checked(levels)
-        if not 0.0 < pixels < math.inf:
-            raise InvalidArgumentError(f"pixels must be greater than 0, not {pixels!r}")
+        for name, value in (("pixels", pixels), ("impostor_pixels", impostor_pixels)):
+            if not 0.0 < value < math.inf:
+                raise InvalidArgumentError(f"{name} must be greater than 0, not {value!r}")
+        if impostor is not None and not isinstance(impostor, Impostor):
+            raise InvalidArgumentError(f"not an Impostor: {type(impostor).__name__}")
         if not 0.0 <= hysteresis < 1.0:
             raise InvalidArgumentError(f"hysteresis must be from 0 to below 1, not {hysteresis!r}")
         self.pixels, self.hysteresis = float(pixels), float(hysteresis)
         mesh = self.levels[0][0]
-        self._center = (mesh.bounds[0] + mesh.bounds[1]) * 0.5
-        lengths = linalg.length(mesh.positions - self._center)
-        self._radius = float(lengths[np.isfinite(lengths)].max(initial=0.0))
+        self._center, self._radius = bounding_ball(mesh)
+        self._impostor = impostor
+        errors = [error for _, error in self.levels]
+        if impostor is not None:
+            errors.append(max(impostor.error * pixels / impostor_pixels, errors[-1]))
+        self._errors = np.array(errors)
         finest = InstancedMesh(mesh, poses, colors=colors)
         self._poses, self._colors = finest.poses, finest.colors
         self.level = np.zeros(len(self._poses), np.intp)
-        none = self._chosen(np.zeros(0, np.intp))
-        others = [InstancedMesh(mesh, none[0], colors=none[1]) for mesh, _ in self.levels[1:]]
+        self._drawn = self.level  # as which of the instances
+        cards = () if impostor is None else impostor.cards
+        others = [InstancedMesh(mesh, finest.poses[:0]) for mesh, _ in self.levels[1:]]
+        others += [InstancedMesh(card, finest.poses[:0]) for card in cards]
         self.instances = (finest, *others)
         self._nodes: list[Node] = []
 
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
-        """Add a node for each level to a scene; returns the node that groups them."""
+        """Add a node for each level to a scene; returns the node that groups them.
+
+        Frames show all of them as this one: ``object_id`` is its id, and ``instance_id`` the row
+        of ``poses``, whatever the level.
+        """
         group = scene.add(name=name, parent=parent)
         self._nodes.append(group)
         for instances in self.instances:
-            scene.add(instances, parent=group)
+            scene.add(instances, parent=group)._show_as(group)
         return group
 
     def update(self, camera: Camera, pose, size: tuple[int, int]) -> bool:
@@ -102,19 +122,47 @@ class DetailedInstances:
         size : (int, int)
             Width and height of the picture in pixels.
         """
-        errors = self._errors_on_screen(camera, np.asarray(pose, np.float64), size)
+        pose = np.asarray(pose, np.float64)
+        errors = self._errors_on_screen(camera, pose, size)
         # Refine what is too coarse now; coarsen what is fine enough by a margin.
         fine_enough = _coarsest(errors, self.pixels)
         safely = _coarsest(errors, self.pixels * (1.0 - self.hysteresis))
         level = np.maximum(np.minimum(self.level, fine_enough), safely)
-        touched = set(level[level != self.level]) | set(self.level[level != self.level])
-        self.level = level
+        drawn = level if self._impostor is None else self._with_cards(level, camera, pose, size)
+        touched = set(drawn[drawn != self._drawn]) | set(self._drawn[drawn != self._drawn])
+        self.level, self._drawn = level, drawn
         for number in touched:
-            self.instances[number].replace(*self._chosen(np.flatnonzero(level == number)))
+            rows = np.flatnonzero(drawn == number)
+            self.instances[number]._replace_by_rows(rows, self._poses, self._colors)
         return bool(touched)
 
-    def _chosen(self, numbers: np.ndarray):
-        return self._poses[numbers], None if self._colors is None else self._colors[numbers]
+    def _with_cards(self, level: np.ndarray, camera, pose, size) -> np.ndarray:
+        """The number of the level or of the card that each instance is drawn as."""
+        far = np.flatnonzero(level == len(self.levels))
+        drawn = level.copy()
+        if len(far):
+            towards = self._towards_viewer(self._poses[far].astype(np.float64), camera, pose, size)
+            last = np.maximum(self._drawn[far] - len(self.levels), -1)
+            drawn[far] += self._impostor.nearest(towards, last)
+        return drawn
+
+    def _towards_viewer(self, poses: np.ndarray, camera, pose, size) -> np.ndarray:
+        """From instances to who looks at them, in their own space, (N, 3), of any length."""
+        perspective = float(camera.projection(*size)[3, 3]) == 0.0
+        world = linalg.inverse(self._nodes[0].world_pose) if self._nodes else np.eye(4)
+        if perspective:
+            eye, center = linalg.transform_points(world, pose[:3, 3]), self._center
+        else:  # a direction, wherever the instances are
+            eye, center = linalg.dot(world[:3, :3], pose[:3, 2]), np.zeros(3)
+        if poses.ndim == 2:
+            offset, scale = poses[:, :3] * float(perspective), poses[:, 3:4]
+            return (eye - offset) * np.copysign(1.0, scale) - center * np.abs(scale)
+        x, y, z, offset = (poses[:, :3, k] for k in range(4))
+        back = [linalg.cross(y, z), linalg.cross(z, x), linalg.cross(x, y)]  # rows of the inverse
+        volume = linalg.dot(x, back[0])[:, np.newaxis]
+        way = eye - offset * float(perspective)
+        local = np.stack([linalg.dot(row, way) for row in back], axis=1)
+        return local * np.copysign(1.0, volume) - center * np.abs(volume)
 
     def _errors_on_screen(self, camera, pose, size) -> np.ndarray:
         """Errors of each level of each instance in pixels, (levels, N)."""
@@ -135,7 +183,7 @@ class DetailedInstances:
         if float(projection[3, 3]) == 0.0:  # perspective: smaller with the distance
             near = linalg.length(centers - pose[:3, 3]) - radius * scale
             pixels = pixels / np.maximum(near, 1e-9)
-        return np.array([error for _, error in self.levels])[:, np.newaxis] * pixels
+        return self._errors[:, np.newaxis] * pixels
 
     def __len__(self) -> int:
         return len(self._poses)

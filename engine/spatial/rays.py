@@ -150,6 +150,12 @@ def pick(scene, frame, x: int, y: int) -> RayHit | None:
         return None
     instance = int(frame.instance_id[y, x])
     hit = _drawn_hit(scene, near, direction, length, frame._seen[1])
+    if node.object is None:  # several nodes show as this one: levels of detail
+        return (
+            None
+            if hit is None
+            else _from(eye, hit._replace(node=node, instance=instance, face=face))
+        )
     if hit is None or (hit.node, hit.instance, hit.face) != (node, instance, face):
         hit = _hit_of_face(node, instance, face, near, direction)
     return _from(eye, hit)

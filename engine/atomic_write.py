@@ -1,8 +1,9 @@
-"""Writing a file so that it is there whole or not at all.
+"""Writing files so that they are there whole or not at all.
 
-In: the path of an output file. Out: a binary file object to write to. The bytes go to a temporary
+In: the paths of output files. Out: binary file objects to write to. The bytes go to a temporary
 name in the same folder, which takes the target's name only when everything was written; whatever
-stood there before stays untouched until then, and a failure leaves nothing behind.
+stood there before stays untouched until then, and a failure, or a signal that Python turns into an
+exception, leaves nothing behind. Files that belong together appear one right after the other.
 """
 
 from __future__ import annotations
@@ -35,42 +36,108 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
     FileAccessError
         The folder does not exist, cannot be written to, or the disk is full.
     """
-    path = os.fspath(path)
-    try:
-        if os.path.exists(path) and not os.path.isfile(path):
-            with open(path, "wb") as device:
-                yield device
+    with AtomicFiles() as files:
+        yield files.create(path)
+
+
+class AtomicFiles:
+    """Files that appear together, when the ``with`` block ends without an exception.
+
+    They are written one after the other, and take their names in the order of creation: one that
+    names others comes last. Raises `FileAccessError` as `atomic_write`; it names the file.
+    """
+
+    def __init__(self) -> None:
+        self._parts: list[_Part] = []
+
+    def create(self, path: str | os.PathLike) -> BinaryIO:
+        """Begin the next file; the one before is whole, and closed."""
+        if self._parts:
+            with _named(self._parts[-1].path):
+                self._parts[-1].finish()
+        part = _Part(os.fspath(path))
+        self._parts.append(part)
+        with _named(part.path):
+            part.open()
+        return part.file
+
+    def __enter__(self) -> AtomicFiles:
+        return self
+
+    def __exit__(self, kind, error, trace) -> None:
+        try:
+            if isinstance(error, OSError) and self._parts:
+                with _named(self._parts[-1].path):
+                    raise error
+            if error is None and self._parts:
+                with _named(self._parts[-1].path):
+                    self._parts[-1].finish()
+                for part in self._parts:
+                    with _named(part.path):
+                        part.appear()
+        finally:
+            for part in self._parts:
+                part.discard()
+
+
+class _Part:
+    """A file that is being written.
+
+    Attributes
+    ----------
+    path : str
+        As the caller gave it.
+    file : binary file object
+    """
+
+    file: BinaryIO
+
+    def __init__(self, path: str) -> None:
+        self.path = path
+        self._target = os.path.realpath(path)
+        self._temporary: str | None = None
+        self._mode: int | None = None
+
+    def open(self) -> None:
+        if os.path.exists(self.path) and not os.path.isfile(self.path):
+            self.file = os.fdopen(os.open(self.path, os.O_WRONLY | os.O_CLOEXEC), "wb")
             return
-        with _replaced_when_done(os.path.realpath(path)) as file:
-            yield file
-    except OSError as error:
-        if isinstance(error, FileAccessError):
-            raise
-        raise FileAccessError(f"cannot write: {error.strerror or error}", path) from error
+        with contextlib.suppress(FileNotFoundError):
+            self._mode = stat.S_IMODE(os.stat(self._target).st_mode)
+        folder, name = os.path.split(self._target)
+        self._temporary = os.path.join(folder, f".{name[:64]}.{os.urandom(8).hex()}.part")
+        # What replaces a private file is private from the beginning.
+        mode = 0o666 if self._mode is None else 0o600
+        flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+        self.file = os.fdopen(os.open(self._temporary, flags, mode), "wb")
+
+    def finish(self) -> None:
+        self.file.flush()
+        if self._mode is not None:
+            os.fchmod(self.file.fileno(), self._mode)
+        self.file.close()
+
+    def appear(self) -> None:
+        if self._temporary is not None:
+            os.replace(self._temporary, self._target)
+            self._temporary = None
+
+    def discard(self) -> None:
+        """Close the file, and remove it if it did not appear."""
+        with contextlib.suppress(AttributeError, OSError):
+            self.file.close()
+        if self._temporary is not None:
+            with contextlib.suppress(OSError):
+                os.unlink(self._temporary)
 
 
 @contextlib.contextmanager
-def _replaced_when_done(target: str) -> Iterator[BinaryIO]:
-    folder, name = os.path.split(target)
-    temporary = os.path.join(folder, f".{name[:64]}.{os.urandom(8).hex()}.part")
-    handle = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
+def _named(path: str | None) -> Iterator[None]:
+    """Let errors of the system name the file."""
     try:
-        with os.fdopen(handle, "wb") as file:
-            yield file
-            file.flush()
-            os.fchmod(file.fileno(), _permissions(target))
-        os.replace(temporary, target)
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(temporary)
+        yield
+    except FileAccessError:
         raise
-
-
-def _permissions(target: str) -> int:
-    """The mode bits of the file to replace, or those a new file gets from the process's umask."""
-    try:
-        return stat.S_IMODE(os.stat(target).st_mode)
-    except FileNotFoundError:
-        umask = os.umask(0)
-        os.umask(umask)
-        return 0o666 & ~umask
+    except OSError as error:
+        message = f"cannot write: {error.strerror or error}"
+        raise FileAccessError(message, path) from error

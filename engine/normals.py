@@ -33,6 +33,7 @@ _BLOCK = 1 << 16
 _PI = 3.141592653589793
 
 
+@np.errstate(all="ignore")
 def face_area_vectors(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Return the cross product of each face's edges: twice its area, along its normal.
 
@@ -47,17 +48,17 @@ def face_area_vectors(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
         Zero for faces with a vertex that is not finite.
     """
     corners = positions.astype(np.float64)[faces]
-    with np.errstate(all="ignore"):
-        ab = corners[:, 1] - corners[:, 0]
-        ac = corners[:, 2] - corners[:, 0]
-        vectors = np.empty((len(faces), 3), np.float64)
-        vectors[:, 0] = ab[:, 1] * ac[:, 2] - ab[:, 2] * ac[:, 1]
-        vectors[:, 1] = ab[:, 2] * ac[:, 0] - ab[:, 0] * ac[:, 2]
-        vectors[:, 2] = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    ab = corners[:, 1] - corners[:, 0]
+    ac = corners[:, 2] - corners[:, 0]
+    vectors = np.empty((len(faces), 3), np.float64)
+    vectors[:, 0] = ab[:, 1] * ac[:, 2] - ab[:, 2] * ac[:, 1]
+    vectors[:, 1] = ab[:, 2] * ac[:, 0] - ab[:, 0] * ac[:, 2]
+    vectors[:, 2] = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
     vectors[~np.isfinite(vectors).all(axis=1)] = 0
     return vectors
 
 
+@np.errstate(all="ignore")
 def corner_angles(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Return the inner angle at each corner of each face.
 
@@ -73,14 +74,13 @@ def corner_angles(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """
     corners = positions.astype(np.float64)[faces]
     angles = np.empty(faces.shape, np.float64)
-    with np.errstate(all="ignore"):
-        edges = np.roll(corners, -1, axis=1) - corners
-        lengths = _lengths(edges)
-        for corner in range(3):
-            onward, back = edges[:, corner], edges[:, corner - 1]
-            dots = onward[:, 0] * back[:, 0] + onward[:, 1] * back[:, 1] + onward[:, 2] * back[:, 2]
-            cosine = -dots / (lengths[:, corner] * lengths[:, corner - 1])
-            angles[:, corner] = _arc_cosine(cosine)
+    edges = np.roll(corners, -1, axis=1) - corners
+    lengths = _lengths(edges)
+    for corner in range(3):
+        onward, back = edges[:, corner], edges[:, corner - 1]
+        dots = onward[:, 0] * back[:, 0] + onward[:, 1] * back[:, 1] + onward[:, 2] * back[:, 2]
+        cosine = -dots / (lengths[:, corner] * lengths[:, corner - 1])
+        angles[:, corner] = _arc_cosine(cosine)
     angles[~np.isfinite(angles)] = 0
     return angles
 
@@ -199,15 +199,20 @@ def face_normals(
     return unit_vectors(chosen).astype(np.float32)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def _lengths(vectors: np.ndarray) -> np.ndarray:
     x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
     return np.sqrt(x * x + y * y + z * z)
 
 
 def unit_vectors(vectors: np.ndarray) -> np.ndarray:
-    """Scale (N, 3) vectors to length one; zero stays zero."""
+    """Scale (N, 3) vectors to length one; zero stays zero, and what is too long becomes zero."""
     length = _lengths(vectors)
     length[length == 0] = 1
+    long = ~np.isfinite(length)
+    if long.any():
+        vectors = np.where(long[:, np.newaxis], 0, vectors)
+        length[long] = 1
     return vectors / length[:, np.newaxis]
 
 

@@ -50,6 +50,7 @@ def load_scene(
     return scene_from_document(load_document(path, format=format, progress=progress))
 
 
+@np.errstate(all="ignore")
 def scene_from_document(document: Document) -> Scene:
     """Return the scene that a document describes."""
     scene = Scene()

@@ -8,6 +8,7 @@ and the core, loads only when it runs.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import gc
 import os
 import sys
@@ -15,6 +16,8 @@ import sys
 from .usage import UsageError
 
 INTERRUPTED = 130
+#: Plus the number of the signal that ended the program, as shells count.
+ENDED_BY_SIGNAL = 128
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -51,21 +54,68 @@ def _run(args: argparse.Namespace) -> int:
     from ..errors import Engine3DError
 
     try:
-        with _short_warnings():
+        with _short_warnings(), _ended_politely():
             command = _load(args)
             status = command(args)
-        sys.stdout.flush()
+            sys.stdout.flush()
         return status
     except BrokenPipeError:
-        # Whoever read our output has left; keep Python from complaining when it flushes at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # Whoever read our output has left.
+        _leave_standard_output()
         return 1
     except KeyboardInterrupt:
         return INTERRUPTED
+    except _Ended as ended:
+        return ENDED_BY_SIGNAL + ended.number
     except (Engine3DError, OSError) as error:
+        if not _can_flush():
+            _leave_standard_output()
         return _fail(_one_line(error))
     except MemoryError:
         return _fail("out of memory")
+
+
+class _Ended(BaseException):
+    """A signal asked the program to end."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+@contextlib.contextmanager
+def _ended_politely():
+    """Let SIGTERM and SIGHUP raise, so that what is half written is removed."""
+    import signal
+    import threading
+
+    def end(number, frame):
+        raise _Ended(number)
+
+    numbers = [signal.SIGTERM, signal.SIGHUP]
+    if threading.current_thread() is not threading.main_thread():
+        numbers = []
+    changed = [number for number in numbers if signal.getsignal(number) is signal.SIG_DFL]
+    try:
+        for number in changed:
+            signal.signal(number, end)
+        yield
+    finally:
+        for number in changed:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _can_flush() -> bool:
+    try:
+        sys.stdout.flush()
+    except OSError:
+        return False
+    return True
+
+
+def _leave_standard_output() -> None:
+    """Keep Python from complaining when it flushes at exit what cannot be written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _load(args: argparse.Namespace):
@@ -82,8 +132,9 @@ def _load(args: argparse.Namespace):
 
 def _one_line(error: Exception) -> str:
     text = str(error)
-    if isinstance(error, OSError) and error.filename is not None and error.strerror:
-        text = f"{os.fsdecode(error.filename)}: {error.strerror}"
+    if isinstance(error, OSError) and error.strerror:
+        place = "" if error.filename is None else f"{os.fsdecode(error.filename)}: "
+        text = place + error.strerror
     return " ".join(text.split()) or type(error).__name__
 
 

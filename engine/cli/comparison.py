@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import FileAccessError, FileFormatError
+from ..loaders import load_texture
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def compare(pixels: np.ndarray, path) -> Comparison:
     pixels : (H, W, 4) ndarray of uint8
         RGBA.
     path : path-like
-        A file that Pillow reads.
+        Whatever `load_texture` reads.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def compare(pixels: np.ndarray, path) -> Comparison:
     FileAccessError, FileFormatError
         The reference cannot be read.
     """
-    reference = _read(path)
+    reference = load_texture(path).pixels
     height, width = pixels.shape[:2]
     sizes = ((width, height), (reference.shape[1], reference.shape[0]))
     if sizes[0] != sizes[1]:
@@ -64,15 +64,3 @@ def compare(pixels: np.ndarray, path) -> Comparison:
     difference = (squares / (offsets.size * 255.0 * 255.0)) ** 0.5
     differing = int((offsets != 0).any(axis=2).sum())
     return Comparison(difference, differing, width * height, sizes)
-
-
-def _read(path) -> np.ndarray:
-    from PIL import Image
-
-    try:
-        with Image.open(path) as image:
-            return np.asarray(image.convert("RGBA"), dtype=np.int32)
-    except (Image.UnidentifiedImageError, Image.DecompressionBombError, SyntaxError) as error:
-        raise FileFormatError("not a picture that can be read", path) from error
-    except OSError as error:
-        raise FileAccessError(error.strerror or str(error), path) from error

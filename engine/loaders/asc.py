@@ -213,10 +213,13 @@ class _Parser:
     def _read_smoothing(self, rest: str) -> None:
         mesh = self._open_mesh("Smoothing")
         for word in rest.replace(",", " ").split():
-            if not word.isascii() or not word.isdigit() or not 1 <= int(word[:9]) <= 32:
+            digits = word.lstrip("0")
+            if not (
+                digits.isascii() and digits.isdigit() and len(digits) < 3 and int(digits) <= 32
+            ):
                 self.warnings.add(f"smoothing group {shown(word)} is left out", self._number)
             elif mesh.smoothing:
-                mesh.smoothing[-1] |= 1 << (int(word) - 1)
+                mesh.smoothing[-1] |= 1 << (int(digits) - 1)
 
     def _read_light_or_camera(self, line: str, keyword: str, rest: str) -> bool:
         camera = _CAMERA.match(line)

@@ -6,7 +6,9 @@ when the first image is read, and is allowed the listed formats only (others may
 
 from __future__ import annotations
 
+import contextlib
 import io
+import warnings
 
 import numpy as np
 
@@ -48,7 +50,7 @@ def read_image(source: Source) -> np.ndarray:
 
     formats = [pillow_name for _, _, _, pillow_name, _ in _FORMATS]
     try:
-        with Image.open(io.BytesIO(source.data), formats=formats) as image:
+        with _quiet_pillow(), Image.open(io.BytesIO(source.data), formats=formats) as image:
             check_image_size(*image.size, source.path)
             pixels = _rgba(image)
             pixels.setflags(write=False)
@@ -63,6 +65,14 @@ def read_image(source: Source) -> np.ndarray:
     # struct.error, IndexError, ...
     except Exception as error:
         raise FileFormatError(f"damaged image: {error}", source.path) from error
+
+
+@contextlib.contextmanager
+def _quiet_pillow():
+    """Silence warnings of what Pillow passes over, and of sizes that are not too large here."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
 
 
 def _rgba(image) -> np.ndarray:

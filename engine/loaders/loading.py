@@ -7,6 +7,8 @@ import warnings
 from collections.abc import Callable
 from typing import BinaryIO
 
+import numpy as np
+
 from ..errors import Engine3DWarning, FileFormatError
 from ..mesh import Mesh
 from ..textures import Texture
@@ -107,7 +109,9 @@ def _read_document(
         source = source._replace(progress=progress)
     source.progress(0.0)
     try:
-        document = reader.read(source, split=split)
+        # What is beyond the range of numbers becomes infinite, and is dealt with as such.
+        with np.errstate(all="ignore"):
+            document = reader.read(source, split=split)
     except MemoryError as error:
         raise FileFormatError("needs more memory than there is", source.path) from error
     source.progress(1.0)

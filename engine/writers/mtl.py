@@ -11,7 +11,7 @@ import os
 import re
 
 from .._native.images import encode_png
-from ..atomic_write import atomic_write
+from ..atomic_write import AtomicFiles
 from ..colors import linear_color
 from ..materials import Material
 from .rows import float_words
@@ -49,33 +49,35 @@ def material_names(materials: list[Material]) -> list[str]:
     return names
 
 
-def write_library(materials: list[Material], names: list[str], path: str) -> None:
-    """Write a library ``path``, and its images beside it."""
+def write_library(
+    materials: list[Material], names: list[str], path: str, files: AtomicFiles
+) -> None:
+    """Write a library ``path``, and its images beside it; they appear with the other ``files``."""
     folder, file_name = os.path.split(path)
-    images = _Images(folder, os.path.splitext(file_name)[0])
+    images = _Images(folder, os.path.splitext(file_name)[0], files)
     text = "\n".join(
         line
         for material, name in zip(materials, names, strict=True)
         for line in [*_statements(material, name, images), ""]
     )
-    with atomic_write(path) as file:
-        file.write(b"# written by engine3d\n" + text.encode())
+    files.create(path).write(b"# written by engine3d\n" + text.encode())
 
 
 class _Images:
     """Writes each texture once."""
 
-    def __init__(self, folder: str, stem: str) -> None:
+    def __init__(self, folder: str, stem: str, files: AtomicFiles) -> None:
         self._folder = folder
         self._stem = stem
+        self._files = files
         self._names: dict[int, str] = {}
 
     def name(self, texture) -> str:
         name = self._names.get(id(texture))
         if name is None:
             name = f"{self._stem}_{len(self._names)}.png"
-            with atomic_write(os.path.join(self._folder, name)) as file:
-                file.write(encode_png(texture.pixels))
+            file = self._files.create(os.path.join(self._folder, name))
+            file.write(encode_png(texture.pixels))
             self._names[id(texture)] = name
         return name
 

@@ -11,7 +11,7 @@ import os
 
 import numpy as np
 
-from ..atomic_write import atomic_write
+from ..atomic_write import AtomicFiles
 from ..colors import srgb_bytes
 from ..loaders.welding import number_rows
 from ..mesh import Mesh
@@ -27,11 +27,12 @@ def write_obj(mesh: Mesh, path: str) -> list[str]:
     """Write an OBJ file and its library; what it does not hold is nothing."""
     library = None
     names: list[str] = []
-    if not is_plain(mesh.materials):
-        library = os.path.splitext(path)[0] + ".mtl"
-        names = material_names(mesh.materials)
-        write_library(mesh.materials, names, library)
-    with atomic_write(path) as file:
+    with AtomicFiles() as files:
+        if not is_plain(mesh.materials):
+            library = os.path.splitext(path)[0] + ".mtl"
+            names = material_names(mesh.materials)
+            write_library(mesh.materials, names, library, files)
+        file = files.create(path)
         file.write(b"# written by engine3d\n")
         if library is not None:
             file.write(f"mtllib {os.path.basename(library)}\n".encode())

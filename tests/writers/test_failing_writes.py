@@ -1,0 +1,231 @@
+"""Full disks, folders that cannot be written to, signals in the middle: what was there stays.
+
+Every writer of the package tries to replace files. Whatever goes wrong, the folder holds afterwards
+exactly what it held before, or (after SIGKILL, which nobody can answer) a temporary file besides.
+"""
+
+import contextlib
+import errno
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d.benchmarking import bar_chart
+from engine3d.display.animation_files import save_animation
+from engine3d.errors import FileAccessError
+
+BEFORE = b"what was there before"
+LIMIT = 64  # bytes: less than any of these files
+FILLED = 1 << 16
+
+
+def a_mesh():
+    """With a texture, so that an OBJ file needs a library and an image."""
+    pixels = np.random.default_rng(0).integers(0, 255, (16, 16, 4), np.uint8)
+    mesh = e3d.box()
+    mesh.materials = [e3d.Material(name="paint", texture=e3d.Texture(pixels))]
+    return mesh
+
+
+def save_mesh(path):
+    a_mesh().save(path)
+
+
+def save_frame(path):
+    scene = e3d.Scene()
+    scene.add(e3d.uv_sphere())
+    e3d.render(scene, size=(64, 48)).save(path)
+
+
+def save_turntable(path):
+    noise = np.random.default_rng(0).integers(0, 255, (3, 32, 32, 4), np.uint8)
+    save_animation(noise, path, 0.1)
+
+
+def save_chart(path):
+    bar_chart.save(path, "times", [("a", [1.0, 2.0]), ("b", [3.0, 1.0])], ["x", "y"])
+
+
+WRITERS = {
+    **{f"frame.{suffix}": save_frame for suffix in ("png", "jpg", "tga", "webp")},
+    **{f"turntable.{suffix}": save_turntable for suffix in ("gif", "webp", "apng")},
+    **{f"mesh.{suffix}": save_mesh for suffix in ("obj", "ply", "stl")},
+    **{f"chart.{suffix}": save_chart for suffix in ("svg", "png")},
+}
+every_writer = pytest.mark.parametrize("name", WRITERS)
+
+
+def prepare(folder, name):
+    """Put old files where new ones would go; returns the path to write to."""
+    names = [name, "mesh.mtl", "mesh_0.png"] if name == "mesh.obj" else [name]
+    for old in names:
+        (folder / old).write_bytes(BEFORE)
+    return folder / name
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def check_failure(folder, name, reason):
+    """The error names a file and the reason, and nothing changed."""
+    path, before = prepare(folder, name), contents(folder)
+    with pytest.raises(FileAccessError) as caught:
+        yield path
+    text = str(caught.value)
+    assert text.startswith(str(folder / path.stem))
+    assert text.endswith(f"cannot write: {os.strerror(reason)}")
+    assert contents(folder) == before
+
+
+fails = contextlib.contextmanager(check_failure)
+
+
+@every_writer
+def test_a_file_that_may_not_grow(tmp_path, name):
+    old = resource.getrlimit(resource.RLIMIT_FSIZE)
+    with fails(tmp_path, name, errno.EFBIG) as path:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, old[1]))
+        try:
+            WRITERS[name](path)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, old)
+
+
+@pytest.fixture(scope="module")
+def full_disk(tmp_path_factory):
+    """A folder on a file system of its own, with hardly any room left."""
+    folder = tmp_path_factory.mktemp("full")
+    command = ["mount", "-t", "tmpfs", "-o", f"size={FILLED}", "tmpfs", str(folder)]
+    try:
+        subprocess.run(command, check=True, capture_output=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        pytest.skip(f"needs to mount a small tmpfs, as root may: {error}")
+    yield folder
+    subprocess.run(["umount", "-l", str(folder)], check=True)
+
+
+@every_writer
+def test_a_full_disk(full_disk, name):
+    for path in full_disk.iterdir():
+        path.unlink()
+    prepare(full_disk, name)
+    with (full_disk / "filler").open("wb") as file, contextlib.suppress(OSError):
+        while True:
+            os.write(file.fileno(), bytes(1024))
+    with fails(full_disk, name, errno.ENOSPC) as path:
+        WRITERS[name](path)
+
+
+def test_the_last_file_of_several_fails(tmp_path):
+    """There is room for the library and the image of an OBJ file, but not for itself."""
+    mesh = e3d.uv_sphere(segments=(64, 32))
+    mesh.materials = a_mesh().materials
+    old = resource.getrlimit(resource.RLIMIT_FSIZE)
+    with fails(tmp_path, "mesh.obj", errno.EFBIG) as path:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 15, old[1]))
+        try:
+            mesh.save(path)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, old)
+
+
+@contextlib.contextmanager
+def read_only_folder():
+    """A folder that this process cannot write to, not even as root."""
+    with tempfile.TemporaryDirectory() as name:
+        folder, is_root = Path(name), os.geteuid() == 0
+        yield folder, lambda: folder.chmod(0o555)
+        if is_root:
+            os.seteuid(0)
+        folder.chmod(0o755)
+
+
+@every_writer
+def test_a_folder_that_cannot_be_written_to(name):
+    with read_only_folder() as (folder, close):
+        with fails(folder, name, errno.EACCES) as path:
+            close()
+            if os.geteuid() == 0:
+                os.seteuid(65534)
+            try:
+                WRITERS[name](path)
+            finally:
+                with contextlib.suppress(PermissionError):
+                    os.seteuid(0)
+
+
+# ---- signals ----
+
+# The signal comes when all is written, and nothing has its name yet.
+STOPPED = """
+import os, sys
+from engine3d import atomic_write
+from engine3d.cli import main
+finish = atomic_write._Part.finish
+def stop(part):
+    part.file.flush()
+    os.kill(os.getpid(), int(sys.argv[1]))
+    finish(part)
+atomic_write._Part.finish = stop
+sys.exit(main(sys.argv[2:]))
+"""
+SMALL = ["--resolution", "48x32"]
+COMMANDS = {
+    "out.png": ["render", "--scene", "shapes", *SMALL, "-o", "out.png"],
+    "out.gif": ["render", "--scene", "shapes", *SMALL, "--turntable", "2", "-o", "out.gif"],
+    "run.gif": ["run", "--headless", "--frames", "2", *SMALL, "-o", "run.gif"],
+    "mesh.obj": ["convert", "model.obj", "mesh.obj"],
+    "out.ply": ["convert", "model.obj", "out.ply"],
+    "out.stl": ["city", "out.stl", "--triangles", "20000"],
+    "out.json": ["bench", "--workloads", "mesh", "--seconds", "0.01", *SMALL, "--json", "out.json"],
+    "out.svg": ["bench", "--workloads", "mesh", "--seconds", "0.01", *SMALL, "--plot", "out.svg"],
+}
+SIGNALS = [(name, number) for name in COMMANDS for number in (signal.SIGTERM, signal.SIGKILL)]
+SIGNALS += [("out.png", signal.SIGINT), ("mesh.obj", signal.SIGINT), ("out.png", signal.SIGHUP)]
+
+
+@pytest.mark.parametrize(("name", "number"), SIGNALS, ids=lambda part: getattr(part, "name", part))
+def test_a_signal_in_the_middle(tmp_path, name, number):
+    a_mesh().save(tmp_path / "model.obj")
+    prepare(tmp_path, name)
+    before = contents(tmp_path)
+    done = subprocess.run(
+        [sys.executable, "-c", STOPPED, str(int(number)), *COMMANDS[name]],
+        cwd=tmp_path,
+        capture_output=True,
+        timeout=60,
+    )
+    after = contents(tmp_path)
+    if number == signal.SIGKILL:
+        assert done.returncode == -number
+        after = {name: data for name, data in after.items() if not name.endswith(".part")}
+    else:
+        assert done.returncode == 128 + number
+        assert b"Traceback" not in done.stderr
+    assert after == before
+
+
+@pytest.mark.parametrize(
+    "arguments", [["info", "model.obj"], ["render", "model.obj", *SMALL, "-o", "-"]]
+)
+def test_standard_output_on_a_full_disk(tmp_path, arguments):
+    a_mesh().save(tmp_path / "model.obj")
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "engine3d", *arguments],
+            cwd=tmp_path,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            timeout=60,
+        )
+    assert done.returncode == 1
+    assert done.stderr.decode() == f"engine3d: error: {os.strerror(errno.ENOSPC)}\n"

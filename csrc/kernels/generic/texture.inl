@@ -3,23 +3,17 @@
  * Texels have a border (core/texture.c): the second of two neighbours always is the next in memory.
  */
 
-static inline vf32 floor_lanes(vf32 v)
-{
-    vf32 whole = v_float(v_trunc(v));
-    return v_sub(whole, v_self(v_gt(whole, v), v_setf(1.0f), v_setf(0.0f)));
-}
-
 /* R29: a texture coordinate in [0, 1]. */
 static inline vf32 texture_wrap(vf32 s, int wrap)
 {
     vf32 one = v_setf(1.0f);
     s = v_min(v_max(s, v_setf(-0x1p22f)), v_setf(0x1p22f));
     if (wrap == E3D_REPEAT)
-        return v_sub(s, floor_lanes(s));
+        return v_sub(s, v_floor(s));
     if (wrap == E3D_CLAMP)
         return v_min(v_max(s, v_setf(0.0f)), one);
     vf32 half = v_mul(s, v_setf(0.5f));
-    vf32 m = v_mul(v_sub(half, floor_lanes(half)), v_setf(2.0f));
+    vf32 m = v_mul(v_sub(half, v_floor(half)), v_setf(2.0f));
     return v_self(v_gt(m, one), v_sub(v_setf(2.0f), m), m);
 }
 
@@ -29,33 +23,34 @@ typedef struct texture_taps {
     vi32 first, weight;
 } texture_taps;
 
-static inline texture_taps texture_linear(vf32 s, vi32 size)
+/* `scale`: 256 times the level's size. */
+static inline texture_taps texture_linear(vf32 s, vf32 scale)
 {
-    vi32 p = v_addi(v_rint(v_mul(s, v_float(v_shl(size, 8)))), v_seti(128));
+    vi32 p = v_addi(v_rint(v_mul(s, scale)), v_seti(128));
     return (texture_taps){v_sra(p, 8), v_andi(p, v_seti(255))};
 }
 
 /* Where a batch's samples fall: numbers of the left texels, above and below, and the weights of the right and the lower
- * ones. All are found before any texel is read, so that what is not in the cache is on its way meanwhile. */
+ * ones. All are found before any texel is read: processors don't look far enough ahead to do both at a time. */
 typedef struct texture_places {
     int32_t top[E3D_BATCH + E3D_PAD], bottom[E3D_BATCH + E3D_PAD];
     int32_t across[E3D_BATCH + E3D_PAD], down[E3D_BATCH + E3D_PAD];
 } texture_places;
 
-/* One vector of them, of levels that start at `start` texels and are width x height, per lane. */
-static inline void texture_place(const e3d_texture_view *view, vi32 start, vi32 width, vi32 height, vf32 s,
-                                 vf32 t, texture_places *places, int i)
+/* The levels of one vector's lanes: texels before it, from row to row, and its size times 256. */
+typedef struct level_lanes {
+    vi32 start, stride;
+    vf32 scale[2];
+} level_lanes;
+
+static inline void texture_place(const level_lanes *level, vf32 s, vf32 t, texture_places *places, int i)
 {
-    texture_taps x = texture_linear(s, width), y = texture_linear(t, height);
-    vi32 stride = v_addi(width, v_seti(2));
-    vi32 top = v_addi(v_addi(start, x.first), v_muli(y.first, stride));
+    texture_taps x = texture_linear(s, level->scale[0]), y = texture_linear(t, level->scale[1]);
+    vi32 top = v_addi(v_addi(level->start, x.first), v_muli(y.first, level->stride));
     v_storei(places->top + i, top);
-    v_storei(places->bottom + i, v_addi(top, stride));
+    v_storei(places->bottom + i, v_addi(top, level->stride));
     v_storei(places->across + i, x.weight);
     v_storei(places->down + i, y.weight);
-    const char *texels = view->levels[0].texels;
-    for (int lane = 0; lane < V_LANES; lane += 4)
-        __builtin_prefetch(texels + (intptr_t)places->bottom[i + lane] * view->texel_bytes);
 }
 
 /* Channels of one vector of texels, 16 bits each in 32. */
@@ -138,33 +133,38 @@ static inline vi32 texture_blend(vi32 a, vi32 b, vi32 weight)
     return v_addi(v_muli(a, v_subi(v_seti(256), weight)), v_muli(b, weight));
 }
 
-/* Sizes and starts of all levels, to look up by lane. */
+/* All levels, to look up by lane. */
 typedef struct texture_levels {
-    int32_t width[E3D_MAX_LEVELS], height[E3D_MAX_LEVELS], start[E3D_MAX_LEVELS];
+    int32_t start[E3D_MAX_LEVELS], stride[E3D_MAX_LEVELS];
+    float scale[2][E3D_MAX_LEVELS];
 } texture_levels;
 
-static inline texture_levels texture_tabulate(const e3d_texture_view *view)
+static inline void texture_tabulate(const e3d_texture_view *view, texture_levels *out)
 {
-    texture_levels t;
     int32_t start = 0;
     for (int l = 0; l < view->level_count; l++) {
-        t.width[l] = view->levels[l].width;
-        t.height[l] = view->levels[l].height;
-        t.start[l] = start;
-        start += (t.width[l] + 2) * (t.height[l] + 2);
+        const e3d_level *level = &view->levels[l];
+        out->start[l] = start;
+        out->stride[l] = level->width + 2;
+        out->scale[0][l] = (float)(256 * level->width);
+        out->scale[1][l] = (float)(256 * level->height);
+        start += (level->width + 2) * (level->height + 2);
     }
-    return t;
+}
+
+static inline level_lanes texture_one_level(const texture_levels *levels, int l)
+{
+    return (level_lanes){v_seti(levels->start[l]), v_seti(levels->stride[l]),
+                         {v_setf(levels->scale[0][l]), v_setf(levels->scale[1][l])}};
 }
 
 /* Each lane at its own level; mostly all are at `guess`, and looking up is slow. */
-static inline void texture_place_at(const e3d_texture_view *view, const texture_levels *levels, vi32 level,
-                                    int guess, vf32 s, vf32 t, texture_places *places, int i)
+static inline level_lanes texture_levels_of(const texture_levels *levels, vi32 level, int guess)
 {
-    int same = !v_any(v_mnot(v_eqi(level, v_seti(guess))));
-    vi32 start = same ? v_seti(levels->start[guess]) : v_gatheri(levels->start, level);
-    vi32 width = same ? v_seti(levels->width[guess]) : v_gatheri(levels->width, level);
-    vi32 height = same ? v_seti(levels->height[guess]) : v_gatheri(levels->height, level);
-    texture_place(view, start, width, height, s, t, places, i);
+    if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
+        return texture_one_level(levels, guess);
+    return (level_lanes){v_gatheri(levels->start, level), v_gatheri(levels->stride, level),
+                         {v_gatherf(levels->scale[0], level), v_gatherf(levels->scale[1], level)}};
 }
 
 static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)
@@ -215,16 +215,15 @@ static inline void texture_store(e3d_batch *batch, int i, const float base[3], c
 /* What the second step needs. */
 typedef struct texture_plan {
     const e3d_texture_view *view;
-    texture_levels levels;       /* trilinear */
+    texture_levels levels;
     texture_places near, far;    /* far only where its weight isn't 0: (256 a + 128) >> 8 = a */
-    int32_t lod[E3D_BATCH + E3D_PAD];
+    int32_t lod[E3D_BATCH + E3D_PAD]; /* trilinear */
 } texture_plan;
 
 static inline void texture_begin(texture_plan *plan, const e3d_texture_view *view)
 {
     plan->view = view;
-    if (view->filter == E3D_TRILINEAR)
-        plan->levels = texture_tabulate(view);
+    texture_tabulate(view, &plan->levels);
 }
 
 /* Of one vector; lod: trilinear only. */
@@ -237,18 +236,21 @@ static inline void texture_find(texture_plan *plan, int i, vf32 u, vf32 v, vi32 
         return;
     }
     if (view->filter == E3D_BILINEAR) {
-        const e3d_level *level = &view->levels[0];
-        texture_place(view, v_seti(0), v_seti(level->width), v_seti(level->height), s, t, &plan->near, i);
+        level_lanes level = texture_one_level(&plan->levels, 0);
+        texture_place(&level, s, t, &plan->near, i);
         return;
     }
     int last = view->level_count - 1;
     v_storei(plan->lod + i, lod);
     vi32 level = v_shr(lod, 8);
     int guess = plan->lod[i] >> 8;
-    texture_place_at(view, &plan->levels, level, guess, s, t, &plan->near, i);
-    if (v_any(v_gti(v_andi(lod, v_seti(255)), v_seti(0))))
-        texture_place_at(view, &plan->levels, v_mini(v_addi(level, v_seti(1)), v_seti(last)),
-                         guess < last ? guess + 1 : last, s, t, &plan->far, i);
+    level_lanes near = texture_levels_of(&plan->levels, level, guess);
+    texture_place(&near, s, t, &plan->near, i);
+    if (v_any(v_gti(v_andi(lod, v_seti(255)), v_seti(0)))) {
+        level = v_mini(v_addi(level, v_seti(1)), v_seti(last));
+        level_lanes far = texture_levels_of(&plan->levels, level, guess < last ? guess + 1 : last);
+        texture_place(&far, s, t, &plan->far, i);
+    }
 }
 
 static inline texel_lanes texture_read(const texture_plan *plan, int i)

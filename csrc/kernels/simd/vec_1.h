@@ -2,7 +2,7 @@
  *
  * Every word means the same in each vec_*.h: see docs/exactness.md for min, max and the conversions.
  * v_min(a, b) = a < b ? a : b, v_max(a, b) = a > b ? a : b; v_rint is to nearest even, v_trunc
- * towards zero; both take values that fit int32.
+ * towards zero; both, and v_floor, take values that fit int32, and a zero of v_floor has either sign.
  */
 #ifndef E3D_VEC_1_H
 #define E3D_VEC_1_H
@@ -69,6 +69,7 @@ static inline vi32 v_madd16(vi32 a, vi32 b) {
 static inline vf32 v_float(vi32 a) { return (float)a; }
 static inline vi32 v_rint(vf32 a) { return (int32_t)lrintf(a); }
 static inline vi32 v_trunc(vf32 a) { return (int32_t)a; }
+static inline vf32 v_floor(vf32 a) { vf32 whole = (vf32)(int32_t)a; return whole > a ? whole - 1.0f : whole; }
 static inline vf32 v_asf(vi32 a) { float f; memcpy(&f, &a, 4); return f; }
 static inline vi32 v_asi(vf32 a) { int32_t i; memcpy(&i, &a, 4); return i; }
 

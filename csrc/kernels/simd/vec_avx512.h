@@ -67,6 +67,7 @@ static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm512_madd_epi16(a, b); }
 static inline vf32 v_float(vi32 a) { return _mm512_cvtepi32_ps(a); }
 static inline vi32 v_rint(vf32 a) { return _mm512_cvtps_epi32(a); }
 static inline vi32 v_trunc(vf32 a) { return _mm512_cvttps_epi32(a); }
+static inline vf32 v_floor(vf32 a) { return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }
 static inline vf32 v_asf(vi32 a) { return _mm512_castsi512_ps(a); }
 static inline vi32 v_asi(vf32 a) { return _mm512_castps_si512(a); }
 

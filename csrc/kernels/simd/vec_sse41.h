@@ -71,6 +71,7 @@ static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm_madd_epi16(a, b); }
 static inline vf32 v_float(vi32 a) { return _mm_cvtepi32_ps(a); }
 static inline vi32 v_rint(vf32 a) { return _mm_cvtps_epi32(a); }
 static inline vi32 v_trunc(vf32 a) { return _mm_cvttps_epi32(a); }
+static inline vf32 v_floor(vf32 a) { return _mm_floor_ps(a); }
 static inline vf32 v_asf(vi32 a) { return _mm_castsi128_ps(a); }
 static inline vi32 v_asi(vf32 a) { return _mm_castps_si128(a); }
 

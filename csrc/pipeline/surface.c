@@ -101,6 +101,32 @@ static int32_t number_group(e3d_worker *worker, const e3d_group *group)
     return (int32_t)worker->groups.count++;
 }
 
+/* ---- ahead of their use: faces and vertices are anywhere in memory ---- */
+
+static void fetch_face(const e3d_visible_piece *piece)
+{
+    if (e3d_face_of(piece) >= 0)
+        __builtin_prefetch(piece->draw->mesh->desc.faces + 3 * (size_t)piece->local);
+}
+
+static void fetch_vertices(const e3d_visible_piece *piece, int wanted)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t vertex[3];
+    int count = vertices_of(piece, vertex);
+    for (int v = 0; v < count; v++) {
+        size_t at = (size_t)vertex[v];
+        if (wanted & E3D_WANT_POSITION)
+            __builtin_prefetch(mesh->positions + 3 * at);
+        if (wanted & E3D_WANT_NORMAL && mesh->normals)
+            __builtin_prefetch(mesh->normals + 3 * at);
+        if (wanted & E3D_WANT_UV && mesh->uvs)
+            __builtin_prefetch(mesh->uvs + 2 * at);
+        if (mesh->colors_u8)
+            __builtin_prefetch(mesh->colors_u8 + 4 * at);
+    }
+}
+
 /* ---- the pieces of a tile ---- */
 
 static int add_piece(const e3d_context *context, e3d_worker *worker, e3d_slot *slot, int32_t run,
@@ -127,6 +153,7 @@ static int add_piece(const e3d_context *context, e3d_worker *worker, e3d_slot *s
     else
         pieces[group->last].next = (int32_t)n;
     group->last = slot->piece = (int32_t)n;
+    fetch_face(piece);
     worker->pieces.count++;
     return 1;
 }
@@ -135,13 +162,10 @@ static int add_piece(const e3d_context *context, e3d_worker *worker, e3d_slot *s
  * afterwards by the run that follows (-1: none). 0 when memory is out. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count)
 {
-    enum { AHEAD = 12 }; /* records are anywhere in memory */
     e3d_slot *slots = worker->slots.data;
     instance_finder finder = {.group = -1};
     worker->pieces.count = worker->groups.count = 0;
     for (int32_t i = 0; i < count; i++) {
-        if (i + AHEAD < count)
-            __builtin_prefetch(slots[runs[i + AHEAD].owner].record);
         e3d_slot *slot = &slots[runs[i].owner];
         runs[i].owner = -1;
         if (slot->piece < 0) {
@@ -233,6 +257,7 @@ static void add_record(const e3d_record *record, e3d_surfaces *s, int32_t n)
 /* The next surface is that of a piece, without what e3d_find_surfaces adds. */
 void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t number, int wanted)
 {
+    enum { AHEAD = 12 };
     const e3d_visible_piece *piece = (const e3d_visible_piece *)worker->pieces.data + number;
     const e3d_group *group = (const e3d_group *)worker->groups.data + piece->group;
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
@@ -241,6 +266,8 @@ void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t num
     s->piece[n] = number;
     if (!(wanted & E3D_WANT_SURFACE))
         return;
+    if (number + AHEAD < (int32_t)worker->pieces.count)
+        fetch_vertices(piece + AHEAD, wanted);
     int count = vertices_of(piece, vertex);
     s->irregular += piece->slot->corners || face < 0 || mesh->components == 4;
     add_record(piece->slot->record, s, n);

@@ -80,6 +80,7 @@ static int32_t slot_of(const e3d_context *context, e3d_worker *worker, int32_t i
 
 int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
+    enum { AHEAD = 16 }; /* records are anywhere in memory */
     e3d_run *runs = worker->tile->runs;
     int32_t count = context->kernels->find_runs(worker->visible->id, tile->width, tile->height, runs);
     uint32_t mask = clear_names(worker, count);
@@ -87,6 +88,8 @@ int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e
     if (!mask)
         return -1;
     for (int32_t i = 0; i < count; i++) {
+        if (i + AHEAD < count)
+            __builtin_prefetch(e3d_record_at(&context->tables[E3D_PASS_SCENE], (uint32_t)runs[i + AHEAD].owner));
         runs[i].owner = slot_of(context, worker, runs[i].owner, mask);
         if (runs[i].owner < 0)
             return -1;

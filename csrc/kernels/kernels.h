@@ -92,6 +92,39 @@ typedef struct e3d_tile_span {
     uint32_t first, last;
 } e3d_tile_span;
 
+/* ---- fragments ---- */
+
+enum {
+    E3D_SMALL = 4, /* samples a side of the boxes of triangles that become fragments at once */
+    E3D_CLUSTER_FRAGMENTS = E3D_CLUSTER_TRIANGLES * E3D_SMALL * E3D_SMALL
+};
+
+/* What a cluster's small triangles cover, sample by sample; the place is tile << E3D_PLACE_BITS | sample in the tile. What
+ * the other triangles are: `rest`, E3D_PAD zeros after them. */
+enum { E3D_PLACE_BITS = 2 * E3D_TILE_SHIFT };
+typedef struct e3d_fragments {
+    float z[E3D_CLUSTER_FRAGMENTS + E3D_PAD];
+    int32_t id[E3D_CLUSTER_FRAGMENTS + E3D_PAD];
+    uint32_t place[E3D_CLUSTER_FRAGMENTS + E3D_PAD];
+    int32_t count, triangles; /* triangles that have fragments */
+    int32_t rests;
+    uint8_t rest[E3D_CLUSTER_TRIANGLES + E3D_PAD];
+} e3d_fragments;
+
+/* How the triangles and tiles of a cluster's fragments are numbered: triangle t is id + t * step. */
+typedef struct e3d_fragment_ids {
+    int32_t id, step, tiles_x;
+} e3d_fragment_ids;
+
+/* Fragments of one tile, in order of arrival. */
+enum { E3D_BLOCK_FRAGMENTS = 100 };
+typedef struct e3d_fragment_block {
+    uint32_t next, count;
+    float z[E3D_BLOCK_FRAGMENTS];
+    int32_t id[E3D_BLOCK_FRAGMENTS];
+    uint16_t sample[E3D_BLOCK_FRAGMENTS];
+} e3d_fragment_block;
+
 /* ---- raster ---- */
 
 /* A piece in one tile: edge functions at the tile's first sample, floor(E / 256) with the top-left rule
@@ -109,15 +142,44 @@ enum { E3D_NO_SLOT = -1 };
 /* What an empty sample's depth is: z < this exactly when z <= 1 (R15). */
 #define E3D_BEYOND_FAR 0x1.000002p0f
 
-/* The records of a frame: those of worker w at records[w], under the IDs number << bits | w. */
+/* A cluster that has fragments, of one instance. */
+typedef struct e3d_drawn_cluster {
+    const int32_t *faces; /* of its triangles */
+    uint32_t order;       /* of the instance's first face */
+    int32_t instance, draw; /* in the frame */
+    int32_t mirrored;
+} e3d_drawn_cluster;
+
+/* The records of a frame: those of worker w at records[w], under the IDs number << bits | w; and the clusters of the fragments,
+ * whose triangles have the IDs E3D_FRAGMENT_ID | (64 * number + triangle) << bits | w. */
 typedef struct e3d_record_table {
     const e3d_record *const *records;
+    const e3d_drawn_cluster *const *drawn;
     int32_t bits;
 } e3d_record_table;
+
+enum { E3D_FRAGMENT_ID = 1 << 30 };
 
 static inline const e3d_record *e3d_record_at(const e3d_record_table *table, uint32_t id)
 {
     return table->records[id & ((1u << table->bits) - 1)] + (id >> table->bits);
+}
+
+static inline const e3d_drawn_cluster *e3d_drawn_at(const e3d_record_table *table, uint32_t id, int32_t *triangle)
+{
+    uint32_t number = (id & (E3D_FRAGMENT_ID - 1)) >> table->bits;
+    *triangle = (int32_t)(number % E3D_CLUSTER_TRIANGLES);
+    return table->drawn[id & ((1u << table->bits) - 1)] + number / E3D_CLUSTER_TRIANGLES;
+}
+
+/* The order of the primitive that an ID is of. */
+static inline uint32_t e3d_order_at(const e3d_record_table *table, uint32_t id)
+{
+    if (!(id & E3D_FRAGMENT_ID))
+        return e3d_record_at(table, id)->order;
+    int32_t triangle;
+    const e3d_drawn_cluster *drawn = e3d_drawn_at(table, id, &triangle);
+    return drawn->order + (uint32_t)drawn->faces[triangle];
 }
 
 enum { E3D_TILE_BLOCKS = E3D_TILE_SAMPLES / 64 };
@@ -158,11 +220,13 @@ typedef int32_t e3d_surface_words[E3D_BATCH_SURFACES + E3D_PAD];
 typedef struct e3d_surfaces {
     int32_t count, matrices;
     int32_t irregular;             /* how many are clipped, or not of a face of three-component vertices */
+    int32_t projected;             /* how many have no record */
+    e3d_surface_words project;     /* 0: from a record; else `project` finds x, y, iw, swapped and back; 1, or 3 in a mirrored instance */
     e3d_surface_words x[3], y[3];  /* corners after R9 */
     e3d_surface_floats iw[3];
     e3d_surface_words swapped;     /* not 0: R9 exchanged vertices 1 and 2 */
     e3d_surface_words matrix;      /* number of its matrices: ascends by 1 at most; its last is repeated over the pad */
-    e3d_surface_floats world[12], normals[9]; /* matrices of R1 and R2, one an element */
+    e3d_surface_floats clip[16], world[12], normals[9]; /* matrices of R1 and R2, one an element */
     e3d_surface_floats position[3][3]; /* [component][vertex]: object space, then world */
     e3d_surface_floats normal[3][3];   /* likewise; flat: vertex 0 has the face's */
     e3d_surface_floats uv[2][3];
@@ -232,12 +296,15 @@ typedef struct e3d_kernels {
                   const e3d_viewport *viewport, e3d_survivors *out);
     /* Records and their tiles; how many. Room for as many as are asked for. */
     int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
+    /* The small triangles' fragments, and what is left for records. */
+    void (*fragments)(const e3d_record_request *request, const e3d_fragment_ids *ids, e3d_fragments *out);
     void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     /* Draws records into the tile. */
     void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count);
+    void (*raster_fragments)(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *block);
     /* Writes the samples of all noted blocks: the IDs, and the depths where these are needed. */
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Finds the zmax of all stale blocks. */
@@ -246,6 +313,8 @@ typedef struct e3d_kernels {
     int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
     /* The samples of runs, at least one, that are owned by surfaces: what is known of a batch at first. */
     void (*spread_runs)(const e3d_run *runs, int count, e3d_batch *batch);
+    /* The corners on the screen (R3, R8, R9) of pieces that have no record. */
+    void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport);
     /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */
     void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted);
     void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted);

@@ -27,6 +27,8 @@ void e3d_tables_set(e3d_context *context)
     for (int pass = 0; pass < E3D_PASSES; pass++)
         for (int32_t w = 0; w < context->renderer->threads; w++)
             context->records[pass][w] = context->renderer->workers[w]->pass[pass].records.data;
+    for (int32_t w = 0; w < context->renderer->threads; w++)
+        context->drawn[w] = context->renderer->workers[w]->fragments.drawn.data;
 }
 
 static int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
@@ -90,12 +92,14 @@ int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_se
     return push(set, (e3d_bin *)set->bins.data + tile, id);
 }
 
-/* Whether any thread has a record for the tile. */
+/* Whether any thread has a record or a fragment for the tile. */
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
 {
     const e3d_renderer *renderer = context->renderer;
     for (int32_t w = 0; w < renderer->threads; w++)
-        if (((const e3d_bin *)renderer->workers[w]->pass[pass].bins.data)[tile].first != E3D_NO_BLOCK)
+        if (((const e3d_bin *)renderer->workers[w]->pass[pass].bins.data)[tile].first != E3D_NO_BLOCK ||
+            (pass == E3D_PASS_SCENE &&
+             ((const e3d_bin *)renderer->workers[w]->fragments.bins.data)[tile].first != E3D_NO_BLOCK))
             return 1;
     return 0;
 }

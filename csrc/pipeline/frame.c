@@ -35,6 +35,9 @@ static void destroy_worker(e3d_worker *worker)
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
             e3d_array_free(arrays[i]);
     }
+    e3d_array_free(&worker->fragments.blocks);
+    e3d_array_free(&worker->fragments.bins);
+    e3d_array_free(&worker->fragments.drawn);
     e3d_array_free(&worker->slots);
     e3d_array_free(&worker->orders);
     e3d_array_free(&worker->named);
@@ -132,6 +135,8 @@ static int reset_workers(e3d_context *context)
         e3d_worker *worker = renderer->workers[w];
         memset(&worker->counters, 0, sizeof worker->counters);
         worker->failed = 0;
+        if (!e3d_fragments_reset(&worker->fragments, (int32_t)e3d_tile_count(context)))
+            return 0;
         for (int p = 0; p < E3D_PASSES; p++)
             if (!e3d_records_reset(&worker->pass[p], (int32_t)e3d_tile_count(context)))
                 return 0;

@@ -87,6 +87,14 @@ typedef struct e3d_record_set {
 
 enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
 
+/* One thread's fragments: what small triangles cover, sample by sample. */
+typedef struct e3d_fragment_set {
+    e3d_array blocks; /* e3d_fragment_block */
+    e3d_array bins;   /* e3d_bin, one a tile */
+    e3d_array drawn;  /* e3d_drawn_cluster: of the whole frame, since IDs tell of them */
+    e3d_fragments of_cluster;
+} e3d_fragment_set;
+
 /* A box as the camera sees it. */
 enum { E3D_BOX_OUTSIDE = 0, E3D_BOX_CROSSES, E3D_BOX_INSIDE };
 typedef struct e3d_box_view {
@@ -136,6 +144,7 @@ typedef struct e3d_group {
 typedef struct e3d_visible_piece {
     struct e3d_slot *slot;
     const e3d_draw_state *draw;
+    const e3d_drawn_cluster *drawn; /* NULL: the piece has a record */
     int32_t instance, local; /* in its draw, in its instance */
     int32_t group, next;     /* the next of the same group, or -1 */
     int32_t first_run, last_run;
@@ -159,6 +168,7 @@ typedef struct e3d_tile_memory {
 
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
+    e3d_fragment_set fragments;
     e3d_vertices vertices;
     e3d_survivors survivors;
     e3d_tile_memory *tile;
@@ -178,8 +188,9 @@ typedef struct e3d_worker {
 enum { E3D_NEED_COLOR = 256, E3D_NEED_ALBEDO = 512, E3D_NEED_OUTPUTS = 1024 };
 
 typedef struct e3d_slot {
-    const e3d_record *record;
+    const e3d_record *record; /* NULL: the piece is of fragments */
     const float *corners; /* c[k][j], or NULL */
+    uint32_t id;
     int32_t piece;        /* its e3d_visible_piece, or -1 */
 } e3d_slot;
 
@@ -248,11 +259,13 @@ typedef struct e3d_context {
     e3d_tile_depths *depths; /* of the tiles */
     e3d_round round;
     const e3d_record *records[E3D_PASSES][E3D_MAX_THREADS];
+    const e3d_drawn_cluster *drawn[E3D_MAX_THREADS];
     e3d_record_table tables[E3D_PASSES];
     float view[12]; /* rows of view_from_world, f32 */
     float unorm8[256]; /* values of 8-bit vertex and instance colours (R23) */
     e3d_lighting lighting;
     int32_t tiles_x, tiles_y;
+    int by_fragments;  /* small triangles become fragments at once */
     int sorted;        /* painter or none: bins are made after sorting */
     int srgb;          /* the encoder of this frame (R34) */
     int blockwise;     /* samples are shaded in blocks of 16 x 16, which few of the lights reach */
@@ -348,6 +361,15 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 }
 /* Whether `more` records have IDs and memory. */
 int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
+/* fragments.c */
+int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
+void e3d_fragments_clear(e3d_fragment_set *set, int32_t tiles);
+/* IDs of the fragments of the next cluster; 0 when there are none left. */
+int e3d_fragments_number(const e3d_context *context, const e3d_worker *worker, e3d_fragment_ids *out);
+/* Sorts the fragments of a cluster to tiles; 0 when memory is out. */
+int e3d_fragments_bin(e3d_worker *worker, const e3d_drawn_cluster *drawn);
+void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number);
+
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
 /* After the records have their places: the tables that tell a record by its ID. */
 void e3d_tables_set(e3d_context *context);

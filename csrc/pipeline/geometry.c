@@ -29,15 +29,16 @@ static e3d_cull cull_of(const walker *w, int32_t face)
     return frame->materials[material].two_sided ? E3D_CULL_NONE : frame->cull;
 }
 
-/* The sign of the area (screen, Y down) that setup may drop: front faces have a negative one. */
-static int drop_sign(const walker *w)
+/* The sign of the area (screen, Y down) of what one-sided materials don't show: front faces have a negative one. */
+static int culled_sign(const walker *w)
 {
     e3d_cull cull = w->context->frame->cull;
-    if (cull == E3D_CULL_NONE || w->draw->any_two_sided)
-        return 0;
-    int sign = cull == E3D_CULL_BACK ? 1 : -1;
+    int sign = cull == E3D_CULL_NONE ? 0 : cull == E3D_CULL_BACK ? 1 : -1;
     return w->instance->mirrored ? -sign : sign;
 }
+
+/* The one that setup may drop, whatever the material. */
+static int drop_sign(const walker *w) { return w->draw->any_two_sided ? 0 : culled_sign(w); }
 
 static e3d_primitive face_primitive(const walker *w, int32_t face)
 {
@@ -96,42 +97,79 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
     w->worker->counters.triangles_drawn += w->worker->counters.records > before;
 }
 
-/* Whether a record that was made without regard to its facing is culled by it. */
-static int is_culled(const walker *w, int32_t face, const e3d_record *record)
+/* The fragments of small triangles, which leave the request. */
+static void draw_fragments(walker *w, e3d_record_request *request)
 {
-    e3d_cull cull = cull_of(w, face);
-    int back = (record->meta & E3D_RECORD_BACK) != 0;
-    return cull != E3D_CULL_NONE && back == (cull == E3D_CULL_BACK);
+    e3d_worker *worker = w->worker;
+    e3d_fragments *fragments = &worker->fragments.of_cluster;
+    const e3d_drawn_cluster drawn = {request->faces, w->order, (int32_t)(w->instance - w->context->instances),
+                                     w->instance->draw, w->instance->mirrored};
+    e3d_fragment_ids ids;
+    if (!e3d_fragments_number(w->context, worker, &ids))
+        return;
+    w->context->kernels->fragments(request, &ids, fragments);
+    worker->counters.records += fragments->triangles;
+    worker->counters.triangles_drawn += fragments->triangles;
+    if (!e3d_fragments_bin(worker, &drawn))
+        worker->failed = 1;
+    request->triangles = fragments->rest;
+    request->count = fragments->rests;
 }
 
-/* The survivors' records, a vector at a time. */
-static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+static void draw_records(walker *w, const e3d_record_request *request)
 {
-    const e3d_survivors *s = &w->worker->survivors;
-    const e3d_mesh *mesh = w->draw->mesh;
     e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
     e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
-    const e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = s->draw,
-                                        .count = s->draws, .cull = drop_sign(w), .mirrored = w->instance->mirrored,
-                                        .order = w->order, .faces = mesh->faces + cluster->first,
-                                        .viewport = &w->context->viewport};
     if (!e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES)) {
         w->worker->failed = 1;
         return;
     }
     e3d_record *records = (e3d_record *)set->records.data + set->records.count;
-    int made = w->context->kernels->record(&request, records, spans);
+    int made = w->context->kernels->record(request, records, spans);
     uint32_t number = (uint32_t)set->records.count;
     set->records.count += (size_t)made;
     w->worker->counters.records += made;
-    for (int i = 0; i < made; i++, number++) {
-        int32_t face = (int32_t)(records[i].order - w->order);
-        if (w->draw->any_two_sided && is_culled(w, face, &records[i]))
-            continue;
-        w->worker->counters.triangles_drawn++;
+    w->worker->counters.triangles_drawn += made;
+    for (int i = 0; i < made; i++, number++)
         if (!e3d_bin_record(w->context, w->worker, set, number, spans[i]))
             w->worker->failed = 1;
+}
+
+/* Triangles of a cluster, a vector at a time; those are dropped whose area has the sign `cull`. */
+static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, const uint8_t *triangles, int count,
+                      int cull)
+{
+    const e3d_mesh *mesh = w->draw->mesh;
+    e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = triangles,
+                                  .count = count, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
+                                  .faces = mesh->faces + cluster->first, .viewport = &w->context->viewport};
+    if (w->context->by_fragments && mesh->desc.components == 3 && count)
+        draw_fragments(w, &request);
+    if (request.count)
+        draw_records(w, &request);
+}
+
+/* Of two-sided materials, and of the others. */
+static void draw_sides(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+{
+    const e3d_survivors *s = &w->worker->survivors;
+    uint8_t lists[2][E3D_CLUSTER_TRIANGLES + E3D_PAD] = {{0}};
+    int counts[2] = {0, 0};
+    for (int i = 0; i < s->draws; i++) {
+        int both = cull_of(w, w->draw->mesh->faces[cluster->first + s->draw[i]]) == E3D_CULL_NONE;
+        lists[both][counts[both]++] = s->draw[i];
     }
+    draw_some(w, cluster, indices, lists[0], counts[0], culled_sign(w));
+    draw_some(w, cluster, indices, lists[1], counts[1], 0);
+}
+
+static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+{
+    const e3d_survivors *s = &w->worker->survivors;
+    if (w->draw->any_two_sided)
+        draw_sides(w, cluster, indices);
+    else
+        draw_some(w, cluster, indices, s->draw, s->draws, culled_sign(w));
 }
 
 static void draw_cluster(walker *w, const e3d_cluster *cluster)

@@ -149,8 +149,10 @@ void e3d_draw_kept_tiles(e3d_context *context)
     e3d_tables_set(context);
     atomic_store(&context->next, 0);
     e3d_pool_run(renderer->threads, kept_work, context);
-    for (int32_t w = 0; w < renderer->threads; w++)
+    for (int32_t w = 0; w < renderer->threads; w++) {
         e3d_bins_clear(&renderer->workers[w]->pass[E3D_PASS_SCENE], (int32_t)e3d_tile_count(context));
+        e3d_fragments_clear(&renderer->workers[w]->fragments, (int32_t)e3d_tile_count(context));
+    }
 }
 
 /* ---- what the last frame showed ---- */

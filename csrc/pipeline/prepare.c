@@ -332,8 +332,9 @@ static void prepare_constants(e3d_context *context)
     while ((1 << bits) < context->renderer->threads)
         bits++;
     for (int pass = 0; pass < E3D_PASSES; pass++)
-        context->tables[pass] = (e3d_record_table){context->records[pass], bits};
+        context->tables[pass] = (e3d_record_table){context->records[pass], context->drawn, bits};
     context->sorted = frame->hidden != E3D_HIDDEN_ZBUFFER;
+    context->by_fragments = !e3d_keeps_slots(context) && frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE;
     context->background_rgba = encode_one(context, frame->background, frame->background[3]);
     for (int x = 0; x < E3D_TILE; x++)
         context->background_row[x] = context->background_rgba;

@@ -68,7 +68,7 @@ static int append_key(e3d_record_set *set, const e3d_corner *corner[3])
 
 int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more)
 {
-    return (set->records.count + more) >> (31 - context->tables[0].bits) == 0 && /* IDs are positive */
+    return (set->records.count + more) >> (30 - context->tables[0].bits) == 0 && /* IDs are less than E3D_FRAGMENT_ID */
            e3d_array_reserve(&set->records, set->records.count + more, sizeof(e3d_record));
 }
 

@@ -13,9 +13,31 @@ typedef struct instance_finder {
     int32_t group;
 } instance_finder;
 
-static void find_primitive(const e3d_context *context, uint32_t order, instance_finder *finder,
+/* Of a piece of fragments. */
+static void find_face(const e3d_context *context, const e3d_slot *slot, instance_finder *finder, e3d_visible_piece *out)
+{
+    int32_t triangle;
+    const e3d_drawn_cluster *drawn = e3d_drawn_at(&context->tables[E3D_PASS_SCENE], slot->id, &triangle);
+    const e3d_draw_state *draw = &context->draws[drawn->draw];
+    if (draw != finder->draw)
+        finder->group = -1;
+    finder->draw = draw;
+    finder->first = drawn->order;
+    finder->instance = drawn->instance - (int32_t)draw->instance_base;
+    out->draw = draw;
+    out->drawn = drawn;
+    out->instance = finder->instance;
+    out->local = drawn->faces[triangle];
+}
+
+static void find_primitive(const e3d_context *context, const e3d_slot *slot, instance_finder *finder,
                            e3d_visible_piece *out)
 {
+    if (!slot->record) {
+        find_face(context, slot, finder, out);
+        return;
+    }
+    uint32_t order = slot->record->order;
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
         const e3d_turn *turn = e3d_find_turn(context, order);
         const e3d_draw_state *draw = &context->draws[turn->draw];
@@ -116,7 +138,7 @@ static void fetch_vertices(const e3d_visible_piece *piece, int wanted)
     int count = vertices_of(piece, vertex);
     for (int v = 0; v < count; v++) {
         size_t at = (size_t)vertex[v];
-        if (wanted & E3D_WANT_POSITION)
+        if (wanted & E3D_WANT_POSITION || piece->drawn)
             __builtin_prefetch(mesh->positions + 3 * at);
         if (wanted & E3D_WANT_NORMAL && mesh->normals)
             __builtin_prefetch(mesh->normals + 3 * at);
@@ -137,7 +159,7 @@ static int add_piece(const e3d_context *context, e3d_worker *worker, e3d_slot *s
         return 0;
     e3d_visible_piece *pieces = worker->pieces.data, *piece = &pieces[n];
     *piece = (e3d_visible_piece){.slot = slot, .next = -1, .first_run = run, .last_run = run};
-    find_primitive(context, slot->record->order, finder, piece);
+    find_primitive(context, slot, finder, piece);
     int32_t id = group_id_of(piece);
     if (finder->group < 0 || id != finder->group_id) {
         e3d_group group = group_of(context, piece->draw, id);
@@ -191,6 +213,8 @@ static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n,
         return;
     }
     int32_t m = s->matrix[n] = s->matrices++;
+    for (int k = 0; k < 16; k++)
+        s->clip[k][m] = context->instances[instance].clip[k];
     for (int k = 0; k < 12; k++)
         s->world[k][m] = context->instances[instance].world[k];
     for (int k = 0; k < 9; k++)
@@ -244,7 +268,7 @@ static void add_colors(const e3d_context *context, const e3d_visible_piece *piec
     }
 }
 
-static void add_record(const e3d_record *record, e3d_surfaces *s, int32_t n)
+static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, int32_t n)
 {
     for (int k = 0; k < 3; k++) {
         s->x[k][n] = record->x[k];
@@ -252,6 +276,7 @@ static void add_record(const e3d_record *record, e3d_surfaces *s, int32_t n)
         s->iw[k][n] = record->iw[k];
     }
     s->swapped[n] = (record->meta & E3D_RECORD_SWAPPED) != 0;
+    s->back[n] = (record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
 }
 
 /* The next surface is that of a piece, without what e3d_find_surfaces adds. */
@@ -270,10 +295,14 @@ void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t num
         fetch_vertices(piece + AHEAD, wanted);
     int count = vertices_of(piece, vertex);
     s->irregular += piece->slot->corners || face < 0 || mesh->components == 4;
-    add_record(piece->slot->record, s, n);
     add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
-    s->back[n] = (piece->slot->record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
-    if (wanted & E3D_WANT_POSITION)
+    if (n == 0)
+        s->projected = 0;
+    s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
+    s->projected += piece->drawn != NULL;
+    if (!piece->drawn)
+        add_record(piece->slot->record, face, s, n);
+    if (wanted & E3D_WANT_POSITION || piece->drawn)
         add_vectors(mesh->components == 3 ? mesh->positions : NULL, 3, vertex, count, s->position, 3, n);
     if (wanted & E3D_WANT_NORMAL)
         add_normals(mesh, face, group->flat, vertex, s, n);
@@ -337,6 +366,8 @@ void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d
     e3d_surfaces *s = &worker->tile->surfaces;
     for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
         s->matrix[n] = s->matrix[s->count - 1];
+    if (s->projected)
+        context->kernels->project(s, &context->viewport);
     context->kernels->surface(s, tile->x, tile->y, wanted);
     for (int32_t n = 0; n < s->count && s->irregular; n++) {
         const e3d_visible_piece *piece = &pieces[s->piece[n]];

@@ -28,6 +28,7 @@ void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int
         for (; next != E3D_NO_BLOCK; next = blocks[next].next)
             context->kernels->raster_visible(visible, &context->tables[E3D_PASS_SCENE], blocks[next].id,
                                              (int)blocks[next].count);
+        e3d_fragments_draw(context, renderer->workers[w], visible, tile_number);
     }
 }
 
@@ -45,9 +46,15 @@ int e3d_add_slot(const e3d_context *context, e3d_worker *worker, int pass, uint3
 {
     if (!e3d_array_reserve(&worker->slots, worker->slots.count + 1, sizeof(e3d_slot)))
         return 0;
-    const e3d_record *record = e3d_record_at(&context->tables[pass], id);
-    ((e3d_slot *)worker->slots.data)[worker->slots.count++] =
-        (e3d_slot){record, corners_of(context, pass, id, record), -1};
+    e3d_slot *slot = (e3d_slot *)worker->slots.data + worker->slots.count++;
+    *slot = (e3d_slot){NULL, NULL, id, -1};
+    if (id & E3D_FRAGMENT_ID) {
+        int32_t triangle;
+        __builtin_prefetch(e3d_drawn_at(&context->tables[pass], id, &triangle)->faces + triangle);
+        return 1;
+    }
+    slot->record = e3d_record_at(&context->tables[pass], id);
+    slot->corners = corners_of(context, pass, id, slot->record);
     return 1;
 }
 
@@ -78,9 +85,17 @@ static int32_t slot_of(const e3d_context *context, e3d_worker *worker, int32_t i
     return names[at].slot;
 }
 
+/* What an ID stands for may be anywhere in memory. */
+static void fetch_ahead(const e3d_record_table *table, uint32_t id)
+{
+    int32_t triangle;
+    __builtin_prefetch(id & E3D_FRAGMENT_ID ? (const void *)e3d_drawn_at(table, id, &triangle)
+                                            : (const void *)e3d_record_at(table, id));
+}
+
 int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
-    enum { AHEAD = 16 }; /* records are anywhere in memory */
+    enum { AHEAD = 16 };
     e3d_run *runs = worker->tile->runs;
     int32_t count = context->kernels->find_runs(worker->visible->id, tile->width, tile->height, runs);
     uint32_t mask = clear_names(worker, count);
@@ -89,7 +104,7 @@ int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e
         return -1;
     for (int32_t i = 0; i < count; i++) {
         if (i + AHEAD < count)
-            __builtin_prefetch(e3d_record_at(&context->tables[E3D_PASS_SCENE], (uint32_t)runs[i + AHEAD].owner));
+            fetch_ahead(&context->tables[E3D_PASS_SCENE], (uint32_t)runs[i + AHEAD].owner);
         runs[i].owner = slot_of(context, worker, runs[i].owner, mask);
         if (runs[i].owner < 0)
             return -1;

@@ -15,6 +15,9 @@ cdef extern from "kernels/kernels.h" nogil:
         E3D_CLUSTER_VERTICES
         E3D_BATCH
         E3D_BATCH_SURFACES
+        E3D_CLUSTER_FRAGMENTS
+        E3D_BLOCK_FRAGMENTS
+        E3D_FRAGMENT_ID
 
     ctypedef struct e3d_level:
         const void *texels
@@ -59,11 +62,26 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_tile_span:
         pass
 
+    ctypedef struct e3d_fragments:
+        pass
+
+    ctypedef struct e3d_fragment_ids:
+        int32_t id
+        int32_t step
+        int32_t tiles_x
+
+    ctypedef struct e3d_fragment_block:
+        pass
+
+    ctypedef struct e3d_drawn_cluster:
+        pass
+
     ctypedef struct e3d_piece:
         pass
 
     ctypedef struct e3d_record_table:
         const e3d_record *const *records
+        const e3d_drawn_cluster *const *drawn
         int32_t bits
 
     ctypedef struct e3d_visible_tile:
@@ -111,16 +129,21 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
                       const e3d_viewport *viewport, e3d_survivors *out)
         int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans)
+        void (*fragments)(const e3d_record_request *request, const e3d_fragment_ids *ids,
+                          e3d_fragments *out)
         void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table,
                                const uint32_t *ids, int count)
+        void (*raster_fragments)(e3d_visible_tile *tile, const e3d_record_table *table,
+                                 const e3d_fragment_block *block)
         void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
         void (*raster_measure)(e3d_visible_tile *tile)
         int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
         void (*spread_runs)(const e3d_run *runs, int count, e3d_batch *batch)
+        void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport)
         void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)
         void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
         void (*select_level)(e3d_batch *batch, const e3d_surfaces *surfaces,

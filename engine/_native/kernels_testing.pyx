@@ -49,6 +49,9 @@ STRUCT_SIZES = {
     "survivors": sizeof(e3d_survivors),
     "record": sizeof(e3d_record),
     "tile_span": sizeof(e3d_tile_span),
+    "fragments": sizeof(e3d_fragments),
+    "fragment_block": sizeof(e3d_fragment_block),
+    "drawn_cluster": sizeof(e3d_drawn_cluster),
     "piece": sizeof(e3d_piece),
     "visible_tile": sizeof(e3d_visible_tile),
     "run": sizeof(e3d_run),
@@ -63,6 +66,9 @@ LIMITS = {
     "CLUSTER_VERTICES": E3D_CLUSTER_VERTICES,
     "BATCH": E3D_BATCH,
     "BATCH_SURFACES": E3D_BATCH_SURFACES,
+    "CLUSTER_FRAGMENTS": E3D_CLUSTER_FRAGMENTS,
+    "BLOCK_FRAGMENTS": E3D_BLOCK_FRAGMENTS,
+    "FRAGMENT_ID": E3D_FRAGMENT_ID,
     "MAX_LEVELS": E3D_MAX_LEVELS,
 }
 # Bits of the calling thread's floating-point control register: denormals become zero; rounding is
@@ -157,6 +163,27 @@ cdef class Kernels:
             made = self.table.record(&request, <e3d_record *>&out[0], <e3d_tile_span *>&spans[0])
         return made
 
+    def fragments(self, const uint8_t[::1] vertices, const uint8_t[::1] indices,
+                  const uint8_t[::1] triangles, int count, int cull, const uint8_t[::1] viewport,
+                  int first, int step, int tiles_x, uint8_t[::1] out):
+        """Triangle t has the ID ``first + t * step``."""
+        cdef e3d_record_request request
+        cdef e3d_fragment_ids ids = [first, step, tiles_x]
+        check_size(vertices, sizeof(e3d_vertices))
+        check_size(viewport, sizeof(e3d_viewport))
+        check_size(out, sizeof(e3d_fragments))
+        request.vertices = <const e3d_vertices *>&vertices[0]
+        request.indices = &indices[0]
+        request.triangles = &triangles[0]
+        request.count = count
+        request.cull = cull
+        request.mirrored = False
+        request.order = 0
+        request.faces = NULL
+        request.viewport = <const e3d_viewport *>&viewport[0]
+        for _ in range(self.rounds):
+            self.table.fragments(&request, &ids, <e3d_fragments *>&out[0])
+
     def raster_depth(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                      const uint32_t[::1] orders):
         """Here and in the next three, one piece after the other."""
@@ -175,15 +202,30 @@ cdef class Kernels:
         raster(self.table.raster_mark, self.rounds, pieces, z, slot, orders)
 
     def raster_visible(self, uint8_t[::1] tile, const uint8_t[:, ::1] records,
-                       const uint32_t[::1] ids):
-        """``records`` is (workers, bytes), a power of two of workers: the table of a frame."""
+                       const uint32_t[::1] ids, const uint8_t[:, ::1] drawn=None):
+        """``records`` and ``drawn`` are (workers, bytes), a power of two of workers: the table of a frame."""
         cdef e3d_record_table table
         cdef const e3d_record *rows[MOST_WORKERS]
+        cdef const e3d_drawn_cluster *clusters[MOST_WORKERS]
         check_size(tile, sizeof(e3d_visible_tile))
         fill_table(&table, rows, records)
+        fill_drawn(&table, clusters, drawn)
         for _ in range(self.rounds):
             self.table.raster_visible(<e3d_visible_tile *>&tile[0], &table, &ids[0],
                                       <int>ids.shape[0])
+
+    def raster_fragments(self, uint8_t[::1] tile, const uint8_t[:, ::1] records,
+                         const uint8_t[:, ::1] drawn, const uint8_t[::1] block):
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        cdef const e3d_drawn_cluster *clusters[MOST_WORKERS]
+        check_size(tile, sizeof(e3d_visible_tile))
+        check_size(block, sizeof(e3d_fragment_block))
+        fill_table(&table, rows, records)
+        fill_drawn(&table, clusters, drawn)
+        for _ in range(self.rounds):
+            self.table.raster_fragments(<e3d_visible_tile *>&tile[0], &table,
+                                        <const e3d_fragment_block *>&block[0])
 
     def raster_settle(self, uint8_t[::1] tile, const uint8_t[:, ::1] records, bint depths=True):
         cdef e3d_record_table table
@@ -211,6 +253,12 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.spread_runs(<const e3d_run *>&runs[0],
                                    <int>(runs.shape[0] // sizeof(e3d_run)), <e3d_batch *>&batch[0])
+
+    def project(self, uint8_t[::1] surfaces, const uint8_t[::1] viewport):
+        check_size(surfaces, sizeof(e3d_surfaces))
+        check_size(viewport, sizeof(e3d_viewport))
+        for _ in range(self.rounds):
+            self.table.project(<e3d_surfaces *>&surfaces[0], <const e3d_viewport *>&viewport[0])
 
     def surface(self, uint8_t[::1] surfaces, int tile_x, int tile_y, int wanted):
         """In place: with several rounds, what was transformed is transformed again."""
@@ -318,6 +366,20 @@ cdef int fill_table(e3d_record_table *table, const e3d_record **rows,
     for worker in range(workers):
         rows[worker] = <const e3d_record *>&records[worker, 0]
     table.records = rows
+    table.drawn = NULL
+    return 0
+
+
+cdef int fill_drawn(e3d_record_table *table, const e3d_drawn_cluster **clusters,
+                    const uint8_t[:, ::1] drawn) except -1:
+    cdef Py_ssize_t worker
+    if drawn is None:
+        return 0
+    if drawn.shape[0] != 1 << table.bits:
+        raise ValueError(f"{drawn.shape[0]} workers, not {1 << table.bits}")
+    for worker in range(drawn.shape[0]):
+        clusters[worker] = <const e3d_drawn_cluster *>&drawn[worker, 0]
+    table.drawn = clusters
     return 0
 
 

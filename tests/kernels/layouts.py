@@ -10,6 +10,9 @@ BLOCK = 8  # samples a side of what has depth bounds of its own
 CLUSTER_TRIANGLES = kernels_testing.LIMITS["CLUSTER_TRIANGLES"]
 CLUSTER_VERTICES = kernels_testing.LIMITS["CLUSTER_VERTICES"]
 BATCH = kernels_testing.LIMITS["BATCH"]
+CLUSTER_FRAGMENTS = kernels_testing.LIMITS["CLUSTER_FRAGMENTS"]
+BLOCK_FRAGMENTS = kernels_testing.LIMITS["BLOCK_FRAGMENTS"]
+FRAGMENT_ID = kernels_testing.LIMITS["FRAGMENT_ID"]
 BATCH_SURFACES = kernels_testing.LIMITS["BATCH_SURFACES"]
 
 # Outcodes (R4, R5, R8).
@@ -53,6 +56,24 @@ RECORD = np.dtype(
     + [("iw", "f4", 3), ("order", "u4"), ("meta", "u4")]
 )
 TILE_SPAN = np.dtype([("first", "u4"), ("last", "u4")])
+FRAGMENTS = np.dtype(
+    [
+        ("z", "f4", CLUSTER_FRAGMENTS + PAD),
+        ("id", "i4", CLUSTER_FRAGMENTS + PAD),
+        ("place", "u4", CLUSTER_FRAGMENTS + PAD),
+        ("count", "i4"),
+        ("triangles", "i4"),
+        ("rests", "i4"),
+        ("rest", "u1", CLUSTER_TRIANGLES + PAD),
+    ]
+)
+FRAGMENT_BLOCK = np.dtype(
+    [("next", "u4"), ("count", "u4"), ("z", "f4", BLOCK_FRAGMENTS), ("id", "i4", BLOCK_FRAGMENTS)]
+    + [("sample", "u2", BLOCK_FRAGMENTS)]
+)
+DRAWN_CLUSTER = np.dtype(
+    [("faces", "u8"), ("order", "u4"), ("instance", "i4"), ("draw", "i4"), ("mirrored", "i4")]
+)
 PIECE = np.dtype(
     [("e", "i4", 3), ("a", "i4", 3), ("b", "i4", 3)]
     + [(name, "i4") for name in ("x0", "y0", "x1", "y1")]
@@ -68,10 +89,12 @@ VISIBLE_TILE = np.dtype(
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
 _ELEMENTS = BATCH_SURFACES + PAD
 SURFACES = np.dtype(
-    [("count", "i4"), ("matrices", "i4"), ("irregular", "i4")]
+    [(name, "i4") for name in ("count", "matrices", "irregular", "projected")]
+    + [("project", "i4", _ELEMENTS)]
     + [("x", "i4", (3, _ELEMENTS)), ("y", "i4", (3, _ELEMENTS)), ("iw", "f4", (3, _ELEMENTS))]
     + [("swapped", "i4", _ELEMENTS), ("matrix", "i4", _ELEMENTS)]
-    + [("world", "f4", (12, _ELEMENTS)), ("normals", "f4", (9, _ELEMENTS))]
+    + [("clip", "f4", (16, _ELEMENTS)), ("world", "f4", (12, _ELEMENTS))]
+    + [("normals", "f4", (9, _ELEMENTS))]
     + [("position", "f4", (3, 3, _ELEMENTS)), ("normal", "f4", (3, 3, _ELEMENTS))]
     + [("uv", "f4", (2, 3, _ELEMENTS)), ("color", "f4", (3, 3, _ELEMENTS))]
     + [("instance_color", "f4", (3, _ELEMENTS)), ("back", "i4", _ELEMENTS)]
@@ -113,6 +136,9 @@ STRUCTS = {
     "survivors": SURVIVORS,
     "record": RECORD,
     "tile_span": TILE_SPAN,
+    "fragments": FRAGMENTS,
+    "fragment_block": FRAGMENT_BLOCK,
+    "drawn_cluster": DRAWN_CLUSTER,
     "piece": PIECE,
     "visible_tile": VISIBLE_TILE,
     "run": RUN,

@@ -1,4 +1,4 @@
-"""raster_visible, raster_settle and raster_measure against R10, R12 and R14-R16.
+"""raster_visible, raster_fragments, raster_settle and raster_measure against R10, R12 and R14-R16.
 
 The oracle takes one record after the other in the order of R16, at every sample of the tile, in 64
 bits; it knows nothing of blocks. Kernels get the records of several workers in another order, in
@@ -12,7 +12,17 @@ import pytest
 from kernels import layouts
 from kernels.arithmetic import clamp
 from kernels.harness import POISON, all_backends, bits, hostile
-from kernels.layouts import BLOCK, RECORD, TILE, VISIBLE_TILE
+from kernels.layouts import (
+    BLOCK,
+    BLOCK_FRAGMENTS,
+    CLUSTER_TRIANGLES,
+    DRAWN_CLUSTER,
+    FRAGMENT_BLOCK,
+    FRAGMENT_ID,
+    RECORD,
+    TILE,
+    VISIBLE_TILE,
+)
 from kernels.pieces import Triangle, meta_of, plane_through
 from kernels.test_raster import BEYOND_FAR, LARGEST, random_corners, random_tile
 
@@ -246,6 +256,74 @@ def test_scenes_are_hard():
     zeros = np.concatenate([some.z[some.z == 0] for some in scenes])
     assert np.signbit(zeros).sum() > 1000 and (~np.signbit(zeros)).sum() > 1000
     assert {some.workers for some in scenes} == set(WORKERS)
+
+
+class Fragments:
+    """Fragments of the clusters of several workers; their orders mix with those of the records."""
+
+    CLUSTERS = 3  # a worker
+
+    def __init__(self, rng, scene):
+        shape = (scene.workers, self.CLUSTERS)
+        self.faces = 2 * rng.permuted(
+            np.arange(np.prod(shape) * CLUSTER_TRIANGLES).astype(np.int32)
+        ).reshape(*shape, CLUSTER_TRIANGLES)
+        drawn = np.zeros(shape, DRAWN_CLUSTER)
+        drawn["faces"] = self.faces.ctypes.data + 4 * CLUSTER_TRIANGLES * np.arange(
+            drawn.size
+        ).reshape(shape)
+        drawn["order"] = 4
+        self.drawn = drawn.view(np.uint8)
+        self.blocks = [self._block(rng, scene, drawn["order"][0, 0]) for _ in range(8)]
+
+    def _block(self, rng, scene, base):
+        """A block, and the orders of its fragments."""
+        block = np.zeros(1, FRAGMENT_BLOCK)
+        count = rng.integers(0, BLOCK_FRAGMENTS + 1)
+        corner, side = rng.integers(0, TILE - 8, 2), rng.choice([2, 8])
+        at = corner + rng.integers(0, side, (count, 2))
+        worker, cluster, triangle = (rng.integers(0, most, count) for most in (*self.faces.shape,))
+        block["count"] = count
+        block["sample"][0, :count] = at[:, 1] * TILE + at[:, 0]
+        number = cluster * CLUSTER_TRIANGLES + triangle
+        block["id"][0, :count] = FRAGMENT_ID | number * scene.workers | worker
+        few = np.float32([-0.0, 0.0, 0.25, 0.5, 1.0, BEYOND_FAR, 1.5])
+        near = scene.z[at[:, 1], at[:, 0]]
+        block["z"][0, :count] = np.where(rng.random(count) < 0.5, rng.choice(few, count), near)
+        return block, base + self.faces[worker, cluster, triangle]
+
+
+@all_backends
+def test_fragments_among_records(kernels):
+    """In any order of arrival the least (depth, order) is kept."""
+    met = 0
+    for seed in range(TILES):
+        rng, some = np.random.default_rng(seed), scene(seed)
+        if some.wild:
+            continue
+        fragments, table = Fragments(rng, some), some.table.copy()
+        table.view(RECORD)["order"] = table.view(RECORD)["order"] * 2 + 1  # the others are even
+        z, ids = some.z.copy(), np.where(some.kept >= 0, some.ids[some.kept].astype(np.int32), -1)
+        orders = np.where(some.kept >= 0, some.records["order"][some.kept] * 2 + 1, 2**31)
+        tile = Tile(*some.place[2:])
+        parts = np.array_split(some.arrivals[0], len(fragments.blocks))
+        for part, (block, order) in zip(parts, fragments.blocks, strict=True):
+            kernels.raster_visible(tile.bytes, table, some.ids[part], fragments.drawn)
+            kernels.raster_fragments(tile.bytes, table, fragments.drawn, block.view(np.uint8))
+            tile.check_poison()
+            for i in range(block["count"][0]):
+                at = divmod(block["sample"][0, i], TILE)
+                new = block["z"][0, i]
+                if new < z[at] or (new == z[at] and order[i] < orders[at]):
+                    z[at], orders[at], ids[at] = new, order[i], block["id"][0, i]
+        settled = tile.settled(kernels, table)
+        tile.check_bounds(settled, exact=False)
+        for name, expected in (("z", z), ("id", ids)):
+            got = settled.fields[name][0, : TILE * TILE].reshape(TILE, TILE)
+            differ = some.shown & (bits(got) != bits(expected))
+            assert not differ.any(), f"{name} at (row, column) {np.argwhere(differ)[0]}"
+        met += (some.shown & (ids >= FRAGMENT_ID)).sum()
+    assert met > 300
 
 
 @all_backends

@@ -12,6 +12,7 @@
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/record.inl"
+#include "kernels/generic/fragments.inl"
 #include "kernels/generic/raster.inl"
 #ifdef E3D_NARROW_TABLE
 #include "kernels/generic/visible_narrow.inl"
@@ -20,6 +21,7 @@
 #endif
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/surface.inl"
+#include "kernels/generic/project.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"
@@ -31,15 +33,18 @@ const e3d_kernels E3D_TABLE = {
     .take_clip = kernel_take_clip,
     .setup = kernel_setup,
     .record = kernel_record,
+    .fragments = kernel_fragments,
     .raster_depth = kernel_raster_depth,
     .raster_overwrite = kernel_raster_overwrite,
     .raster_count = kernel_raster_count,
     .raster_mark = kernel_raster_mark,
     .raster_visible = kernel_raster_visible,
+    .raster_fragments = kernel_raster_fragments,
     .raster_settle = kernel_raster_settle,
     .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
     .spread_runs = kernel_spread_runs,
+    .project = kernel_project,
     .surface = kernel_surface,
     .interpolate = kernel_interpolate,
     .select_level = kernel_select_level,

@@ -42,7 +42,7 @@ static inline visible_plane visible_plane_of(const e3d_record *r, const e3d_visi
 
 static inline int visible_comes_first(const e3d_record *r, int32_t kept, const e3d_record_table *table)
 {
-    return kept >= 0 && r->order < e3d_record_at(table, (uint32_t)kept)->order;
+    return kept >= 0 && r->order < e3d_order_at(table, (uint32_t)kept);
 }
 
 /* Lanes of equal depth; of two zeros the depth takes the sign, too. */
@@ -402,6 +402,30 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
         else
             visible_piece(r, (int32_t)ids[i], tile, table);
     }
+}
+
+/* A depth that is no nearer than what is kept changes nothing, not even the bounds: so all are written. */
+static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *b)
+{
+    uint64_t met = 0;
+    for (uint32_t i = 0; i < b->count; i++) {
+        int at = b->sample[i], block = at / (RASTER_BLOCK * E3D_TILE) * VISIBLE_BLOCKS + at % E3D_TILE / RASTER_BLOCK;
+        float z = b->z[i];
+        if (tile->noted >> block & 1) {
+            if (z > tile->zmax[block])
+                continue;
+            visible_unfold(tile, table, block);
+        }
+        float old = tile->z[at], zmin = tile->zmin[block];
+        int32_t kept = tile->id[at], nearer = -(z < old);
+        if (__builtin_expect(z == old, 0) && kept >= 0)
+            nearer = -(e3d_order_at(table, (uint32_t)b->id[i]) < e3d_order_at(table, (uint32_t)kept));
+        tile->z[at] = nearer ? z : old;
+        tile->id[at] = kept ^ ((kept ^ b->id[i]) & nearer);
+        tile->zmin[block] = z < zmin ? z : zmin;
+        met |= 1ull << block;
+    }
+    tile->stale |= met;
 }
 
 static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table *table, int depths)

@@ -97,6 +97,9 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) { return (float)a[0]; } /* r
 /* Lane l of column c goes to out[16 * l + c]. */
 static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c, 64); }
 
+/* The lanes whose bits are set, one after the other; returns how many. A whole vector is written. */
+static inline int v_pack(void *out, vi32 a, uint32_t bits) { memcpy(out, &a, 4); return (int)bits; }
+
 /* Elements base[index[lane]] of an array, 0 <= index < V_LANES; prepared once for many arrays. */
 typedef int32_t vpick;
 static inline vpick v_picker(vi32 index) { return index; }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "kernels/simd/rows_avx2.h"
+#include "kernels/simd/pack_sse.h"
 #include "kernels/simd/pairs_sse.h"
 
 #define V_LANES 8
@@ -102,6 +103,11 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) {
 static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     rows_store8(c, out, 16);
     rows_store8(c + 8, out + 8, 16);
+}
+
+static inline int v_pack(void *out, vi32 a, uint32_t bits) {
+    int low = pack_four(out, _mm256_castsi256_si128(a), bits & 15);
+    return low + pack_four((int32_t *)out + low, _mm256_extracti128_si256(a, 1), bits >> 4);
 }
 
 typedef __m256i vpick;

@@ -107,6 +107,11 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
+static inline int v_pack(void *out, vi32 a, uint32_t bits) {
+    v_storei(out, _mm512_maskz_compress_epi32((__mmask16)bits, a));
+    return __builtin_popcount(bits);
+}
+
 typedef __m512i vpick;
 static inline vpick v_picker(vi32 index) { return index; }
 static inline vf32 v_pick(const void *base, vpick p) {

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "kernels/simd/pack_sse.h"
 #include "kernels/simd/pairs_sse.h"
 
 #define V_LANES 4
@@ -109,6 +110,8 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
         v_storei(out + 48 + i, _mm_unpackhi_epi64(high01, high23));
     }
 }
+
+static inline int v_pack(void *out, vi32 a, uint32_t bits) { return pack_four(out, a, bits); }
 
 typedef __m128i vpick;
 static inline vpick v_picker(vi32 index) {

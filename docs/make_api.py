@@ -56,7 +56,7 @@ CHAPTERS = {
     "Meshes": ("Mesh", "Material", "Texture"),
     "Primitives": ("box", "plane", "quad", "uv_sphere", "icosphere", "cylinder", "torus"),
     "Worlds": ("city", "World", "NavigationGrid", "Walker"),
-    "Levels of detail": ("DetailedInstances", "Impostor", "simplify"),
+    "Levels of detail": ("DetailedInstances", "DetailedMeshes", "Impostor", "simplify"),
     "Files": ("load_mesh", "load_texture", "load_scene", "save_mesh", "Resources", "ResourceStats"),
     "The canvas": ("Canvas",),
     "The low-level door": ("rasterize", "RasterizeResult"),

@@ -40,6 +40,7 @@ _PUBLIC = {
     "World": "worlds",
     "city": "worlds",
     "DetailedInstances": "detail",
+    "DetailedMeshes": "detail",
     "Impostor": "detail",
     "simplify": "detail",
     "NavigationGrid": "navigation",

@@ -12,6 +12,7 @@ from .cameras import OrthographicCamera as OrthographicCamera
 from .cameras import PerspectiveCamera as PerspectiveCamera
 from .canvas import Canvas as Canvas
 from .detail import DetailedInstances as DetailedInstances
+from .detail import DetailedMeshes as DetailedMeshes
 from .detail import Impostor as Impostor
 from .detail import simplify as simplify
 from .errors import BackendError as BackendError

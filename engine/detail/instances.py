@@ -7,7 +7,6 @@ turns coarser only well within the limit, so that it does not flicker between tw
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -18,6 +17,7 @@ from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..mesh import Mesh
 from ..scene import Node, Scene
+from .choosing import check_errors, check_limits, choose_levels, pixels_a_unit
 from .impostors import Impostor, bounding_ball
 from .simplification import simplify
 
@@ -74,13 +74,9 @@ class DetailedInstances:
         impostor_pixels: float = 4.0,
     ) -> None:
         self.levels = _made_levels(levels) if isinstance(levels, Mesh) else _checked(levels)
-        for name, value in (("pixels", pixels), ("impostor_pixels", impostor_pixels)):
-            if not 0.0 < value < math.inf:
-                raise InvalidArgumentError(f"{name} must be greater than 0, not {value!r}")
+        check_limits(hysteresis, pixels=pixels, impostor_pixels=impostor_pixels)
         if impostor is not None and not isinstance(impostor, Impostor):
             raise InvalidArgumentError(f"not an Impostor: {type(impostor).__name__}")
-        if not 0.0 <= hysteresis < 1.0:
-            raise InvalidArgumentError(f"hysteresis must be from 0 to below 1, not {hysteresis!r}")
         self.pixels, self.hysteresis = float(pixels), float(hysteresis)
         mesh = self.levels[0][0]
         self._center, self._radius = bounding_ball(mesh)
@@ -124,10 +120,7 @@ class DetailedInstances:
         """
         pose = np.asarray(pose, np.float64)
         errors = self._errors_on_screen(camera, pose, size)
-        # Refine what is too coarse now; coarsen what is fine enough by a margin.
-        fine_enough = _coarsest(errors, self.pixels)
-        safely = _coarsest(errors, self.pixels * (1.0 - self.hysteresis))
-        level = np.maximum(np.minimum(self.level, fine_enough), safely)
+        level = choose_levels(self.level, errors, self.pixels, self.hysteresis)
         drawn = level if self._impostor is None else self._with_cards(level, camera, pose, size)
         touched = set(drawn[drawn != self._drawn]) | set(self._drawn[drawn != self._drawn])
         self.level, self._drawn = level, drawn
@@ -178,11 +171,8 @@ class DetailedInstances:
             world = self._nodes[0].world_pose
             centers = linalg.transform_points(world, centers)
             scale = scale * linalg.length(world[:3, :3].T).max()
-        projection = camera.projection(*size)
-        pixels = abs(float(projection[1, 1])) * size[1] * 0.5 * scale
-        if float(projection[3, 3]) == 0.0:  # perspective: smaller with the distance
-            near = linalg.length(centers - pose[:3, 3]) - radius * scale
-            pixels = pixels / np.maximum(near, 1e-9)
+        near = linalg.length(centers - pose[:3, 3]) - radius * scale
+        pixels = pixels_a_unit(camera, size, near) * scale
         return self._errors[:, np.newaxis] * pixels
 
     def __len__(self) -> int:
@@ -191,11 +181,6 @@ class DetailedInstances:
     def __repr__(self) -> str:
         counts = ", ".join(str(len(instances)) for instances in self.instances)
         return f"DetailedInstances({len(self)} instances; by level: {counts})"
-
-
-def _coarsest(errors: np.ndarray, limit: float) -> np.ndarray:
-    """The last level of each column up to which every error is at most the limit."""
-    return (np.cumprod(errors[1:] <= limit, axis=0)).sum(axis=0)
 
 
 def _made_levels(mesh: Mesh) -> tuple[tuple[Mesh, float], ...]:
@@ -215,9 +200,7 @@ def _checked(levels) -> tuple[tuple[Mesh, float], ...]:
         raise InvalidArgumentError(
             "levels must be a Mesh or pairs of a mesh and an error"
         ) from None
-    errors = [error for _, error in levels]
-    if not levels or errors[0] != 0.0 or errors != sorted(errors) or not math.isfinite(errors[-1]):
-        raise InvalidArgumentError("the errors of levels must begin with 0 and never decrease")
+    check_errors([error for _, error in levels])
     if not all(isinstance(mesh, Mesh) for mesh, _ in levels):
         raise InvalidArgumentError("levels must be meshes with their errors")
     return levels

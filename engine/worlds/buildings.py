@@ -135,6 +135,8 @@ def _moved(frame: Frames, s, o, turns: int) -> Frames:
 
 
 def _add_ornaments(patch: Patchwork, houses: Houses, fronts: Facades) -> None:
+    if patch.tolerance >= 1.4:
+        return
     owner, number = each(_balcony_rows(houses))
     add_balconies(patch, fronts[owner], 2 * number + 1)
     chosen = np.flatnonzero(_has_awning(houses))

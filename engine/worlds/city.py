@@ -43,6 +43,8 @@ DISTRICT = 4
 #: Rings of meadows round the city.
 _MEADOWS = 1
 _FEWEST_A_TILE = 1_500
+#: What coarser districts leave out or move, in metres.
+_TOLERANCES = (0.3, 1.5)
 _LAND = {HOUSES: "gravel", TOWERS: "stone", PARK: "grass", PLAZA: "stone"}
 
 
@@ -71,6 +73,7 @@ class World:
     lamps: np.ndarray
     walkable: frozenset[str]
     foliage: frozenset[str]
+    _asked: int
 
     @property
     def triangles(self) -> int:
@@ -80,6 +83,26 @@ class World:
     def mesh(self) -> Mesh:
         """Return everything as one mesh, such as for `Mesh.save`."""
         return Mesh.concatenate(self.districts, name="city")
+
+    def levels(self) -> tuple[tuple[tuple[Mesh, ...], float], ...]:
+        """Return the districts as they are, and coarser, for `DetailedMeshes`.
+
+        The ground is the same at every level, so that districts of different levels meet.
+
+        Returns
+        -------
+        levels : tuple of (tuple of Mesh, float)
+            The same districts in the same order, and an error in metres: nothing is farther from
+            where it was, and nothing that is left out is wider.
+        """
+        ground = _Ground(self.seed, self._asked)
+        levels = [(self.districts, 0.0)]
+        for tolerance in _TOLERANCES:
+            made = (
+                _district(ground, key, self.materials, tolerance)[0] for key in ground.districts()
+            )
+            levels.append((tuple(made), tolerance))
+        return tuple(levels)
 
     def add_to(self, scene: Scene) -> Node:
         """Add the districts to a scene; returns the node that groups them."""
@@ -125,7 +148,7 @@ def city(triangles: int = 1_000_000, seed: int = 0) -> World:
         lamps.append(lights)
     lamps = np.concatenate(lamps)
     lamps.setflags(write=False)
-    return World(seed, tuple(districts), shared, lamps, WALKABLE, FOLIAGE)
+    return World(seed, tuple(districts), shared, lamps, WALKABLE, FOLIAGE, triangles)
 
 
 class _Ground:
@@ -230,11 +253,11 @@ def _add_meadows(patch: Patchwork, i: np.ndarray, j: np.ndarray) -> None:
     add_wild_river(patch, tile[wet])
 
 
-def _district(ground: _Ground, key, shared) -> tuple[Mesh, np.ndarray]:
+def _district(ground: _Ground, key, shared, tolerance: float = 0.0) -> tuple[Mesh, np.ndarray]:
     """Return a district's mesh, and where its lamps shine."""
     inside = (ground.i // DISTRICT == key[0]) & (ground.j // DISTRICT == key[1])
     seed, i, j, kinds = ground.seed, ground.i[inside], ground.j[inside], ground.kinds[inside]
-    patch, tile = Patchwork(), corners(i, j)
+    patch, tile = Patchwork(tolerance), corners(i, j)
     dry = kinds != RIVER
     _add_land(patch, tile[dry], kinds[dry])
     add_river(patch, tile[~dry], has_bridge(seed, j[~dry]), has_bridge(seed, j[~dry] + 1))
@@ -245,10 +268,10 @@ def _district(ground: _Ground, key, shared) -> tuple[Mesh, np.ndarray]:
     _add_meadows(patch, ground.wild_i[wild], ground.wild_j[wild])
     wooded = (ground.wood_i // DISTRICT == key[0]) & (ground.wood_j // DISTRICT == key[1])
     for name, (tile, places) in ground.wood.items():
-        patch.place(template(name), places[wooded[tile]])
+        patch.place(template(name, tolerance), places[wooded[tile]])
     lights = np.zeros((0, 3))
     for name, (_, places) in placements(seed, i, j, kinds).items():
-        patch.place(template(name), places)
+        patch.place(template(name, tolerance), places)
         if name == "lamp":
             lights = places[:, :3] + np.array([0.0, LAMP_HEIGHT, 0.0])
     return patch.mesh(f"district {key[0]} {key[1]}", shared), lights

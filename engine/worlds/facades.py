@@ -19,7 +19,7 @@ from .surfaces import NUMBER, numbers
 
 GROUND, STOREY = 4.0, 3.2
 _BAY = 2.9
-_RECESS, _PANE = 0.22, 0.15
+_RECESS, _PANE, _BEFORE = 0.22, 0.15, 0.04
 _SILL, _HEAD = 0.85, 2.65
 _LIT, _DOOR = 200, 201
 _LIT_SHARE = 0.16
@@ -65,14 +65,26 @@ def flat_quads(width, storeys) -> np.ndarray:
 
 
 def add_reliefs(patch: Patchwork, facades: Facades, seed: int) -> None:
-    """Add street fronts: openings that stand back, a string course, a cornice."""
+    """Add street fronts: openings that stand back, a string course, a cornice.
+
+    Seen from far the wall has no openings, and panes before it.
+    """
     frame, width, height = facades.frame, facades.width, facades.height
-    patch.add(front(frame, 0.0, width, 0.0, height, -_RECESS), facades.wall)
+    trim = NUMBER["trim"]
+    if _is_level(patch):
+        patch.add(front(frame, 0.0, width, 0.0, GROUND, 0.0), facades.ground)
+        patch.add(front(frame, 0.0, width, GROUND, height, 0.0), facades.wall)
+    else:
+        patch.add(front(frame, 0.0, width, 0.0, height, -_RECESS), facades.wall)
     _add_ground_floor(patch, facades, seed)
     _add_upper_floors(patch, facades, seed)
-    trim = NUMBER["trim"]
-    patch.add(box(frame, 0.0, width, GROUND - 0.30, GROUND, 0.0, 0.12, "ftulr"), trim)
+    if not _is_level(patch):
+        patch.add(box(frame, 0.0, width, GROUND - 0.30, GROUND, 0.0, 0.12, "ftulr"), trim)
     patch.add(box(frame, -0.1, width + 0.1, height - 0.40, height, 0.0, 0.40, "ftulr"), trim)
+
+
+def _is_level(patch: Patchwork) -> bool:
+    return patch.tolerance >= _RECESS
 
 
 def _add_ground_floor(patch: Patchwork, facades: Facades, seed: int) -> None:
@@ -94,7 +106,7 @@ def _add_ground_floor(patch: Patchwork, facades: Facades, seed: int) -> None:
         front(frame, s0, a, sill, head, 0.0),
         front(frame, b, s1, sill, head, 0.0),
     )
-    for wall in walls:
+    for wall in () if _is_level(patch) else walls:
         patch.add(wall, ground)
     kind = np.where(door, 4, 2 * shop + _lit(seed, frame, bay, 0))
     _add_openings(patch, frame, a, b, sill, head, ground, _PANES[kind])
@@ -105,20 +117,21 @@ def _add_upper_floors(patch: Patchwork, facades: Facades, seed: int) -> None:
     owner, storey = each(facades.storeys)
     frame, width, wall = facades.frame[owner], facades.width[owner], facades.wall[owner]
     floor = GROUND + STOREY * storey
-    under = np.where(storey == 0, GROUND, floor - STOREY + _HEAD)
-    patch.add(front(frame, 0.0, width, under, floor + _SILL, 0.0), wall)
-    height = facades.height
-    last = np.where(facades.storeys == 0, GROUND, height - STOREY + _HEAD)
-    patch.add(front(facades.frame, 0.0, facades.width, last, height, 0.0), facades.wall)
-
     bays, half = facades.bays[owner], facades.half[owner]
     pitch = width / bays
-    which, pier = each(bays + 1)
-    edge = pier * pitch[which] + pitch[which] * 0.5
-    s0 = np.where(pier == 0, 0.0, edge - pitch[which] + half[which])
-    s1 = np.where(pier == bays[which], width[which], edge - half[which])
-    low = floor[which]
-    patch.add(front(frame[which], s0, s1, low + _SILL, low + _HEAD, 0.0), wall[which])
+    if not _is_level(patch):
+        under = np.where(storey == 0, GROUND, floor - STOREY + _HEAD)
+        patch.add(front(frame, 0.0, width, under, floor + _SILL, 0.0), wall)
+        height = facades.height
+        last = np.where(facades.storeys == 0, GROUND, height - STOREY + _HEAD)
+        patch.add(front(facades.frame, 0.0, facades.width, last, height, 0.0), facades.wall)
+
+        which, pier = each(bays + 1)
+        edge = pier * pitch[which] + pitch[which] * 0.5
+        s0 = np.where(pier == 0, 0.0, edge - pitch[which] + half[which])
+        s1 = np.where(pier == bays[which], width[which], edge - half[which])
+        low = floor[which]
+        patch.add(front(frame[which], s0, s1, low + _SILL, low + _HEAD, 0.0), wall[which])
 
     which, bay = each(bays)
     middle, low = (bay + 0.5) * pitch[which], floor[which]
@@ -129,6 +142,9 @@ def _add_upper_floors(patch: Patchwork, facades: Facades, seed: int) -> None:
 
 def _add_openings(patch: Patchwork, frame, a, b, sill, head, wall, pane) -> None:
     """A pane that stands back, and the four sides of the hole in the wall."""
+    if _is_level(patch):
+        patch.add(front(frame, a, b, sill, head, _BEFORE), pane)
+        return
     patch.add(front(frame, a, b, sill, head, -_PANE), pane)
     patch.add(right(frame, a, sill, head, -_RECESS, 0.0), wall)
     patch.add(left(frame, b, sill, head, -_RECESS, 0.0), wall)
@@ -146,7 +162,7 @@ def add_flats(patch: Patchwork, facades: Facades, seed: int) -> None:
     middle, half = (bay + 0.5) * pitch, facades.half[owner]
     low = np.where(storey == 0, 0.2, GROUND + STOREY * (storey - 1))
     pane = _PANES[_lit(seed, frame, bay, storey)]
-    patch.add(front(frame, middle - half, middle + half, low + _SILL, low + _HEAD, 0.04), pane)
+    patch.add(front(frame, middle - half, middle + half, low + _SILL, low + _HEAD, _BEFORE), pane)
 
 
 def add_plains(patch: Patchwork, facades: Facades) -> None:

@@ -24,9 +24,9 @@ _HERE = frames(0.0, 0.0)
 
 
 @functools.cache
-def template(name: str) -> Template:
-    """Return the shape of that name."""
-    patch = Patchwork()
+def template(name: str, tolerance: float = 0.0) -> Template:
+    """Return the shape of that name, as it has to be for `Patchwork` of some tolerance."""
+    patch = Patchwork(tolerance)
     _MAKERS[name](patch)
     return patch.template()
 
@@ -66,11 +66,12 @@ def _box(patch: Patchwork, x, y, z, material: str, sides="ftlrb") -> None:
     patch.add(box(_HERE, *x, *y, *z, sides), NUMBER[material])
 
 
-def _crown(middle, radii, material: str, channel: int) -> Template:
+def _crown(patch: Patchwork, middle, radii, material: str, channel: int) -> Template:
     """A lump of leaves: a sphere whose points lie a little in or out."""
-    ball = icosphere(1.0, 1)
+    rough = patch.tolerance >= 1.0
+    ball = icosphere(1.0, 0 if rough else 1)
     normals = ball.positions.astype(np.float64)
-    stretch = 0.80 + 0.36 * unit_floats(0, channel, ball.position_ids)
+    stretch = 0.80 + 0.36 * unit_floats(0, channel, ball.position_ids) + 0.16 * rough
     positions = normals * stretch[:, np.newaxis] * np.array(radii) + np.array(middle)
     normals = linalg.normalize(normals / np.array(radii))
     return Template(
@@ -83,27 +84,31 @@ def _crown(middle, radii, material: str, channel: int) -> Template:
     )
 
 
+def _trunk_sides(patch: Patchwork) -> int:
+    return 3 if patch.tolerance >= 0.3 else _TRUNK_SIDES
+
+
 _ORIGIN = np.array([[0.0, 0.0, 0.0, 1.0, 1.0, 0.0]])
 
 
 def _round_tree(patch: Patchwork) -> None:
-    _ring(patch, _TRUNK_SIDES, (0.20, 0.0), (0.13, 3.0), "bark")
-    patch.place(_crown((0.0, 4.3, 0.0), (2.0, 1.9, 2.0), "leaves", 400), _ORIGIN)
+    _ring(patch, _trunk_sides(patch), (0.20, 0.0), (0.13, 3.0), "bark")
+    patch.place(_crown(patch, (0.0, 4.3, 0.0), (2.0, 1.9, 2.0), "leaves", 400), _ORIGIN)
 
 
 def _wide_tree(patch: Patchwork) -> None:
-    _ring(patch, _TRUNK_SIDES, (0.26, 0.0), (0.16, 3.2), "bark")
-    patch.place(_crown((0.7, 4.0, 0.3), (1.9, 1.5, 1.8), "leaves dark", 401), _ORIGIN)
-    patch.place(_crown((-0.6, 5.0, -0.4), (2.1, 1.7, 2.0), "leaves", 402), _ORIGIN)
+    _ring(patch, _trunk_sides(patch), (0.26, 0.0), (0.16, 3.2), "bark")
+    patch.place(_crown(patch, (0.7, 4.0, 0.3), (1.9, 1.5, 1.8), "leaves dark", 401), _ORIGIN)
+    patch.place(_crown(patch, (-0.6, 5.0, -0.4), (2.1, 1.7, 2.0), "leaves", 402), _ORIGIN)
 
 
 def _poplar(patch: Patchwork) -> None:
-    _ring(patch, _TRUNK_SIDES, (0.18, 0.0), (0.12, 1.6), "bark")
-    patch.place(_crown((0.0, 5.2, 0.0), (1.15, 4.2, 1.15), "leaves light", 403), _ORIGIN)
+    _ring(patch, _trunk_sides(patch), (0.18, 0.0), (0.12, 1.6), "bark")
+    patch.place(_crown(patch, (0.0, 5.2, 0.0), (1.15, 4.2, 1.15), "leaves light", 403), _ORIGIN)
 
 
 def _fir(patch: Patchwork) -> None:
-    _ring(patch, _TRUNK_SIDES, (0.18, 0.0), (0.14, 1.2), "bark")
+    _ring(patch, _trunk_sides(patch), (0.18, 0.0), (0.14, 1.2), "bark")
     for y, radius, high in ((0.9, 1.9, 3.4), (2.6, 1.5, 5.2), (4.3, 1.0, 7.0)):
         _ring(patch, 8, (radius, y), (0.02, high), "leaves dark")
         _disc_under(patch, radius, y)
@@ -117,8 +122,9 @@ def _disc_under(patch: Patchwork, radius: float, y: float) -> None:
 
 
 def _lamp(patch: Patchwork) -> None:
-    _ring(patch, _POLE_SIDES, (0.16, 0.0), (0.13, 0.6), "metal")
-    _ring(patch, _POLE_SIDES, (0.07, 0.6), (0.05, 4.3), "metal")
+    sides = 3 if patch.tolerance >= 0.3 else _POLE_SIDES
+    _ring(patch, sides, (0.16, 0.0), (0.13, 0.6), "metal")
+    _ring(patch, sides, (0.07, 0.6), (0.05, 4.3), "metal")
     _ring(patch, 4, (0.16, 4.3), (0.26, 4.8), "lamp glass")
     _ring(patch, 4, (0.30, 4.8), (0.02, 5.1), "metal")
 
@@ -126,6 +132,8 @@ def _lamp(patch: Patchwork) -> None:
 def _bench(patch: Patchwork) -> None:
     _box(patch, (-0.9, 0.9), (0.42, 0.50), (-0.22, 0.24), "wood", "ftulrb")
     _box(patch, (-0.9, 0.9), (0.60, 0.92), (-0.28, -0.22), "wood")
+    if patch.tolerance >= 0.5:
+        return
     for x in (-0.75, 0.67):
         _box(patch, (x, x + 0.08), (0.0, 0.90), (-0.26, 0.18), "metal", "flrb")
 
@@ -133,7 +141,8 @@ def _bench(patch: Patchwork) -> None:
 def _car(patch: Patchwork, paint: str) -> None:
     """A car 4.2 m long, its front to +Z."""
     s, o = (-0.85, 0.85), (-2.1, 2.1)
-    patch.add(box(_HERE, *s, 0.28, 0.85, *o, "flrbu"), NUMBER[paint])
+    rough = patch.tolerance >= 0.7
+    patch.add(box(_HERE, *s, 0.0 if rough else 0.28, 0.85, *o, "flrbu"), NUMBER[paint])
     patch.add(top(_HERE, *s, 0.85, *o), NUMBER[paint])
     low, high, glass = 0.85, 1.42, NUMBER["tower glass dark"]
     a, b, c, d = -1.75, -1.25, 0.35, 1.0
@@ -143,6 +152,8 @@ def _car(patch: Patchwork, paint: str) -> None:
     patch.add(quads(_HERE, (-0.8, -0.8, -0.62, -0.62), y, (a, d, c, b)), glass)
     patch.add(quads(_HERE, (0.8, 0.8, 0.62, 0.62), y, (d, a, b, c)), glass)
     patch.add(top(_HERE, -0.62, 0.62, high, b, c), NUMBER[paint])
+    if rough:
+        return
     for x in (-0.88, 0.64):
         for z in (-1.65, 0.95):
             _box(patch, (x, x + 0.24), (0.0, 0.62), (z, z + 0.66), "rubber", "flrb")

@@ -42,9 +42,16 @@ class Template:
 
 
 class Patchwork:
-    """Collects quads and templates; `template` and `mesh` return all of them."""
+    """Collects quads and templates; `template` and `mesh` return all of them.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    tolerance : float
+        Metres: who adds something may leave out, or put elsewhere, what is no larger.
+    """
+
+    def __init__(self, tolerance: float = 0.0) -> None:
+        self.tolerance = tolerance
         self._corners: list[np.ndarray] = []
         self._materials: list[np.ndarray] = []
         self._parts: list[Template] = []

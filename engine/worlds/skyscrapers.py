@@ -124,10 +124,12 @@ def _add_ribbons(patch, frame, width, lobby, storeys, glass, stone) -> None:
     """Bands of glass that stand back between bands of stone, and a pillar at each end."""
     owner, storey = each(storeys)
     f, w, low = frame[owner], width[owner], (lobby[owner] + _FLOOR * storey)
-    patch.add(front(f, 0.0, w, low + 1.1, low + _FLOOR, -0.3), glass[owner])
+    recess = 0.0 if patch.tolerance >= 0.3 else 0.3
+    patch.add(front(f, 0.0, w, low + 1.1, low + _FLOOR, -recess), glass[owner])
     patch.add(front(f, 0.0, w, low, low + 1.1, 0.0), stone[owner])
-    patch.add(top(f, 0.0, w, low + 1.1, -0.3, 0.0), stone[owner])
-    patch.add(bottom(f, 0.0, w, low, -0.3, 0.0), stone[owner])
+    if recess:
+        patch.add(top(f, 0.0, w, low + 1.1, -0.3, 0.0), stone[owner])
+        patch.add(bottom(f, 0.0, w, low, -0.3, 0.0), stone[owner])
     height = lobby + _FLOOR * storeys
     patch.add(box(frame, 0.0, 0.9, 0.0, height, -0.4, 0.05, "flr"), stone)
     patch.add(box(frame, width - 0.9, width, 0.0, height, -0.4, 0.05, "flr"), stone)
@@ -135,6 +137,9 @@ def _add_ribbons(patch, frame, width, lobby, storeys, glass, stone) -> None:
 
 def _add_fins(patch, frame, width, lobby, storeys, glass, stone) -> None:
     """Glass from top to bottom behind upright fins."""
+    if patch.tolerance >= 0.65:
+        patch.add(front(frame, 0.0, width, lobby, lobby + _FLOOR * storeys, -0.3), glass)
+        return
     owner, storey = each(storeys)
     low = lobby[owner] + _FLOOR * storey
     patch.add(front(frame[owner], 0.0, width[owner], low, low + _FLOOR, -0.3), glass[owner])

@@ -151,6 +151,32 @@ static void take_matrix(input *in, double *m, int count)
     }
 }
 
+static void claim_shown(const e3d_graph *g, int32_t id)
+{
+    CLAIM(id >= 0 && id < g->count && (g->flags[id] & E3D_NODE_SHOWN)); /* slots are their nodes' ids */
+}
+
+/* Each node that shows has one turn a draw, in the order of slots. */
+static void claim_draws(const world *w)
+{
+    int32_t next[ROOM * INSTANCES] = {0}, last = -1;
+    CLAIM(w->list.count <= ROOM * INSTANCES);
+    for (int32_t k = 0; k < w->list.order_count; k++) {
+        const int32_t number = w->list.order[k];
+        CLAIM(number >= 0 && number < w->list.count);
+        const e3d_draw *draw = &w->list.draws[number];
+        const int is_batch = draw->pose_kind == E3D_POSE_NODES;
+        CLAIM(next[number] < (is_batch ? draw->instances : 1));
+        const int32_t id = is_batch ? draw->node_ids[next[number]] : draw->node_id;
+        next[number]++;
+        claim_shown(&w->graph, id);
+        CLAIM(id >= last);
+        last = id;
+        CLAIM(draw->instances > 0 && draw->first_instance >= 0);
+        CLAIM(is_batch || draw->first_instance + draw->instances <= INSTANCES);
+    }
+}
+
 /* No box that the planes let pass is lost, and none comes that is no box. */
 static void select_and_draw(world *w, input *in)
 {
@@ -166,13 +192,8 @@ static void select_and_draw(world *w, input *in)
     CLAIM(bits[0] == fresh_bits[0] && bits[0] >> g->count == 0);
     const e3d_node_rows rows = {g->count, g->flags, g->object, g->id, g->world};
     CLAIM(e3d_graph_draws(&w->list, &rows, take_below(in, 2) ? bits : NULL, take_below(in, 2) ? &view : NULL,
-                          w->placed, OBJECTS));
-    for (int32_t k = 0; k < w->list.count; k++) {
-        const e3d_draw *draw = &w->list.draws[k];
-        CLAIM(draw->node_id >= 0 && draw->node_id < g->count && (g->flags[draw->node_id] & E3D_NODE_SHOWN));
-        CLAIM(draw->instances > 0 && draw->first_instance >= 0);
-        CLAIM(draw->first_instance + draw->instances <= INSTANCES);
-    }
+                          w->placed, OBJECTS, take_below(in, 2)));
+    claim_draws(w);
 }
 
 static void cast_ray(world *w, input *in)

@@ -234,9 +234,11 @@ static int sort_items(e3d_context *context, int64_t task_count)
         return 0;
     e3d_item *out = renderer->items.data;
     for (int64_t t = 0; t < task_count; t++) {
-        const e3d_item *items = (const e3d_item *)renderer->workers[tasks[t].worker]->items.data + tasks[t].first;
-        for (int32_t i = 0; i < tasks[t].count; i++)
-            out[start[bucket_of(items[i].view.near)]++] = items[i];
+        const e3d_item *items = renderer->workers[tasks[t].worker]->items.data;
+        for (int32_t i = 0; i < tasks[t].count; i++) {
+            const e3d_item *item = &items[tasks[t].first + i];
+            out[start[bucket_of(item->view.near)]++] = *item;
+        }
     }
     context->items = out;
     context->item_count = total;

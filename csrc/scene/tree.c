@@ -154,7 +154,8 @@ static void find_keys(key *keys, int32_t count, const double *boxes)
         for (int32_t i = first; i < first + 4 && i < count; i++)
             for (int k = 0; k < 3; k++) {
                 double place = (middle(boxes + E3D_BOX * (size_t)keys[i].item, k) - low[k]) * scale;
-                x[k][i - first] = place > 0 ? (int32_t)place : 0; /* NaN where an endless distance is scaled by 0 */
+                /* Not so where the boxes' middles are endlessly far or hardly apart. */
+                x[k][i - first] = place > 0 && place < 1 << BITS ? (int32_t)place : 0;
             }
         transpose(x);
         for (int32_t i = first; i < first + 4 && i < count; i++)

@@ -25,6 +25,7 @@ _UP = (0.0, 1.0, 0.0)
 # The planes stand off by this share of their distance: what touches them is not cut by rounding.
 _SLACK = 1e-4
 _SECANTS = 2
+_FAR_AWAY = 2.0**40
 _NEAREST = 1e-3  # of the far plane's distance: nearer, and depth would lose too many bits
 
 
@@ -103,6 +104,7 @@ def frame_scene(
     return _frame(scene_reach(scene), scene.bounds, aspect, yfov, direction, up, margin)
 
 
+@np.errstate(all="ignore")
 def _frame(reach: Reach | None, bounds, aspect, yfov, direction, up, margin):
     smallest, largest = _corners(bounds)
     y_slope = linalg.tan(0.5 * _angle(yfov))
@@ -114,13 +116,19 @@ def _frame(reach: Reach | None, bounds, aspect, yfov, direction, up, margin):
     if reach is None:
         reach = box_reach((center - half, center + half))
     backward = -linalg.normalize(_direction(direction))
-    pose = linalg.look_at(center + backward, center, up)
+    # Only its axes are used: a target so far away that the step from it is lost is the origin.
+    target = center if (np.abs(center) < _FAR_AWAY).all() else np.zeros(3)
+    pose = linalg.look_at(target + backward, target, up)
     slopes = x_slope / margin, y_slope / margin
     x, y, distance, edges = fit_frustum(reach, pose[:3, :3].T, center, *slopes)
     pose[:3, 3] = center + pose[:3, 0] * x + pose[:3, 1] * y + backward * distance
     room = max(margin - 1.0, 0.0) * 0.5 * (edges.near + edges.far)
     zfar = (distance + edges.far + room) * (1.0 + _SLACK)
     znear = max((distance - edges.near - room) * (1.0 - _SLACK), _NEAREST * zfar)
+    if not 0.0 < znear < zfar < np.inf:
+        raise InvalidArgumentError(
+            "the scene's coordinates are too large for a camera to be placed"
+        )
     return PerspectiveCamera(yfov, znear=znear, zfar=zfar), pose
 
 

@@ -6,7 +6,7 @@
 #include "fuzz/inflate.h"
 #include "fuzz/input.h"
 
-enum { PIXEL = 4, HEADER = 33, CHUNK = 12, ALL_SMALL = 1 << 13, ALL_LARGE = 1 << 17 };
+enum { PIXEL = 4, HEADER = 33, CHUNK = 12, ALL_SMALL = 1 << 9, ALL_LARGE = 80000 };
 
 static uint32_t big_endian(const uint8_t *at)
 {

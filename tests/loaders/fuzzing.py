@@ -27,6 +27,13 @@ from pathlib import Path
 
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    if "--coverage" in sys.argv:
+        import atheris
+
+        with atheris.instrument_imports(include=["engine3d"]):
+            from engine3d.loaders.registry import readers
+
+            readers()  # imports them all
 
 import numpy as np
 from loaders.generating import GENERATORS, mutated
@@ -267,7 +274,6 @@ def run_by_coverage(seconds: int, suffixes: list[str], keep: Path) -> None:
     """Let atheris choose the bytes: the first says which format, the others are the file."""
     import atheris
 
-    atheris.instrument_all()
     keep.mkdir(parents=True, exist_ok=True)
     folder = Path(tempfile.mkdtemp())
     write_companions(folder)

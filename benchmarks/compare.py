@@ -14,6 +14,7 @@ from pathlib import Path
 from ratios import RATIOS, measure, peer_is_there, possible
 
 import engine3d as e3d
+from engine3d.atomic_write import atomic_write
 from engine3d.benchmarking import report
 
 BASELINE = Path(__file__).with_name("baseline.json")
@@ -127,7 +128,8 @@ def main():
     measured = {row["name"]: row["measured"] for row in rows if row["measured"]}
     if arguments.update:
         text = json.dumps(updated(baseline, measured), indent=2)
-        arguments.baseline.write_text(text + "\n")
+        with atomic_write(arguments.baseline) as file:
+            file.write(text.encode() + b"\n")
     lost = [row["name"] for row in rows if row["verdict"] == LOST]
     if arguments.json:
         print(json.dumps({**report.machine(), "rows": rows, "slower": lost}))

@@ -414,6 +414,17 @@ def test_a_render_loads_neither_sdl_nor_rich(model):
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+@pytest.mark.parametrize(
+    "data", [b"", b"P6\n4 \xff4\n255\n", b"GIF89a" + bytes(9), b"\x89PNG\r\n\x1a\n"]
+)
+def test_a_damaged_reference_is_one_line(model, tmp_path, capfd, data):
+    (tmp_path / "old.ppm").write_bytes(data)
+    arguments = [*SMALL, "-o", "new.png", "--reference", "old.ppm"]
+    assert main(["render", str(model), *arguments]) == 1
+    error = capfd.readouterr().err
+    assert error.startswith("engine3d: error: old.ppm: ") and error.count("\n") == 1
+
+
 def test_convert(model, tmp_path, capfd):
     assert main(["convert", str(model), "out.ply"]) == 0
     mesh = e3d.load_mesh("out.ply")

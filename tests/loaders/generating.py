@@ -51,6 +51,14 @@ def mutated(data: bytes, choice: random.Random) -> bytes:
     return bytes(data)
 
 
+def enlarged(data: bytes, choice: random.Random, size: int) -> bytes:
+    """Repeat a piece of a file until that has about so many bytes: what takes long shows here."""
+    ends = [0, len(data), *(at + 1 for at, byte in enumerate(data) if byte == 10)]
+    first, end = sorted(choice.choice(ends) for _ in range(2))
+    piece = data[first:end] or data or b" "
+    return data[:first] + piece * (size // len(piece)) + data[end:]
+
+
 # ---- pieces ----
 
 

@@ -170,6 +170,7 @@ def test_vertices_that_are_not_finite_do_not_count():
         [[-5, 0, 0], [5, 0, 0]],
         [[0, -1, 0], [0, 1, 0], [1e-9, 0, 0]],
         [[1e7, 1e7, 1e7], [1e7 + 1, 1e7, 1e7], [1e7, 1e7 + 1, 1e7]],
+        [[1e20, 1e20, 1e20], [2e20, 1e20, 1e20], [1e20, 2e20, 1e20]],
     ],
 )
 def test_flat_and_faraway_things_have_a_view(points):
@@ -178,6 +179,13 @@ def test_flat_and_faraway_things_have_a_view(points):
     for direction in [(0, 0, -1), (-1, 0, 0), (0, -1, 0), (-1, -1, -1)]:
         camera, pose = e3d.frame_scene(scene, direction=direction)
         assert np.abs(ndc(camera, pose, vertices(scene))).max() <= 1
+
+
+def test_what_no_camera_shows_is_a_clear_error():
+    scene = e3d.Scene()
+    scene.add(e3d.Mesh([(1e17, 1e17, 1e17)], points=[0]))  # so far away that it has no size
+    with pytest.raises(e3d.InvalidArgumentError, match="too large for a camera"):
+        e3d.frame_scene(scene)
 
 
 def test_frame_scene_of_nothing_has_a_view():

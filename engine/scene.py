@@ -72,7 +72,7 @@ class Scene:
         self._cameras: dict[int, Node] = {}
         self._lights: dict[int, Node] = {}
         self._colliders: dict[int, Node] = {}
-        self._placed_colliders: tuple | None = None
+        self._placed_colliders = None  # made when asked for
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
         self.warnings: list[str] = []

@@ -116,6 +116,9 @@ void e3d_tree_select(const e3d_tree *tree, const double *boxes, const double cli
 
 /* Sets the bits of the items whose boxes meet a box; touching counts. */
 void e3d_tree_overlaps(const e3d_tree *tree, const double low[3], const double high[3], uint64_t *bits);
+/* Sets the bits of the items whose boxes a ray (unit direction) may meet, no farther than `farthest`. */
+void e3d_tree_ray(const e3d_tree *tree, const double origin[3], const double direction[3], double farthest,
+                  uint64_t *bits);
 
 /* ---- Draws ---- */
 

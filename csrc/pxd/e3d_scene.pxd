@@ -78,6 +78,11 @@ cdef extern from "e3d_scene.h" nogil:
         const e3d_tree *tree, const double *low, const double *high, uint64_t *bits
     )
 
+    void e3d_tree_ray(
+        const e3d_tree *tree, const double *origin, const double *direction, double farthest,
+        uint64_t *bits,
+    )
+
     ctypedef struct e3d_shape:
         int32_t known
         int32_t face_count

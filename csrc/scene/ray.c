@@ -32,6 +32,7 @@ typedef struct search {
     int32_t slot, instance, missing;
     const e3d_shape *shape;
     e3d_hit *hit;
+    uint64_t *bits; /* where only boxes are asked for */
 } search;
 
 typedef void meet(search *s, int32_t item);
@@ -295,4 +296,16 @@ int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_sh
     walk(tree, &s.ray, &s, meet_node);
     e3d_fpenv_leave(saved);
     return s.missing;
+}
+
+static void note_item(search *s, int32_t item) { s->bits[item >> 6] |= (uint64_t)1 << (item & 63); }
+
+void e3d_tree_ray(const e3d_tree *tree, const double origin[3], const double direction[3], double farthest,
+                  uint64_t *bits)
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    e3d_hit end = {.distance = farthest};
+    search s = {.ray = make_ray(origin, direction), .hit = &end, .bits = bits};
+    walk(tree, &s.ray, &s, note_item);
+    e3d_fpenv_leave(saved);
 }

@@ -19,6 +19,13 @@ class NativeTree:
         high: NDArray[np.float64],
         bits: NDArray[np.uint64],
     ) -> None: ...
+    def on_ray(
+        self,
+        origin: NDArray[np.float64],
+        direction: NDArray[np.float64],
+        farthest: float,
+        bits: NDArray[np.uint64],
+    ) -> None: ...
     @property
     def address(self) -> int: ...
 

@@ -55,6 +55,19 @@ cdef class NativeTree:
         if self.count:
             e3d_tree_overlaps(self.tree, &low[0], &high[0], &bits[0])
 
+    def on_ray(
+        self,
+        const double[::1] origin not None,
+        const double[::1] direction not None,
+        double farthest,
+        uint64_t[::1] bits not None,
+    ):
+        """Set the bits of the items whose boxes a ray of unit direction may meet."""
+        if origin.shape[0] != 3 or direction.shape[0] != 3 or 64 * bits.shape[0] < self.count:
+            raise InvalidArgumentError("a ray has two vectors, and a selection a bit an item")
+        if self.count:
+            e3d_tree_ray(self.tree, &origin[0], &direction[0], farthest, &bits[0])
+
     @property
     def address(self):
         """Of the handle, for another module of this package; true for as long as this lives."""

@@ -1,8 +1,9 @@
 """Shapes that nodes put around themselves, to be found by boxes, spheres and rays.
 
 In: a collider assigned to ``node.collider``, and queries in world space. Out: the nodes whose
-colliders are met, in the order in which the nodes were added. Everything is float64, an element at
-a time: all colliders at once for boxes and spheres, and through the mesh's tree for its faces.
+colliders are met, in the order in which the nodes were added. A tree of the colliders' boxes finds
+those that may be met; then everything is float64, an element at a time, and goes through the
+mesh's own tree for its faces.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import linalg
+from .._native.scene_graph import BOX, SHOWN, NativeTree
 from ..attributes import positive, vector3
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
@@ -97,45 +99,89 @@ def check_collider(node: Node, collider) -> None:
 
 
 class _Placed:
-    """The colliders of a scene where they are now: world boxes of all, spheres, meshes."""
+    """The colliders of a scene where they are now: world boxes and spheres, and a tree of them."""
 
     def __init__(self, scene) -> None:
-        self.nodes = [node for node in scene._colliders.values() if node.shown]
-        poses = scene.select(self.nodes).world_poses
-        self.boxes = np.empty((len(self.nodes), 2, 3))
-        self.centers = np.zeros((len(self.nodes), 3))
-        self.radii = np.full(len(self.nodes), -1.0)  # of spheres
-        self.meshes: dict[int, tuple[Mesh, np.ndarray]] = {}
-        for row, (node, pose) in enumerate(zip(self.nodes, poses, strict=True)):
-            self._place(row, node, pose)
+        self.nodes = list(scene._colliders.values())
+        self._selection = scene.select(self.nodes)
+        self._removals = scene._removals
+        self._state: tuple | None = None
+        count = len(self.nodes)
+        self._middles, self._halves = np.zeros((count, 3)), np.zeros((count, 3))
+        self._radii = np.full(count, -1.0)  # of spheres
+        self._versions: dict[Mesh, int] = {}
+        self.meshes: dict[int, Mesh] = {}
+        for row, node in enumerate(self.nodes):
+            self._describe(row, node)
 
-    def _place(self, row: int, node: Node, pose: np.ndarray) -> None:
+    def _describe(self, row: int, node: Node) -> None:
+        """Keep what a collider is in its node's space."""
         collider = node.collider
         if isinstance(collider, SphereCollider):
-            axes = linalg.length(pose[:3, :3].T)
-            self.centers[row] = linalg.transform_points(pose, collider.center)
-            self.radii[row] = collider.radius * float(axes.max())
-            self.boxes[row] = self.centers[row] + np.array([[-1.0], [1.0]]) * self.radii[row]
+            self._middles[row], self._radii[row] = collider.center, collider.radius
             return
-        if isinstance(collider, MeshCollider):
-            self.meshes[row] = _mesh_of(node), pose
         mesh = _mesh_of(node)
-        box = collider.box if mesh is None else mesh.bounds
-        center, half = (box[0] + box[1]) * 0.5, (box[1] - box[0]) * 0.5
-        middle = linalg.transform_points(pose, center)
-        around = linalg.transform_directions(np.abs(pose), half)
-        self.boxes[row] = middle - around, middle + around
+        if isinstance(collider, MeshCollider):
+            self.meshes[row] = mesh
+        if mesh is not None:
+            self._versions[mesh] = mesh.version
+        low, high = collider.box if mesh is None else mesh.bounds
+        self._middles[row], self._halves[row] = (low + high) * 0.5, (high - low) * 0.5
+
+    def is_of(self, scene) -> bool:
+        """Whether these are the scene's colliders still."""
+        return self._removals == scene._removals and all(
+            mesh.version == version for mesh, version in self._versions.items()
+        )
+
+    def follow(self, scene) -> None:
+        """Find where the colliders are, if anything moved."""
+        state = scene._arrays, scene._arrays.changes
+        if self._state == state:
+            return
+        self.poses = poses = self._selection.world_poses
+        shown = scene._arrays.columns["flags"][self._selection._rows] & SHOWN != 0
+        self.centers = linalg.dot(poses[:, :3, :3], self._middles[:, np.newaxis]) + poses[:, :3, 3]
+        around = linalg.dot(np.abs(poses[:, :3, :3]), self._halves[:, np.newaxis])
+        scales = linalg.length(poses[:, :3, :3].transpose(0, 2, 1)).max(axis=1, initial=0.0)
+        spheres = self._radii >= 0.0
+        self.radii = np.where(spheres, self._radii * scales, -1.0)
+        around = np.where(spheres[:, np.newaxis], self.radii[:, np.newaxis], around)
+        self.boxes = np.stack([self.centers - around, self.centers + around], axis=1)
+        rows = np.empty((len(poses), BOX))
+        rows[:, :6] = self.boxes.reshape(-1, 6)
+        rows[:, 6] = np.abs(rows[:, :6]).max(axis=1, initial=0.0)
+        rows[~shown, :3], rows[~shown, 3:6] = np.inf, -np.inf
+        self._tree = NativeTree(rows)
+        self._state = state
+
+    def in_box(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Rows of colliders whose boxes may meet a box, in order."""
+        bits = self._bits()
+        self._tree.overlaps(low, high, bits)
+        return self._rows_of(bits)
+
+    def on_ray(self, origin: np.ndarray, direction: np.ndarray, farthest: float) -> np.ndarray:
+        """Rows of colliders whose boxes a ray may meet, in order."""
+        bits = self._bits()
+        self._tree.on_ray(origin, direction, farthest, bits)
+        return self._rows_of(bits)
+
+    def _bits(self) -> np.ndarray:
+        return np.zeros((len(self.nodes) + 63) // 64, np.uint64)
+
+    def _rows_of(self, bits: np.ndarray) -> np.ndarray:
+        return np.flatnonzero(np.unpackbits(bits.view(np.uint8), bitorder="little"))
 
 
 def _placed(scene) -> _Placed:
     """The colliders, found anew when something moved or a mesh changed."""
     scene._update()
-    meshes = (_mesh_of(node) for node in scene._colliders.values())
-    versions = [None if mesh is None else mesh.version for mesh in meshes]
-    state = scene._arrays, scene._arrays.changes, versions
-    if scene._placed_colliders is None or scene._placed_colliders[0] != state:
-        scene._placed_colliders = state, _Placed(scene)
-    return scene._placed_colliders[1]
+    placed = scene._placed_colliders
+    if placed is None or not placed.is_of(scene):
+        placed = scene._placed_colliders = _Placed(scene)
+    placed.follow(scene)
+    return placed
 
 
 def _mesh_of(node: Node) -> Mesh | None:
@@ -152,29 +198,35 @@ def overlap_box(scene, low, high) -> tuple[Node, ...]:
     if (low > high).any():
         raise InvalidArgumentError("low must not be above high")
     placed = _placed(scene)
-    meets = ((placed.boxes[:, 0] <= high) & (placed.boxes[:, 1] >= low)).all(axis=1)
-    nearest = np.minimum(np.maximum(placed.centers, low), high) - placed.centers
-    spheres = placed.radii >= 0
-    meets &= ~spheres | (linalg.dot(nearest, nearest) <= placed.radii * placed.radii)
-    return _those(placed, meets, lambda mesh, pose: _mesh_meets_box(mesh, pose, low, high))
+    rows = placed.in_box(low, high)
+    boxes, centers, radii = placed.boxes[rows], placed.centers[rows], placed.radii[rows]
+    meets = ((boxes[:, 0] <= high) & (boxes[:, 1] >= low)).all(axis=1)
+    nearest = np.minimum(np.maximum(centers, low), high) - centers
+    meets &= (radii < 0) | (linalg.dot(nearest, nearest) <= radii * radii)
+    return _those(placed, rows[meets], lambda mesh, pose: _mesh_meets_box(mesh, pose, low, high))
 
 
 def overlap_sphere(scene, center, radius) -> tuple[Node, ...]:
     """See `Scene.overlap_sphere`."""
     center, radius = vector3(center, "center"), positive(radius, "radius")
     placed = _placed(scene)
-    nearest = np.minimum(np.maximum(center, placed.boxes[:, 0]), placed.boxes[:, 1]) - center
+    rows = placed.in_box(center - radius, center + radius)
+    boxes, centers, radii = placed.boxes[rows], placed.centers[rows], placed.radii[rows]
+    nearest = np.minimum(np.maximum(center, boxes[:, 0]), boxes[:, 1]) - center
     meets = linalg.dot(nearest, nearest) <= radius * radius
-    spheres = placed.radii >= 0
-    apart, reach = placed.centers - center, placed.radii + radius
-    meets &= ~spheres | (linalg.dot(apart, apart) <= reach * reach)
-    return _those(placed, meets, lambda mesh, pose: _mesh_meets_sphere(mesh, pose, center, radius))
+    apart, reach = centers - center, radii + radius
+    meets &= (radii < 0) | (linalg.dot(apart, apart) <= reach * reach)
+    meshes = lambda mesh, pose: _mesh_meets_sphere(mesh, pose, center, radius)  # noqa: E731
+    return _those(placed, rows[meets], meshes)
 
 
-def _those(placed: _Placed, meets: np.ndarray, mesh_meets) -> tuple[Node, ...]:
-    rows = np.flatnonzero(meets).tolist()
-    rows = [row for row in rows if row not in placed.meshes or mesh_meets(*placed.meshes[row])]
-    return tuple(placed.nodes[row] for row in rows)
+def _those(placed: _Placed, rows: np.ndarray, mesh_meets) -> tuple[Node, ...]:
+    meshes = placed.meshes
+    return tuple(
+        placed.nodes[row]
+        for row in rows.tolist()
+        if row not in meshes or mesh_meets(meshes[row], placed.poses[row])
+    )
 
 
 def _mesh_meets_box(mesh: Mesh, pose, low, high) -> bool:
@@ -207,17 +259,19 @@ def raycast_colliders(scene, origin, direction, max_distance) -> ColliderHit | N
         raise InvalidArgumentError("a ray needs a direction, and a max_distance of 0 or more")
     direction = linalg.normalize(direction)
     placed = _placed(scene)
-    distances = _into_boxes(placed.boxes, origin, direction)
-    spheres = placed.radii >= 0
-    into = _into_spheres(placed.centers, placed.radii, origin, direction)
-    distances = np.where(spheres, into, distances)
+    rows = placed.on_ray(origin, direction, max_distance)
+    distances = _into_boxes(placed.boxes[rows], origin, direction)
+    radii = placed.radii[rows]
+    into = _into_spheres(placed.centers[rows], radii, origin, direction)
+    distances = np.where(radii >= 0, into, distances)
     nearest, row = max_distance, -1
-    for candidate in np.argsort(distances, kind="stable").tolist():
-        if not distances[candidate] <= nearest or math.isinf(distances[candidate]):
+    for number in np.argsort(distances, kind="stable").tolist():
+        distance, candidate = float(distances[number]), int(rows[number])
+        if not distance <= nearest or math.isinf(distance):
             break
-        distance = float(distances[candidate])
         if candidate in placed.meshes:
-            distance = _into_mesh(*placed.meshes[candidate], origin, direction)
+            mesh, pose = placed.meshes[candidate], placed.poses[candidate]
+            distance = _into_mesh(mesh, pose, origin, direction)
         if distance < nearest or (distance == nearest and (row < 0 or candidate < row)):
             nearest, row = distance, candidate
     if row < 0 or math.isinf(nearest):

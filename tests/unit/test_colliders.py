@@ -164,3 +164,62 @@ def test_a_box_without_end_meets_every_mesh_and_nothing_beside_them():
         mesh = e3d.Mesh(positions, np.arange(3 * count).reshape(-1, 3))
         scene.add(mesh).collider = e3d.MeshCollider()
     assert scene.overlap_box((-1e300,) * 3, (1e300,) * 3) == scene.nodes
+
+
+def test_many_colliders_against_each_alone():
+    """Hundreds of all kinds, some hidden, through the tree and one by one; then moved."""
+    random = np.random.default_rng(11)
+    scene = e3d.Scene()
+    mesh = e3d.icosphere(0.5, 1)
+    kinds = (
+        lambda: e3d.SphereCollider(0.6, random.normal(0, 0.2, 3)),
+        lambda: e3d.BoxCollider((-0.5, -0.3, -0.4), (0.2, 0.5, 0.6)),
+        e3d.BoxCollider,
+        e3d.MeshCollider,
+    )
+    nodes = []
+    for k in range(300):
+        turn, scale = random.normal(size=4), random.uniform(0.3, 2, 3)
+        place = random.uniform(-9, 9, 3)
+        nodes.append(scene.add(mesh, translation=place, rotation=turn, scale=scale))
+        nodes[k].collider = kinds[k % 4]()
+        nodes[k].visible = k % 17 > 0
+
+    def alone(question, *arguments):
+        """The answers of scenes that hold one of the colliders each."""
+        for node in nodes:
+            if node.visible and node._scene is not None:
+                other = e3d.Scene()
+                one = other.add(mesh, pose=node.world_pose)
+                one.collider = node.collider
+                yield node, getattr(other, question)(*arguments)
+
+    met = 0
+    for turn in range(2):
+        for _ in range(2):
+            low = random.uniform(-8, 5, 3)
+            high = low + random.uniform(2, 7, 3)
+            expected = [node for node, found in alone("overlap_box", low, high) if found]
+            assert list(scene.overlap_box(low, high)) == expected
+            met += len(expected)
+            center, radius = random.uniform(-6, 6, 3), random.uniform(2, 4)
+            expected = [n for n, found in alone("overlap_sphere", center, radius) if found]
+            assert list(scene.overlap_sphere(center, radius)) == expected
+            met += len(expected)
+            origin, way = random.uniform(-20, 20, 3), random.normal(size=3)
+            hits = [
+                (hit.distance, node)
+                for node, hit in alone("raycast_colliders", origin, way)
+                if hit is not None
+            ]
+            hit = scene.raycast_colliders(origin, way)
+            nearest = min(hits, key=lambda pair: pair[0], default=None)
+            assert (None if hit is None else (hit.distance, hit.node)) == nearest
+        if turn == 0:
+            for node in nodes[::3]:
+                node.translation = random.uniform(-9, 9, 3)
+            for node in nodes[1::50]:
+                scene.remove(node)
+            nodes[5].collider = None
+            nodes = [node for node in nodes if node.collider is not None]
+    assert met > 20

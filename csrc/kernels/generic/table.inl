@@ -14,11 +14,8 @@
 #include "kernels/generic/record.inl"
 #include "kernels/generic/fragments.inl"
 #include "kernels/generic/raster.inl"
-#ifdef E3D_NARROW_TABLE
-#include "kernels/generic/visible_narrow.inl"
-#else
+#include "kernels/generic/block_rows.inl"
 #include "kernels/generic/visible.inl"
-#endif
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/project.inl"

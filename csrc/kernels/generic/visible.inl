@@ -52,12 +52,24 @@ static inline void visible_ties(uint32_t equal, vf32 z, float *depth, int32_t *k
     float lanes[V_LANES];
     v_storef(lanes, z);
     for (; equal; equal &= equal - 1) {
-        int lane = __builtin_ctz(equal);
-        if (!visible_comes_first(r, kept[lane], table))
+        int lane = __builtin_ctz(equal), at = rows_sample(lane);
+        if (!visible_comes_first(r, kept[at], table))
             continue;
-        depth[lane] = lanes[lane];
-        kept[lane] = id;
+        depth[at] = lanes[lane];
+        kept[at] = id;
     }
+}
+
+/* R14, the part that a column of vectors shares. */
+static inline vf32 visible_column(const raster_constants *c, int32_t from)
+{
+    return v_add(c->z0, v_mul(v_float(v_addi(rows_x(), v_seti(from))), c->gx));
+}
+
+static inline vf32 visible_z(const raster_constants *c, vf32 column, int32_t dy)
+{
+    vf32 z = v_add(column, v_mul(v_float(v_addi(rows_y(), v_seti(dy))), c->gy));
+    return v_min(v_max(z, c->zmin), c->zmax);
 }
 
 /* One vector of samples: `inside` of them are covered. */
@@ -66,12 +78,12 @@ static inline void visible_write(vmask inside, vf32 z, int at, const e3d_record 
 {
     float *depth = tile->z + at;
     int32_t *kept = tile->id + at;
-    vf32 old = v_loadf(depth);
+    vf32 old = rows_loadf(depth);
     vmask pass = v_mand(inside, v_lt(z, old));
     uint32_t equal = v_bits(v_mand(inside, v_eq(z, old)));
     if (v_any(pass)) {
-        v_storef(depth, v_self(pass, z, old));
-        v_storei(kept, v_seli(pass, v_seti(id), v_loadi(kept)));
+        rows_storef(depth, v_self(pass, z, old));
+        rows_storei(kept, v_seli(pass, v_seti(id), rows_loadi(kept)));
     }
     if (equal)
         visible_ties(equal, z, depth, kept, r, id, table);
@@ -95,11 +107,11 @@ static void visible_unfold(e3d_visible_tile *tile, const e3d_record_table *table
     }
     visible_plane p = visible_plane_of(e3d_record_at(table, (uint32_t)id), tile);
     raster_constants c = {v_setf(p.z0), v_setf(p.gx), v_setf(p.gy), v_setf(p.zmin), v_setf(p.zmax), v_seti(id)};
-    for (int x = 0; x < RASTER_BLOCK; x += V_LANES) {
-        vf32 column = raster_column(&c, at % E3D_TILE + x - p.base_x);
-        for (int y = 0; y < RASTER_BLOCK; y++) {
-            v_storef(tile->z + at + y * E3D_TILE + x, raster_z(&c, column, at / E3D_TILE + y - p.base_y));
-            v_storei(tile->id + at + y * E3D_TILE + x, c.slot);
+    for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES) {
+        vf32 column = visible_column(&c, at % E3D_TILE + x - p.base_x);
+        for (int y = 0; y < RASTER_BLOCK; y += ROWS) {
+            rows_storef(tile->z + at + y * E3D_TILE + x, visible_z(&c, column, at / E3D_TILE + y - p.base_y));
+            rows_storei(tile->id + at + y * E3D_TILE + x, c.slot);
         }
     }
 }
@@ -108,24 +120,25 @@ static inline void visible_unfold_ids(e3d_visible_tile *tile, int block)
 {
     int at = block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
     vi32 id = v_seti(tile->noted_id[block]);
-    for (int y = 0; y < RASTER_BLOCK; y++)
-        for (int x = 0; x < RASTER_BLOCK; x += V_LANES)
-            v_storei(tile->id + at + y * E3D_TILE + x, id);
+    for (int y = 0; y < RASTER_BLOCK; y += ROWS)
+        for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES)
+            rows_storei(tile->id + at + y * E3D_TILE + x, id);
 }
 
 /* The farthest depth of a block whose samples are written, anew. */
 static void visible_measure(e3d_visible_tile *tile, int block)
 {
     const float *z = tile->z + block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
-    float lanes[RASTER_BLOCK], most;
-    for (int x = 0; x < RASTER_BLOCK; x += V_LANES) {
-        vf32 far = v_loadf(z + x);
-        for (int y = 1; y < RASTER_BLOCK; y++)
-            far = v_max(far, v_loadf(z + y * E3D_TILE + x));
+    enum { LANES = RASTER_BLOCK * ROWS };
+    float lanes[LANES], most;
+    for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES) {
+        vf32 far = rows_loadf(z + x);
+        for (int y = ROWS; y < RASTER_BLOCK; y += ROWS)
+            far = v_max(far, rows_loadf(z + y * E3D_TILE + x));
         v_storef(lanes + x, far);
     }
     most = lanes[0];
-    for (int x = 1; x < RASTER_BLOCK; x++)
+    for (int x = 1; x < LANES; x++)
         most = most > lanes[x] ? most : lanes[x];
     tile->zmax[block] = most;
     tile->stale &= ~(1ull << block);
@@ -143,46 +156,46 @@ static inline void visible_block(const e3d_piece *p, const raster_constants *c, 
     }
     if (tile->noted >> block & 1)
         visible_unfold(tile, table, block);
-    int y0 = p->y0 > top ? p->y0 : top;
+    int y0 = (p->y0 > top ? p->y0 : top) & -ROWS; /* an edge leaves out what is above the box */
     int y1 = p->y1 < top + RASTER_BLOCK - 1 ? p->y1 : top + RASTER_BLOCK - 1;
     vmask all = v_eqi(c->slot, c->slot);
-    for (int i = x; i < x + RASTER_BLOCK; i += V_LANES) {
-        vf32 column = raster_column(c, i - p->base_x);
+    for (int i = x; i < x + RASTER_BLOCK; i += ROW_LANES) {
+        vf32 column = visible_column(c, i - p->base_x);
         vi32 e[3];
         for (int k = 0; k < 3 && !full; k++)
-            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * i + p->b[k] * y0), raster_step(p->a[k]));
-        for (int y = y0; y <= y1; y++) {
+            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * i + p->b[k] * y0), rows_step(p->a[k], p->b[k]));
+        for (int y = y0; y <= y1; y += ROWS) {
             vmask inside = full ? all : v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
             if (full || v_any(inside))
-                visible_write(inside, raster_z(c, column, y - p->base_y), y * E3D_TILE + i, r,
+                visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + i, r,
                               (int32_t)p->slot, tile, table);
             for (int k = 0; k < 3 && !full; k++)
-                e[k] = v_addi(e[k], v_seti(p->b[k]));
+                e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));
         }
     }
     tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
     tile->stale |= 1ull << block;
 }
 
-/* Depths nearest to and farthest from the viewer, in a vector of blocks of one row. */
+/* Depths nearest to and farthest from the viewer, in a vector of blocks. */
 typedef struct visible_range {
     vf32 near, far;
 } visible_range;
 
-static inline vf32 visible_corner(const raster_constants *c, vi32 dx, int32_t dy)
+static inline vf32 visible_corner(const raster_constants *c, vi32 dx, vi32 dy)
 {
-    vf32 z = v_add(v_add(c->z0, v_mul(v_float(dx), c->gx)), v_mul(v_setf((float)dy), c->gy));
+    vf32 z = v_add(v_add(c->z0, v_mul(v_float(dx), c->gx)), v_mul(v_float(dy), c->gy));
     return v_min(v_max(z, c->zmin), c->zmax);
 }
 
-static inline visible_range visible_range_of(const e3d_piece *p, const raster_constants *c, vi32 x, int32_t top)
+static inline visible_range visible_range_of(const e3d_piece *p, const raster_constants *c, vi32 x, vi32 y)
 {
     const int32_t last = RASTER_BLOCK - 1;
     int32_t near_x = p->gx > 0 ? 0 : last, near_y = p->gy > 0 ? 0 : last;
-    vi32 dx = v_subi(x, v_seti(p->base_x));
-    int32_t dy = top - p->base_y;
-    return (visible_range){visible_corner(c, v_addi(dx, v_seti(near_x)), dy + near_y),
-                           visible_corner(c, v_addi(dx, v_seti(last - near_x)), dy + last - near_y)};
+    vi32 dx = v_subi(x, v_seti(p->base_x)), dy = v_subi(y, v_seti(p->base_y));
+    return (visible_range){
+        visible_corner(c, v_addi(dx, v_seti(near_x)), v_addi(dy, v_seti(near_y))),
+        visible_corner(c, v_addi(dx, v_seti(last - near_x)), v_addi(dy, v_seti(last - near_y)))};
 }
 
 /* Whether no step of R14 can overflow, where the corners would bound nothing. */
@@ -192,23 +205,24 @@ static inline int visible_is_tame(const e3d_piece *p)
     return p->z0 < most && p->z0 > -most && p->gx < most && p->gx > -most && p->gy < most && p->gy > -most;
 }
 
-/* The blocks of one row that lie in the box and may be covered, and those of them that are covered whole. */
+/* The blocks of one vector that lie in the box and may be covered, and those of them that are covered whole. */
 typedef struct visible_cover {
     uint32_t some, whole;
 } visible_cover;
 
-static inline visible_cover visible_cover_of(const e3d_piece *p, vi32 x, int32_t top)
+static inline visible_cover visible_cover_of(const e3d_piece *p, vi32 x, vi32 y, int32_t left, int32_t top)
 {
     const int32_t last = RASTER_BLOCK - 1;
     vi32 least = v_seti(0), most = v_seti(0);
     for (int k = 0; k < 3; k++) {
-        int32_t a = p->a[k] * last, b = p->b[k] * last;
-        vi32 corner = v_addi(v_muli(x, v_seti(p->a[k])), v_seti(p->e[k] + p->b[k] * top));
+        int32_t a = p->a[k] * last, b = p->b[k] * last, first = p->e[k] + p->a[k] * left + p->b[k] * top;
+        vi32 corner = v_addi(rows_step(p->a[k] * RASTER_BLOCK, p->b[k] * RASTER_BLOCK), v_seti(first));
         most = v_ori(most, v_addi(corner, v_seti((a > 0 ? a : 0) + (b > 0 ? b : 0))));
         least = v_ori(least, v_addi(corner, v_seti((a < 0 ? a : 0) + (b < 0 ? b : 0))));
     }
-    vmask left = v_gti(v_seti(p->x0 - last), x), right = v_gti(x, v_seti(p->x1));
-    uint32_t out = v_bits(v_mor(v_mor(left, right), v_negi(most)));
+    vmask across = v_mor(v_gti(v_seti(p->x0 - last), x), v_gti(x, v_seti(p->x1)));
+    vmask down = v_mor(v_gti(v_seti(p->y0 - last), y), v_gti(y, v_seti(p->y1)));
+    uint32_t out = v_bits(v_mor(ROWS > 1 ? v_mor(across, down) : across, v_negi(most)));
     uint32_t all = v_bits(v_eqi(x, x));
     return (visible_cover){all & ~out, all & ~out & ~v_bits(v_negi(least))};
 }
@@ -220,17 +234,18 @@ static inline vmask visible_lanes(uint32_t bits)
     return v_mnot(v_eqi(chosen, v_seti(0)));
 }
 
-static inline void visible_row(const e3d_piece *p, const raster_constants *c, int first, int tame,
+/* One vector of blocks. */
+static inline void visible_blocks(const e3d_piece *p, const raster_constants *c, int first, int tame,
                                const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     int32_t top = first / VISIBLE_BLOCKS * RASTER_BLOCK, left = first % VISIBLE_BLOCKS * RASTER_BLOCK;
-    vi32 x = v_addi(v_seti(left), v_muli(v_iota(), v_seti(RASTER_BLOCK)));
-    visible_cover cover = visible_cover_of(p, x, top);
+    vi32 x = v_addi(v_seti(left), v_shl(rows_x(), 3)), y = v_addi(v_seti(top), v_shl(rows_y(), 3));
+    visible_cover cover = visible_cover_of(p, x, y, left, top);
     if (!cover.some)
         return;
     visible_range range = {c->zmin, c->zmax};
     if (tame)
-        range = visible_range_of(p, c, x, top);
+        range = visible_range_of(p, c, x, y);
     vf32 zmin = v_loadf(tile->zmin + first), zmax = v_loadf(tile->zmax + first);
     uint32_t open = cover.some & ~v_bits(v_gt(range.near, zmax));
     uint32_t before = open & cover.whole & v_bits(v_lt(range.far, zmin));
@@ -254,9 +269,9 @@ static inline void visible_wide(const e3d_piece *p, const raster_constants *c, c
                                 e3d_visible_tile *tile, const e3d_record_table *table)
 {
     int tame = visible_is_tame(p);
-    for (int row = p->y0 / RASTER_BLOCK; row <= p->y1 / RASTER_BLOCK; row++)
-        for (int block = 0; block < VISIBLE_BLOCKS; block += V_LANES)
-            visible_row(p, c, row * VISIBLE_BLOCKS + block, tame, r, tile, table);
+    for (int row = p->y0 / RASTER_BLOCK & -ROWS; row <= p->y1 / RASTER_BLOCK; row += ROWS)
+        for (int block = 0; block < VISIBLE_BLOCKS; block += ROW_LANES)
+            visible_blocks(p, c, row * VISIBLE_BLOCKS + block, tame, r, tile, table);
 }
 
 /* ---- narrow boxes ---- */
@@ -295,21 +310,21 @@ static inline void visible_narrow(const e3d_piece *p, const raster_constants *c,
 {
     if (!visible_open(visible_met(p->x0, p->y0, p->x1, p->y1), p->zmin, tile, table))
         return;
-    int strips = V_LANES >= RASTER_BLOCK ? 1 : (p->x1 - p->x0) / V_LANES + 1;
-    int most = E3D_TILE - strips * V_LANES;
+    int strips = (p->x1 - p->x0) / ROW_LANES + 1, y0 = p->y0 & -ROWS;
+    int most = E3D_TILE - strips * ROW_LANES;
     int x0 = p->x0 < most ? p->x0 : most;
-    for (int x = x0; x < x0 + strips * V_LANES; x += V_LANES) {
+    for (int x = x0; x < x0 + strips * ROW_LANES; x += ROW_LANES) {
         vi32 e[3];
         for (int k = 0; k < 3; k++)
-            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * x + p->b[k] * p->y0), raster_step(p->a[k]));
-        vf32 column = raster_column(c, x - p->base_x);
-        for (int y = p->y0; y <= p->y1; y++) {
+            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * x + p->b[k] * y0), rows_step(p->a[k], p->b[k]));
+        vf32 column = visible_column(c, x - p->base_x);
+        for (int y = y0; y <= p->y1; y += ROWS) {
             vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
             if (v_any(inside))
-                visible_write(inside, raster_z(c, column, y - p->base_y), y * E3D_TILE + x, r,
+                visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + x, r,
                               (int32_t)p->slot, tile, table);
             for (int k = 0; k < 3; k++)
-                e[k] = v_addi(e[k], v_seti(p->b[k]));
+                e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));
         }
     }
 }

@@ -24,6 +24,15 @@ static inline vf32 v_loadf(const float *p) { return _mm512_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm512_loadu_si512(p); }
 static inline void v_storef(float *p, vf32 a) { _mm512_storeu_ps(p, a); }
 static inline void v_storei(void *p, vi32 a) { _mm512_storeu_si512(p, a); }
+/* Lanes 0-7 and 8-15 by themselves. */
+static inline vi32 v_load_halves(const void *low, const void *high) {
+    __m256i first = _mm256_loadu_si256((const __m256i *)low);
+    return _mm512_inserti32x8(_mm512_castsi256_si512(first), _mm256_loadu_si256((const __m256i *)high), 1);
+}
+static inline void v_store_halves(void *low, void *high, vi32 a) {
+    _mm256_storeu_si256((__m256i *)low, _mm512_castsi512_si256(a));
+    _mm256_storeu_si256((__m256i *)high, _mm512_extracti32x8_epi32(a, 1));
+}
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)p));
 }

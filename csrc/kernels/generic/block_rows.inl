@@ -1,0 +1,31 @@
+/* Vectors over the rows of a block of 8 x 8 samples: of sixteen lanes, eight are of one row and eight of the next.
+ *
+ * What a vector covers is a part of a row, or whole rows from an even one on.
+ */
+
+enum { ROW_LANES = V_LANES < 8 ? V_LANES : 8, ROWS = V_LANES / ROW_LANES };
+
+static inline vi32 rows_x(void) { return ROWS > 1 ? v_andi(v_iota(), v_seti(ROW_LANES - 1)) : v_iota(); }
+static inline vi32 rows_y(void) { return ROWS > 1 ? v_shr(v_iota(), 3) : v_seti(0); }
+
+/* x * a + y * b of each lane. */
+static inline vi32 rows_step(int32_t a, int32_t b)
+{
+    vi32 along = v_muli(rows_x(), v_seti(a));
+    return ROWS > 1 ? v_addi(along, v_muli(rows_y(), v_seti(b))) : along;
+}
+
+#if V_LANES > 8
+static inline vi32 rows_loadi(const void *p) { return v_load_halves(p, (const int32_t *)p + E3D_TILE); }
+static inline void rows_storei(void *p, vi32 a) { v_store_halves(p, (int32_t *)p + E3D_TILE, a); }
+static inline vf32 rows_loadf(const float *p) { return v_asf(rows_loadi(p)); }
+static inline void rows_storef(float *p, vf32 a) { rows_storei(p, v_asi(a)); }
+#else
+static inline vi32 rows_loadi(const void *p) { return v_loadi(p); }
+static inline void rows_storei(void *p, vi32 a) { v_storei(p, a); }
+static inline vf32 rows_loadf(const float *p) { return v_loadf(p); }
+static inline void rows_storef(float *p, vf32 a) { v_storef(p, a); }
+#endif
+
+/* The sample of a lane, after the vector's first. */
+static inline int rows_sample(int lane) { return lane / ROW_LANES * E3D_TILE + lane % ROW_LANES; }

@@ -52,6 +52,7 @@ def setup():
     """Small triangles, half of which look away."""
     rng = np.random.default_rng(1)
     vertices = np.zeros(1, VERTICES)
+    vertices["count"] = CLUSTER_VERTICES
     for name, side in (("sx", 1280), ("sy", 720)):
         vertices[name] = 128 * side + rng.integers(-2000, 2000, CLUSTER_VERTICES)
     indices = rng.integers(0, CLUSTER_VERTICES, 3 * CLUSTER_TRIANGLES, np.uint8)

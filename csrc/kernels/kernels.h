@@ -43,6 +43,7 @@ typedef struct e3d_vertices {
     float iw[E3D_CLUSTER_VERTICES], zn[E3D_CLUSTER_VERTICES];
     int32_t sx[E3D_CLUSTER_VERTICES], sy[E3D_CLUSTER_VERTICES]; /* snapped, 1/256 sample */
     int32_t code[E3D_CLUSTER_VERTICES];
+    int32_t count;
     int32_t codes[E3D_PAD]; /* one after the other, the bits that any vertex has */
 } e3d_vertices;
 

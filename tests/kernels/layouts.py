@@ -40,7 +40,7 @@ VIEWPORT = np.dtype(
 VERTICES = np.dtype(
     [(name, "f4", CLUSTER_VERTICES) for name in ("x", "y", "z", "w", "iw", "zn")]
     + [(name, "i4", CLUSTER_VERTICES) for name in ("sx", "sy", "code")]
-    + [("codes", "i4", PAD)]
+    + [("count", "i4"), ("codes", "i4", PAD)]
 )
 SURVIVORS = np.dtype(
     [

@@ -61,6 +61,7 @@ def run_and_check(rng, viewport, expected, call):
         call(number, int(count), viewport[number : number + 1].view(np.uint8), row)
     for name, values in expected.items():
         check_lanes(name, out.fields[name], values, counts)
+    assert np.array_equal(out.fields["count"], counts)
     out.check_gaps()
 
 

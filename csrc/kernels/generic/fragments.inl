@@ -25,23 +25,15 @@ static inline uint32_t fragment_tail(int left)
     return (uint32_t)((1ull << (left < V_LANES ? left : V_LANES)) - 1);
 }
 
-static inline int fragment_list(uint8_t *list, int count, const uint8_t *triangles, uint32_t bits)
-{
-    for (; bits; bits &= bits - 1)
-        list[count++] = triangles[__builtin_ctz(bits)];
-    return count;
-}
-
 static inline void fragment_sort(const e3d_record_request *q, int first, fragment_lists *lists, e3d_fragments *out)
 {
     vi32 x[3], y[3];
-    int32_t at[3][V_LANES];
     const uint8_t *triangles = q->triangles + first;
     uint32_t asked = fragment_tail(q->count - first);
-    record_places(q->indices, triangles, at);
     for (int k = 0; k < 3; k++) {
-        x[k] = v_gatheri(q->vertices->sx, v_loadi(at[k]));
-        y[k] = v_gatheri(q->vertices->sy, v_loadi(at[k]));
+        vi32 i = record_places(q->indices, triangles, k);
+        x[k] = v_gatheri(q->vertices->sx, i);
+        y[k] = v_gatheri(q->vertices->sy, i);
     }
     vi32 xlo = setup_min3(x[0], x[1], x[2]), xhi = setup_max3(x[0], x[1], x[2]);
     vi32 ylo = setup_min3(y[0], y[1], y[2]), yhi = setup_max3(y[0], y[1], y[2]);
@@ -53,19 +45,16 @@ static inline void fragment_sort(const e3d_record_request *q, int first, fragmen
     vmask empty = v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last));
     vmask culled = v_mor(empty, setup_culled(setup_area(x, y), q->cull));
     uint32_t tinies = v_bits(v_mandnot(tiny, culled)) & asked;
-    out->rests = fragment_list(out->rest, out->rests, triangles, asked & ~v_bits(small));
-    lists->smalls = fragment_list(lists->small, lists->smalls, triangles,
-                                  v_bits(v_mandnot(v_mandnot(small, tiny), culled)) & asked);
+    vi32 triangle = v_loadu8(triangles);
+    out->rests += v_pack8(out->rest + out->rests, triangle, asked & ~v_bits(small));
+    lists->smalls += v_pack8(lists->small + lists->smalls, triangle,
+                             asked & v_bits(v_mandnot(v_mandnot(small, tiny), culled)));
     if (!tinies)
         return;
-    int32_t covers[V_LANES];
     vi32 cover = record_cover(x, y, across, down);
-    v_storei(covers, cover);
-    for (tinies &= ~v_bits(v_eqi(cover, v_seti(0))); tinies; tinies &= tinies - 1) {
-        int lane = __builtin_ctz(tinies);
-        lists->tiny[lists->tinies] = triangles[lane];
-        lists->cover[lists->tinies++] = (uint8_t)covers[lane];
-    }
+    tinies &= ~v_bits(v_eqi(cover, v_seti(0)));
+    v_pack8(lists->cover + lists->tinies, cover, tinies);
+    lists->tinies += v_pack8(lists->tiny + lists->tinies, triangle, tinies);
 }
 
 /* One vector of triangles, as their fragments need them. */

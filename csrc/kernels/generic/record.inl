@@ -9,20 +9,17 @@ typedef struct record_corners {
     vf32 zn[3], iw[3];
 } record_corners;
 
-static inline void record_places(const uint8_t *indices, const uint8_t *triangles, int32_t at[3][V_LANES])
+/* The local indices of corner k of each lane's triangle. */
+static inline vi32 record_places(const uint8_t *indices, const uint8_t *triangles, int k)
 {
-    for (int k = 0; k < 3; k++)
-        for (int l = 0; l < V_LANES; l++)
-            at[k][l] = indices[k * E3D_CLUSTER_TRIANGLES + triangles[l]];
+    return v_gatheru8(indices + k * E3D_CLUSTER_TRIANGLES, v_loadu8(triangles));
 }
 
 static inline record_corners record_fetch(const e3d_vertices *v, const uint8_t *indices, const uint8_t *triangles)
 {
-    int32_t at[3][V_LANES];
     record_corners c;
-    record_places(indices, triangles, at);
     for (int k = 0; k < 3; k++) {
-        vi32 i = v_loadi(at[k]);
+        vi32 i = record_places(indices, triangles, k);
         c.x[k] = v_gatheri(v->sx, i);
         c.y[k] = v_gatheri(v->sy, i);
         c.zn[k] = v_gatherf(v->zn, i);
@@ -140,12 +137,11 @@ typedef struct record_list {
 static inline void record_try(const e3d_record_request *q, int first, record_list *list)
 {
     vi32 x[3], y[3];
-    int32_t at[3][V_LANES], covers[V_LANES];
     const uint8_t *triangles = q->triangles + first;
-    record_places(q->indices, triangles, at);
     for (int k = 0; k < 3; k++) {
-        x[k] = v_gatheri(q->vertices->sx, v_loadi(at[k]));
-        y[k] = v_gatheri(q->vertices->sy, v_loadi(at[k]));
+        vi32 i = record_places(q->indices, triangles, k);
+        x[k] = v_gatheri(q->vertices->sx, i);
+        y[k] = v_gatheri(q->vertices->sy, i);
     }
     vi32 xlo = setup_min3(x[0], x[1], x[2]), xhi = setup_max3(x[0], x[1], x[2]);
     vi32 ylo = setup_min3(y[0], y[1], y[2]), yhi = setup_max3(y[0], y[1], y[2]);
@@ -154,17 +150,14 @@ static inline void record_try(const e3d_record_request *q, int first, record_lis
     vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* than 32-bit products hold */
     vmask tiny = v_mandnot(v_mand(record_short(across), record_short(down)), large);
     uint32_t tinies = v_bits(tiny), keep = q->count - first >= V_LANES ? ~0u : (1u << (q->count - first)) - 1;
-    v_storei(covers, v_seti(0));
+    vi32 cover = v_seti(0);
     if (tinies) {
-        vi32 cover = v_seli(tiny, record_cover(x, y, across, down), v_seti(0));
+        cover = v_seli(tiny, record_cover(x, y, across, down), cover);
         keep &= ~(tinies & v_bits(v_eqi(cover, v_seti(0))));
-        v_storei(covers, cover);
     }
-    for (keep &= v_bits(v_eqi(x[0], x[0])); keep; keep &= keep - 1) {
-        int lane = __builtin_ctz(keep);
-        list->triangles[list->count] = triangles[lane];
-        list->cover[list->count++] = (uint8_t)covers[lane];
-    }
+    keep &= v_bits(v_eqi(x[0], x[0])); /* all lanes */
+    v_pack8(list->cover + list->count, cover, keep);
+    list->count += v_pack8(list->triangles + list->count, v_loadu8(triangles), keep);
 }
 
 /* Flags of a record, with the cover of a tiny one. */

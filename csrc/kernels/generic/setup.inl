@@ -90,20 +90,23 @@ static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int tria
                          const e3d_viewport *viewport, e3d_survivors *out)
 {
     int draws = 0, clips = 0, codes = setup_any_code(v);
+    const vtable across = v_table(v->sx, v->count), down = v_table(v->sy, v->count);
     for (int i = 0; i < triangles; i += V_LANES) {
         vi32 x[3], y[3];
         for (int k = 0; k < 3; k++) {
-            x[k] = setup_fetch(v->sx, indices + k * E3D_CLUSTER_TRIANGLES, i);
-            y[k] = setup_fetch(v->sy, indices + k * E3D_CLUSTER_TRIANGLES, i);
+            vi32 at = v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i);
+            x[k] = v_lookup(&across, at);
+            y[k] = v_lookup(&down, at);
         }
         uint32_t tail = triangles - i >= V_LANES ? ~0u : (1u << (triangles - i)) - 1;
+        vi32 triangle = v_addi(v_seti(i), v_iota());
         vmask miss = setup_misses(x, y, cull, viewport);
         if (!codes) { /* all vertices are well inside the frustum */
-            draws = setup_append(out->draw, draws, v_bits(v_mnot(miss)) & tail, i);
+            draws += v_pack8(out->draw + draws, triangle, v_bits(v_mnot(miss)) & tail);
             continue;
         }
         setup_fate fate = setup_fate_of(v, indices, i);
-        draws = setup_append(out->draw, draws, v_bits(v_mandnot(fate.draw, miss)) & tail, i);
+        draws += v_pack8(out->draw + draws, triangle, v_bits(v_mandnot(fate.draw, miss)) & tail);
         clips = setup_append(out->clip, clips, v_bits(fate.clip) & tail, i);
     }
     out->draws = draws;

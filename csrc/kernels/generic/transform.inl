@@ -63,8 +63,9 @@ static inline vf32 transform_row(const float *m, vf32 x, vf32 y, vf32 z)
 }
 
 /* Padding repeats a vertex, so that it adds no bits. */
-static inline void transform_codes(vi32 codes, e3d_vertices *out)
+static inline void transform_end(vi32 codes, int count, e3d_vertices *out)
 {
+    out->count = count;
     for (int i = 0; i < E3D_PAD; i += V_LANES)
         v_storei(out->codes + i, codes);
 }
@@ -81,7 +82,7 @@ static void kernel_transform(const float *positions, int stride, int count, cons
                                      viewport, out, i);
         codes = v_ori(codes, code);
     }
-    transform_codes(codes, out);
+    transform_end(codes, count, out);
 }
 
 static void kernel_take_clip(const float *positions, int stride, int count,
@@ -92,5 +93,5 @@ static void kernel_take_clip(const float *positions, int stride, int count,
         codes = v_ori(codes, transform_finish(v_loadf(positions + i), v_loadf(positions + stride + i),
                                               v_loadf(positions + 2 * stride + i),
                                               v_loadf(positions + 3 * stride + i), viewport, out, i));
-    transform_codes(codes, out);
+    transform_end(codes, count, out);
 }

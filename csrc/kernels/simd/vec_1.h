@@ -27,8 +27,15 @@ static inline void v_storef(float *p, vf32 a) { *p = a; }
 static inline void v_storei(void *p, vi32 a) { memcpy(p, &a, 4); }
 static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
 static inline vi32 v_loadu16(const uint16_t *p) { return *p; }
+/* Bytes base[index]; the base is aligned to four bytes, and whole fours are read. */
+static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) { return base[i]; }
 static inline vf32 v_gatherf(const float *base, vi32 i) { return base[i]; }
 static inline vi32 v_gatheri(const void *base, vi32 i) { return ((const int32_t *)base)[i]; }
+
+/* A table of at most 128 numbers, of which `count` are looked up often. */
+typedef const int32_t *vtable;
+static inline vtable v_table(const int32_t *base, int count) { (void)count; return base; }
+static inline vi32 v_lookup(const vtable *t, vi32 i) { return (*t)[i]; }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return a + b; }
 static inline vf32 v_sub(vf32 a, vf32 b) { return a - b; }
@@ -99,6 +106,8 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c,
 
 /* The lanes whose bits are set, one after the other; returns how many. A whole vector is written. */
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { memcpy(out, &a, 4); return (int)bits; }
+/* The same, of numbers below 256 to bytes. */
+static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { *out = (uint8_t)a; return (int)bits; }
 
 /* Elements base[index[lane]] of an array, 0 <= index < V_LANES; prepared once for many arrays. */
 typedef int32_t vpick;

@@ -33,6 +33,15 @@ static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm256_i32gathe
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm256_i32gather_epi32((const int *)base, i, 4);
 }
+static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) {
+    __m256i four = _mm256_i32gather_epi32((const int *)base, _mm256_srli_epi32(i, 2), 4);
+    __m256i shift = _mm256_slli_epi32(_mm256_and_si256(i, _mm256_set1_epi32(3)), 3);
+    return _mm256_and_si256(_mm256_srlv_epi32(four, shift), _mm256_set1_epi32(255));
+}
+
+typedef const int32_t *vtable;
+static inline vtable v_table(const int32_t *base, int count) { (void)count; return base; }
+static inline vi32 v_lookup(const vtable *t, vi32 i) { return v_gatheri(*t, i); }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return _mm256_add_ps(a, b); }
 static inline vf32 v_sub(vf32 a, vf32 b) { return _mm256_sub_ps(a, b); }
@@ -108,6 +117,10 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
 static inline int v_pack(void *out, vi32 a, uint32_t bits) {
     int low = pack_four(out, _mm256_castsi256_si128(a), bits & 15);
     return low + pack_four((int32_t *)out + low, _mm256_extracti128_si256(a, 1), bits >> 4);
+}
+static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) {
+    int low = pack_bytes(out, _mm256_castsi256_si128(a), bits & 15);
+    return low + pack_bytes(out + low, _mm256_extracti128_si256(a, 1), bits >> 4);
 }
 
 typedef __m256i vpick;

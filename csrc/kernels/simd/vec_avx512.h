@@ -43,6 +43,33 @@ static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm512_i32gathe
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm512_i32gather_epi32(i, base, 4);
 }
+static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) {
+    __m512i four = _mm512_i32gather_epi32(_mm512_srli_epi32(i, 2), base, 4);
+    __m512i shift = _mm512_slli_epi32(_mm512_and_si512(i, _mm512_set1_epi32(3)), 3);
+    return _mm512_and_si512(_mm512_srlv_epi32(four, shift), _mm512_set1_epi32(255));
+}
+
+/* Up to 64 numbers fit four registers, where they are found faster than by a gather. */
+typedef struct vtable {
+    const int32_t *base;
+    int halves;
+    __m512i part[4];
+} vtable;
+static inline vtable v_table(const int32_t *base, int count) {
+    vtable t = {base, count <= 32 ? 1 : count <= 64 ? 2 : 0, {{0}}};
+    for (int k = 0; k < 4; k++)
+        t.part[k] = _mm512_loadu_si512(base + 16 * k);
+    return t;
+}
+static inline vi32 v_lookup(const vtable *t, vi32 i) {
+    if (!t->halves)
+        return v_gatheri(t->base, i);
+    vi32 low = _mm512_permutex2var_epi32(t->part[0], i, t->part[1]);
+    if (t->halves == 1)
+        return low;
+    vi32 high = _mm512_permutex2var_epi32(t->part[2], i, t->part[3]);
+    return _mm512_mask_blend_epi32(_mm512_test_epi32_mask(i, _mm512_set1_epi32(32)), low, high);
+}
 
 static inline vf32 v_add(vf32 a, vf32 b) { return _mm512_add_ps(a, b); }
 static inline vf32 v_sub(vf32 a, vf32 b) { return _mm512_sub_ps(a, b); }
@@ -118,6 +145,11 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
 
 static inline int v_pack(void *out, vi32 a, uint32_t bits) {
     v_storei(out, _mm512_maskz_compress_epi32((__mmask16)bits, a));
+    return __builtin_popcount(bits);
+}
+static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) {
+    __m512i packed = _mm512_maskz_compress_epi32((__mmask16)bits, a);
+    _mm_storeu_si128((__m128i *)out, _mm512_cvtepi32_epi8(packed));
     return __builtin_popcount(bits);
 }
 

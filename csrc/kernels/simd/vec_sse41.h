@@ -36,9 +36,17 @@ static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
 }
+static inline vi32 v_gatheru8(const uint8_t *b, vi32 i) {
+    return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
+                          b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
+}
 static inline vf32 v_gatherf(const float *base, vi32 i) {
     return _mm_castsi128_ps(v_gatheri(base, i));
 }
+
+typedef const int32_t *vtable;
+static inline vtable v_table(const int32_t *base, int count) { (void)count; return base; }
+static inline vi32 v_lookup(const vtable *t, vi32 i) { return v_gatheri(*t, i); }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return _mm_add_ps(a, b); }
 static inline vf32 v_sub(vf32 a, vf32 b) { return _mm_sub_ps(a, b); }
@@ -112,6 +120,7 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
 }
 
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { return pack_four(out, a, bits); }
+static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { return pack_bytes(out, a, bits); }
 
 typedef __m128i vpick;
 static inline vpick v_picker(vi32 index) {

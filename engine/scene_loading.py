@@ -59,7 +59,10 @@ def scene_from_document(document: Document) -> Scene:
         scene.add(mesh, name=name, pose=pose)
     bounds = scene.bounds
     for light in document.lights:
-        _add_light(scene, light, bounds)
+        try:
+            _add_light(scene, light, bounds)
+        except InvalidArgumentError as error:
+            scene.warnings.append(f"light {light.name!r} is left out: {error}")
     for camera in document.cameras:
         _add_camera(scene, camera, bounds)
     return scene

@@ -86,6 +86,13 @@ def test_impossible_camera_is_left_out():
     assert "camera 'blind' is left out" in scene.warnings[0]
 
 
+def test_a_light_too_far_to_be_as_bright_is_left_out():
+    record = LightRecord("point", (1e200, 0, 0), name="star")
+    scene = scene_from_document(document_of(lights=[record]))
+    assert objects_of(scene, e3d.PointLight) == []
+    assert "light 'star' is left out" in scene.warnings[0]
+
+
 def test_load_scene_reads_a_file(tmp_path):
     path = tmp_path / "triangle.obj"
     path.write_text("o tri\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

@@ -59,13 +59,18 @@ def scene_from_document(document: Document) -> Scene:
         scene.add(mesh, name=name, pose=pose)
     bounds = scene.bounds
     for light in document.lights:
-        try:
-            _add_light(scene, light, bounds)
-        except InvalidArgumentError as error:
-            scene.warnings.append(f"light {light.name!r} is left out: {error}")
+        _try_light(scene, light, bounds)
     for camera in document.cameras:
         _add_camera(scene, camera, bounds)
     return scene
+
+
+def _try_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
+    """Add a light, or tell why it is left out."""
+    try:
+        _add_light(scene, record, bounds)
+    except InvalidArgumentError as error:
+        scene.warnings.append(f"light {record.name!r} is left out: {error}")
 
 
 def _add_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:

@@ -38,8 +38,8 @@ VIEW_RADIUS = 150.0
 #: Where one starts to walk, and where one looks: yaw and pitch.
 START = (7.2, 62.0)
 GAZE = (0.14, 0.02)
-#: How far from the middle one can walk: finding the ground of more takes its time.
-WALK_RADIUS = 500.0
+#: How far the ground is known around one who walks: the rest is found on the way.
+WALK_RADIUS = 160.0
 NEAREST = 0.1
 
 
@@ -72,14 +72,18 @@ def city(triangles: int | None = None) -> Subject:
 
 
 def _walker(town: World) -> Walker:
-    """Who walks in the city, near its middle."""
-    boxes = np.stack([mesh.bounds for mesh in town.districts])
-    low = np.maximum(boxes[:, 0].min(axis=0), -WALK_RADIUS)[[0, 2]]
-    high = np.minimum(boxes[:, 1].max(axis=0), WALK_RADIUS)[[0, 2]]
-    grid = NavigationGrid(
-        town.districts, walkable=town.walkable, ignore=town.foliage, bounds=(low, high)
-    )
-    return Walker(grid, *START)
+    """Who walks in the city: all over it, on the ground near by."""
+    boxes = np.stack([mesh.bounds for mesh in town.districts])[:, :, [0, 2]]
+    kinds = {"walkable": town.walkable, "ignore": town.foliage}
+
+    def survey(x: float, z: float) -> NavigationGrid:
+        middle = np.rint((x, z))  # cells lie the same in all grids
+        low, high = middle - WALK_RADIUS, middle + WALK_RADIUS
+        near = ((boxes[:, 0] <= high) & (boxes[:, 1] >= low)).all(axis=1)
+        meshes = [town.districts[number] for number in np.flatnonzero(near)]
+        return NavigationGrid(meshes, bounds=(low, high), **kinds)
+
+    return Walker(survey(*START), *START, survey=survey)
 
 
 class _Lamps:

@@ -8,6 +8,7 @@ it passes, so no wall is too thin and no step too long.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -18,6 +19,9 @@ from .grid import NavigationGrid
 _STRIDE = 0.5
 #: Steps in one move: a wish that is longer goes as far as that.
 _MOST_STEPS = 4096
+#: Nearer than so many cells to the grid's edge, a new grid is asked for; then not again for half
+#: as many.
+_EDGE = 80
 
 
 class Walker:
@@ -32,6 +36,9 @@ class Walker:
         About how high; by default the highest layer that is walkable there.
     eye_height : float
         Eyes over the ground.
+    survey : callable, optional
+        From x and z to the `NavigationGrid` around there, with cells that lie as those of ``grid``.
+        Called whenever one comes near the grid's edge, so that the ground may be endless.
 
     Attributes
     ----------
@@ -46,9 +53,18 @@ class Walker:
     """
 
     def __init__(
-        self, grid: NavigationGrid, x: float, z: float, y: float | None = None, eye_height=1.7
+        self,
+        grid: NavigationGrid,
+        x: float,
+        z: float,
+        y: float | None = None,
+        eye_height=1.7,
+        *,
+        survey: Callable[[float, float], NavigationGrid] | None = None,
     ) -> None:
         self.grid = grid
+        self._survey = survey
+        self._surveyed = math.inf, math.inf
         self.eye_height = float(eye_height)
         self._layer, self.x, self.z = _nearest(grid, float(x), float(z), y)
         self.y = self._ground(self.x, self.z)
@@ -69,9 +85,26 @@ class Walker:
         for _ in range(min(count, _MOST_STEPS)):
             # Along the longer part first: that is where the walker rather wants to go.
             parts = ((x, 0.0), (0.0, z)) if abs(x) >= abs(z) else ((0.0, z), (x, 0.0))
+            self._look_around()
             if not (self._step(x, z) or self._step(*parts[0]) or self._step(*parts[1])):
                 break
         return (self.x, self.z) != before
+
+    def _look_around(self) -> None:
+        """Go over to the grid around here if this one ends near by."""
+        if self._survey is None:
+            return
+        column, row = _cell(self.grid, self.x, self.z)
+        rows, columns = self.grid.shape
+        far = math.dist(self._surveyed, (self.x, self.z)) > 0.5 * _EDGE * self.grid.cell
+        if min(column, row, columns - 1 - column, rows - 1 - row) >= _EDGE or not far:
+            return
+        self._surveyed = self.x, self.z
+        grid = self._survey(self.x, self.z)
+        column, row = _cell(grid, self.x, self.z)
+        layer = grid.standing(row, column, self.x, self.z, self.y)
+        if layer is not None:
+            self.grid, self._layer = grid, layer
 
     def _step(self, dx: float, dz: float) -> bool:
         """Go by less than a cell if every cell on the way lets one pass."""

@@ -186,3 +186,38 @@ def test_starting_beside_what_is_walkable():
     assert e3d.Walker(grid, -50.0, 1.2).x < 0.5
     with pytest.raises(InvalidArgumentError, match="nothing"):
         e3d.Walker(e3d.NavigationGrid(floor(0, 0, 1, 1), walkable=()), 0, 0)
+
+
+def test_walking_over_many_grids_is_walking_over_one():
+    """Every step of a long way, on small grids made on the way and on one large grid."""
+    random = np.random.default_rng(7)
+    meshes = [floor(-150, -150, 150, 150)]
+    for x, z in random.uniform(-145, 145, (200, 2)):
+        meshes.append(slab((x, 0, z), (x + 4, random.choice([0.3, 3.0]), z + 3)))
+    whole = e3d.NavigationGrid(meshes, bounds=((-150, -150), (150, 150)))
+    asked = []
+
+    def survey(x, z):
+        middle = np.rint((x, z))
+        low, high = np.maximum(middle - 60, -150), np.minimum(middle + 60, 150)
+        asked.append((x, z))
+        return e3d.NavigationGrid(meshes, bounds=(low, high))
+
+    one = e3d.Walker(whole, 0.0, 0.0)
+    many = e3d.Walker(survey(one.x, one.z), one.x, one.z, survey=survey)
+    farthest = 0.0
+    for step in range(400):
+        if step % 20 == 0:
+            way = random.normal(size=2) * 1.5 + 0.5
+        assert one.move(*way) == many.move(*way)
+        assert (one.x, one.y, one.z) == (many.x, many.y, many.z)
+        farthest = max(farthest, abs(one.x), abs(one.z))
+    assert len(asked) > 3 and farthest > 100
+
+
+def test_a_survey_that_finds_no_ground_changes_nothing():
+    grid = e3d.NavigationGrid(floor(0, 0, 100, 100))
+    nowhere = e3d.NavigationGrid(floor(500, 500, 510, 510))
+    walker = e3d.Walker(grid, 50.0, 50.0, survey=lambda x, z: nowhere)
+    assert walker.move(45.0, 0.0) and walker.x == 95.0
+    assert walker.grid is grid

@@ -2,7 +2,8 @@
  *
  * In:  rows of words. Out: the number of each row, in the order of their first appearance, and the rows
  *      that differ.
- * Rows are taken in blocks: the places of a whole block are fetched before the first is looked at.
+ * Rows are taken in blocks: the places of a whole block are fetched before the first is looked at. A place
+ * holds the row itself, so that finding it is one access to memory.
  * Always: the numbers do not depend on the hash, which a number drawn at random starts: nobody can write
  *      a file whose rows all fall into one place.
  */
@@ -15,22 +16,48 @@
 #include <time.h>
 
 #define BLOCK 64
-#define FIRST_BITS 10
+/* Places for each number. */
+#define LOAD 2
+/* Rows whose bit is fetched before theirs. */
+#define AHEAD 32
+#define FEWEST_PLACES 1024
+/* Two hashes that differ in 32 bits tell as many places apart. */
+#define MOST_PLACES ((size_t)UINT32_MAX)
 #define LARGE_PAGE ((size_t)2 << 20)
 #define MINUS_ZERO UINT32_C(0x80000000)
 
-/* A place of the table: a hash, and the number with that hash + 1; 0 for none. */
-typedef struct place {
-    uint32_t hash, number;
-} place;
+/* Words in pairs, and the most of them a row has; the last one has room for a number in its upper half. */
+#define PAIRS(width) ((width) / 2 + 1)
+#define MOST_PAIRS PAIRS(E3D_ROW_WORDS)
 
+/* A place is a row in pairs of words, -0 as 0, and its number + 1; 0 for none. */
 typedef struct table {
-    place *places;
-    int bits;        /* 2^bits places; the first bits of a hash say which one is its own */
-    size_t count;    /* numbers */
+    uint64_t *places;
+    size_t size;   /* places */
+    size_t width;  /* words of a row */
+    size_t count;  /* numbers */
     uint64_t seed;
-    uint32_t *found; /* the rows that differ */
 } table;
+
+/* Zeros, in large pages where they are many, since they are reached at random. */
+static void *new_zeros(size_t size)
+{
+    if (size < LARGE_PAGE)
+        return calloc(1, size);
+    void *const zeros = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (zeros == MAP_FAILED)
+        return NULL;
+    madvise(zeros, size, MADV_HUGEPAGE);
+    return zeros;
+}
+
+static void free_zeros(void *zeros, size_t size)
+{
+    if (size < LARGE_PAGE)
+        free(zeros);
+    else if (zeros)
+        munmap(zeros, size);
+}
 
 static inline uint64_t mixed(uint64_t a, uint64_t b)
 {
@@ -38,77 +65,75 @@ static inline uint64_t mixed(uint64_t a, uint64_t b)
     return (uint64_t)product ^ (uint64_t)(product >> 64);
 }
 
-/* -0 counts as 0, if zero is -0. */
-static inline uint32_t plain(uint32_t word, uint32_t zero) { return word == zero ? 0 : word; }
+static inline uint32_t number_of(uint64_t last) { return (uint32_t)(last >> 32); }
 
-static inline uint64_t pair_of(const uint32_t *row, size_t at, size_t width, uint32_t zero)
-{
-    const uint64_t low = at < width ? plain(row[at], zero) : 0;
-    return at + 1 < width ? low | (uint64_t)plain(row[at + 1], zero) << 32 : low;
-}
-
-static inline uint32_t hash_of(const uint32_t *row, size_t width, uint32_t zero, uint64_t seed)
+static inline uint32_t hash_of(const uint64_t *row, size_t width, uint64_t seed)
 {
     uint64_t hash = seed;
-    for (size_t i = 0; i < width; i += 4)
-        hash = mixed(hash ^ pair_of(row, i, width, zero),
-                     pair_of(row, i + 2, width, zero) ^ (seed << 32 | seed >> 32));
+    for (size_t i = 0; i < PAIRS(width); i += 2) {
+        const bool has_two = i + 1 < PAIRS(width);
+        hash = mixed(hash ^ (has_two ? row[i] : (uint32_t)row[i]),
+                     (has_two ? (i + 2 < PAIRS(width) ? row[i + 1] : (uint32_t)row[i + 1]) : 0) ^
+                         (seed << 32 | seed >> 32));
+    }
     return (uint32_t)(mixed(hash, UINT64_C(0x9E3779B97F4A7C15)) >> 32);
 }
 
-static inline size_t own_place(const table *t, uint32_t hash) { return hash >> (32 - t->bits); }
-
-static inline size_t next_place(const table *t, size_t at)
+/* The first place that a row of this hash may have. */
+static inline size_t own_place(const table *t, uint32_t hash)
 {
-    return (at + 1) & (((size_t)1 << t->bits) - 1);
+    return (size_t)((uint64_t)hash * t->size >> 32);
 }
 
-/* Empty places; in large pages where there are many, since they are reached at random. */
-static place *new_places(size_t count)
+static size_t bytes_of(size_t places, size_t width) { return places * PAIRS(width) * sizeof(uint64_t); }
+
+
+static void free_places(table *t) { free_zeros(t->places, bytes_of(t->size, t->width)); }
+
+/* The place of a row, or the empty one that it would take. */
+static inline uint64_t *find_place(const table *t, const uint64_t *row, size_t width, uint32_t hash)
 {
-    const size_t size = count * sizeof(place);
-    if (size < LARGE_PAGE)
-        return calloc(count, sizeof(place));
-    place *places = aligned_alloc(LARGE_PAGE, size);
-    if (places) {
-        madvise(places, size, MADV_HUGEPAGE);
-        memset(places, 0, size);
+    const size_t last = PAIRS(width) - 1;
+    uint64_t *place = t->places + own_place(t, hash) * (last + 1);
+    for (;;) {
+        uint64_t differs = (uint32_t)(place[last] ^ row[last]);
+        for (size_t i = 0; i < last; i++)
+            differs |= place[i] ^ row[i];
+        /* One branch, which is right most often. */
+        if (!differs | !number_of(place[last]))
+            return place;
+        place += last + 1;
+        if (place == t->places + t->size * (last + 1))
+            place = t->places;
     }
-    return places;
 }
 
-/* Doubles the room until `wanted` numbers fill no more than half. */
+/* Makes room so that `wanted` numbers fill no more than half. */
 static bool reserve(table *t, size_t wanted)
 {
-    int bits = t->places ? t->bits : FIRST_BITS;
-    while (bits < 32 && (size_t)1 << (bits - 1) < wanted)
-        bits++;
-    if (t->places && bits == t->bits)
+    if (t->places && wanted <= t->size / LOAD)
         return true;
     table grown = *t;
-    grown.bits = bits;
-    grown.places = new_places((size_t)1 << bits);
+    grown.size = wanted * LOAD;
+    if (grown.size < 2 * t->size)
+        grown.size = 2 * t->size;
+    if (grown.size < FEWEST_PLACES)
+        grown.size = FEWEST_PLACES;
+    if (grown.size > MOST_PLACES)
+        grown.size = MOST_PLACES;
+    grown.places = wanted < grown.size ? new_zeros(bytes_of(grown.size, t->width)) : NULL;
     if (!grown.places)
         return false;
-    for (size_t i = 0; t->places && i < (size_t)1 << t->bits; i++) {
-        if (!t->places[i].number)
-            continue;
-        size_t at = own_place(&grown, t->places[i].hash);
-        while (grown.places[at].number)
-            at = next_place(&grown, at);
-        grown.places[at] = t->places[i];
+    const size_t last = PAIRS(t->width) - 1;
+    for (size_t i = 0; t->places && i < t->size; i++) {
+        const uint64_t *const row = t->places + i * (last + 1);
+        if (number_of(row[last]))
+            memcpy(find_place(&grown, row, t->width, hash_of(row, t->width, t->seed)), row,
+                   (last + 1) * sizeof *row);
     }
-    free(t->places);
+    free_places(t);
     *t = grown;
     return true;
-}
-
-static inline bool are_equal(const uint32_t *a, const uint32_t *b, size_t width, uint32_t zero)
-{
-    uint32_t differs = 0;
-    for (size_t i = 0; i < width; i++)
-        differs |= plain(a[i], zero) ^ plain(b[i], zero);
-    return differs == 0;
 }
 
 /* The rows that are still to be read. */
@@ -118,37 +143,60 @@ typedef struct input {
     const e3d_rows *rows;
 } input;
 
-static inline void take_row(input *in, size_t width, uint32_t *words)
+static inline const uint8_t *next_row(input *in, size_t width)
 {
-    memcpy(words, in->record + in->in_record * width * sizeof *words, width * sizeof *words);
+    const uint8_t *const row = in->record + in->in_record * width * sizeof(uint32_t);
     if (++in->in_record == in->rows->in_record) {
         in->in_record = 0;
         in->record += in->rows->stride;
     }
+    return row;
+}
+
+/* -0 counts as 0, if zero is -0. */
+static inline uint64_t plain(uint32_t word, uint32_t zero) { return word == zero ? 0 : word; }
+
+/* The next row in pairs. */
+static inline const uint8_t *take_row(input *in, size_t width, uint32_t zero, uint64_t *pairs)
+{
+    const uint8_t *const row = next_row(in, width);
+    for (size_t i = 0; i + 1 < width; i += 2) {
+        uint32_t two[2];
+        memcpy(two, row + i * sizeof *two, sizeof two);
+        pairs[i / 2] = plain(two[0], zero) | plain(two[1], zero) << 32;
+    }
+    uint32_t odd = 0;
+    if (width % 2)
+        memcpy(&odd, row + (width - 1) * sizeof odd, sizeof odd);
+    pairs[width / 2] = plain(odd, zero);
+    return row;
 }
 
 /* Numbers the next rows, up to BLOCK; inlined for each width. */
-static inline void number_block(table *t, input *in, size_t count, size_t width, int32_t *numbers)
+static inline void number_block(table *t, input *in, size_t count, size_t width, int32_t *numbers,
+                                uint32_t *found)
 {
+    const size_t last = PAIRS(width) - 1;
     const uint32_t zero = in->rows->are_floats ? MINUS_ZERO : 0;
-    uint32_t words[BLOCK * E3D_ROW_WORDS], hashes[BLOCK];
+    uint64_t rows[BLOCK * MOST_PAIRS];
+    uint32_t hashes[BLOCK];
+    const uint8_t *bytes[BLOCK];
     for (size_t k = 0; k < count; k++) {
-        take_row(in, width, words + k * width);
-        hashes[k] = hash_of(words + k * width, width, zero, t->seed);
-        __builtin_prefetch(&t->places[own_place(t, hashes[k])]);
+        uint64_t *const row = rows + k * (last + 1);
+        bytes[k] = take_row(in, width, zero, row);
+        hashes[k] = hash_of(row, width, t->seed);
+        __builtin_prefetch(t->places + own_place(t, hashes[k]) * (last + 1), 1);
     }
     for (size_t k = 0; k < count; k++) {
-        const uint32_t *const row = words + k * width;
-        size_t at = own_place(t, hashes[k]);
-        uint32_t number;
-        while ((number = t->places[at].number) != 0 &&
-               !(t->places[at].hash == hashes[k] &&
-                 are_equal(t->found + (number - 1) * width, row, width, zero)))
-            at = next_place(t, at);
+        const uint64_t *const row = rows + k * (last + 1);
+        uint64_t *const place = find_place(t, row, width, hashes[k]);
+        uint32_t number = number_of(place[last]);
         if (!number) {
-            memcpy(t->found + t->count * width, row, width * sizeof *row);
+            if (found)
+                memcpy(found + t->count * width, bytes[k], width * sizeof *found);
+            memcpy(place, row, last * sizeof *place);
             number = (uint32_t)++t->count;
-            t->places[at] = (place){hashes[k], number};
+            place[last] = row[last] | (uint64_t)number << 32;
         }
         numbers[k] = (int32_t)number - 1;
     }
@@ -162,83 +210,141 @@ static uint64_t random_seed(void)
     return seed;
 }
 
+/* Numbers the next rows, up to BLOCK; false if memory is out. */
+static bool number_next(table *t, input *in, size_t count, int32_t *numbers, uint32_t *found)
+{
+    if (!reserve(t, t->count + count))
+        return false;
+    switch (t->width) {
+    case 1: number_block(t, in, count, 1, numbers, found); break;
+    case 3: number_block(t, in, count, 3, numbers, found); break;
+    default: number_block(t, in, count, t->width, numbers, found);
+    }
+    return true;
+}
+
+/* A table for so many numbers, which grows; false if memory is out. */
+static bool begin_table(table *t, const e3d_rows *rows, size_t numbers)
+{
+    *t = (table){.seed = random_seed(), .width = rows->width};
+    return rows->width <= E3D_ROW_WORDS && reserve(t, numbers + BLOCK);
+}
+
+static size_t block_at(const e3d_rows *rows, size_t row)
+{
+    return rows->count - row < BLOCK ? rows->count - row : BLOCK;
+}
+
 size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t *found)
 {
-    table t = {.seed = random_seed(), .found = found};
+    table t;
     input in = {rows->bytes, 0, rows};
     /* Corners of triangles meet in six, most often. */
-    bool done = rows->width <= E3D_ROW_WORDS && reserve(&t, rows->count / 8);
+    bool done = begin_table(&t, rows, rows->count / 5);
     for (size_t row = 0; done && row < rows->count; row += BLOCK) {
-        const size_t count = rows->count - row < BLOCK ? rows->count - row : BLOCK;
-        const size_t before = t.count;
-        done = reserve(&t, t.count + count);
-        if (!done)
-            break;
-        switch (rows->width) {
-        case 1: number_block(&t, &in, count, 1, numbers + row); break;
-        case 3: number_block(&t, &in, count, 3, numbers + row); break;
-        default: number_block(&t, &in, count, rows->width, numbers + row);
-        }
-        size_t next = before;
+        size_t next = t.count;
+        done = number_next(&t, &in, block_at(rows, row), numbers + row, found);
         for (size_t k = 0; first && next < t.count; k++)
             if ((size_t)numbers[row + k] == next)
                 first[next++] = (int32_t)(row + k);
     }
-    free(t.places);
+    free_places(&t);
     return done ? t.count : SIZE_MAX;
 }
 
-/* Copies the rows whose hash some other row has in common, in a map of 16 bits a row; returns how many. */
-static size_t find_suspects(const e3d_rows *rows, uint64_t *seen, uint64_t *again, int bits,
-                            uint32_t *suspects)
+/* Whether two rows are equal; for few rows, since it has a place for each. */
+static int few_rows_repeat(const e3d_rows *rows)
+{
+    table t;
+    input in = {rows->bytes, 0, rows};
+    int32_t numbers[BLOCK];
+    bool done = begin_table(&t, rows, rows->count), repeat = false;
+    for (size_t row = 0; done && !repeat && row < rows->count; row += BLOCK) {
+        done = number_next(&t, &in, block_at(rows, row), numbers, NULL);
+        repeat = t.count < row + block_at(rows, row);
+    }
+    free_places(&t);
+    return done ? repeat : -1;
+}
+
+/* A map of 16 bits a row: about one row of sixteen shares its bit with an unequal one. */
+typedef struct map {
+    size_t words, bits;
+    uint64_t *seen, *again; /* [words] whether any row has the bit, and whether several have */
+    uint32_t *hashes;       /* [rows] */
+} map;
+
+static inline size_t bit_of(const map *m, uint32_t hash)
+{
+    return (size_t)((uint64_t)hash * m->bits >> 32);
+}
+
+/* Inlined for each width. */
+static inline void hash_rows(const e3d_rows *rows, size_t width, uint32_t *hashes)
 {
     const uint64_t seed = random_seed();
     const uint32_t zero = rows->are_floats ? MINUS_ZERO : 0;
-    const size_t width = rows->width;
-    uint32_t row[E3D_ROW_WORDS];
+    uint64_t row[MOST_PAIRS];
     input in = {rows->bytes, 0, rows};
     for (size_t i = 0; i < rows->count; i++) {
-        take_row(&in, width, row);
-        const uint32_t bit = hash_of(row, width, zero, seed) >> (32 - bits);
-        again[bit / 64] |= seen[bit / 64] & UINT64_C(1) << bit % 64;
-        seen[bit / 64] |= UINT64_C(1) << bit % 64;
+        take_row(&in, width, zero, row);
+        hashes[i] = hash_of(row, width, seed);
     }
-    in = (input){rows->bytes, 0, rows};
+}
+
+static size_t count_suspects(const map *m, size_t rows)
+{
+    for (size_t i = 0; i < rows; i++) {
+        __builtin_prefetch(&m->seen[bit_of(m, m->hashes[i + AHEAD < rows ? i + AHEAD : i]) / 64], 1);
+        const size_t bit = bit_of(m, m->hashes[i]);
+        const uint64_t mark = UINT64_C(1) << bit % 64, was = m->seen[bit / 64];
+        if (was & mark)
+            m->again[bit / 64] |= mark;
+        m->seen[bit / 64] = was | mark;
+    }
     size_t count = 0;
-    for (size_t i = 0; i < rows->count; i++) {
-        take_row(&in, width, row);
-        const uint32_t bit = hash_of(row, width, zero, seed) >> (32 - bits);
-        if (again[bit / 64] >> bit % 64 & 1)
-            memcpy(suspects + width * count++, row, width * sizeof *row);
+    for (size_t i = 0; i < rows; i++) {
+        const size_t bit = bit_of(m, m->hashes[i]);
+        m->hashes[count] = (uint32_t)i;
+        count += m->again[bit / 64] >> bit % 64 & 1;
     }
     return count;
 }
 
+/* Whether two are equal of the rows that share their bit. */
+static int suspects_repeat(const e3d_rows *rows, const uint32_t *numbers, size_t count)
+{
+    const size_t size = rows->width * sizeof(uint32_t);
+    uint8_t *const copies = malloc((count + 1) * size);
+    if (!copies)
+        return -1;
+    for (size_t i = 0; i < count; i++)
+        memcpy(copies + i * size,
+               rows->bytes + numbers[i] / rows->in_record * rows->stride +
+                   numbers[i] % rows->in_record * size,
+               size);
+    const e3d_rows few = {copies, count, rows->width, 1, size, rows->are_floats};
+    const int repeat = few_rows_repeat(&few);
+    free(copies);
+    return repeat;
+}
+
 int e3d_rows_repeat(const e3d_rows *rows)
 {
-    int bits = 6;
-    while (bits < 32 && (size_t)1 << bits < 16 * rows->count)
-        bits++;
-    uint64_t *seen = calloc((size_t)1 << (bits - 6), sizeof *seen);
-    uint64_t *again = calloc((size_t)1 << (bits - 6), sizeof *again);
-    /* Of these only as much is ever touched as there are suspects. */
-    uint32_t *suspects = malloc((rows->count + 1) * rows->width * sizeof *suspects);
-    uint32_t *found = malloc((rows->count + 1) * rows->width * sizeof *found);
-    int32_t *numbers = malloc((rows->count + 1) * sizeof *numbers);
-    int repeat = -1;
-    if (seen && again && suspects && found && numbers) {
-        e3d_rows few = *rows;
-        few.count = find_suspects(rows, seen, again, bits, suspects);
-        few.bytes = (const uint8_t *)suspects;
-        few.in_record = 1;
-        few.stride = few.width * sizeof *suspects;
-        const size_t made = e3d_number_rows(&few, numbers, NULL, found);
-        repeat = made == SIZE_MAX ? -1 : made < few.count;
-    }
-    free(seen);
-    free(again);
-    free(suspects);
-    free(found);
-    free(numbers);
+    map m = {.words = rows->count / 4 + 1};
+    m.bits = 64 * m.words;
+    const size_t size = 2 * m.words * sizeof *m.seen + rows->count * sizeof *m.hashes;
+    m.seen = new_zeros(size);
+    if (!m.seen)
+        return -1;
+    m.again = m.seen + m.words;
+    m.hashes = (uint32_t *)(m.again + m.words);
+    if (rows->width == 3)
+        hash_rows(rows, 3, m.hashes);
+    else
+        hash_rows(rows, rows->width, m.hashes);
+    /* The numbers of the suspects take the place of the hashes. */
+    const int repeat = suspects_repeat(rows, m.hashes, count_suspects(&m, rows->count));
+    free_zeros(m.seen, size);
     return repeat;
 }

@@ -87,7 +87,8 @@ def check_flags3(value, what: str) -> np.ndarray:
 
 def require_range(indices: np.ndarray, count: int, what: str, of_what: str) -> None:
     """Raise unless every index is in 0..count-1."""
-    if indices.size == 0:
+    # Without their sign, negative numbers are beyond every count: most often one look is enough.
+    if indices.size == 0 or int(indices.view(np.uint32).max()) < count:
         return
     low, high = int(indices.min()), int(indices.max())
     if low < 0 or high >= count:

@@ -13,24 +13,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ._native import loaders as native
+
 # A group of triangles whose area vectors cancel by more than half is no polygon but a curved patch.
 _PLANARITY = 0.5
 
-# acos(x) = sqrt(1 - x) * polynomial(x) for 0 <= x <= 1 to 2e-8 (Abramowitz and Stegun, 4.4.46).
-# The library's arc cosine differs from processor to processor; these operations don't.
-_ARC_COSINE = (
-    1.5707963050,
-    -0.2145988016,
-    0.0889789874,
-    -0.0501743046,
-    0.0308918810,
-    -0.0170881256,
-    0.0066700901,
-    -0.0012624911,
-)
-# Faces worked on at a time, which bounds the memory for intermediate results.
+# Faces that are added up at a time; the sums depend on it in their last bits.
 _BLOCK = 1 << 16
-_PI = 3.141592653589793
 
 
 @np.errstate(all="ignore")
@@ -58,49 +47,10 @@ def face_area_vectors(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return vectors
 
 
-@np.errstate(all="ignore")
-def corner_angles(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Return the inner angle at each corner of each face.
-
-    Parameters
-    ----------
-    positions : (V, 3) float
-    faces : (F, 3) int
-
-    Returns
-    -------
-    angles : (F, 3) float64, radians
-        Zero where an edge has no length or is not finite.
-    """
-    corners = positions.astype(np.float64)[faces]
-    angles = np.empty(faces.shape, np.float64)
-    edges = np.roll(corners, -1, axis=1) - corners
-    lengths = _lengths(edges)
-    for corner in range(3):
-        onward, back = edges[:, corner], edges[:, corner - 1]
-        dots = onward[:, 0] * back[:, 0] + onward[:, 1] * back[:, 1] + onward[:, 2] * back[:, 2]
-        cosine = -dots / (lengths[:, corner] * lengths[:, corner - 1])
-        angles[:, corner] = _arc_cosine(cosine)
-    angles[~np.isfinite(angles)] = 0
-    return angles
-
-
-def corner_vectors(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Return what each corner of each face adds to the normal of its vertex.
-
-    Returns
-    -------
-    vectors : (F, 3, 3) float64
-        The unit normal of the face times the angle at the corner; zero for faces without area.
-    """
-    normals = unit_vectors(face_area_vectors(positions, faces))
-    return corner_angles(positions, faces)[:, :, np.newaxis] * normals[:, np.newaxis, :]
-
-
 def smooth_sums(
     positions: np.ndarray, faces: np.ndarray, groups: np.ndarray, count: int
 ) -> np.ndarray:
-    """Add up the `corner_vectors` of all corners by group.
+    """Add up by group what each corner of each face adds to the normal of its vertex.
 
     Parameters
     ----------
@@ -114,14 +64,15 @@ def smooth_sums(
     Returns
     -------
     sums : (count, 3) float64
-        Not normalised. Added up in the order of the faces, block by block.
+        Not normalised: the unit normal of a face times its angle at the corner, zero for faces
+        without area or with a vertex that is not finite. Added up in the order of the faces, block
+        by block.
     """
-    sums = np.zeros((count, 3), np.float64)
-    for start in range(0, len(faces), _BLOCK):
-        block = slice(start, start + _BLOCK)
-        vectors = corner_vectors(positions, faces[block]).reshape(-1, 3)
-        sums += group_sums(vectors, groups[block].ravel(), count)
-    return sums
+    if positions.dtype != np.float32:
+        positions = positions.astype(np.float64, copy=False)
+    positions = np.ascontiguousarray(positions)
+    faces, groups = (np.ascontiguousarray(indices, np.int32) for indices in (faces, groups))
+    return native.smooth_sums(positions, faces, groups, count, _BLOCK)
 
 
 def vertex_normals(
@@ -214,13 +165,3 @@ def unit_vectors(vectors: np.ndarray) -> np.ndarray:
         vectors = np.where(long[:, np.newaxis], 0, vectors)
         length[long] = 1
     return vectors / length[:, np.newaxis]
-
-
-def _arc_cosine(x: np.ndarray) -> np.ndarray:
-    """The angle in 0..pi with cosine ``x``, which is clamped to -1..1."""
-    size = np.minimum(np.abs(x), 1.0)
-    polynomial = np.full_like(size, _ARC_COSINE[-1])
-    for coefficient in _ARC_COSINE[-2::-1]:
-        polynomial = polynomial * size + coefficient
-    angle = np.sqrt(1.0 - size) * polynomial
-    return np.where(x < 0, _PI - angle, angle)

@@ -143,4 +143,63 @@ size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, u
 /* Whether any two rows are equal: 1 or 0; -1 if memory is out. Faster than numbering where none are. */
 int e3d_rows_repeat(const e3d_rows *rows);
 
+typedef enum e3d_sums_problem {
+    E3D_SUMS_DONE,
+    E3D_SUMS_NO_MEMORY,
+    E3D_SUMS_OUT_OF_RANGE, /* an index of a position or of a group */
+} e3d_sums_problem;
+
+/* Triangles whose corners are in groups. */
+typedef struct e3d_surface {
+    const void *positions; /* [3 * position_count] doubles or floats */
+    bool are_doubles;
+    const int32_t *faces, *groups; /* [3 * face_count] of each corner its position and its group */
+    size_t position_count, face_count, group_count;
+} e3d_surface;
+
+/* Adds to sums[3 * group_count] the unit normals of all triangles, times the angle at the corner that is in
+ * the group; `block_faces` triangles are added up at a time, and their sums to the others. */
+e3d_sums_problem e3d_smooth_sums(const e3d_surface *surface, size_t block_faces, double *sums);
+
+typedef enum e3d_ply_problem {
+    E3D_PLY_DONE,
+    E3D_PLY_SHORT,    /* the body ends within a row */
+    E3D_PLY_BAD_LIST, /* a list of negative length */
+} e3d_ply_problem;
+
+/* Rows in the bytes of a binary PLY file, from `start` on and before `end`. */
+typedef struct e3d_ply_body {
+    const uint8_t *bytes;
+    size_t start, end;
+    bool is_big_endian;
+} e3d_ply_body;
+
+/* A list in each row. */
+typedef struct e3d_ply_list {
+    size_t skip;       /* bytes of single numbers before it */
+    size_t count_size; /* bytes of its length, up to 8 */
+    size_t item_size;  /* not 0 */
+    bool is_signed;    /* its length */
+} e3d_ply_list;
+
+/* Offsets from the first of the bytes on. */
+typedef struct e3d_ply_rows {
+    int64_t *places;         /* [rows] where each begins */
+    int64_t *starts, *sizes; /* [rows * lists] the first item and the length of each list */
+    size_t end;              /* behind the last row; or the length that is bad ... */
+    size_t row;              /* ... and its row */
+} e3d_ply_rows;
+
+/* Goes along rows of lists, with `tail` bytes behind the last list of each. */
+e3d_ply_problem e3d_ply_walk(const e3d_ply_body *body, const e3d_ply_list *lists, size_t list_count,
+                             size_t tail, size_t rows, e3d_ply_rows *found);
+
+/* Copies the items of a list of each row, which stand inside the bytes, row after row; from one row's
+ * start and size to the next one's are `step`. */
+void e3d_ply_copy_lists(const e3d_ply_body *body, const int64_t *starts, const int64_t *sizes,
+                        size_t step, size_t rows, size_t item_size, void *items);
+/* Copies `width` items of each row, from body->start on and `stride` bytes apart. */
+void e3d_ply_copy_rows(const e3d_ply_body *body, size_t stride, size_t rows, size_t width,
+                       size_t item_size, void *items);
+
 #endif

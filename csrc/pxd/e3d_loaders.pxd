@@ -1,6 +1,6 @@
 # Mirrors csrc/include/e3d_loaders.h.
 
-from libc.stdint cimport int32_t, uint8_t, uint32_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t
 
 
 cdef extern from "e3d_loaders.h" nogil:
@@ -91,3 +91,48 @@ cdef extern from "e3d_loaders.h" nogil:
     size_t e3d_number_rows(
         const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t *found)
     int e3d_rows_repeat(const e3d_rows *rows)
+
+    ctypedef enum e3d_sums_problem:
+        E3D_SUMS_DONE
+        E3D_SUMS_NO_MEMORY
+        E3D_SUMS_OUT_OF_RANGE
+
+    ctypedef struct e3d_surface:
+        const void *positions
+        bint are_doubles
+        const int32_t *faces
+        const int32_t *groups
+        size_t position_count, face_count, group_count
+
+    e3d_sums_problem e3d_smooth_sums(
+        const e3d_surface *surface, size_t block_faces, double *sums)
+
+    ctypedef enum e3d_ply_problem:
+        E3D_PLY_DONE
+        E3D_PLY_SHORT
+        E3D_PLY_BAD_LIST
+
+    ctypedef struct e3d_ply_body:
+        const uint8_t *bytes
+        size_t start, end
+        bint is_big_endian
+
+    ctypedef struct e3d_ply_list:
+        size_t skip, count_size, item_size
+        bint is_signed
+
+    ctypedef struct e3d_ply_rows:
+        int64_t *places
+        int64_t *starts
+        int64_t *sizes
+        size_t end, row
+
+    e3d_ply_problem e3d_ply_walk(
+        const e3d_ply_body *body, const e3d_ply_list *lists, size_t list_count, size_t tail,
+        size_t rows, e3d_ply_rows *found)
+    void e3d_ply_copy_lists(
+        const e3d_ply_body *body, const int64_t *starts, const int64_t *sizes, size_t step,
+        size_t rows, size_t item_size, void *items)
+    void e3d_ply_copy_rows(
+        const e3d_ply_body *body, size_t stride, size_t rows, size_t width, size_t item_size,
+        void *items)

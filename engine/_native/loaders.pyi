@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,13 @@ MATERIAL: int
 LIBRARY: int
 UNKNOWN: int
 
+PLY_DONE: int
+PLY_SHORT: int
+PLY_BAD_LIST: int
+
 SETTER: np.dtype
+
+def read_bytes(readinto: Callable[[memoryview], int], size: int) -> bytes: ...
 
 class ObjReader:
     consumed: int
@@ -47,3 +54,35 @@ def rows_repeat(rows: NDArray[np.uint32], are_floats: bool) -> bool: ...
 def weld_facets(
     data: bytes | memoryview, offset: int, stride: int, facets: int
 ) -> tuple[NDArray[np.int32], NDArray[np.float32]]: ...
+def smooth_sums(
+    positions: NDArray[np.floating],
+    faces: NDArray[np.int32],
+    groups: NDArray[np.int32],
+    count: int,
+    block: int,
+) -> NDArray[np.float64]: ...
+def walk_ply_rows(
+    data: bytes | memoryview,
+    start: int,
+    is_big_endian: bool,
+    lists: list[tuple[int, int, bool, int]],
+    tail: int,
+    rows: int,
+) -> tuple[int, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], int, int]: ...
+def copy_ply_lists(
+    data: bytes | memoryview,
+    is_big_endian: bool,
+    starts: NDArray[np.int64],
+    sizes: NDArray[np.int64],
+    number: int,
+    dtype: np.dtype,
+) -> NDArray: ...
+def copy_ply_rows(
+    data: bytes | memoryview,
+    is_big_endian: bool,
+    start: int,
+    stride: int,
+    rows: int,
+    width: int,
+    dtype: np.dtype,
+) -> NDArray: ...

@@ -8,12 +8,18 @@ Out: arrays that own what C allocated; no copies.
 import numpy as np
 
 cimport cython
-from cpython.bytes cimport PyBytes_FromStringAndSize
+from cpython.bytes cimport PyBytes_AS_STRING, PyBytes_FromStringAndSize
+from cpython.buffer cimport PyBUF_WRITE
+from cpython.memoryview cimport PyMemoryView_FromMemory
 from e3d_loaders cimport *
-from libc.stdint cimport int32_t, uint8_t, uint32_t
-from libc.stdlib cimport free
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t
+from libc.stdlib cimport calloc, free
 
 from ..errors import InvalidArgumentError, OutOfMemoryError
+
+PLY_DONE = E3D_PLY_DONE
+PLY_SHORT = E3D_PLY_SHORT
+PLY_BAD_LIST = E3D_PLY_BAD_LIST
 
 DONE = E3D_OBJ_DONE
 NO_MEMORY = E3D_OBJ_NO_MEMORY
@@ -38,6 +44,34 @@ SETTER = np.dtype(
      for name in ("kind", "line", "faces", "lines", "points", "name", "name_length")]
     + [("value", np.int32)]
 )
+
+
+cdef extern from "sys/mman.h" nogil:
+    int madvise(void *start, size_t size, int advice)
+    int MADV_HUGEPAGE
+
+# Where large pages begin, and from how many bytes on they are worth it.
+cdef size_t LARGE_PAGE = 1 << 21, MANY_BYTES = 1 << 22
+
+
+def read_bytes(readinto, Py_ssize_t size):
+    """Read at most ``size`` bytes by ``readinto(view) -> count`` until it says 0.
+
+    As `io.FileIO.read` does, but into large pages: many small ones take longer to come than the
+    bytes of a file.
+    """
+    data = PyBytes_FromStringAndSize(NULL, size)
+    cdef char *start = PyBytes_AS_STRING(data)
+    cdef size_t skip = -<size_t>start % LARGE_PAGE
+    if <size_t>size >= MANY_BYTES:
+        madvise(start + skip, (<size_t>size - skip) // LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE)
+    cdef Py_ssize_t done = 0, count
+    while done < size:
+        count = readinto(PyMemoryView_FromMemory(start + done, size - done, PyBUF_WRITE))
+        if count == 0:
+            return data[:done]
+        done += count
+    return data
 
 
 cdef object owned(void **data, size_t count, object dtype):
@@ -257,3 +291,118 @@ def weld_facets(const uint8_t[::1] data not None, size_t offset, size_t stride, 
     faces.setflags(write=False)
     positions.setflags(write=False)
     return faces, positions
+
+
+def smooth_sums(positions, const int32_t[:, ::1] faces not None,
+                const int32_t[:, ::1] groups not None, size_t count, size_t block):
+    """Add up the angle-weighted normals of corners (F, 3) by group: (count, 3) float64.
+
+    ``positions`` (V, 3) are float64 or float32; ``block`` triangles are added up at a time.
+    """
+    cdef const double[:, ::1] doubles
+    cdef const float[:, ::1] floats
+    cdef e3d_surface surface
+    sums = np.zeros((count, 3), np.float64)
+    if faces.shape[0] == 0 or count == 0:
+        return sums
+    if len(positions) == 0 or faces.shape[1] != 3 or groups.shape[1] != 3 or (
+            groups.shape[0] != faces.shape[0]) or positions.shape[1] != 3 or block == 0:
+        raise InvalidArgumentError("the triangles have no positions or no groups")
+    surface.are_doubles = positions.dtype == np.float64
+    if surface.are_doubles:
+        doubles = positions
+        surface.positions = &doubles[0, 0]
+    else:
+        floats = positions
+        surface.positions = &floats[0, 0]
+    surface.faces, surface.groups = &faces[0, 0], &groups[0, 0]
+    surface.position_count, surface.face_count = len(positions), faces.shape[0]
+    surface.group_count = count
+    cdef double[:, ::1] view = sums
+    cdef e3d_sums_problem problem
+    with nogil:
+        problem = e3d_smooth_sums(&surface, block, &view[0, 0])
+    if problem == E3D_SUMS_NO_MEMORY:
+        raise OutOfMemoryError("no memory for the normals of a mesh")
+    if problem != E3D_SUMS_DONE:
+        raise InvalidArgumentError("a face holds an index that is out of range")
+    return sums
+
+
+cdef e3d_ply_body ply_body(const uint8_t[::1] data, size_t start, bint is_big_endian):
+    cdef e3d_ply_body body = e3d_ply_body(NULL, start, data.shape[0], is_big_endian)
+    if data.shape[0]:
+        body.bytes = &data[0]
+    return body
+
+
+def walk_ply_rows(const uint8_t[::1] data not None, size_t start, bint is_big_endian, lists,
+                  size_t tail, size_t rows):
+    """Go along ``rows`` rows of a PLY body from byte ``start`` on.
+
+    ``lists`` are (bytes before, bytes of the length, whether it is signed, bytes of an item) of the
+    lists in a row; ``tail`` bytes stand behind the last. Returns the problem, `PLY_DONE` for none,
+    the places of rows (N,), of lists (N, K), their lengths (N, K), all int64, the place behind, and
+    the row that has a problem.
+    """
+    cdef size_t count = len(lists), k
+    if start > <size_t>data.shape[0] or rows > <size_t>data.shape[0]:
+        raise InvalidArgumentError("more rows than bytes")
+    places = np.empty(rows, np.int64)
+    starts, sizes = np.empty((rows, count), np.int64), np.empty((rows, count), np.int64)
+    cdef int64_t[::1] place_view = places
+    cdef int64_t[::1] start_view = starts.reshape(-1), size_view = sizes.reshape(-1)
+    cdef e3d_ply_body body = ply_body(data, start, is_big_endian)
+    cdef e3d_ply_rows found = e3d_ply_rows(NULL, NULL, NULL, start, 0)
+    cdef e3d_ply_problem problem
+    cdef e3d_ply_list *steps = <e3d_ply_list *>calloc(count + 1, sizeof(e3d_ply_list))
+    if steps == NULL:
+        raise OutOfMemoryError("no memory to read a PLY file")
+    try:
+        for k in range(count):
+            steps[k].skip, steps[k].count_size, steps[k].is_signed, steps[k].item_size = lists[k]
+        if rows:
+            found.places = &place_view[0]
+        if rows and count:
+            found.starts, found.sizes = &start_view[0], &size_view[0]
+        with nogil:
+            problem = e3d_ply_walk(&body, steps, count, tail, rows, &found)
+    finally:
+        free(steps)
+    return problem, places, starts, sizes, found.end, found.row
+
+
+def copy_ply_lists(const uint8_t[::1] data not None, bint is_big_endian,
+                   const int64_t[:, ::1] starts not None, const int64_t[:, ::1] sizes not None,
+                   size_t number, dtype):
+    """Copy the items of one list of each row (N, K), as `walk_ply_rows` found them, to (M,)."""
+    cdef size_t rows = starts.shape[0], step = starts.shape[1], row, total = 0
+    cdef size_t item_size = dtype.itemsize
+    cdef e3d_ply_body body = ply_body(data, 0, is_big_endian)
+    if <size_t>sizes.shape[0] != rows or <size_t>sizes.shape[1] != step or number >= step:
+        raise InvalidArgumentError("the lists of PLY rows do not match")
+    total = np.asarray(sizes)[:, number].sum()
+    items = np.empty(total, dtype)
+    cdef uint8_t[::1] view = items.view(np.uint8)
+    if total:
+        with nogil:
+            e3d_ply_copy_lists(&body, &starts[0, number], &sizes[0, number], step, rows, item_size,
+                               &view[0])
+    return items
+
+
+def copy_ply_rows(const uint8_t[::1] data not None, bint is_big_endian, size_t start,
+                  size_t stride, size_t rows, size_t width, dtype):
+    """Copy ``width`` neighbouring numbers of each row, ``stride`` bytes apart: (rows, width)."""
+    cdef size_t item_size = dtype.itemsize, size = data.shape[0]
+    items = np.empty((rows, width), dtype)
+    if rows == 0 or width == 0:
+        return items
+    if size < start or size - start < width * item_size or (
+            stride and (size - start - width * item_size) // stride < rows - 1):
+        raise InvalidArgumentError("the rows are not inside the data")
+    cdef uint8_t[::1] view = items.reshape(-1).view(np.uint8)
+    cdef e3d_ply_body body = ply_body(data, start, is_big_endian)
+    with nogil:
+        e3d_ply_copy_rows(&body, stride, rows, width, item_size, &view[0])
+    return items

@@ -124,7 +124,9 @@ def _index_list(table: PlyTable | None) -> str | None:
 def _checked(table: PlyTable, found: PlyList, count: int, others: tuple = ()) -> np.ndarray:
     """Vertex indices as int32; those in ``others`` are let through."""
     values = found.values
-    if values.dtype.kind in "iu" and len(values) and values.min() >= 0 and values.max() < count:
+    kind, size = values.dtype.kind, values.dtype.itemsize
+    # Without their sign, negative numbers are beyond every count.
+    if kind in "iu" and len(values) and values.view(f"u{size}").max() < count:
         return values.astype(np.int32, copy=False)
     wrong = ~((values >= 0) & (values < count))
     for other in others:

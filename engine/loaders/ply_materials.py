@@ -54,7 +54,9 @@ def _texture(name: str, textures: TextureCache, source: Source, warnings) -> Tex
 def material_ids(numbers: np.ndarray | None, triangles: int, materials: int) -> np.ndarray:
     """Return the material of each triangle: (T,) int32, the first for numbers of no image."""
     if numbers is None:
-        return np.zeros(triangles, np.int32)
+        none = np.zeros(triangles, np.int32)
+        none.setflags(write=False)  # so that the mesh takes it over
+        return none
     is_known = (numbers >= 0) & (numbers < materials)
     return np.where(is_known, numbers, 0).astype(np.int32)
 

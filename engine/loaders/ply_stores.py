@@ -8,10 +8,12 @@ that `ply_tables` reads both in one way.
 from __future__ import annotations
 
 import re
-import struct
+from array import array
+from typing import NamedTuple
 
 import numpy as np
 
+from .._native import loaders as native
 from ..errors import FileFormatError
 from .number_arrays import NotANumberError, parse_text
 from .ply_header import PlyHeader
@@ -21,6 +23,41 @@ from .text import shown
 _COMMENT = re.compile(rb"^[ \t]*(?:comment|obj_info)\b[^\r\n]*", re.MULTILINE)
 _WORD = re.compile(rb"\S+")
 _BLANKS = b" \t\r\n\v\f"
+
+
+# A list in each row: the places of single numbers before it, and the types of its length and items.
+ListInRow = tuple[int, str, str]
+
+
+class WalkedRows(NamedTuple):
+    """Where the rows of an element stand.
+
+    Attributes
+    ----------
+    places : (N,) int64
+        The place of each row.
+    starts, sizes : (N, K) int64
+        The first item, and the length, of each row's lists.
+    end : int
+        The place behind the last row.
+    """
+
+    places: np.ndarray
+    starts: np.ndarray
+    sizes: np.ndarray
+    end: int
+
+
+class ShortBodyError(Exception):
+    """The body ends within a row."""
+
+
+class BadListError(Exception):
+    """The length of a list is no integer from 0 on: the row, and the place of the length."""
+
+    def __init__(self, row: int, place: int) -> None:
+        super().__init__(row, place)
+        self.row, self.place = row, place
 
 
 class BinaryStore:
@@ -35,19 +72,43 @@ class BinaryStore:
     def __init__(self, source: Source, header: PlyHeader) -> None:
         self._data = source.data
         self._order = header.byte_order
+        self._is_big_endian = header.byte_order == ">"
         self.start, self.end = header.body_start, len(source.data)
 
     def size(self, code: str) -> int:
         """Return how many places a number of a type takes."""
         return int(code[1])
 
-    def counter(self, code: str):
-        """Return ``count(place) -> int``, which reads the length of a list."""
-        if code == "u1":
-            return self._data.__getitem__
-        unpack = struct.Struct(self._order + np.dtype(code).char).unpack_from
-        data = self._data
-        return lambda place: unpack(data, place)[0]
+    def walk(self, lists: list[ListInRow], tail: int, place: int, rows: int) -> WalkedRows:
+        """Go along rows, with ``tail`` places behind the last list of each.
+
+        Raises `ShortBodyError` and `BadListError`.
+        """
+        sizes = [
+            (before, self.size(count_type), count_type[0] == "i", self.size(item_type))
+            for before, count_type, item_type in lists
+        ]
+        problem, *walked, end, row = native.walk_ply_rows(
+            self._data, place, self._is_big_endian, sizes, tail, rows
+        )
+        if problem == native.PLY_SHORT:
+            raise ShortBodyError
+        if problem == native.PLY_BAD_LIST:
+            raise BadListError(row, end)
+        return WalkedRows(*walked, end)
+
+    def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
+        """Return the items of one list of all rows, row after row."""
+        starts, sizes = walked.starts, walked.sizes
+        return native.copy_ply_lists(
+            self._data, self._is_big_endian, starts, sizes, number, np.dtype(code)
+        )
+
+    def rows(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
+        """Return a copy of `grid`."""
+        return native.copy_ply_rows(
+            self._data, self._is_big_endian, start, stride, *shape, np.dtype(code)
+        )
 
     def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
         """Return the numbers at ``places`` (any shape), all of which are inside."""
@@ -89,22 +150,45 @@ class TextStore:
             raise FileFormatError(
                 f"not a number: {shown(error.word)}", source.path, self._line_at(error.position)
             ) from None
-        self._view = memoryview(self._values)
         self.start, self.end = 0, len(self._values)
 
     def size(self, code: str) -> int:
         return 1
 
-    def counter(self, code: str):
-        view = self._view
+    def walk(self, lists: list[ListInRow], tail: int, place: int, rows: int) -> WalkedRows:
+        view, end = memoryview(self._values), self.end
+        places, starts, sizes = array("q"), array("q"), array("q")
+        for row in range(rows):
+            places.append(place)
+            for before, _, _ in lists:
+                place += before
+                if place >= end:
+                    raise ShortBodyError
+                size = view[place]
+                if not size.is_integer() or size < 0:
+                    raise BadListError(row, place)
+                place += 1
+                if place + int(size) > end:
+                    raise ShortBodyError
+                starts.append(place)
+                sizes.append(int(size))
+                place += int(size)
+            place += tail
+            if place > end:
+                raise ShortBodyError
+        found = (np.frombuffer(numbers, np.int64) for numbers in (places, starts, sizes))
+        places, starts, sizes = found
+        shape = (rows, len(lists))
+        return WalkedRows(places, starts.reshape(shape), sizes.reshape(shape), place)
 
-        def count(place: int) -> int:
-            value = view[place]
-            if not value.is_integer():
-                raise ValueError
-            return int(value)
+    def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
+        sizes = walked.sizes[:, number]
+        places = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        places += np.repeat(walked.starts[:, number], sizes)
+        return self._values[places]
 
-        return count
+    def rows(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
+        return self.grid(start, shape, stride, code).copy()
 
     def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
         return self._values[places]

@@ -8,15 +8,20 @@ before the file was found long enough for it.
 
 from __future__ import annotations
 
-import struct
-from array import array
 from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import FileFormatError
 from .ply_header import PlyElement, PlyHeader
-from .ply_stores import BinaryStore, TextStore
+from .ply_stores import (
+    BadListError,
+    BinaryStore,
+    ListInRow,
+    ShortBodyError,
+    TextStore,
+    WalkedRows,
+)
 from .sources import Source
 
 
@@ -44,20 +49,15 @@ class _Layout(NamedTuple):
         Number of rows, N.
     stride : int or None
         The distance of rows if all have the same shape.
-    rows : (N,) int64
-        The place of each row; only the first if there is a stride.
-    starts, sizes : (N, K) int64
-        The first item, and the length, of each row's lists; only the first row's if there is a
-        stride.
+    rows : WalkedRows
+        All rows; only the first if there is a stride.
     end : int
         The place behind the last row.
     """
 
     count: int
     stride: int | None
-    rows: np.ndarray
-    starts: np.ndarray
-    sizes: np.ndarray
+    rows: WalkedRows
     end: int
 
 
@@ -97,7 +97,7 @@ class PlyTable:
             first = self._first_place(after, offset)
             return self._store.grid(first, (len(self), 1), layout.stride, code)[:, 0]
         if after == 0:
-            return self._store.numbers(layout.rows + offset, code)
+            return self._store.numbers(layout.rows.places + offset, code)
         return self._store.numbers(self._list_ends(after - 1) + offset, code)
 
     def columns(self, *names: str) -> np.ndarray:
@@ -126,32 +126,29 @@ class PlyTable:
         ):
             return None
         shape = (len(self), len(names))
-        found = self._store.grid(self._first_place(after, offset), shape, layout.stride, code)
-        return _own_copy(found)
+        start = self._first_place(after, offset)
+        return _frozen(self._store.rows(start, shape, layout.stride, code))
 
     def list(self, name: str) -> PlyList:
         """Return a list property."""
         code = self.type(name)
         number = self._places[name][0]
         layout = self._layout
-        sizes = layout.sizes[:, number]
-        if layout.stride is not None:
-            shape = (len(self), int(sizes[0]))
-            first = int(layout.starts[0, number])
-            values = self._store.grid(first, shape, layout.stride, code)
-            return PlyList(np.broadcast_to(sizes, len(self)), _own_copy(values).reshape(-1))
-        within = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-        places = np.repeat(layout.starts[:, number], sizes)
-        places += within * self._store.size(code)
-        return PlyList(sizes, self._store.numbers(places, code))
+        sizes = layout.rows.sizes[:, number]
+        if layout.stride is None:
+            return PlyList(sizes, _frozen(self._store.lists(layout.rows, number, code)))
+        shape = (len(self), int(sizes[0]))
+        first = int(layout.rows.starts[0, number])
+        values = _frozen(self._store.rows(first, shape, layout.stride, code))
+        return PlyList(np.broadcast_to(sizes, len(self)), values.reshape(-1))
 
     def fail(self, row: int, message: str):
         """Raise an error about a row."""
         layout = self._layout
         if layout.stride is None:
-            place = int(layout.rows[row])
+            place = int(layout.rows.places[row])
         else:
-            place = int(layout.rows[0]) + row * layout.stride
+            place = int(layout.rows.places[0]) + row * layout.stride
         raise FileFormatError(
             f"{self.element.name} {row}{self._store.describe(place)}: {message}",
             self._path,
@@ -159,20 +156,20 @@ class PlyTable:
         )
 
     def _first_place(self, after: int, offset: int) -> int:
-        base = self._layout.rows[:1] if after == 0 else self._list_ends(after - 1)[:1]
+        base = self._layout.rows.places[:1] if after == 0 else self._list_ends(after - 1)[:1]
         return int(base[0]) + offset
 
     def _list_ends(self, number: int) -> np.ndarray:
         lists = [p for p in self.element.properties.values() if p.count_type is not None]
         size = self._store.size(lists[number].type)
-        return self._layout.starts[:, number] + self._layout.sizes[:, number] * size
+        rows = self._layout.rows
+        return rows.starts[:, number] + rows.sizes[:, number] * size
 
 
-def _own_copy(numbers: np.ndarray) -> np.ndarray:
-    """Numbers in this machine's byte order; a mesh takes over what nobody can write to."""
-    copy = np.array(numbers, numbers.dtype.newbyteorder("="), order="C")
-    copy.setflags(write=False)
-    return copy
+def _frozen(numbers: np.ndarray) -> np.ndarray:
+    """A mesh takes over what nobody can write to."""
+    numbers.setflags(write=False)
+    return numbers
 
 
 def read_tables(
@@ -214,98 +211,47 @@ def _places_in_row(element: PlyElement, store) -> dict[str, tuple[int, int]]:
 
 
 def _find_rows(source: Source, element: PlyElement, store, start: int) -> _Layout:
-    steps, tail = _steps(element, store)
-    least = sum(skip + size for skip, _, size, _ in steps) + tail
+    lists, tail = _lists(element, store)
+    least = sum(before + store.size(count_type) for before, count_type, _ in lists) + tail
     count = element.count if least else 0
     if count * least > store.end - start:
         _fail_short(source, element, store)
-    if not count:
-        empty = np.zeros((0, len(steps)), np.int64)
-        return _Layout(0, None, np.zeros(0, np.int64), empty, empty, start)
     try:
-        first = _walk(steps, tail, store.end, start, 1)
-        stride = first[2] - start
+        first = store.walk(lists, tail, start, min(count, 1))
+        stride = first.end - start
         fits = count * stride <= store.end - start
-        if fits and _is_uniform(element, store, first, start, stride, count):
-            return _layout(count, stride, first, start + stride * count)
-        found = _walk(steps, tail, store.end, start, count)
-    except (IndexError, struct.error):
+        if count and fits and _is_uniform(element, store, first, stride, count):
+            return _Layout(count, stride, first, start + stride * count)
+        rows = store.walk(lists, tail, start, count)
+    except ShortBodyError:
         _fail_short(source, element, store)
-    except _BadList as error:
+    except BadListError as error:
         raise FileFormatError(
             f"{element.name} {error.row}{store.describe(error.place)}: "
             "the length of a list must be an integer from 0 on",
             source.path,
             store.line(error.place),
         ) from None
-    return _layout(count, None, found, found[2])
+    return _Layout(count, None, rows, rows.end)
 
 
-def _layout(count: int, stride: int | None, walked, end: int) -> _Layout:
-    starts, sizes, _, rows = walked
-    rows = np.frombuffer(rows, np.int64)
-    starts, sizes = (
-        np.frombuffer(numbers, np.int64).reshape(len(rows), len(numbers) // len(rows))
-        for numbers in (starts, sizes)
-    )
-    return _Layout(count, stride, rows, starts, sizes, end)
-
-
-class _BadList(Exception):
-    def __init__(self, row: int, place: int) -> None:
-        super().__init__(row, place)
-        self.row, self.place = row, place
-
-
-def _steps(element: PlyElement, store) -> tuple[list[tuple], int]:
-    """For each list the places before it, its counter, and the sizes of count and item.
-
-    The second value is the number of places behind the last list.
-    """
-    steps, skip = [], 0
+def _lists(element: PlyElement, store) -> tuple[list[ListInRow], int]:
+    """The lists of a row, and the number of places behind the last."""
+    lists, before = [], 0
     for item in element.properties.values():
         if item.count_type is None:
-            skip += store.size(item.type)
+            before += store.size(item.type)
         else:
-            counter = store.counter(item.count_type)
-            steps.append((skip, counter, store.size(item.count_type), store.size(item.type)))
-            skip = 0
-    return steps, skip
+            lists.append((before, item.count_type, item.type))
+            before = 0
+    return lists, before
 
 
-def _walk(steps, tail: int, end: int, place: int, count: int):
-    """Go along rows: the starts and sizes of their lists, the place behind, and their places.
-
-    Raises IndexError or struct.error where the body ends too early.
-    """
-    starts, sizes, rows = array("q"), array("q"), array("q")
-    for row in range(count):
-        rows.append(place)
-        for skip, counter, count_size, item_size in steps:
-            place += skip
-            try:
-                size = counter(place)
-            except (ValueError, OverflowError):
-                raise _BadList(row, place) from None
-            if size < 0:
-                raise _BadList(row, place)
-            place += count_size
-            if place + size * item_size > end:
-                raise IndexError
-            starts.append(place)
-            sizes.append(size)
-            place += size * item_size
-        place += tail
-        if place > end:
-            raise IndexError
-    return starts, sizes, place, rows
-
-
-def _is_uniform(element: PlyElement, store, first, start: int, stride: int, count: int) -> bool:
+def _is_uniform(element: PlyElement, store, first: WalkedRows, stride: int, count: int) -> bool:
     """Whether the lists of all rows have the lengths of those in the first."""
     lists = [p for p in element.properties.values() if p.count_type is not None]
-    for item, begin, size in zip(lists, first[0], first[1], strict=True):
-        place = begin - store.size(item.count_type)
+    for item, begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
+        place = int(begin) - store.size(item.count_type)
         if (store.grid(place, (count, 1), stride, item.count_type) != size).any():
             return False
     return True

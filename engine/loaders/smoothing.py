@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._native import loaders as native
 from ..mesh import Mesh
 from ..normals import face_normals, smooth_sums, unit_vectors
 from .welding import number_rows, rows_repeat
@@ -79,10 +80,11 @@ def fill_normals(
 def _grouped_normals(positions, corners, groups):
     """One normal for each position in each group, and the one of every corner."""
     _, group = np.unique(groups, return_inverse=True)
-    keys = corners.astype(np.int64) * (int(group.max()) + 1) + group.reshape(-1, 1)
-    _, shared = np.unique(keys, return_inverse=True)
+    group = np.repeat(group.astype(np.int32), 3)
+    corners = np.ascontiguousarray(corners, np.int32)
+    shared, places, *_ = native.weld_corners(corners.ravel(), group, None, len(positions))
     shared = shared.reshape(corners.shape)
-    sums = smooth_sums(positions, corners, shared, int(shared.max()) + 1)
+    sums = smooth_sums(positions, corners, shared, len(places))
     return unit_vectors(sums).astype(np.float32), shared
 
 
@@ -103,8 +105,10 @@ def _masked_normals(positions, corners, masks):
 
 def _flat_normals(positions, corners, polygons):
     """One normal for each polygon, and the one of every corner."""
-    _, first, polygon = np.unique(polygons, return_index=True, return_inverse=True)
-    table = face_normals(positions, corners, polygon.reshape(-1))[first]
+    # Polygons stand in their order.
+    is_first = np.r_[True, polygons[1:] != polygons[:-1]]
+    polygon = np.cumsum(is_first) - 1
+    table = face_normals(positions, corners, polygon)[is_first]
     return table, np.repeat(polygon.reshape(-1, 1), 3, axis=1)
 
 

@@ -11,6 +11,7 @@ import stat
 from collections.abc import Callable
 from typing import NamedTuple
 
+from .._native.loaders import read_bytes
 from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
 
 # A compressed file may unpack to this many bytes, and so many times its own size besides. Assign
@@ -109,10 +110,13 @@ def _read_path(path: str) -> Source:
     try:
         # Without O_NONBLOCK, opening a FIFO that nobody writes to would wait for ever.
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | os.O_CLOEXEC)
-        with os.fdopen(handle, "rb") as file:
-            if not stat.S_ISREG(os.fstat(handle).st_mode):
+        with os.fdopen(handle, "rb", buffering=0) as file:
+            status = os.fstat(handle)
+            if not stat.S_ISREG(status.st_mode):
                 raise FileAccessError("not a regular file", path)
-            return Source(path, file.read())
+            data = read_bytes(file.readinto, status.st_size)
+            # Some files (of /proc, say) are longer than they say.
+            return Source(path, data + file.readall())
     except FileAccessError:
         raise
     except (OSError, ValueError) as error:

@@ -1,9 +1,11 @@
 """Computed normals: weights, seams, degenerate and curved polygons."""
 
 import numpy as np
+import pytest
 
+from engine3d.errors import InvalidArgumentError
 from engine3d.mesh import Mesh
-from engine3d.normals import corner_angles, face_normals, vertex_normals
+from engine3d.normals import face_normals, smooth_sums, vertex_normals
 
 CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float32)
 CUBE_QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
@@ -26,15 +28,53 @@ def test_a_cubes_corners_point_along_its_diagonals_however_it_is_cut():
         assert np.allclose(normals, outward, atol=1e-6)
 
 
-def test_corner_angles_are_exact_enough():
+def angle_weighted_sums(positions, faces, groups, count):
+    """What `smooth_sums` promises, with the library's arc cosine."""
+    corners = positions[faces].astype(np.float64)
+    ab, ac = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    normals = np.cross(ab, ac)
+    normals /= np.sqrt((normals**2).sum(axis=1, keepdims=True))
+    sums = np.zeros((count, 3))
+    for k in range(3):
+        onward, back = (corners[:, (k + step) % 3] - corners[:, k] for step in (1, 2))
+        scale = np.sqrt((onward**2).sum(axis=1) * (back**2).sum(axis=1))
+        angles = np.arccos((onward * back).sum(axis=1) / scale)
+        np.add.at(sums, groups[:, k], angles[:, np.newaxis] * normals)
+    return sums
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_sums_weigh_by_angle(dtype):
+    """Against an independent sum; more faces than are added up at a time."""
+    random = np.random.default_rng(3)
+    positions = random.standard_normal((500, 3)).astype(dtype)
+    faces = np.array([random.permutation(500)[:3] for _ in range(1000)], np.int32)
+    faces = np.tile(faces, (70, 1))
+    groups = random.integers(0, 40, faces.shape)
+    sums = smooth_sums(positions, faces, groups, 40)
+    assert np.allclose(sums, angle_weighted_sums(positions, faces, groups, 40), atol=2e-3)
+
+
+def test_angles_are_exact_enough():
+    """A triangle whose corners are in groups of their own adds its three angles."""
     random = np.random.default_rng(3)
     triangles = random.standard_normal((1000, 3, 3))
     faces = np.arange(3000).reshape(1000, 3)
-    angles = corner_angles(triangles.reshape(-1, 3), faces)
+    sums = smooth_sums(triangles.reshape(-1, 3), faces, faces, 3000)
+    angles = np.sqrt((sums**2).sum(axis=1)).reshape(1000, 3)
     assert np.allclose(angles.sum(axis=1), np.pi, atol=1e-7)
     ab, ac = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     cosine = (ab * ac).sum(axis=1) / np.sqrt((ab * ab).sum(axis=1) * (ac * ac).sum(axis=1))
     assert np.allclose(angles[:, 0], np.arccos(cosine), atol=1e-7)
+
+
+@pytest.mark.parametrize("wrong", [-1, 3])
+def test_indices_out_of_range_are_refused(wrong):
+    positions, face = np.eye(3), np.array([(0, 1, 2)])
+    with pytest.raises(InvalidArgumentError, match="out of range"):
+        smooth_sums(positions, np.array([(0, 1, wrong)]), face, 3)
+    with pytest.raises(InvalidArgumentError, match="out of range"):
+        smooth_sums(positions, face, np.array([(0, 1, wrong)]), 3)
 
 
 def test_unused_and_degenerate_vertices_get_zero_never_nan():

@@ -284,15 +284,17 @@ static int add_loose(e3d_tree *t, int32_t item, const double *box)
     return 1;
 }
 
+static int is_worn(const e3d_tree *t) { return t->cost > WORN * t->built_cost && t->refits >= LEAST_REFITS; }
+
 int e3d_tree_refit(e3d_tree *t, const double *boxes, int32_t count, const int32_t *moved, int32_t moves)
 {
-    if (t->levels == 0)
+    int all = moves > t->count / 4, loose_fit = 1;
+    if (t->levels == 0 || (all && is_worn(t))) /* rather than renewing boxes first */
         return e3d_tree_build(t, boxes, count);
     e3d_block *leaves = e3d_tree_level(t, 0);
     const int32_t *places = t->places.data;
     int32_t *list = t->dirty.data, dirty = 0;
     uint8_t *marks = t->marks.data;
-    int all = moves > t->count / 4, loose_fit = 1;
     for (int32_t i = 0; i < moves; i++) {
         int32_t item = moved[i];
         const double *box = boxes + E3D_BOX * (size_t)item;
@@ -312,7 +314,7 @@ int e3d_tree_refit(e3d_tree *t, const double *boxes, int32_t count, const int32_
     else
         gather_dirty(t, dirty);
     t->refits++;
-    if (!loose_fit || (t->cost > WORN * t->built_cost && t->refits >= LEAST_REFITS))
+    if (!loose_fit || (!all && is_worn(t)))
         return e3d_tree_build(t, boxes, count);
     return 1;
 }

@@ -98,10 +98,10 @@ static void visible_unfold(e3d_visible_tile *tile, const e3d_record_table *table
     int32_t id = tile->noted_id[block];
     tile->noted &= ~(1ull << block);
     if (id < 0) {
-        for (int y = 0; y < RASTER_BLOCK; y++)
-            for (int x = 0; x < RASTER_BLOCK; x++) {
-                tile->z[at + y * E3D_TILE + x] = E3D_BEYOND_FAR;
-                tile->id[at + y * E3D_TILE + x] = id;
+        for (int y = 0; y < RASTER_BLOCK; y += ROWS)
+            for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES) {
+                rows_storef(tile->z + at + y * E3D_TILE + x, v_setf(E3D_BEYOND_FAR));
+                rows_storei(tile->id + at + y * E3D_TILE + x, v_seti(id));
             }
         return;
     }

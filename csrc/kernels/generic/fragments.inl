@@ -126,10 +126,14 @@ static inline void fragment_small(const e3d_record_request *q, const e3d_fragmen
         e[k] = record_edge_of(c.x, c.y, k, zero, x0, y0);
     for (int row = 0; row < E3D_SMALL; row++) {
         uint32_t rows = v.lanes & ~v_bits(v_gti(v_seti(row), high));
+        if (!rows)
+            break; /* all boxes are lower */
         vi32 at[3] = {e[0].c, e[1].c, e[2].c};
         for (int column = 0; column < E3D_SMALL; column++) {
-            vmask out_of = v_mor(v_negi(v_ori(v_ori(at[0], at[1]), at[2])), v_gti(v_seti(column), wide));
-            uint32_t bits = rows & ~v_bits(out_of);
+            uint32_t columns = rows & ~v_bits(v_gti(v_seti(column), wide));
+            if (!columns)
+                break;
+            uint32_t bits = columns & ~v_bits(v_negi(v_ori(v_ori(at[0], at[1]), at[2])));
             any |= bits;
             if (bits)
                 fragment_add(&v, column, row, bits, ids->tiles_x, out);

@@ -51,6 +51,7 @@ typedef struct e3d_draw_state {
     int64_t instance_base, unit_base, group_base;
     int32_t primitives;  /* an instance */
     int32_t placed;      /* instances that have their place in the order */
+    uint32_t order;      /* of the first primitive; of several nodes, each instance has its own */
     int32_t line_units, point_units, edge_units; /* an instance */
     int32_t units;       /* their sum */
     int32_t any_two_sided;

@@ -102,6 +102,9 @@ static void instances_work(void *argument, int worker)
             prepare_instance(context->frame, &context->viewport, state->draw, (int32_t)(i - state->instance_base), state->units,
                              &context->instances[i]);
             context->instances[i].draw = (int32_t)(state - context->draws);
+            if (state->draw->pose_kind != E3D_POSE_NODES)
+                context->instances[i].order =
+                    state->order + (uint32_t)(i - state->instance_base) * (uint32_t)state->primitives;
         }
     }
 }
@@ -179,9 +182,9 @@ static int place_instances(e3d_context *context, e3d_draw_state *state, uint32_t
 {
     if (state->placed + count > state->draw->instances)
         return 0;
-    e3d_instance *instances = context->instances + state->instance_base + state->placed;
-    for (int32_t i = 0; i < count; i++)
-        instances[i].order = order + (uint32_t)i * (uint32_t)state->primitives;
+    if (state->draw->pose_kind == E3D_POSE_NODES)
+        context->instances[state->instance_base + state->placed].order = order;
+    state->order = order;
     state->placed += count;
     return 1;
 }

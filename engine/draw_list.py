@@ -36,6 +36,8 @@ class DrawList:
     ----------
     color_space : {"srgb", "linear"}
         How 8-bit colours of materials and lights are read.
+    threads : int
+        That cut meshes into clusters; 0: all.
 
     Attributes
     ----------
@@ -44,9 +46,10 @@ class DrawList:
         Grows whenever `update` finds that something else is to be drawn, or elsewhere.
     """
 
-    def __init__(self, color_space: str) -> None:
+    def __init__(self, color_space: str, threads: int) -> None:
         self.native = NativeDrawList()
         self._color_space = color_space
+        self._threads = threads
         self._scene = lambda: None
         self._objects_version = -1
         self._needs: MeshNeeds | None = None
@@ -144,7 +147,7 @@ class DrawList:
         if mesh not in bases:
             bases[mesh] = self.native.material_count
             self._watch_mesh(mesh)
-        native = native_mesh(mesh, _needs_of(mesh, needs, normals))
+        native = native_mesh(mesh, _needs_of(mesh, needs, normals), self._threads)
         index = self.native.add_object(native, bases[mesh])
         if obj is not mesh:
             self._watched.append((obj, obj.version))

@@ -16,6 +16,7 @@ import numpy as np
 
 from . import normals as _normals
 from . import topology as _topology
+from ._native.rasterizer import bound_points
 from .errors import InvalidArgumentError
 from .materials import Material
 from .mesh_arrays import (
@@ -179,7 +180,7 @@ class Mesh:
     @property
     def bounds(self) -> np.ndarray:
         """Smallest and largest finite coordinates, (2, 3) float64; zeros if there are none."""
-        return self._derive("bounds", lambda: _bounds(self.positions))
+        return self._derive("bounds", lambda: np.array(bound_points(self.positions), np.float64))
 
     @property
     def materials(self) -> list[Material]:
@@ -326,12 +327,3 @@ def _check_materials(materials: Iterable[Material] | None) -> list[Material]:
         if not isinstance(material, Material):
             raise InvalidArgumentError(f"not a Material: {type(material).__name__}")
     return materials or [Material()]
-
-
-def _bounds(positions: np.ndarray) -> np.ndarray:
-    finite = positions
-    if not np.isfinite(positions).all():
-        finite = positions[np.isfinite(positions).all(axis=1)]
-    if len(finite) == 0:
-        return np.zeros((2, 3), np.float64)
-    return np.stack([finite.min(axis=0), finite.max(axis=0)]).astype(np.float64)

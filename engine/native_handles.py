@@ -29,11 +29,11 @@ _meshes: WeakKeyDictionary[Mesh, tuple[int, NativeMesh]] = WeakKeyDictionary()
 _textures: WeakKeyDictionary[Texture, tuple[int, dict[bool, NativeTexture]]] = WeakKeyDictionary()
 
 
-def native_mesh(mesh: Mesh, needs: MeshNeeds) -> NativeMesh:
-    """Return the handle of a mesh as it is now, with what is needed."""
+def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
+    """Return the handle of a mesh as it is now, with what is needed; 0 threads are all."""
     version, native = _meshes.get(mesh, (None, None))
     if version != mesh.version:
-        version, native = mesh.version, _make_mesh(mesh)
+        version, native = mesh.version, _make_mesh(mesh, threads)
         _meshes[mesh] = (version, native)
     if needs.vertex_normals and not native.has_normals:
         native.set_normals(mesh.normals)
@@ -44,7 +44,7 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds) -> NativeMesh:
     return native
 
 
-def _make_mesh(mesh: Mesh) -> NativeMesh:
+def _make_mesh(mesh: Mesh, threads: int) -> NativeMesh:
     colors = mesh.colors
     eight_bit = colors is not None and colors.dtype == np.uint8
     return NativeMesh(
@@ -56,6 +56,7 @@ def _make_mesh(mesh: Mesh) -> NativeMesh:
         material_ids=mesh.material_ids,
         lines=mesh.lines,
         points=mesh.points,
+        threads=threads,
     )
 
 

@@ -80,8 +80,9 @@ class Renderer:
         self._samples = choose(samples, _SAMPLES, "samples")
         number = resolve_backend(backend)
         self._backend = list(_native.BACKENDS)[number]
-        self._native = _native.NativeRenderer(number, resolve_threads(threads))
-        self._draw_list = DrawList(self._color_space)
+        threads = resolve_threads(threads)
+        self._native = _native.NativeRenderer(number, threads)
+        self._draw_list = DrawList(self._color_space, threads)
         self._options = OptionsCache(self._color_space)
         self._pool = OutputPool()
         self._view: View | None = None

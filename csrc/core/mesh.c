@@ -4,26 +4,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/bounds.h"
 #include "core/clusters.h"
+#include "core/fpenv.h"
 
+/* Both index and vertices - 1 - index have a clear sign bit exactly where the index fits. */
 static int indices_fit(const int32_t *indices, size_t count, int32_t vertices)
 {
+    int32_t signs = 0;
     for (size_t i = 0; i < count; i++)
-        if (indices[i] < 0 || indices[i] >= vertices)
-            return 0;
-    return 1;
+        signs |= indices[i] | (int32_t)((uint32_t)vertices - 1u - (uint32_t)indices[i]);
+    return signs >= 0;
 }
 
-/* -1 if one is negative. */
+/* Negative if one is. */
 static int32_t greatest_material(const e3d_mesh_desc *d)
 {
-    int32_t most = 0;
+    int32_t most = 0, signs = 0;
     for (int32_t f = 0; d->material_ids && f < d->faces_count; f++) {
-        if (d->material_ids[f] < 0)
-            return -1;
+        signs |= d->material_ids[f];
         most = d->material_ids[f] > most ? d->material_ids[f] : most;
     }
-    return most;
+    return signs < 0 ? -1 : most;
 }
 
 static int desc_is_valid(const e3d_mesh_desc *d)
@@ -39,15 +41,6 @@ static int desc_is_valid(const e3d_mesh_desc *d)
            indices_fit(d->lines, 2 * (size_t)d->lines_count, d->vertices) &&
            indices_fit(d->points, (size_t)d->points_count, d->vertices) &&
            indices_fit(d->edges, 2 * (size_t)d->edges_count, d->vertices);
-}
-
-/* Of all vertices, drawn or not. */
-static void bound_vertices(const e3d_mesh_desc *d, float lo[3], float hi[3])
-{
-    int32_t any = 0;
-    lo[0] = lo[1] = lo[2] = hi[0] = hi[1] = hi[2] = 0;
-    for (int32_t v = 0; v < d->vertices; v++)
-        e3d_grow_bounds(d->positions + (size_t)v * (size_t)d->components, lo, hi, &any);
 }
 
 static void bound_mesh(e3d_mesh *mesh)
@@ -66,7 +59,7 @@ static void bound_mesh(e3d_mesh *mesh)
                     &mesh->any_finite);
 }
 
-e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out)
+e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out)
 {
     *out = NULL;
     int32_t material_most = greatest_material(desc);
@@ -77,9 +70,10 @@ e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out)
         return E3D_OUT_OF_MEMORY;
     mesh->desc = *desc;
     mesh->material_most = material_most;
-    float lo[3], hi[3];
-    bound_vertices(desc, lo, hi);
-    if (!e3d_clusters_build(mesh, lo, hi)) {
+    e3d_fpenv saved = e3d_fpenv_enter();
+    int built = e3d_clusters_build(mesh, threads ? threads : e3d_thread_count());
+    e3d_fpenv_leave(saved);
+    if (!built) {
         e3d_mesh_destroy(mesh);
         return E3D_OUT_OF_MEMORY;
     }
@@ -92,10 +86,11 @@ void e3d_mesh_destroy(e3d_mesh *mesh)
 {
     if (!mesh)
         return;
+    for (int32_t i = 0; mesh->blocks && i < mesh->block_count; i++)
+        free(mesh->blocks[i]);
+    free(mesh->blocks);
     free(mesh->clusters);
     free(mesh->groups);
-    free(mesh->positions);
-    free(mesh->indices);
     free(mesh->faces);
     free(mesh);
 }

@@ -5,19 +5,27 @@
 #include "core/limits.h"
 #include "e3d.h"
 
-/* Up to 64 triangles over up to 128 vertices, with their own copy of the positions. */
+/* Up to 64 triangles over up to 128 vertices, with their own copy of the positions: a line of the cache. */
 typedef struct e3d_cluster {
+    const float *positions; /* x[stride], y[stride], z[stride] (, w[stride]), then three planes of E3D_CLUSTER_TRIANGLES local
+                             * indices, uint8_t */
     int32_t first; /* of its triangles in the mesh's `faces` */
-    int32_t triangles, vertices;
-    int32_t stride;       /* vertices rounded up to 16: planes of positions are this far apart */
-    size_t positions;     /* offset of x[stride], y[stride], z[stride] (, w[stride]) */
-    size_t indices;       /* offset of three planes of E3D_CLUSTER_TRIANGLES local indices */
+    uint8_t triangles, vertices;
+    uint8_t stride;       /* vertices rounded up to 16: planes of positions are this far apart */
+    uint8_t any_finite;
     float lo[3], hi[3];   /* AABB, object space; finite vertices only */
-    int32_t any_finite;
     float axis[3];        /* of a cone that holds the unit normals of all its triangles, object space */
     float cosine;         /* of half the cone's opening */
     float altitude;       /* the least one of a triangle; 0: there is no cone */
+    int32_t padding;
 } e3d_cluster;
+
+_Static_assert(sizeof(e3d_cluster) == 64, "a cluster is a line of the cache");
+
+static inline const uint8_t *e3d_cluster_indices(const e3d_cluster *c, int32_t components)
+{
+    return (const uint8_t *)(c->positions + components * c->stride);
+}
 
 /* Neighbouring clusters, which are culled together first. */
 typedef struct e3d_group_box {
@@ -31,8 +39,8 @@ struct e3d_mesh {
     e3d_cluster *clusters;
     int32_t cluster_count, group_count;
     e3d_group_box *groups;
-    float *positions;  /* of all clusters */
-    uint8_t *indices;
+    float **blocks;    /* positions and indices of E3D_CHUNK_FACES faces' clusters each */
+    int32_t block_count;
     int32_t *faces;    /* of the clusters' triangles, one cluster after the other */
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */
     int32_t any_finite;

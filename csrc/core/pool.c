@@ -7,6 +7,7 @@
 
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdint.h>
 
 #include "core/fpenv.h"
@@ -118,4 +119,25 @@ void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
         pthread_cond_wait(&pool.done, &pool.lock);
     pthread_mutex_unlock(&pool.lock);
     pthread_mutex_unlock(&pool.owner);
+}
+
+typedef struct shared {
+    atomic_int next;
+    int tasks;
+    void (*task)(void *, int);
+    void *argument;
+} shared;
+
+static void take_tasks(void *argument, int worker)
+{
+    shared *s = argument;
+    (void)worker;
+    for (int i; (i = atomic_fetch_add(&s->next, 1)) < s->tasks;)
+        s->task(s->argument, i);
+}
+
+void e3d_pool_share(int threads, int tasks, void (*task)(void *, int), void *argument)
+{
+    shared s = {.tasks = tasks, .task = task, .argument = argument};
+    e3d_pool_run(threads < tasks ? threads : tasks, take_tasks, &s);
 }

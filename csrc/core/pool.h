@@ -8,4 +8,7 @@
  * counter, not by the worker's number. */
 void e3d_pool_run(int threads, void (*work)(void *argument, int worker), void *argument);
 
+/* Runs task(argument, i) for i = 0 .. tasks - 1, each once, shared out over up to `threads` threads. */
+void e3d_pool_share(int threads, int tasks, void (*task)(void *argument, int i), void *argument);
+
 #endif

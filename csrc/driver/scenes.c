@@ -148,7 +148,7 @@ static e3d_status add_mesh(scene *s, random_stream *r, int32_t index)
     desc.points = random_indices(s, r, desc.points_count, vertices);
     desc.edges_count = random_below(r, 60);
     desc.edges = random_indices(s, r, 2 * desc.edges_count, vertices);
-    return e3d_mesh_create(&desc, &s->meshes[index]);
+    return e3d_mesh_create(&desc, 2, &s->meshes[index]);
 }
 
 /* A rotation from a random quaternion, a scale (negative now and then: a mirror) and an offset. */

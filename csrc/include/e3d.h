@@ -71,13 +71,16 @@ typedef struct e3d_mesh_desc {
     int32_t edges_count;
 } e3d_mesh_desc;
 
-e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out);
+/* On up to `threads` threads (0 is e3d_thread_count()), which change nothing of the mesh. */
+e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out);
 void e3d_mesh_destroy(e3d_mesh *mesh);
 /* Arrays that are made only when a picture needs them. */
 void e3d_mesh_set_normals(e3d_mesh *mesh, const float *normals);
 void e3d_mesh_set_face_normals(e3d_mesh *mesh, const float *face_normals);
 e3d_status e3d_mesh_set_edges(e3d_mesh *mesh, const int32_t *edges, int32_t count);
 const e3d_mesh_desc *e3d_mesh_view(const e3d_mesh *mesh);
+/* The box of the points, (count, 3), that are finite, and whether there are any; else it is all zero. */
+int e3d_bound_points(const float *points, int64_t count, float lo[3], float hi[3]);
 
 /* ---- Textures ----------------------------------------------------------------------------- */
 

@@ -9,23 +9,8 @@
 #include <string.h>
 
 #include "core/pool.h"
+#include "core/vectors.h"
 #include "pipeline/frame.h"
-
-typedef float float4 __attribute__((vector_size(16))); /* clip coordinates of one corner */
-typedef int32_t int4 __attribute__((vector_size(16)));
-
-static inline float4 splat(float v) { return (float4){v, v, v, v}; }
-static inline float4 less_of(float4 a, float4 b)
-{
-    int4 m = a < b;
-    return (float4)((m & (int4)a) | (~m & (int4)b));
-}
-static inline float4 more_of(float4 a, float4 b)
-{
-    int4 m = a > b;
-    return (float4)((m & (int4)a) | (~m & (int4)b));
-}
-static inline float4 size_of(float4 a) { return more_of(a, -a); }
 
 static inline float4 column(const float m[16], int c) { return (float4){m[c], m[4 + c], m[8 + c], m[12 + c]}; }
 

@@ -178,13 +178,12 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     const e3d_kernels *kernels = w->context->kernels;
     const e3d_viewport *viewport = &w->context->viewport;
     e3d_worker *worker = w->worker;
-    const float *positions = mesh->positions + cluster->positions;
     if (mesh->desc.components == 4)
-        kernels->take_clip(positions, cluster->stride, cluster->vertices, viewport, &worker->vertices);
+        kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, viewport, &worker->vertices);
     else
-        kernels->transform(positions, cluster->stride, cluster->vertices, w->instance->clip, viewport,
+        kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, viewport,
                            &worker->vertices);
-    const uint8_t *indices = mesh->indices + cluster->indices;
+    const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
     kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), viewport, s);
     worker->counters.triangles_rejected += cluster->triangles - s->draws - s->clips;

@@ -27,7 +27,7 @@ e3d_status e3d_rasterize(const float *clip, int32_t vertices, const int32_t *fac
     const e3d_material material = {.shininess = 1};
     e3d_renderer *renderer = NULL;
     e3d_mesh *mesh = NULL;
-    e3d_status status = e3d_mesh_create(&desc, &mesh);
+    e3d_status status = e3d_mesh_create(&desc, threads, &mesh);
     if (status == E3D_OK)
         status = e3d_renderer_create(backend, threads, &renderer);
     if (status == E3D_OK) {

@@ -44,11 +44,12 @@ cdef extern from "e3d.h" nogil:
         const int32_t *edges
         int32_t edges_count
 
-    e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, e3d_mesh **out)
+    e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out)
     void e3d_mesh_destroy(e3d_mesh *mesh)
     void e3d_mesh_set_normals(e3d_mesh *mesh, const float *normals)
     void e3d_mesh_set_face_normals(e3d_mesh *mesh, const float *face_normals)
     e3d_status e3d_mesh_set_edges(e3d_mesh *mesh, const int32_t *edges, int32_t count)
+    int e3d_bound_points(const float *points, int64_t count, float lo[3], float hi[3])
 
     ctypedef struct e3d_texture:
         pass

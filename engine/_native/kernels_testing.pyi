@@ -13,6 +13,9 @@ LIMITS: dict[str, int]
 FLUSH_DENORMALS: int
 ROUND_UP: int
 
+def clusters_of(
+    positions: _Floats, faces: _Integers, threads: int
+) -> tuple[list[int], list[tuple], list[tuple]]: ...
 def float_control() -> int: ...
 def set_float_control(value: int) -> None: ...
 

@@ -1,5 +1,5 @@
 # cython: boundscheck=False, wraparound=False, initializedcheck=False
-"""The table of kernels of one backend, for tests and benchmarks; the engine itself never imports it.
+"""The table of kernels of one backend, and clusters, for tests and benchmarks; the engine itself never imports it.
 
 In:  plain numbers, arrays, and the kernels' C structs as their bytes (uint8 arrays whose size is
      checked: `STRUCT_SIZES`). tests/kernels/layouts.py has them as NumPy record types.
@@ -9,9 +9,12 @@ Always: nothing but the sizes of structs is checked. What a kernel expects of it
 """
 
 from libc.stdint cimport int32_t, uint8_t, uint32_t
-from libc.string cimport memcpy
+from libc.string cimport memcpy, memset
 
-from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
+from e3d cimport (
+    E3D_OK, e3d_backend, e3d_filter, e3d_light, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_wrap
+)
+from e3d_clusters cimport *
 from e3d_kernels cimport *
 
 cdef extern from *:
@@ -430,3 +433,48 @@ cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int texel_bytes,
         view.levels[level].height = sizes[level, 1]
         start += texel_bytes * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
     return view
+
+
+def clusters_of(const float[:, ::1] positions, const int32_t[:, ::1] faces, int threads):
+    """What a mesh is cut into: the order of its faces, clusters and groups.
+
+    Each cluster is (first, triangles, vertices, positions, indices, box, cone): first of its triangles
+    in the order, their number and the vertices', plane after plane the positions' bytes, (3, 64) local indices as bytes, the
+    box as six numbers or None, the cone as axis, cosine and least altitude or None. Each group is
+    (first cluster, clusters, triangles, box).
+    """
+    cdef e3d_mesh_desc desc
+    cdef e3d_mesh *handle
+    memset(&desc, 0, sizeof(desc))
+    desc.components = <int32_t>positions.shape[1]
+    desc.vertices = <int32_t>positions.shape[0]
+    desc.faces_count = <int32_t>faces.shape[0]
+    desc.positions = &positions[0, 0] if desc.vertices else NULL
+    desc.faces = &faces[0, 0] if desc.faces_count else NULL
+    if e3d_mesh_create(&desc, threads, &handle) != E3D_OK:
+        raise ValueError("the mesh is not valid, or too large")
+    try:
+        return mesh_parts(<const e3d_mesh_parts *>handle, desc.faces_count, desc.components)
+    finally:
+        e3d_mesh_destroy(handle)
+
+
+cdef tuple triple(const float *v):
+    return v[0], v[1], v[2]
+
+
+cdef mesh_parts(const e3d_mesh_parts *mesh, int32_t faces_count, int components):
+    cdef const e3d_cluster *c
+    cdef const e3d_group_box *g
+    clusters, groups = [], []
+    for i in range(mesh.cluster_count):
+        c = &mesh.clusters[i]
+        planes = (<const char *>c.positions)[:4 * components * c.stride]
+        indices = (<const char *>e3d_cluster_indices(c, components))[:3 * E3D_CLUSTER_TRIANGLES]
+        box = triple(c.lo) + triple(c.hi) if c.any_finite else None
+        cone = (triple(c.axis), c.cosine, c.altitude) if c.altitude > 0 else None
+        clusters.append((c.first, c.triangles, c.vertices, planes, indices, box, cone))
+    for i in range(mesh.group_count):
+        g = &mesh.groups[i]
+        groups.append((g.first_cluster, g.clusters, g.triangles, triple(g.lo) + triple(g.hi) if g.any_finite else None))
+    return [mesh.faces[i] for i in range(faces_count)], clusters, groups

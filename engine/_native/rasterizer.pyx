@@ -10,7 +10,7 @@ Always: a handle holds the arrays that the core borrows; the GIL is released for
 
 from cpython.exc cimport PyErr_CheckSignals
 from libc.math cimport INFINITY
-from libc.stdint cimport int32_t, uint8_t, uint64_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint64_t
 from libc.stdlib cimport free, realloc
 from libc.string cimport memcpy, memset
 from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
@@ -93,6 +93,17 @@ def thread_count():
     return e3d_thread_count()
 
 
+def bound_points(const float[:, ::1] points not None):
+    """The box of the (N, 3) points that are finite: lowest and highest corner, zeros if there are none."""
+    cdef float low[3]
+    cdef float high[3]
+    cdef int64_t count = points.shape[0]
+    require(points.shape[1] == 3, "points must have 3 columns")
+    with nogil:
+        e3d_bound_points(&points[0, 0] if count else NULL, count, low, high)
+    return low, high
+
+
 cdef class NativeMesh:
     """A mesh of the core. It borrows the arrays given, which must never change."""
 
@@ -112,6 +123,7 @@ cdef class NativeMesh:
         const int32_t[::1] material_ids=None,
         const int32_t[:, ::1] lines=None,
         const int32_t[::1] points=None,
+        int threads=0,
     ):
         cdef e3d_mesh_desc desc
         memset(&desc, 0, sizeof(desc))
@@ -147,7 +159,7 @@ cdef class NativeMesh:
             desc.points = &points[0]
         cdef e3d_status status
         with nogil:
-            status = e3d_mesh_create(&desc, &self.handle)
+            status = e3d_mesh_create(&desc, threads, &self.handle)
         check(status)
 
     def __dealloc__(self):

@@ -1,0 +1,20 @@
+/* Boxes round points. */
+#ifndef E3D_BOUNDS_H
+#define E3D_BOUNDS_H
+
+#include <math.h>
+#include <stdint.h>
+
+/* Makes a box hold a point, unless that isn't finite; *any tells whether it holds one already. */
+static inline void e3d_grow_bounds(const float *p, float lo[3], float hi[3], int32_t *any)
+{
+    if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]))
+        return;
+    for (int k = 0; k < 3; k++) {
+        lo[k] = *any && lo[k] < p[k] ? lo[k] : p[k];
+        hi[k] = *any && hi[k] > p[k] ? hi[k] : p[k];
+    }
+    *any = 1;
+}
+
+#endif

@@ -1,0 +1,26 @@
+/* Four floats at a time, in the compiler's own vectors: on every processor, with the same bits. */
+#ifndef E3D_VECTORS_H
+#define E3D_VECTORS_H
+
+#include <stdint.h>
+#include <string.h>
+
+typedef float float4 __attribute__((vector_size(16)));
+typedef int32_t int4 __attribute__((vector_size(16)));
+
+static inline float4 splat(float v) { return (float4){v, v, v, v}; }
+/* mask: all bits or none. */
+static inline int4 choose_bits(int4 mask, int4 a, int4 b) { return (mask & a) | (~mask & b); }
+static inline float4 choose(int4 mask, float4 a, float4 b) { return (float4)choose_bits(mask, (int4)a, (int4)b); }
+static inline float4 less_of(float4 a, float4 b) { return choose(a < b, a, b); }
+static inline float4 more_of(float4 a, float4 b) { return choose(a > b, a, b); }
+static inline float4 size_of(float4 a) { return more_of(a, -a); }
+static inline float4 load4(const float *p)
+{
+    float4 v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+static inline void store4(float *p, float4 v) { memcpy(p, &v, sizeof v); }
+
+#endif

@@ -82,6 +82,7 @@ def static_libraries():
         "e3d_navigation": ["csrc/navigation/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],
         "e3d_loaders": ["csrc/loaders/*.c"],
+        "e3d_writers": ["csrc/writers/*.c"],
     }
     sources["e3d_core"].append("csrc/kernels/isa_portable.c")
     isa_flags = {}

@@ -7,6 +7,8 @@
  */
 #include "e3d_loaders.h"
 
+#include "core/fpenv.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -101,12 +103,14 @@ e3d_sums_problem e3d_smooth_sums(const e3d_surface *surface, size_t block_faces,
     double *const block = calloc(3 * surface->group_count + 1, sizeof *block);
     if (!block)
         return E3D_SUMS_NO_MEMORY;
+    const e3d_fpenv saved = e3d_fpenv_enter();
     for (size_t face = 0; face < surface->face_count; face += block_faces) {
         const size_t left = surface->face_count - face, count = left < block_faces ? left : block_faces;
         for (size_t k = 0; k < count; k++)
             add_triangle(surface, face + k, block);
         add_block(surface->groups + 3 * face, 3 * count, block, sums);
     }
+    e3d_fpenv_leave(saved);
     free(block);
     return E3D_SUMS_DONE;
 }

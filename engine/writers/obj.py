@@ -11,6 +11,7 @@ import os
 
 import numpy as np
 
+from .._native import writers as native
 from ..atomic_write import AtomicFiles
 from ..colors import srgb_bytes
 from ..loaders.welding import number_rows
@@ -21,6 +22,7 @@ from .registry import Writer
 from .rows import write_floats, write_integers
 
 _POINTS_A_LINE = 16
+_FACES_AT_ONCE = 1 << 16
 
 
 def write_obj(mesh: Mesh, path: str) -> list[str]:
@@ -92,7 +94,7 @@ def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) ->
         _declare_materials(mesh, file, names)
     states = np.stack([mesh.material_ids, groups, smooth], axis=1)[first]
     starts = np.flatnonzero(np.r_[True, (states[1:] != states[:-1]).any(axis=1)])
-    ends = np.cumsum(outlines.sizes)
+    lines = _FaceLines(mesh, outlines, position_of)
     old = (-1, 0, True)
     for start, end in zip(starts.tolist(), [*starts[1:].tolist(), len(first)], strict=True):
         new = tuple(states[start].tolist())
@@ -103,9 +105,7 @@ def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) ->
         if new[2] != old[2]:
             file.write(b"s 1\n" if new[2] else b"s off\n")
         old = new
-        corners = outlines.corners[ends[start] - outlines.sizes[start] : ends[end - 1]]
-        part = Outlines(outlines.sizes[start:end], corners, first[start:end])
-        _write_polygons(mesh, file, part, position_of)
+        lines.write(file, start, end)
 
 
 def _declare_materials(mesh: Mesh, file, names: list[str]) -> None:
@@ -128,26 +128,39 @@ def _group_sets(mesh: Mesh) -> tuple[np.ndarray, list[list[str]]]:
     return sets, labels
 
 
-def _write_polygons(mesh: Mesh, file, outlines: Outlines, position_of: np.ndarray) -> None:
-    """Write faces, runs of equal size at a time."""
-    columns = [position_of[outlines.corners]]
-    corner = "%d"
-    if mesh.uvs is not None:
-        columns.append(outlines.corners + 1)
-        corner += "/%d"
-    if mesh.has_normals:
-        columns.append(outlines.corners + 1)
-        corner += "/%d" if mesh.uvs is not None else "//%d"
-    rows = np.stack(columns, axis=1)
-    sizes = outlines.sizes
-    starts = np.flatnonzero(np.r_[True, sizes[1:] != sizes[:-1]])
-    ends = np.append(starts[1:], len(sizes))
-    offsets = np.cumsum(sizes) - sizes
-    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-        size = int(sizes[start])
-        begin = int(offsets[start])
-        run = rows[begin : begin + size * (end - start)].reshape(end - start, -1)
-        write_integers(file, " ".join(["f", *[corner] * size]), run)
+class _FaceLines:
+    """The lines of faces, which are made many at a time and written in runs."""
+
+    def __init__(self, mesh: Mesh, outlines: Outlines, position_of: np.ndarray) -> None:
+        self._outlines = outlines
+        self._position_of = position_of
+        self._form = (
+            (native.V, native.V_VN),
+            (native.V_VT, native.V_VT_VN),
+        )[mesh.uvs is not None][mesh.has_normals]
+        self._corner_ends = np.append(0, np.cumsum(outlines.sizes))
+        self._first = self._last = 0
+        self._text = np.zeros(0, np.uint8)
+        self._ends = [0]
+
+    def write(self, file, start: int, end: int) -> None:
+        """Write the lines ``start`` to ``end - 1``; each call goes on where the last one ended."""
+        while start < end:
+            if start == self._last:
+                self._make(start)
+            stop = min(end, self._last)
+            file.write(self._text[self._ends[start - self._first] : self._ends[stop - self._first]])
+            start = stop
+
+    def _make(self, first: int) -> None:
+        sizes = self._outlines.sizes[first : first + _FACES_AT_ONCE]
+        begin, end = self._corner_ends[[first, first + len(sizes)]]
+        corners = self._outlines.corners[begin:end]
+        positions = self._position_of[corners].astype(np.int32)
+        others = None if self._form == native.V else (corners + 1).astype(np.int32)
+        text, ends = native.face_lines(sizes.astype(np.int32), positions, others, self._form)
+        self._first, self._last = first, first + len(sizes)
+        self._text, self._ends = text, [0, *ends.tolist()]
 
 
 def _write_lines_and_points(mesh: Mesh, file, position_of: np.ndarray) -> None:

@@ -10,15 +10,22 @@ from typing import BinaryIO
 
 import numpy as np
 
+from .._native import writers as native
+
 # Rows made at a time, which bounds the memory for their text.
 _BLOCK = 1 << 16
 
 
 def write_floats(file: BinaryIO, prefix: str, rows: np.ndarray) -> None:
     """Write float32 rows (N, K), each behind ``prefix``."""
-    pattern = prefix.encode() + b" ".join([b"%s"] * rows.shape[1]) + b"\n"
-    for block in _blocks(np.asarray(rows, np.float32)):
-        file.write(pattern * len(block) % tuple(float_words(block)))
+    between = [prefix.encode(), *[b" "] * (rows.shape[1] - 1), b"\n"]
+    write_float_rows(file, between, rows)
+
+
+def write_float_rows(file: BinaryIO, between: list[bytes], rows: np.ndarray) -> None:
+    """Write float32 rows (N, K) with K + 1 words before, between and behind their numbers."""
+    for block in _blocks(np.ascontiguousarray(rows, np.float32)):
+        file.write(native.float_rows(block, between))
 
 
 def write_integers(file: BinaryIO, pattern: str, rows: np.ndarray) -> None:
@@ -30,12 +37,8 @@ def write_integers(file: BinaryIO, pattern: str, rows: np.ndarray) -> None:
 
 def float_words(values: np.ndarray) -> list[bytes]:
     """Return the shortest words for float32 numbers, ``1`` rather than ``1.0``."""
-    # Models repeat themselves: each number is put into words once. By their bits, 0 is not -0.
-    bits = np.ascontiguousarray(values, np.float32).ravel().view(np.int32)
-    distinct, number = np.unique(bits, return_inverse=True)
-    words = distinct.view(np.float32).astype("S24").tolist()
-    words = [word[:-2] if word.endswith(b".0") else word for word in words]
-    return np.array(words, object)[number.reshape(-1)].tolist()
+    column = np.ascontiguousarray(values, np.float32).reshape(-1, 1)
+    return native.float_rows(column, [b"", b"\n"]).tobytes().split()
 
 
 def _blocks(rows: np.ndarray):

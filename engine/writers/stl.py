@@ -9,7 +9,7 @@ from ..mesh import Mesh
 from ..normals import face_area_vectors, unit_vectors
 from .losses import lost_parts
 from .registry import Writer
-from .rows import float_words
+from .rows import write_float_rows
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = b"STL written by engine3d".ljust(80)
@@ -29,10 +29,11 @@ def write_stl(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
         if ascii:
             name = " ".join(mesh.name.split()).encode()
             file.write(b"solid " + name + b"\n")
+            between = _TEXT.split(b"%s")
             for start in range(0, len(facets), _BLOCK):
                 block = facets[start : start + _BLOCK]
                 numbers = np.concatenate([block["normal"], block["corners"].reshape(-1, 9)], axis=1)
-                file.write(_TEXT * len(block) % tuple(float_words(numbers)))
+                write_float_rows(file, between, numbers)
             file.write(b"endsolid " + name + b"\n")
         else:
             file.write(_HEADER + len(facets).to_bytes(4, "little"))

@@ -1,15 +1,15 @@
-/* Where to start counting sRGB thresholds: made from core/srgb_tables.h.
+/* The sRGB code of a float in one look-up: made from core/srgb_tables.h.
  *
- * The bits of a float in [0, 1], shifted right by ENCODE_SHIFT, minus ENCODE_FIRST (clamped), pick a bucket;
- * ENCODE_GUESS is the code at the bucket's low end, and no bucket holds more than ENCODE_STEPS thresholds.
+ * The upper 16 bits of a float in [0, 1], minus ENCODE_FIRST (at least 0), pick a bucket, which holds one threshold at most. Its sum is the
+ * code at the bucket's low end above 17 bits, and below them what the float's lower 16 bits, added, must exceed to carry.
  */
 #ifndef E3D_ENCODE_TABLES_H
 #define E3D_ENCODE_TABLES_H
 
 #include <stdint.h>
 
-enum { ENCODE_SHIFT = 16, ENCODE_FIRST = 14592, ENCODE_BUCKETS = 1665, ENCODE_STEPS = 1 };
+enum { ENCODE_FIRST = 14592, ENCODE_BUCKETS = 1665 };
 
-extern const int32_t ENCODE_GUESS[ENCODE_BUCKETS];
+extern const int32_t ENCODE_SUMS[ENCODE_BUCKETS];
 
 #endif

@@ -1,19 +1,11 @@
-/* encode: colours, clamped to [0, 1] (R33), to 8 bits (R34).
- *
- * The sRGB code is the number of thresholds <= v. A guess from the float's exponent and first mantissa
- * bits is at most ENCODE_STEPS too small (encode_tables.h is made so), and is then counted up.
- */
+/* encode: colours, clamped to [0, 1] (R33), to 8 bits (R34). */
 
+/* The number of thresholds <= v, which is in [0, 1], as encode_tables.h finds it. */
 static inline vi32 encode_srgb(vf32 v)
 {
-    vi32 bucket = v_subi(v_shr(v_asi(v), ENCODE_SHIFT), v_seti(ENCODE_FIRST));
-    bucket = v_mini(v_maxi(bucket, v_seti(0)), v_seti(ENCODE_BUCKETS - 1));
-    vi32 code = v_gatheri(ENCODE_GUESS, bucket), one = v_seti(1), zero = v_seti(0);
-    for (int step = 0; step < ENCODE_STEPS; step++) {
-        vf32 next = v_gatherf(SRGB_THRESHOLDS, code);
-        code = v_addi(code, v_seli(v_ge(v, next), one, zero));
-    }
-    return code;
+    vi32 bucket = v_maxi(v_subi(v_shr(v_asi(v), 16), v_seti(ENCODE_FIRST)), v_seti(0));
+    vi32 low = v_andi(v_asi(v), v_seti(0xFFFF));
+    return v_shr(v_addi(v_gatheri(ENCODE_SUMS, bucket), low), 17);
 }
 
 static inline vi32 encode_linear(vf32 v)

@@ -5,7 +5,6 @@
 
 #include "core/fpenv.h"
 #include "core/encode_tables.h"
-#include "core/srgb_tables.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
 

@@ -7,6 +7,7 @@ way to decode a texture), forgotten with the object. The arrays that only some p
 
 from __future__ import annotations
 
+import operator
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -25,16 +26,18 @@ class MeshNeeds(NamedTuple):
     edges: bool = False
 
 
-_meshes: WeakKeyDictionary[Mesh, tuple[int, NativeMesh]] = WeakKeyDictionary()
+_meshes: WeakKeyDictionary[Mesh, tuple[int, list, NativeMesh]] = WeakKeyDictionary()
 _textures: WeakKeyDictionary[Texture, tuple[int, dict[bool, NativeTexture]]] = WeakKeyDictionary()
 
 
 def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     """Return the handle of a mesh as it is now, with what is needed; 0 threads are all."""
-    version, native = _meshes.get(mesh, (None, None))
+    version, made_of, native = _meshes.get(mesh, (None, [], None))
     if version != mesh.version:
-        version, native = mesh.version, _make_mesh(mesh, threads)
-        _meshes[mesh] = (version, native)
+        arrays = list(mesh._arrays.values())
+        if native is None or not all(map(operator.is_, arrays, made_of)):
+            native = _make_mesh(mesh, threads)  # else only materials are others
+        _meshes[mesh] = (mesh.version, arrays, native)
     if needs.vertex_normals and not native.has_normals:
         native.set_normals(mesh.normals)
     if needs.face_normals and not native.has_face_normals:

@@ -6,6 +6,7 @@ import pytest
 from engine3d.errors import InvalidArgumentError
 from engine3d.materials import Material
 from engine3d.mesh import Mesh
+from engine3d.native_handles import MeshNeeds, native_mesh
 
 SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
 HALVES = [(0, 1, 2), (0, 2, 3)]
@@ -224,3 +225,19 @@ def test_concatenating_bytes_and_floats_gives_linear_light():
 
 def test_concatenating_nothing_gives_an_empty_mesh():
     assert len(Mesh.concatenate([]).positions) == 0
+
+
+def test_only_other_arrays_make_the_core_cut_a_mesh_again():
+    mesh = Mesh(np.eye(3), [(0, 1, 2)])
+    made = native_mesh(mesh, MeshNeeds(), 1)
+    mesh.materials = [Material(color=(1, 0, 0))]
+    assert native_mesh(mesh, MeshNeeds(), 1) is made
+    for name, value in (
+        ("positions", 2 * np.eye(3)),
+        ("faces", [(0, 2, 1)]),
+        ("normals", np.eye(3)),
+    ):
+        setattr(mesh, name, value)
+        renewed = native_mesh(mesh, MeshNeeds(), 1)
+        assert renewed is not made
+        made = renewed

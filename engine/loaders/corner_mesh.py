@@ -192,7 +192,7 @@ def _vertices_for(used, of_position, position_count):
 def _gather(table, indices, extra):
     """Rows of a table; zero for index -1 and for the vertices that only lines and points use."""
     rows = np.zeros((len(indices) + extra, table.shape[1]), np.float32)
-    present = indices >= 0
+    present = slice(None) if indices.min(initial=0) >= 0 else indices >= 0
     with np.errstate(over="ignore"):
         rows[: len(indices)][present] = table[indices[present]]
     return rows

@@ -175,6 +175,6 @@ def test_damaged_files_are_clear_errors(pixels, data, message):
 
 def test_an_image_of_a_megapixel_loads_at_once(pixels):
     body = bytes([0x7F]) + bytes(range(128)) * 3
-    started = time.perf_counter()
+    started = time.process_time()
     pixels(tga(10, 1024, 1024, 24, body * 8192))
-    assert time.perf_counter() - started < 2
+    assert time.process_time() - started < 2

@@ -84,10 +84,10 @@ def test_flat_and_not_finite_polygons_still_give_their_triangles():
 @pytest.mark.parametrize("seed", range(2))
 def test_self_intersecting_polygons_end_in_time(seed):
     points = np.random.default_rng(seed).random((3000, 2))
-    started = time.perf_counter()
+    started = time.process_time()
     triangles = clip_ears([tuple(p) for p in points.tolist()], WorkBudget())
     assert len(triangles) == 2998
-    assert time.perf_counter() - started < 5
+    assert time.process_time() - started < 5
 
 
 def test_many_concave_polygons_share_one_budget():

@@ -3,7 +3,8 @@
 In:  the installed engine3d.
 Out: a table, or with --json one object. For each workload: minor page faults and growth of the
      process a frame, over frames after warm-up; CPU milliseconds of the first frame of a new
-     renderer of a scene never drawn, of the second, and their ratio.
+     renderer of a scene never drawn, of the second, and their ratio; the same ratio after
+     `Renderer.prepare`.
 """
 
 import argparse
@@ -51,6 +52,7 @@ def measure(name, frames, threads):
     taken = [cpu_milliseconds(drawing.draw, WARM_UP + frame) for frame in range(frames)]
     after = faults(), resident_bytes()
     drawing.close()
+    prepared = prepared_ratio(name, threads)
     return {
         "workload": name,
         "faults_a_frame": (after[0] - before[0]) / frames,
@@ -59,14 +61,26 @@ def measure(name, frames, threads):
         "second_milliseconds": second,
         "steady_milliseconds": statistics.median(taken),
         "first_over_second": first / second,
+        "prepared_over_second": prepared,
     }
+
+
+def prepared_ratio(name, threads):
+    """The first frame over the second, of a scene that was prepared."""
+    made = workloads.make(name)
+    drawing = measuring.Drawing(made, SIZE, threads=threads)
+    drawing.renderer.prepare(made.scene, mode=made.options.get("mode", "lit"))
+    first, second = (cpu_milliseconds(drawing.draw, frame) for frame in range(2))
+    drawing.close()
+    return first / second
 
 
 def line(row):
     return (
         f"{row['workload']:<15} {row['faults_a_frame']:>10.2f} {row['bytes_a_frame']:>11.0f} "
         f"{row['first_milliseconds']:>9.1f} {row['second_milliseconds']:>9.1f} "
-        f"{row['steady_milliseconds']:>9.1f} {row['first_over_second']:>12.2f}"
+        f"{row['steady_milliseconds']:>9.1f} {row['first_over_second']:>12.2f} "
+        f"{row['prepared_over_second']:>9.2f}"
     )
 
 
@@ -81,7 +95,7 @@ def main():
     if not arguments.json:
         print(
             f"{'a frame':<15} {'faults':>10} {'bytes':>11} {'1st ms':>9} {'2nd ms':>9} "
-            f"{'steady':>9} {'first/second':>12}"
+            f"{'steady':>9} {'first/second':>12} {'prepared':>9}"
         )
     for name in arguments.workload or WORKLOADS:
         rows.append(measure(name, arguments.frames, arguments.threads))

@@ -27,6 +27,7 @@ from .rasterization import check_size
 from .scene import Scene
 from .view import View, find_camera
 
+_WHITE = (1.0, 1.0, 1.0)
 _SAMPLES = {1: 1, 4: 2, 16: 4}  # samples a pixel -> samples along an axis
 
 
@@ -129,6 +130,48 @@ class Renderer:
     def __exit__(self, *exception) -> None:
         self.close()
 
+    def prepare(
+        self,
+        scene: Scene,
+        *,
+        mode: str = "lit",
+        wireframe: str | None = None,
+        outputs: Iterable[str] = ("color",),
+        normals: str = "auto",
+    ) -> None:
+        """Make what the first frame of a scene would make, so that it takes as long as others.
+
+        That is, of each mesh, the clusters and the normals or edges that are missing; of each
+        texture, the mip levels. It stays with the mesh or the texture, whoever draws it next.
+
+        Parameters
+        ----------
+        scene : Scene
+        mode, wireframe, outputs, normals
+            As the frames will be drawn: see `render`.
+
+        Raises
+        ------
+        InvalidArgumentError, OutOfMemoryError
+        """
+        names = tuple(choose(name, OUTPUTS, "outputs") for name in outputs)
+        with self._lock:
+            self._check_drawable(scene)
+            rest = "zbuffer", False, 1.0, 1.0, "none"
+            options = self._options.get(
+                scene, _WHITE, mode, wireframe, "back", "deferred", normals, *rest
+            )
+            headlight = options.headlight_color, (0.0, 0.0, 1.0)
+            self._draw_list.update(
+                scene, options.needs(names), options.normals, headlight, None, 0.0, True
+            )
+
+    def _check_drawable(self, scene) -> None:
+        if not isinstance(scene, Scene):
+            raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
+        if self._native is None:
+            raise InvalidArgumentError("the renderer is closed")
+
     def render(
         self,
         scene: Scene,
@@ -143,7 +186,7 @@ class Renderer:
         normals: str = "auto",
         hidden_surfaces: str = "zbuffer",
         line_width: float = 1.0,
-        line_color=(1.0, 1.0, 1.0),
+        line_color=_WHITE,
         hidden_lines: bool = False,
         point_size: float = 1.0,
         culling: str = "all",
@@ -204,11 +247,8 @@ class Renderer:
         KeyboardInterrupt
             Ctrl-C stops a frame between its tiles.
         """
-        if not isinstance(scene, Scene):
-            raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
         with self._lock:
-            if self._native is None:
-                raise InvalidArgumentError("the renderer is closed")
+            self._check_drawable(scene)
             options = self._options.get(
                 scene,
                 line_color,

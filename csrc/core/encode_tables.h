@@ -1,7 +1,7 @@
 /* The sRGB code of a float in one look-up: made from core/srgb_tables.h.
  *
- * The upper 16 bits of a float in [0, 1], minus ENCODE_FIRST (at least 0), pick a bucket, which holds one threshold at most. Its sum is the
- * code at the bucket's low end above 17 bits, and below them what the float's lower 16 bits, added, must exceed to carry.
+ * The upper 16 bits of a float in [0, 1], minus ENCODE_FIRST (at least 0), pick a bucket, which holds one threshold at most.
+ * Its sum is the code at the bucket's low end, 17 bits up; adding the float's lower 16 bits carries from the threshold on.
  */
 #ifndef E3D_ENCODE_TABLES_H
 #define E3D_ENCODE_TABLES_H

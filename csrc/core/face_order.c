@@ -100,11 +100,16 @@ static inline int4 key_of(const order *o, const e3d_triangles *triangles, int t)
     return ((cell >> fine) << SIDE_BITS | side_of(&areas)) << fine | (cell & ((1 << fine) - 1));
 }
 
+/* The end of the range that begins there. */
+static int32_t range_end(const order *o, int32_t first)
+{
+    return o->range_faces < o->desc->faces_count - first ? first + o->range_faces : o->desc->faces_count;
+}
+
 static void key_range(void *argument, int range)
 {
     const order *o = argument;
-    int32_t first = range * o->range_faces;
-    int32_t end = o->range_faces < o->desc->faces_count - first ? first + o->range_faces : o->desc->faces_count;
+    int32_t first = range * o->range_faces, end = range_end(o, first);
     uint32_t *counts = o->starts + (size_t)range * (size_t)o->buckets;
     e3d_triangles triangles;
     memset(&triangles, 0, sizeof triangles);
@@ -140,8 +145,7 @@ static void place_buckets(order *o)
 static void scatter_range(void *argument, int range)
 {
     const order *o = argument;
-    int32_t first = range * o->range_faces;
-    int32_t end = o->range_faces < o->desc->faces_count - first ? first + o->range_faces : o->desc->faces_count;
+    int32_t first = range * o->range_faces, end = range_end(o, first);
     uint32_t *start = o->starts + (size_t)range * (size_t)o->buckets;
     for (int32_t i = first; i < end; i++)
         o->sorted[start[o->keys[i].key >> o->low_bits]++] = o->keys[i];

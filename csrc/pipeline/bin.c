@@ -5,12 +5,12 @@
  */
 #include "pipeline/frame.h"
 
-void e3d_bins_clear(e3d_record_set *set, int32_t tiles)
+void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles)
 {
-    e3d_bin *bins = set->bins.data;
-    set->blocks.count = 0;
+    e3d_bin *bin = bins->data;
+    blocks->count = 0;
     for (int32_t t = 0; t < tiles; t++)
-        bins[t].first = bins[t].last = E3D_NO_BLOCK;
+        bin[t].first = bin[t].last = E3D_NO_BLOCK;
 }
 
 int e3d_records_reset(e3d_record_set *set, int32_t tiles)
@@ -18,7 +18,7 @@ int e3d_records_reset(e3d_record_set *set, int32_t tiles)
     set->records.count = set->corners.count = set->keys.count = 0;
     if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
         return 0;
-    e3d_bins_clear(set, tiles);
+    e3d_bins_clear(&set->bins, &set->blocks, tiles);
     return 1;
 }
 

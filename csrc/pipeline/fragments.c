@@ -7,20 +7,12 @@
 
 #include "pipeline/frame.h"
 
-void e3d_fragments_clear(e3d_fragment_set *set, int32_t tiles)
-{
-    e3d_bin *bins = set->bins.data;
-    set->blocks.count = 0;
-    for (int32_t t = 0; t < tiles; t++)
-        bins[t].first = bins[t].last = E3D_NO_BLOCK;
-}
-
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
 {
     set->drawn.count = 0;
     if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
         return 0;
-    e3d_fragments_clear(set, tiles);
+    e3d_bins_clear(&set->bins, &set->blocks, tiles);
     return 1;
 }
 

@@ -352,7 +352,8 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
 
 /* bin.c */
 int e3d_records_reset(e3d_record_set *set, int32_t tiles);
-void e3d_bins_clear(e3d_record_set *set, int32_t tiles);
+/* Of records or of fragments. */
+void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles);
 int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
                    e3d_tile_span span);
 static inline e3d_tile_span e3d_span_of(const e3d_box *box)
@@ -364,7 +365,6 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
 /* fragments.c */
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
-void e3d_fragments_clear(e3d_fragment_set *set, int32_t tiles);
 /* IDs of the fragments of the next cluster; 0 when there are none left. */
 int e3d_fragments_number(const e3d_context *context, const e3d_worker *worker, e3d_fragment_ids *out);
 /* Sorts the fragments of a cluster to tiles; 0 when memory is out. */

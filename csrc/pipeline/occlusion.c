@@ -149,9 +149,12 @@ void e3d_draw_kept_tiles(e3d_context *context)
     e3d_tables_set(context);
     atomic_store(&context->next, 0);
     e3d_pool_run(renderer->threads, kept_work, context);
+    int32_t tiles = (int32_t)e3d_tile_count(context);
     for (int32_t w = 0; w < renderer->threads; w++) {
-        e3d_bins_clear(&renderer->workers[w]->pass[E3D_PASS_SCENE], (int32_t)e3d_tile_count(context));
-        e3d_fragments_clear(&renderer->workers[w]->fragments, (int32_t)e3d_tile_count(context));
+        e3d_record_set *records = &renderer->workers[w]->pass[E3D_PASS_SCENE];
+        e3d_fragment_set *fragments = &renderer->workers[w]->fragments;
+        e3d_bins_clear(&records->bins, &records->blocks, tiles);
+        e3d_bins_clear(&fragments->bins, &fragments->blocks, tiles);
     }
 }
 

@@ -214,7 +214,7 @@ static void shade_group(const e3d_context *context, e3d_worker *worker, const e3
     e3d_surfaces *surfaces = &worker->tile->surfaces;
     int wanted = wanted_of(context, group);
     for (int32_t first = group->first, p = first; first >= 0; first = p) {
-        surfaces->count = surfaces->matrices = surfaces->irregular = 0;
+        surfaces->count = surfaces->matrices = surfaces->irregular = surfaces->projected = 0;
         for (; p >= 0 && surfaces->count < E3D_BATCH_SURFACES; p = pieces[p].next)
             e3d_add_surface(context, worker, p, wanted);
         if (wanted & E3D_WANT_SURFACE)

@@ -296,8 +296,6 @@ void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t num
     int count = vertices_of(piece, vertex);
     s->irregular += piece->slot->corners || face < 0 || mesh->components == 4;
     add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
-    if (n == 0)
-        s->projected = 0;
     s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
     s->projected += piece->drawn != NULL;
     if (!piece->drawn)

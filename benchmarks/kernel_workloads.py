@@ -57,7 +57,7 @@ def setup():
         vertices[name] = 128 * side + rng.integers(-2000, 2000, CLUSTER_VERTICES)
     indices = rng.integers(0, CLUSTER_VERTICES, 3 * CLUSTER_TRIANGLES, np.uint8)
     viewport, out = viewport_of(1280, 720).view(np.uint8), np.zeros(1, SURVIVORS).view(np.uint8)
-    arguments = (vertices.view(np.uint8), indices, CLUSTER_TRIANGLES, 1, viewport, out)
+    arguments = (vertices.view(np.uint8), indices, CLUSTER_TRIANGLES, 1, True, viewport, out)
     return CLUSTER_TRIANGLES, lambda kernels: kernels.setup(*arguments)
 
 

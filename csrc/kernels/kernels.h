@@ -49,12 +49,16 @@ typedef struct e3d_vertices {
 
 /* ---- setup ---- */
 
-/* Triangles of a cluster that may show: `draw` go to the record as they are, `clip` need clipping first. None that covers a
- * sample is missing; of the others, those go that have no sample in their box, or face the wrong way as far as 32 bits tell. */
+/* Triangles of a cluster that may show: `small` become fragments, where these are asked for, `draw` records, and `clip` need
+ * clipping first. None that covers a sample is missing; of the others, those go that have no sample in their box, or face the
+ * wrong way as far as 32 bits tell. */
 typedef struct e3d_survivors {
-    uint8_t draw[E3D_CLUSTER_TRIANGLES + E3D_PAD], clip[E3D_CLUSTER_TRIANGLES];
-    int draws, clips;
+    uint8_t draw[E3D_CLUSTER_TRIANGLES + E3D_PAD], small[E3D_CLUSTER_TRIANGLES + E3D_PAD], clip[E3D_CLUSTER_TRIANGLES];
+    int draws, smalls, clips;
 } e3d_survivors;
+
+/* Small are boxes of so many samples a side, and sides of so many steps at most: 32 bits hold their edge functions. */
+enum { E3D_SMALL = 4, E3D_SMALL_REACH = 16383 };
 
 /* What setup leaves of a piece of a primitive, ready for any tile: a cache line. */
 typedef struct e3d_record {
@@ -95,27 +99,24 @@ typedef struct e3d_tile_span {
 
 /* ---- fragments ---- */
 
-enum {
-    E3D_SMALL = 4, /* samples a side of the boxes of triangles that become fragments at once */
-    E3D_CLUSTER_FRAGMENTS = E3D_CLUSTER_TRIANGLES * E3D_SMALL * E3D_SMALL
-};
+enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES, E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };
 
-/* What a cluster's small triangles cover, sample by sample; the place is tile << E3D_PLACE_BITS | sample in the tile. What
- * the other triangles are: `rest`, E3D_PAD zeros after them. */
+/* Small triangles of some clusters, with area and a sample in their boxes: snapped corners, and the ID of the fragments. */
+typedef int32_t e3d_small_words[E3D_SMALLS + E3D_PAD];
+typedef struct e3d_small_triangles {
+    int32_t count;
+    e3d_small_words x[3], y[3], id;
+    float zn[3][E3D_SMALLS + E3D_PAD];
+} e3d_small_triangles;
+
+/* What they cover, sample by sample; the place is tile << E3D_PLACE_BITS | sample in the tile. */
 enum { E3D_PLACE_BITS = 2 * E3D_TILE_SHIFT };
 typedef struct e3d_fragments {
-    float z[E3D_CLUSTER_FRAGMENTS + E3D_PAD];
-    int32_t id[E3D_CLUSTER_FRAGMENTS + E3D_PAD];
-    uint32_t place[E3D_CLUSTER_FRAGMENTS + E3D_PAD];
+    float z[E3D_MOST_FRAGMENTS + E3D_PAD];
+    int32_t id[E3D_MOST_FRAGMENTS + E3D_PAD];
+    uint32_t place[E3D_MOST_FRAGMENTS + E3D_PAD];
     int32_t count, triangles; /* triangles that have fragments */
-    int32_t rests;
-    uint8_t rest[E3D_CLUSTER_TRIANGLES + E3D_PAD];
 } e3d_fragments;
-
-/* How the triangles and tiles of a cluster's fragments are numbered: triangle t is id + t * step. */
-typedef struct e3d_fragment_ids {
-    int32_t id, step, tiles_x;
-} e3d_fragment_ids;
 
 /* Fragments of one tile, in order of arrival. */
 enum { E3D_BLOCK_FRAGMENTS = 100 };
@@ -292,13 +293,14 @@ typedef struct e3d_kernels {
                       const e3d_viewport *viewport, e3d_vertices *out);
     void (*take_clip)(const float *positions, int stride, int count, const e3d_viewport *viewport,
                       e3d_vertices *out);
-    /* indices: three planes of E3D_CLUSTER_TRIANGLES. cull: sign of the area (screen, Y down) to drop: -1, +1, 0 = neither. */
-    void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
+    /* indices: three planes of E3D_CLUSTER_TRIANGLES. cull: sign of the area (screen, Y down) to drop: -1, +1, 0 = neither.
+     * fragments: small triangles are to become some. */
+    void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull, int fragments,
                   const e3d_viewport *viewport, e3d_survivors *out);
     /* Records and their tiles; how many. Room for as many as are asked for. */
     int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
-    /* The small triangles' fragments, and what is left for records. */
-    void (*fragments)(const e3d_record_request *request, const e3d_fragment_ids *ids, e3d_fragments *out);
+    /* The fragments of small triangles, which are consumed; tiles in a row of them. */
+    void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragments *out);
     void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);

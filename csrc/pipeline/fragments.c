@@ -10,22 +10,57 @@
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
 {
     set->drawn.count = 0;
+    set->triangles.count = 0;
     if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
         return 0;
     e3d_bins_clear(&set->bins, &set->blocks, tiles);
     return 1;
 }
 
-int e3d_fragments_number(const e3d_context *context, const e3d_worker *worker, e3d_fragment_ids *out)
+/* ---- triangles of clusters ---- */
+
+int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker)
 {
-    size_t number = worker->fragments.drawn.count;
-    int bits = context->tables[E3D_PASS_SCENE].bits;
-    if (number >= (size_t)E3D_FRAGMENT_ID / E3D_CLUSTER_TRIANGLES >> bits)
-        return 0;
-    int32_t first = (int32_t)(number * E3D_CLUSTER_TRIANGLES) << bits;
-    *out = (e3d_fragment_ids){E3D_FRAGMENT_ID | first | (int32_t)worker->number, 1 << bits, context->tiles_x};
-    return 1;
+    return worker->fragments.drawn.count < (size_t)E3D_FRAGMENT_ID / E3D_CLUSTER_TRIANGLES >> context->tables[E3D_PASS_SCENE].bits;
 }
+
+/* The IDs of triangle t of the next cluster are first + (t << bits). */
+static int32_t first_id(const e3d_context *context, const e3d_worker *worker)
+{
+    int32_t number = (int32_t)worker->fragments.drawn.count * E3D_CLUSTER_TRIANGLES;
+    return E3D_FRAGMENT_ID | number << context->tables[E3D_PASS_SCENE].bits | (int32_t)worker->number;
+}
+
+static void add_triangle(e3d_small_triangles *to, const e3d_vertices *v, const uint8_t *indices, int triangle, int32_t id)
+{
+    int32_t n = to->count++;
+    for (int k = 0; k < 3; k++) {
+        int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
+        to->x[k][n] = v->sx[i];
+        to->y[k][n] = v->sy[i];
+        to->zn[k][n] = v->zn[i];
+    }
+    to->id[n] = id;
+}
+
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices)
+{
+    e3d_fragment_set *set = &worker->fragments;
+    const e3d_survivors *s = &worker->survivors;
+    int bits = context->tables[E3D_PASS_SCENE].bits;
+    int32_t first = first_id(context, worker);
+    if (!e3d_array_reserve(&set->drawn, set->drawn.count + 1, sizeof *drawn)) {
+        worker->failed = 1;
+        return;
+    }
+    ((e3d_drawn_cluster *)set->drawn.data)[set->drawn.count++] = *drawn;
+    if (set->triangles.count > E3D_SMALLS - s->smalls)
+        e3d_fragments_flush(context, worker);
+    for (int i = 0; i < s->smalls; i++)
+        add_triangle(&set->triangles, &worker->vertices, indices, s->small[i], first + (s->small[i] << bits));
+}
+
+/* ---- fragments to tiles ---- */
 
 /* The tile's last block, with room; NULL when memory is out. */
 static inline e3d_fragment_block *open_block(e3d_fragment_set *set, e3d_bin *bin)
@@ -44,29 +79,10 @@ static inline e3d_fragment_block *open_block(e3d_fragment_set *set, e3d_bin *bin
     return &blocks[fresh];
 }
 
-/* All fragments of the cluster to one tile. */
-static int append_all(e3d_fragment_set *set, e3d_bin *bin)
+/* Each to the tile that it lies in; 0 when memory is out. */
+static int bin_fragments(e3d_fragment_set *set)
 {
-    const e3d_fragments *from = &set->of_cluster;
-    for (uint32_t first = 0, all = (uint32_t)from->count; first < all;) {
-        e3d_fragment_block *block = open_block(set, bin);
-        if (!block)
-            return 0;
-        uint32_t at = block->count, room = E3D_BLOCK_FRAGMENTS - at, count = all - first < room ? all - first : room;
-        memcpy(block->z + at, from->z + first, count * sizeof *block->z);
-        memcpy(block->id + at, from->id + first, count * sizeof *block->id);
-        for (uint32_t i = 0; i < count; i++)
-            block->sample[at + i] = (uint16_t)(from->place[first + i] % E3D_TILE_SAMPLES);
-        block->count += count;
-        first += count;
-    }
-    return 1;
-}
-
-/* Each to the tile that it lies in. */
-static int append_each(e3d_fragment_set *set)
-{
-    const e3d_fragments *from = &set->of_cluster;
+    const e3d_fragments *from = &set->fragments;
     for (int32_t i = 0; i < from->count; i++) {
         e3d_fragment_block *block = open_block(set, (e3d_bin *)set->bins.data + (from->place[i] >> E3D_PLACE_BITS));
         if (!block)
@@ -78,23 +94,20 @@ static int append_each(e3d_fragment_set *set)
     return 1;
 }
 
-int e3d_fragments_bin(e3d_worker *worker, const e3d_drawn_cluster *drawn)
+void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker)
 {
     e3d_fragment_set *set = &worker->fragments;
-    const uint32_t *place = set->of_cluster.place;
-    uint32_t differ = 0;
-    int32_t count = set->of_cluster.count;
-    if (!count)
-        return 1;
-    if (!e3d_array_reserve(&set->drawn, set->drawn.count + 1, sizeof *drawn))
-        return 0;
-    ((e3d_drawn_cluster *)set->drawn.data)[set->drawn.count++] = *drawn;
-    worker->counters.bin_entries += count;
-    for (int32_t i = 1; i < count; i++)
-        differ |= place[i] ^ place[0];
-    return differ >> E3D_PLACE_BITS ? append_each(set)
-                                    : append_all(set, (e3d_bin *)set->bins.data + (place[0] >> E3D_PLACE_BITS));
+    if (!set->triangles.count)
+        return;
+    context->kernels->fragments(&set->triangles, &context->viewport, context->tiles_x, &set->fragments);
+    worker->counters.records += set->fragments.triangles;
+    worker->counters.triangles_drawn += set->fragments.triangles;
+    worker->counters.bin_entries += set->fragments.count;
+    if (!bin_fragments(set))
+        worker->failed = 1;
 }
+
+/* ---- to the visible surface ---- */
 
 void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number)
 {

@@ -93,7 +93,8 @@ typedef struct e3d_fragment_set {
     e3d_array blocks; /* e3d_fragment_block */
     e3d_array bins;   /* e3d_bin, one a tile */
     e3d_array drawn;  /* e3d_drawn_cluster: of the whole frame, since IDs tell of them */
-    e3d_fragments of_cluster;
+    e3d_small_triangles triangles; /* that are fragments soon */
+    e3d_fragments fragments;
 } e3d_fragment_set;
 
 /* A box as the camera sees it. */
@@ -365,10 +366,12 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
 /* fragments.c */
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
-/* IDs of the fragments of the next cluster; 0 when there are none left. */
-int e3d_fragments_number(const e3d_context *context, const e3d_worker *worker, e3d_fragment_ids *out);
-/* Sorts the fragments of a cluster to tiles; 0 when memory is out. */
-int e3d_fragments_bin(e3d_worker *worker, const e3d_drawn_cluster *drawn);
+/* Whether a cluster more can have IDs. */
+int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker);
+/* Takes the small triangles of a cluster, which become fragments now or later. */
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices);
+/* All that were taken become fragments. */
+void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number);
 
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);

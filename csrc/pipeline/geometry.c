@@ -97,25 +97,6 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
     w->worker->counters.triangles_drawn += w->worker->counters.records > before;
 }
 
-/* The fragments of small triangles, which leave the request. */
-static void draw_fragments(walker *w, e3d_record_request *request)
-{
-    e3d_worker *worker = w->worker;
-    e3d_fragments *fragments = &worker->fragments.of_cluster;
-    const e3d_drawn_cluster drawn = {request->faces, w->order, (int32_t)(w->instance - w->context->instances),
-                                     w->instance->draw, w->instance->mirrored};
-    e3d_fragment_ids ids;
-    if (!e3d_fragments_number(w->context, worker, &ids))
-        return;
-    w->context->kernels->fragments(request, &ids, fragments);
-    worker->counters.records += fragments->triangles;
-    worker->counters.triangles_drawn += fragments->triangles;
-    if (!e3d_fragments_bin(worker, &drawn))
-        worker->failed = 1;
-    request->triangles = fragments->rest;
-    request->count = fragments->rests;
-}
-
 static void draw_records(walker *w, const e3d_record_request *request)
 {
     e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
@@ -139,13 +120,10 @@ static void draw_records(walker *w, const e3d_record_request *request)
 static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, const uint8_t *triangles, int count,
                       int cull)
 {
-    const e3d_mesh *mesh = w->draw->mesh;
-    e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = triangles,
-                                  .count = count, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
-                                  .faces = mesh->faces + cluster->first, .viewport = &w->context->viewport};
-    if (w->context->by_fragments && mesh->desc.components == 3 && count)
-        draw_fragments(w, &request);
-    if (request.count)
+    const e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = triangles,
+                                        .count = count, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
+                                        .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->viewport};
+    if (count)
         draw_records(w, &request);
 }
 
@@ -172,12 +150,42 @@ static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t 
         draw_some(w, cluster, indices, s->draw, s->draws, culled_sign(w));
 }
 
+/* Leaves out the small triangles that are culled, where some materials are two-sided. */
+static void drop_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+{
+    const e3d_vertices *v = &w->worker->vertices;
+    e3d_survivors *s = &w->worker->survivors;
+    int kept = 0, culled = culled_sign(w);
+    for (int i = 0; i < s->smalls; i++) {
+        int32_t x[3], y[3], triangle = s->small[i];
+        for (int k = 0; k < 3; k++) {
+            x[k] = v->sx[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
+            y[k] = v->sy[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
+        }
+        int sign = e3d_doubled_area(x, y) < 0 ? -1 : 1;
+        if (sign != culled || cull_of(w, w->draw->mesh->faces[cluster->first + triangle]) == E3D_CULL_NONE)
+            s->small[kept++] = (uint8_t)triangle;
+    }
+    s->smalls = kept;
+}
+
+static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+{
+    const e3d_drawn_cluster drawn = {w->draw->mesh->faces + cluster->first, w->order,
+                                     (int32_t)(w->instance - w->context->instances), w->instance->draw, w->instance->mirrored};
+    if (w->draw->any_two_sided)
+        drop_small(w, cluster, indices);
+    if (w->worker->survivors.smalls)
+        e3d_fragments_add(w->context, w->worker, &drawn, indices);
+}
+
 static void draw_cluster(walker *w, const e3d_cluster *cluster)
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_kernels *kernels = w->context->kernels;
     const e3d_viewport *viewport = &w->context->viewport;
     e3d_worker *worker = w->worker;
+    int fragments = w->context->by_fragments && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
     if (mesh->desc.components == 4)
         kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, viewport, &worker->vertices);
     else
@@ -185,8 +193,10 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
                            &worker->vertices);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
-    kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), viewport, s);
-    worker->counters.triangles_rejected += cluster->triangles - s->draws - s->clips;
+    kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
+    worker->counters.triangles_rejected += cluster->triangles - s->draws - s->smalls - s->clips;
+    if (s->smalls)
+        draw_small(w, cluster, indices);
     if (!w->context->sorted)
         draw_triangles(w, cluster, indices);
     for (int i = 0; i < s->draws && w->context->sorted; i++)
@@ -308,6 +318,7 @@ static void geometry_work(void *argument, int number)
     e3d_context *context = argument;
     walker w = {.context = context, .worker = context->renderer->workers[number]};
     walk_items(&w);
+    e3d_fragments_flush(context, w.worker);
     if (context->round.last)
         walk_units(context, w.worker);
 }

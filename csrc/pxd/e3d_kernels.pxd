@@ -15,7 +15,8 @@ cdef extern from "kernels/kernels.h" nogil:
         E3D_CLUSTER_VERTICES
         E3D_BATCH
         E3D_BATCH_SURFACES
-        E3D_CLUSTER_FRAGMENTS
+        E3D_SMALLS
+        E3D_MOST_FRAGMENTS
         E3D_BLOCK_FRAGMENTS
         E3D_FRAGMENT_ID
 
@@ -65,10 +66,8 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_fragments:
         pass
 
-    ctypedef struct e3d_fragment_ids:
-        int32_t id
-        int32_t step
-        int32_t tiles_x
+    ctypedef struct e3d_small_triangles:
+        pass
 
     ctypedef struct e3d_fragment_block:
         pass
@@ -127,9 +126,9 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*take_clip)(const float *positions, int stride, int count,
                           const e3d_viewport *viewport, e3d_vertices *out)
         void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
-                      const e3d_viewport *viewport, e3d_survivors *out)
+                      int fragments, const e3d_viewport *viewport, e3d_survivors *out)
         int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans)
-        void (*fragments)(const e3d_record_request *request, const e3d_fragment_ids *ids,
+        void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x,
                           e3d_fragments *out)
         void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile)

@@ -40,6 +40,7 @@ class Kernels:
         indices: _Bytes,
         triangles: int,
         cull: int,
+        fragments: bool,
         viewport: _Bytes,
         out: _Bytes,
     ) -> None: ...
@@ -58,17 +59,7 @@ class Kernels:
         spans: _Bytes,
     ) -> int: ...
     def fragments(
-        self,
-        vertices: _Bytes,
-        indices: _Bytes,
-        triangles: _Bytes,
-        count: int,
-        cull: int,
-        viewport: _Bytes,
-        first: int,
-        step: int,
-        tiles_x: int,
-        out: _Bytes,
+        self, triangles: _Bytes, viewport: _Bytes, tiles_x: int, out: _Bytes
     ) -> None: ...
     def raster_depth(self, pieces: _Bytes, z: _Floats, slot: _Integers, orders: _Words) -> None: ...
     def raster_overwrite(

@@ -52,6 +52,7 @@ STRUCT_SIZES = {
     "survivors": sizeof(e3d_survivors),
     "record": sizeof(e3d_record),
     "tile_span": sizeof(e3d_tile_span),
+    "small_triangles": sizeof(e3d_small_triangles),
     "fragments": sizeof(e3d_fragments),
     "fragment_block": sizeof(e3d_fragment_block),
     "drawn_cluster": sizeof(e3d_drawn_cluster),
@@ -69,7 +70,8 @@ LIMITS = {
     "CLUSTER_VERTICES": E3D_CLUSTER_VERTICES,
     "BATCH": E3D_BATCH,
     "BATCH_SURFACES": E3D_BATCH_SURFACES,
-    "CLUSTER_FRAGMENTS": E3D_CLUSTER_FRAGMENTS,
+    "SMALLS": E3D_SMALLS,
+    "MOST_FRAGMENTS": E3D_MOST_FRAGMENTS,
     "BLOCK_FRAGMENTS": E3D_BLOCK_FRAGMENTS,
     "FRAGMENT_ID": E3D_FRAGMENT_ID,
     "MAX_LEVELS": E3D_MAX_LEVELS,
@@ -134,12 +136,12 @@ cdef class Kernels:
                                  <e3d_vertices *>&out[0])
 
     def setup(self, const uint8_t[::1] vertices, const uint8_t[::1] indices, int triangles, int cull,
-              const uint8_t[::1] viewport, uint8_t[::1] out):
+              bint fragments, const uint8_t[::1] viewport, uint8_t[::1] out):
         check_size(vertices, sizeof(e3d_vertices))
         check_size(viewport, sizeof(e3d_viewport))
         check_size(out, sizeof(e3d_survivors))
         for _ in range(self.rounds):
-            self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull,
+            self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull, fragments,
                              <const e3d_viewport *>&viewport[0], <e3d_survivors *>&out[0])
 
     def record(self, const uint8_t[::1] vertices, const uint8_t[::1] indices,
@@ -166,26 +168,17 @@ cdef class Kernels:
             made = self.table.record(&request, <e3d_record *>&out[0], <e3d_tile_span *>&spans[0])
         return made
 
-    def fragments(self, const uint8_t[::1] vertices, const uint8_t[::1] indices,
-                  const uint8_t[::1] triangles, int count, int cull, const uint8_t[::1] viewport,
-                  int first, int step, int tiles_x, uint8_t[::1] out):
-        """Triangle t has the ID ``first + t * step``."""
-        cdef e3d_record_request request
-        cdef e3d_fragment_ids ids = [first, step, tiles_x]
-        check_size(vertices, sizeof(e3d_vertices))
+    def fragments(self, const uint8_t[::1] triangles, const uint8_t[::1] viewport, int tiles_x,
+                  uint8_t[::1] out):
+        """Of a copy of the triangles."""
+        cdef e3d_small_triangles taken
+        check_size(triangles, sizeof(e3d_small_triangles))
         check_size(viewport, sizeof(e3d_viewport))
         check_size(out, sizeof(e3d_fragments))
-        request.vertices = <const e3d_vertices *>&vertices[0]
-        request.indices = &indices[0]
-        request.triangles = &triangles[0]
-        request.count = count
-        request.cull = cull
-        request.mirrored = False
-        request.order = 0
-        request.faces = NULL
-        request.viewport = <const e3d_viewport *>&viewport[0]
         for _ in range(self.rounds):
-            self.table.fragments(&request, &ids, <e3d_fragments *>&out[0])
+            taken = (<const e3d_small_triangles *>&triangles[0])[0]
+            self.table.fragments(&taken, <const e3d_viewport *>&viewport[0], tiles_x,
+                                 <e3d_fragments *>&out[0])
 
     def raster_depth(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                      const uint32_t[::1] orders):

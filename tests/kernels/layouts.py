@@ -10,7 +10,8 @@ BLOCK = 8  # samples a side of what has depth bounds of its own
 CLUSTER_TRIANGLES = kernels_testing.LIMITS["CLUSTER_TRIANGLES"]
 CLUSTER_VERTICES = kernels_testing.LIMITS["CLUSTER_VERTICES"]
 BATCH = kernels_testing.LIMITS["BATCH"]
-CLUSTER_FRAGMENTS = kernels_testing.LIMITS["CLUSTER_FRAGMENTS"]
+SMALLS = kernels_testing.LIMITS["SMALLS"]
+MOST_FRAGMENTS = kernels_testing.LIMITS["MOST_FRAGMENTS"]
 BLOCK_FRAGMENTS = kernels_testing.LIMITS["BLOCK_FRAGMENTS"]
 FRAGMENT_ID = kernels_testing.LIMITS["FRAGMENT_ID"]
 BATCH_SURFACES = kernels_testing.LIMITS["BATCH_SURFACES"]
@@ -45,8 +46,10 @@ VERTICES = np.dtype(
 SURVIVORS = np.dtype(
     [
         ("draw", "u1", CLUSTER_TRIANGLES + PAD),
+        ("small", "u1", CLUSTER_TRIANGLES + PAD),
         ("clip", "u1", CLUSTER_TRIANGLES),
         ("draws", "i4"),
+        ("smalls", "i4"),
         ("clips", "i4"),
     ]
 )
@@ -56,15 +59,17 @@ RECORD = np.dtype(
     + [("iw", "f4", 3), ("order", "u4"), ("meta", "u4")]
 )
 TILE_SPAN = np.dtype([("first", "u4"), ("last", "u4")])
+SMALL_TRIANGLES = np.dtype(
+    [("count", "i4"), ("x", "i4", (3, SMALLS + PAD)), ("y", "i4", (3, SMALLS + PAD))]
+    + [("id", "i4", SMALLS + PAD), ("zn", "f4", (3, SMALLS + PAD))]
+)
 FRAGMENTS = np.dtype(
     [
-        ("z", "f4", CLUSTER_FRAGMENTS + PAD),
-        ("id", "i4", CLUSTER_FRAGMENTS + PAD),
-        ("place", "u4", CLUSTER_FRAGMENTS + PAD),
+        ("z", "f4", MOST_FRAGMENTS + PAD),
+        ("id", "i4", MOST_FRAGMENTS + PAD),
+        ("place", "u4", MOST_FRAGMENTS + PAD),
         ("count", "i4"),
         ("triangles", "i4"),
-        ("rests", "i4"),
-        ("rest", "u1", CLUSTER_TRIANGLES + PAD),
     ]
 )
 FRAGMENT_BLOCK = np.dtype(
@@ -136,6 +141,7 @@ STRUCTS = {
     "survivors": SURVIVORS,
     "record": RECORD,
     "tile_span": TILE_SPAN,
+    "small_triangles": SMALL_TRIANGLES,
     "fragments": FRAGMENTS,
     "fragment_block": FRAGMENT_BLOCK,
     "drawn_cluster": DRAWN_CLUSTER,

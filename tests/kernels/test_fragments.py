@@ -1,14 +1,22 @@
-"""fragments against R9, R10 and R12-R14: what small triangles cover, and what is left for records.
+"""fragments against R9, R10 and R12-R14: what small triangles cover.
 
-Small is a box of at most 4 x 4 samples and sides of at most 16383 steps. The oracle works in 64
-bits; the order of fragments says nothing, so both sides are sorted.
+Small is a box of at most 4 x 4 samples, at least one, and sides of at most 16383 steps. The oracle
+works in 64 bits; the order of fragments says nothing, so both sides are sorted.
 """
 
 import numpy as np
 import pytest
 from kernels.arithmetic import clamp, greatest, least
 from kernels.harness import Records, all_backends, bits, every_count
-from kernels.layouts import CLUSTER_TRIANGLES, CLUSTER_VERTICES, FRAGMENTS, PAD, TILE, viewport_of
+from kernels.layouts import (
+    CLUSTER_VERTICES,
+    FRAGMENTS,
+    PAD,
+    SMALL_TRIANGLES,
+    SMALLS,
+    TILE,
+    viewport_of,
+)
 from kernels.test_record import (
     CALLS,
     KINDS,
@@ -21,6 +29,7 @@ from kernels.test_record import (
     sample_span,
 )
 
+BATCHES = 700  # with four kinds: 500,000 triangles and more
 REACH = 16383
 SIDE = 4
 
@@ -53,18 +62,22 @@ def inside_of(x, y, column, row):
     return inside
 
 
-def expectation(c, viewport, cull):
-    """Which are not small; for each sample of a box: whether it is covered, its depth and place."""
-    sizes = [viewport[name].astype(np.int64) for name in ("width", "height")]
+def is_small(x, y, sizes):
+    """What the kernel may be given."""
+    across, down = sample_span(x, sizes[0]), sample_span(y, sizes[1])
+    some = (across[0] <= across[1]) & (down[0] <= down[1]) & (area_of(x, y) != 0)
+    small = (across[1] - across[0] < SIDE) & (down[1] - down[0] < SIDE)
+    return some & small & (np.maximum(np.ptp(x, axis=0), np.ptp(y, axis=0)) <= REACH)
+
+
+def expectation(c, sizes):
+    """For each sample of each triangle's box: whether it is covered, its depth and place."""
     area = area_of(c["sx"], c["sy"])
-    keep = (area != 0) & (np.sign(area) != np.where(cull == 0, 9, cull)[:, None])
     exchange(c, area < 0)
     x, y, zn = c["sx"], c["sy"], c["zn"]
     across, down = sample_span(x, sizes[0]), sample_span(y, sizes[1])
-    small = (across[1] - across[0] < SIDE) & (down[1] - down[0] < SIDE)
-    small &= np.maximum(np.ptp(x, axis=0), np.ptp(y, axis=0)) <= REACH
     z0, gx, gy = plane_of(c, np.abs(area), across, down)
-    keep &= small & np.isfinite(z0) & np.isfinite(gx) & np.isfinite(gy)
+    keep = np.isfinite(z0) & np.isfinite(gx) & np.isfinite(gy)
     lo, hi = least(least(zn[0], zn[1]), zn[2]), greatest(greatest(zn[0], zn[1]), zn[2])
     tiles_x = (sizes[0] + TILE - 1)[:, None] // TILE
     covered, depths, places = [], [], []
@@ -76,7 +89,25 @@ def expectation(c, viewport, cull):
         depths.append(clamp((z0 + np.float32(dx) * gx) + np.float32(dy) * gy, lo, hi))
         tile = row // TILE * tiles_x + column // TILE
         places.append(tile * TILE * TILE + row % TILE * TILE + column % TILE)
-    return ~small, np.stack(covered, -1), np.stack(depths, -1), np.stack(places, -1)
+    return np.stack(covered, -1), np.stack(depths, -1), np.stack(places, -1)
+
+
+def small_triangles(rng, kind, viewport, sizes):
+    """Batches of small triangles first, then others; how many are small; their corners."""
+    vertices = make_vertices(rng, kind, viewport)[:BATCHES]
+    indices = rng.integers(0, CLUSTER_VERTICES, (BATCHES, 3, 4 * SMALLS), np.uint8)
+    every = np.tile(np.arange(4 * SMALLS), (BATCHES, 1))
+    corners = corners_of(vertices, indices, every)
+    small = is_small(corners["sx"], corners["sy"], sizes)
+    first = np.argsort(~small, axis=1, kind="stable")[:, :SMALLS]
+    corners = corners_of(vertices, indices, first)
+    counts = np.minimum(small.sum(axis=1), every_count(rng, SMALLS, BATCHES))
+    triangles = np.zeros(BATCHES, SMALL_TRIANGLES)
+    triangles["count"] = counts
+    triangles["id"] = rng.integers(1 << 30, 2**31, (BATCHES, SMALLS + PAD))
+    for name, source in (("x", "sx"), ("y", "sy"), ("zn", "zn")):
+        triangles[name][..., :SMALLS] = corners[source].swapaxes(0, 1)
+    return triangles, counts, corners
 
 
 @all_backends
@@ -84,49 +115,34 @@ def expectation(c, viewport, cull):
 def test_fragments(kernels, kind):
     rng = np.random.default_rng(3)
     choice = SIZES[:3] if kind == "edges" else SIZES
-    sizes = np.array(choice)[rng.integers(0, len(choice), CALLS)]
-    viewport = np.concatenate([viewport_of(*size) for size in sizes])
-    vertices = make_vertices(rng, kind, viewport)
-    indices = rng.integers(0, CLUSTER_VERTICES, (CALLS, 3, CLUSTER_TRIANGLES), np.uint8)
-    asked = np.argsort(rng.random((CALLS, CLUSTER_TRIANGLES)), axis=1)
-    triangles = np.concatenate([asked, np.zeros((CALLS, PAD), int)], axis=1).astype(np.uint8)
-    counts = every_count(rng, CLUSTER_TRIANGLES, CALLS)
-    cull = rng.integers(-1, 2, CALLS).astype(np.int32)
-    first, step = 1 << 30, 8
+    chosen = np.array(choice)[rng.integers(0, len(choice), CALLS)]
+    viewport = np.concatenate([viewport_of(*size) for size in chosen])
+    sizes = chosen[:BATCHES].T
+    triangles, counts, corners = small_triangles(rng, kind, viewport, sizes)
 
-    out = Records(FRAGMENTS, CALLS)
-    for n in range(CALLS):
+    out = Records(FRAGMENTS, BATCHES)
+    for n in range(BATCHES):
         kernels.fragments(
-            vertices[n : n + 1].view(np.uint8),
-            indices[n].ravel(),
-            triangles[n],
-            int(counts[n]),
-            int(cull[n]),
+            triangles[n : n + 1].view(np.uint8),
             viewport[n : n + 1].view(np.uint8),
-            first,
-            step,
-            int(sizes[n][0] + TILE - 1) // TILE,
+            int(sizes[0][n] + TILE - 1) // TILE,
             out.rows[n],
         )
     out.check_gaps()
 
     with np.errstate(all="ignore"):
-        corners = corners_of(vertices, indices, asked)
-        rest, covered, depths, places = expectation(corners, viewport, cull)
-    listed = np.arange(CLUSTER_TRIANGLES) < counts[:, None]
-    rest, covered = rest & listed, covered & listed[..., None]
+        covered, depths, places = expectation(corners, sizes)
+    covered &= (np.arange(SMALLS) < counts[:, None])[..., None]
     got = out.fields
-    assert np.array_equal(got["rests"], rest.sum(axis=1))
     assert np.array_equal(got["count"], covered.sum(axis=(1, 2)))
     assert np.array_equal(got["triangles"], covered.any(axis=2).sum(axis=1))
     assert kind == "everywhere" or covered.sum() > 1000
     assert kind != "boxes" or (covered.reshape(-1, SIDE * SIDE).sum(axis=0) > 100).all()
-    for n in range(CALLS):
-        count, rests = got["count"][n], got["rests"][n]
-        assert np.array_equal(got["rest"][n, : rests + PAD], [*asked[n][rest[n]], *[0] * PAD])
-        ids = first + step * np.broadcast_to(asked[n][:, None], covered[n].shape)
+    for n in range(BATCHES):
+        count = got["count"][n]
+        ids = np.broadcast_to(triangles["id"][n, :SMALLS, None], covered[n].shape)
         expected = [v[covered[n]] for v in (ids, places[n].astype(np.uint32), bits(depths[n]))]
         made = [got["id"][n, :count], got["place"][n, :count], bits(got["z"][n, :count])]
         for some in (expected, made):
             some[:] = np.array(some)[:, np.lexsort(some[:2])]
-        assert np.array_equal(made, expected), f"call {n}"
+        assert np.array_equal(made, expected), f"batch {n}"

@@ -1,6 +1,7 @@
 """setup against R4–R7, R9 and R10: which triangles of a cluster stay.
 
-It may keep what only 64 bits can decide (boxes wider than 32767 steps of 1/256 sample), and what
+Those that are small, boxes of at most 4 x 4 samples and sides of at most 16383 steps, are listed
+apart where fragments are asked for. It may keep what only 64 bits can decide (boxes wider than 32767 steps of 1/256 sample), and what
 covers none of the samples of its box; nothing else that the rules drop. It must keep all that they
 keep.
 """
@@ -14,6 +15,7 @@ CALLS = 6000
 ROUNDS = 3  # with CALLS: 10^6 triangles and more
 SIZES = [(1, 1), (16, 16), (640, 480), (65536, 65536), (1, 4096), (37, 23)]
 WIDE = 32767
+SMALL, SMALL_REACH = 4, 16383  # samples a side, steps
 
 
 def random_positions(rng, viewport):
@@ -40,7 +42,7 @@ def sample_span(low, high, size):
 
 
 def survivors(x, y, code, viewport, cull):
-    """(calls, triangles) bool: what is drawn as it is, and what needs clipping."""
+    """(calls, triangles) bool: what is drawn as it is, what needs clipping, and what is small."""
     x, y = x.astype(np.int64), y.astype(np.int64)
     every = code[0] & code[1] & code[2]
     some = code[0] | code[1] | code[2]
@@ -55,7 +57,8 @@ def survivors(x, y, code, viewport, cull):
     drop = known & wrong_side
     drop |= (across[0] > across[1]) | (down[0] > down[1])
     drop |= (some & layouts.BAD_SCREEN) != 0
-    return keep & ~clip & ~drop, clip
+    small = (across[1] - across[0] < SMALL) & (down[1] - down[0] < SMALL)
+    return keep & ~clip & ~drop, clip, small & (np.maximum(width, height) <= SMALL_REACH)
 
 
 def check_list(name, got, number, expected):
@@ -87,6 +90,7 @@ def test_setup(kernels):
         indices = rng.integers(0, vertices["count"][:, None, None], shape).astype(np.uint8)
         counts = every_count(rng, CLUSTER_TRIANGLES, CALLS)
         cull = rng.integers(-1, 2, CALLS).astype(np.int32)
+        fragments = rng.random(CALLS) < 0.7
 
         out = Records(SURVIVORS, CALLS)
         for number, row in enumerate(out.rows):
@@ -95,6 +99,7 @@ def test_setup(kernels):
                 indices[number].ravel(),
                 int(counts[number]),
                 int(cull[number]),
+                bool(fragments[number]),
                 viewport[number : number + 1].view(np.uint8),
                 row,
             )
@@ -104,10 +109,12 @@ def test_setup(kernels):
             )
             for name in ("sx", "sy", "code")
         ]
-        draw, clip = survivors(*fetched, viewport, cull)
+        draw, clip, small = survivors(*fetched, viewport, cull)
+        small &= draw & fragments[:, None]
         given = np.arange(CLUSTER_TRIANGLES) < counts[:, None]
-        assert (draw & given).sum() > CALLS and (clip & given).sum() > CALLS
-        check_list("draw", out.fields["draw"], out.fields["draws"], draw & given)
+        assert min((some & given).sum() for some in (draw & ~small, small, clip)) > CALLS
+        check_list("draw", out.fields["draw"], out.fields["draws"], draw & ~small & given)
+        check_list("small", out.fields["small"], out.fields["smalls"], small & given)
         check_list("clip", out.fields["clip"], out.fields["clips"], clip & given)
         out.check_gaps()
 
@@ -133,6 +140,7 @@ def test_wide_triangles_stay(kernels):
                 indices.ravel(),
                 64,
                 cull,
+                True,
                 viewport.view(np.uint8),
                 out.rows[0],
             )

@@ -83,12 +83,6 @@ static inline record_plane record_plane_of(const record_corners *c, setup_span a
     return p;
 }
 
-/* Lanes with at most two samples along the axis: few enough to try each. */
-static inline vmask record_short(setup_span s)
-{
-    return v_mnot(v_gti(v_subi(s.last, s.first), v_seti(1)));
-}
-
 /* Edge function k (R12) at a sample, at least 0 inside: `sign` is all ones where the winding is the other way. */
 typedef struct record_edge {
     vi32 a, b, c;
@@ -148,7 +142,7 @@ static inline void record_try(const e3d_record_request *q, int first, record_lis
     setup_span across = setup_samples(xlo, xhi, q->viewport->width);
     setup_span down = setup_samples(ylo, yhi, q->viewport->height);
     vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* than 32-bit products hold */
-    vmask tiny = v_mandnot(v_mand(record_short(across), record_short(down)), large);
+    vmask tiny = v_mandnot(v_mand(setup_narrow(across, 2), setup_narrow(down, 2)), large);
     uint32_t tinies = v_bits(tiny), keep = q->count - first >= V_LANES ? ~0u : (1u << (q->count - first)) - 1;
     vi32 cover = v_seti(0);
     if (tinies) {

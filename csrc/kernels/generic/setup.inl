@@ -39,16 +39,28 @@ static inline vmask setup_culled(vi32 area, int cull)
     return drop;
 }
 
-/* Lanes that cannot show: no sample in the box, or the wrong facing where 32 bits hold the area. */
-static inline vmask setup_misses(const vi32 x[3], const vi32 y[3], int cull, const e3d_viewport *viewport)
+/* Lanes with at most so many samples along one axis. */
+static inline vmask setup_narrow(setup_span s, int32_t samples)
+{
+    return v_mnot(v_gti(v_subi(s.last, s.first), v_seti(samples - 1)));
+}
+
+/* Lanes that cannot show: no sample in the box, or the wrong facing where 32 bits hold the area; and those that are small. */
+typedef struct setup_boxes {
+    vmask miss, small;
+} setup_boxes;
+
+static inline setup_boxes setup_boxes_of(const vi32 x[3], const vi32 y[3], int cull, const e3d_viewport *viewport)
 {
     vi32 xlo = setup_min3(x[0], x[1], x[2]), xhi = setup_max3(x[0], x[1], x[2]);
     vi32 ylo = setup_min3(y[0], y[1], y[2]), yhi = setup_max3(y[0], y[1], y[2]);
     setup_span across = setup_samples(xlo, xhi, viewport->width);
     setup_span down = setup_samples(ylo, yhi, viewport->height);
     vmask empty = v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last));
-    vmask wide = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767));
-    return v_mor(empty, v_mandnot(setup_culled(setup_area(x, y), cull), wide));
+    vi32 size = v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo));
+    vmask wide = v_gti(size, v_seti(32767)), large = v_gti(size, v_seti(E3D_SMALL_REACH));
+    vmask narrow = v_mand(setup_narrow(across, E3D_SMALL), setup_narrow(down, E3D_SMALL));
+    return (setup_boxes){v_mor(empty, v_mandnot(setup_culled(setup_area(x, y), cull), wide)), v_mandnot(narrow, large)};
 }
 
 static inline int setup_append(uint8_t *list, int count, uint32_t bits, int first)
@@ -86,10 +98,10 @@ static inline int setup_any_code(const e3d_vertices *v)
     return any;
 }
 
-static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull,
+static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int fragments,
                          const e3d_viewport *viewport, e3d_survivors *out)
 {
-    int draws = 0, clips = 0, codes = setup_any_code(v);
+    int draws = 0, smalls = 0, clips = 0, codes = setup_any_code(v);
     const vtable across = v_table(v->sx, v->count), down = v_table(v->sy, v->count);
     for (int i = 0; i < triangles; i += V_LANES) {
         vi32 x[3], y[3];
@@ -100,15 +112,18 @@ static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int tria
         }
         uint32_t tail = triangles - i >= V_LANES ? ~0u : (1u << (triangles - i)) - 1;
         vi32 triangle = v_addi(v_seti(i), v_iota());
-        vmask miss = setup_misses(x, y, cull, viewport);
-        if (!codes) { /* all vertices are well inside the frustum */
-            draws += v_pack8(out->draw + draws, triangle, v_bits(v_mnot(miss)) & tail);
-            continue;
+        setup_boxes boxes = setup_boxes_of(x, y, cull, viewport);
+        uint32_t draw = v_bits(v_mnot(boxes.miss)) & tail;
+        if (codes) { /* a vertex isn't well inside the frustum */
+            setup_fate fate = setup_fate_of(v, indices, i);
+            draw &= v_bits(fate.draw);
+            clips = setup_append(out->clip, clips, v_bits(fate.clip) & tail, i);
         }
-        setup_fate fate = setup_fate_of(v, indices, i);
-        draws += v_pack8(out->draw + draws, triangle, v_bits(v_mandnot(fate.draw, miss)) & tail);
-        clips = setup_append(out->clip, clips, v_bits(fate.clip) & tail, i);
+        uint32_t small = fragments ? draw & v_bits(boxes.small) : 0;
+        smalls += v_pack8(out->small + smalls, triangle, small);
+        draws += v_pack8(out->draw + draws, triangle, draw & ~small);
     }
     out->draws = draws;
+    out->smalls = smalls;
     out->clips = clips;
 }

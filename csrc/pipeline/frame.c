@@ -40,7 +40,6 @@ static void destroy_worker(e3d_worker *worker)
     e3d_array_free(&worker->fragments.drawn);
     e3d_array_free(&worker->slots);
     e3d_array_free(&worker->orders);
-    e3d_array_free(&worker->named);
     e3d_array_free(&worker->items);
     e3d_array_free(&worker->pieces);
     e3d_array_free(&worker->groups);

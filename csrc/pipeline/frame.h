@@ -142,14 +142,15 @@ typedef struct e3d_group {
     int32_t first, last; /* of its visible pieces */
 } e3d_group;
 
-/* A piece that shows in a tile, and the chain of its runs. */
+/* A piece that shows in a tile, and its runs. */
 typedef struct e3d_visible_piece {
-    struct e3d_slot *slot;
+    const e3d_record *record;       /* or NULL: */
+    const e3d_drawn_cluster *drawn; /* the piece is of fragments */
+    const float *corners;           /* c[k][j] of a cut record, or NULL */
     const e3d_draw_state *draw;
-    const e3d_drawn_cluster *drawn; /* NULL: the piece has a record */
     int32_t instance, local; /* in its draw, in its instance */
     int32_t group, next;     /* the next of the same group, or -1 */
-    int32_t first_run, last_run;
+    int32_t first_run, end_run;
 } e3d_visible_piece;
 
 typedef struct e3d_tile_memory {
@@ -161,6 +162,7 @@ typedef struct e3d_tile_memory {
     float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling only */
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
+    e3d_run spare[E3D_TILE_SAMPLES];      /* while runs are sorted */
     e3d_batch batch;
     e3d_surfaces surfaces;       /* of the batch and its neighbours */
     e3d_run batch_runs[E3D_BATCH]; /* the batch's samples, as runs */
@@ -176,10 +178,8 @@ typedef struct e3d_worker {
     e3d_tile_memory *tile;
     e3d_visible_tile *visible; /* of the tile that is being drawn */
     uint32_t number;           /* of this worker */
-    e3d_array slots;        /* e3d_slot of the tile */
-    e3d_array orders;       /* uint32_t of each slot: forward shading only */
+    e3d_array slots, orders; /* uint32_t, where samples keep slots: the record ID of each, and its order */
     e3d_array items;        /* e3d_item, as the groups come */
-    e3d_array named;        /* e3d_named: slots by record ID, a hash table */
     e3d_array pieces;       /* e3d_visible_piece of the tile */
     e3d_array groups;       /* e3d_group of the tile */
     e3d_counters counters;
@@ -188,18 +188,6 @@ typedef struct e3d_worker {
 } e3d_worker;
 
 enum { E3D_NEED_COLOR = 256, E3D_NEED_ALBEDO = 512, E3D_NEED_OUTPUTS = 1024 };
-
-typedef struct e3d_slot {
-    const e3d_record *record; /* NULL: the piece is of fragments */
-    const float *corners; /* c[k][j], or NULL */
-    uint32_t id;
-    int32_t piece;        /* its e3d_visible_piece, or -1 */
-} e3d_slot;
-
-/* Where a record's slot stands in the hash table; id -1: free. */
-typedef struct e3d_named {
-    int32_t id, slot;
-} e3d_named;
 
 /* A turn of a frame, as the next frame finds it again. */
 typedef struct e3d_memory_row {
@@ -393,14 +381,14 @@ int e3d_keeps_slots(const e3d_context *context);
 /* visible.c: the visible surface by record ID, for whatever shades it afterwards */
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number);
-/* The runs of what shows, owned by slots; their number, or -1 when memory is out. */
-int32_t e3d_visible_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
-/* The next free slot is this record's; 0 when memory is out. */
-int e3d_add_slot(const e3d_context *context, e3d_worker *worker, int pass, uint32_t id);
-/* Shades the first `count` of the tile memory's runs; 0 when memory is out. */
+/* Shades the first `count` of the tile memory's runs, which are owned by record IDs; 0 when memory is out. */
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
+/* runs.c */
+/* Sorts runs by owner, and those of one owner as they are; where they are afterwards. */
+const e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
 /* surface.c */
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count);
+/* The pieces of runs that are sorted by their owners, record IDs, chained by group; 0 when memory is out. */
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_run *runs, int32_t count);
 void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t piece, int wanted);
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
 int32_t e3d_face_of(const e3d_visible_piece *piece);

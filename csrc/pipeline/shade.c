@@ -196,7 +196,7 @@ static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e
     e3d_tile_memory *memory = worker->tile;
     int32_t surface = 0, samples = 0, count = 0;
     for (int32_t p = first; p != end; p = pieces[p].next, surface++)
-        for (int32_t r = pieces[p].first_run; r >= 0; r = runs[r].owner) {
+        for (int32_t r = pieces[p].first_run; r < pieces[p].end_run; r++) {
             if (samples + runs[r].length > E3D_BATCH) {
                 shade_batch(context, worker, tile, group, count, wanted);
                 samples = count = 0;
@@ -226,14 +226,12 @@ static void shade_group(const e3d_context *context, e3d_worker *worker, const e3
 static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs,
                      int32_t count)
 {
-    if (!e3d_find_pieces(context, worker, runs, count))
+    const e3d_run *sorted = e3d_sort_runs(runs, worker->tile->spare, count);
+    if (!e3d_find_pieces(context, worker, sorted, count))
         return 0;
     const e3d_group *groups = worker->groups.data;
     for (size_t g = 0; g < worker->groups.count; g++)
-        shade_group(context, worker, tile, &groups[g], runs);
-    const e3d_visible_piece *pieces = worker->pieces.data;
-    for (size_t p = 0; p < worker->pieces.count; p++)
-        pieces[p].slot->piece = -1;
+        shade_group(context, worker, tile, &groups[g], sorted);
     return 1;
 }
 

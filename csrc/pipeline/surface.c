@@ -14,30 +14,33 @@ typedef struct instance_finder {
 } instance_finder;
 
 /* Of a piece of fragments. */
-static void find_face(const e3d_context *context, const e3d_slot *slot, instance_finder *finder, e3d_visible_piece *out)
+static void find_face(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_piece *out)
 {
     int32_t triangle;
-    const e3d_drawn_cluster *drawn = e3d_drawn_at(&context->tables[E3D_PASS_SCENE], slot->id, &triangle);
+    const e3d_drawn_cluster *drawn = e3d_drawn_at(&context->tables[E3D_PASS_SCENE], id, &triangle);
     const e3d_draw_state *draw = &context->draws[drawn->draw];
     if (draw != finder->draw)
         finder->group = -1;
     finder->draw = draw;
     finder->first = drawn->order;
     finder->instance = drawn->instance - (int32_t)draw->instance_base;
-    out->draw = draw;
     out->drawn = drawn;
-    out->instance = finder->instance;
     out->local = drawn->faces[triangle];
 }
 
-static void find_primitive(const e3d_context *context, const e3d_slot *slot, instance_finder *finder,
-                           e3d_visible_piece *out)
+static const float *corners_of(const e3d_context *context, uint32_t id, const e3d_record *record)
 {
-    if (!slot->record) {
-        find_face(context, slot, finder, out);
-        return;
-    }
-    uint32_t order = slot->record->order;
+    const e3d_worker *owner = context->renderer->workers[id & ((1u << context->tables[E3D_PASS_SCENE].bits) - 1)];
+    return record->meta & E3D_RECORD_CUT ? (const float *)owner->pass[E3D_PASS_SCENE].corners.data +
+                                               9 * (size_t)(record->meta >> E3D_RECORD_SHIFT)
+                                         : NULL;
+}
+
+static void find_primitive(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_piece *out)
+{
+    out->record = e3d_record_at(&context->tables[E3D_PASS_SCENE], id);
+    out->corners = corners_of(context, id, out->record);
+    uint32_t order = out->record->order;
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
         const e3d_turn *turn = e3d_find_turn(context, order);
         const e3d_draw_state *draw = &context->draws[turn->draw];
@@ -48,8 +51,6 @@ static void find_primitive(const e3d_context *context, const e3d_slot *slot, ins
         finder->instance = turn->instance + (int32_t)instances;
         finder->first = turn->order + instances * primitives;
     }
-    out->draw = finder->draw;
-    out->instance = finder->instance;
     out->local = (int32_t)(order - finder->first);
 }
 
@@ -151,54 +152,74 @@ static void fetch_vertices(const e3d_visible_piece *piece, int wanted)
 
 /* ---- the pieces of a tile ---- */
 
-static int add_piece(const e3d_context *context, e3d_worker *worker, e3d_slot *slot, int32_t run,
-                     instance_finder *finder)
+/* The group of a piece, whose last it becomes; -1 when memory is out. */
+static int32_t join_group(const e3d_context *context, e3d_worker *worker, int32_t number, instance_finder *finder)
 {
-    size_t n = worker->pieces.count;
-    if (!e3d_array_reserve(&worker->pieces, n + 1, sizeof(e3d_visible_piece)))
-        return 0;
-    e3d_visible_piece *pieces = worker->pieces.data, *piece = &pieces[n];
-    *piece = (e3d_visible_piece){.slot = slot, .next = -1, .first_run = run, .last_run = run};
-    find_primitive(context, slot, finder, piece);
-    int32_t id = group_id_of(piece);
+    e3d_visible_piece *pieces = worker->pieces.data;
+    int32_t id = group_id_of(&pieces[number]);
     if (finder->group < 0 || id != finder->group_id) {
-        e3d_group group = group_of(context, piece->draw, id);
+        e3d_group group = group_of(context, pieces[number].draw, id);
         finder->group_id = id;
         finder->group = number_group(worker, &group);
         if (finder->group < 0)
-            return 0;
+            return -1;
     }
-    piece->group = finder->group;
-    e3d_group *group = (e3d_group *)worker->groups.data + piece->group;
+    e3d_group *group = (e3d_group *)worker->groups.data + finder->group;
     if (group->last < 0)
-        group->first = (int32_t)n;
+        group->first = number;
     else
-        pieces[group->last].next = (int32_t)n;
-    group->last = slot->piece = (int32_t)n;
-    fetch_face(piece);
-    worker->pieces.count++;
-    return 1;
+        pieces[group->last].next = number;
+    group->last = number;
+    return finder->group;
 }
 
-/* Chains the pieces by group, and their runs, in the order in which they are met. Runs are owned by slots before, and
- * afterwards by the run that follows (-1: none). 0 when memory is out. */
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count)
+/* What an ID stands for: first the record or cluster, and of a cluster then the face. */
+static void fetch_named(const e3d_record_table *table, uint32_t id)
 {
-    e3d_slot *slots = worker->slots.data;
-    instance_finder finder = {.group = -1};
-    worker->pieces.count = worker->groups.count = 0;
-    for (int32_t i = 0; i < count; i++) {
-        e3d_slot *slot = &slots[runs[i].owner];
-        runs[i].owner = -1;
-        if (slot->piece < 0) {
-            if (!add_piece(context, worker, slot, i, &finder))
-                return 0;
-            continue;
-        }
-        e3d_visible_piece *piece = (e3d_visible_piece *)worker->pieces.data + slot->piece;
-        runs[piece->last_run].owner = i;
-        piece->last_run = i;
+    int32_t triangle;
+    __builtin_prefetch(id & E3D_FRAGMENT_ID ? (const void *)e3d_drawn_at(table, id, &triangle)
+                                            : (const void *)e3d_record_at(table, id));
+}
+
+static void fetch_number(const e3d_record_table *table, uint32_t id)
+{
+    int32_t triangle;
+    if (id & E3D_FRAGMENT_ID) {
+        const e3d_drawn_cluster *drawn = e3d_drawn_at(table, id, &triangle);
+        __builtin_prefetch(drawn->faces + triangle);
     }
+}
+
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_run *runs, int32_t count)
+{
+    enum { AHEAD = 8 };
+    const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
+    instance_finder finder = {.group = -1};
+    int32_t n = 0;
+    worker->groups.count = 0;
+    if (!e3d_array_reserve(&worker->pieces, (size_t)count, sizeof(e3d_visible_piece)))
+        return 0;
+    e3d_visible_piece *pieces = worker->pieces.data;
+    for (int32_t i = 0, end; i < count; i = end, n++) {
+        uint32_t id = (uint32_t)runs[i].owner;
+        for (end = i + 1; end < count && runs[end].owner == runs[i].owner;)
+            end++;
+        if (end + 2 * AHEAD < count) {
+            fetch_named(table, (uint32_t)runs[end + 2 * AHEAD].owner);
+            fetch_number(table, (uint32_t)runs[end + AHEAD].owner);
+        }
+        pieces[n] = (e3d_visible_piece){.next = -1, .first_run = i, .end_run = end};
+        if (id & E3D_FRAGMENT_ID)
+            find_face(context, id, &finder, &pieces[n]);
+        else
+            find_primitive(context, id, &finder, &pieces[n]);
+        pieces[n].draw = finder.draw;
+        pieces[n].instance = finder.instance;
+        pieces[n].group = join_group(context, worker, n, &finder);
+        if (pieces[n].group < 0)
+            return 0;
+    }
+    worker->pieces.count = (size_t)n;
     return 1;
 }
 
@@ -291,15 +312,17 @@ void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t num
     s->piece[n] = number;
     if (!(wanted & E3D_WANT_SURFACE))
         return;
-    if (number + AHEAD < (int32_t)worker->pieces.count)
+    if (number + 2 * AHEAD < (int32_t)worker->pieces.count) {
+        fetch_face(piece + 2 * AHEAD);
         fetch_vertices(piece + AHEAD, wanted);
+    }
     int count = vertices_of(piece, vertex);
-    s->irregular += piece->slot->corners || face < 0 || mesh->components == 4;
+    s->irregular += piece->corners || face < 0 || mesh->components == 4;
     add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
     s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
     s->projected += piece->drawn != NULL;
     if (!piece->drawn)
-        add_record(piece->slot->record, face, s, n);
+        add_record(piece->record, face, s, n);
     if (wanted & E3D_WANT_POSITION || piece->drawn)
         add_vectors(mesh->components == 3 ? mesh->positions : NULL, 3, vertex, count, s->position, 3, n);
     if (wanted & E3D_WANT_NORMAL)
@@ -313,10 +336,10 @@ void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t num
 /* ---- what the kernel leaves to do ---- */
 
 /* R18 of a clipped piece, of a line or a point. */
-static void cut_planes(const e3d_context *context, const e3d_slot *slot, e3d_surfaces *s, int32_t n)
+static void cut_planes(const e3d_context *context, const e3d_visible_piece *piece, e3d_surfaces *s, int32_t n)
 {
-    const e3d_record *r = slot->record;
-    const float *c = slot->corners;
+    const e3d_record *r = piece->record;
+    const float *c = piece->corners;
     e3d_box box = e3d_sample_box(r->x, r->y, &context->viewport);
     double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
     m = r->iw[1] > m ? r->iw[1] : m;
@@ -371,9 +394,9 @@ void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d
         const e3d_visible_piece *piece = &pieces[s->piece[n]];
         const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
         int32_t vertex[3];
-        if (piece->slot->corners)
-            cut_planes(context, piece->slot, s, n);
-        if (piece->slot->corners && wanted & E3D_WANT_LEVEL)
+        if (piece->corners)
+            cut_planes(context, piece, s, n);
+        if (piece->corners && wanted & E3D_WANT_LEVEL)
             cut_steps(s, n);
         if (mesh->components == 4)
             clear_positions(s, n, 0);

@@ -43,13 +43,22 @@ typedef struct tile_job {
 
 typedef int (*piece_action)(tile_job *job, const e3d_piece *piece);
 
-static int add_order(e3d_worker *worker, uint32_t order)
+/* The next free slot is this record's. */
+static int add_slot(e3d_worker *worker, uint32_t id, uint32_t order)
 {
     size_t n = worker->slots.count;
-    if (!e3d_array_reserve(&worker->orders, n + 1, sizeof(uint32_t)))
+    if (!e3d_array_reserve(&worker->slots, n + 1, sizeof(uint32_t)) ||
+        !e3d_array_reserve(&worker->orders, n + 1, sizeof(uint32_t)))
         return 0;
+    ((uint32_t *)worker->slots.data)[n] = id;
     ((uint32_t *)worker->orders.data)[n] = order;
+    worker->slots.count++;
     return 1;
+}
+
+static const e3d_record *record_of(const tile_job *job, int pass, uint32_t slot)
+{
+    return e3d_record_at(&job->context->tables[pass], ((const uint32_t *)job->worker->slots.data)[slot]);
 }
 
 static int run_block(tile_job *job, int pass, const e3d_bin_block *block, piece_action action)
@@ -60,8 +69,7 @@ static int run_block(tile_job *job, int pass, const e3d_bin_block *block, piece_
         e3d_piece piece;
         if (!prepare_piece(job->context, record, &job->tile, (uint32_t)worker->slots.count, &piece))
             continue;
-        if (!add_order(worker, record->order) || !e3d_add_slot(job->context, worker, pass, block->id[i]) ||
-            !action(job, &piece))
+        if (!add_slot(worker, block->id[i], record->order) || !action(job, &piece))
             return 0;
     }
     return 1;
@@ -100,7 +108,7 @@ static int act_visible(tile_job *job, const e3d_piece *piece)
 
 static int act_count(tile_job *job, const e3d_piece *piece)
 {
-    const e3d_record *record = ((e3d_slot *)job->worker->slots.data)[piece->slot].record;
+    const e3d_record *record = record_of(job, E3D_PASS_SCENE, piece->slot);
     e3d_tile_memory *memory = job->worker->tile;
     e3d_tile_buffers buffers = buffers_of(job, memory->bound, memory->mark);
     if (record->meta & E3D_RECORD_FACE)
@@ -126,14 +134,13 @@ static void find_edge_limits(tile_job *job)
 {
     e3d_tile_memory *memory = job->worker->tile;
     const e3d_visible_tile *visible = job->worker->visible;
-    const e3d_slot *slots = job->worker->slots.data;
     float reach = (float)job->context->line_half * (1.0f / 256.0f) + 0.5f;
     for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
         memory->edge_limit[i] = E3D_BEYOND_FAR;
         if (visible->id[i] < 0)
             continue;
         const e3d_record *kept = e3d_keeps_slots(job->context)
-                                     ? slots[visible->id[i]].record
+                                     ? record_of(job, E3D_PASS_SCENE, (uint32_t)visible->id[i])
                                      : e3d_record_at(&job->context->tables[E3D_PASS_SCENE], (uint32_t)visible->id[i]);
         float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
         float limit = visible->z[i] + (slope < range ? slope : range);
@@ -153,17 +160,17 @@ static int act_mark(tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
-/* The runs of one slot in a box. */
+/* The runs of one slot in a box, owned by its record. */
 static int32_t runs_of_slot(const e3d_worker *worker, int32_t slot, const e3d_box *box)
 {
     e3d_tile_memory *memory = worker->tile;
-    int32_t count = 0;
+    int32_t count = 0, id = ((const int32_t *)worker->slots.data)[slot];
     for (int32_t y = box->y0; y <= box->y1; y++)
         for (int32_t x = box->x0, first = x; x <= box->x1; x++, first = x) {
             while (x <= box->x1 && worker->visible->id[y * E3D_TILE + x] == slot)
                 x++;
             if (x > first)
-                memory->runs[count++] = (e3d_run){slot, (uint16_t)(y * E3D_TILE + first),
+                memory->runs[count++] = (e3d_run){id, (uint16_t)(y * E3D_TILE + first),
                                                   (uint16_t)(x - first)};
         }
     return count;
@@ -196,6 +203,20 @@ static void clear_marks(e3d_tile_memory *memory)
         memory->mark[i] = 0;
 }
 
+/* The runs of what shows in the tile; how many. */
+static int32_t find_runs(const tile_job *job)
+{
+    return job->context->kernels->find_runs(job->worker->visible->id, job->tile.width, job->tile.height,
+                                            job->worker->tile->runs);
+}
+
+static void slots_to_ids(const e3d_worker *worker, int32_t count)
+{
+    e3d_run *runs = worker->tile->runs;
+    for (int32_t i = 0; i < count; i++)
+        runs[i].owner = ((const int32_t *)worker->slots.data)[runs[i].owner];
+}
+
 /* Piece after piece, each with a slot of its own: forward shading, and where the last in order wins. */
 static int draw_pieces(tile_job *job)
 {
@@ -209,8 +230,8 @@ static int draw_pieces(tile_job *job)
     int64_t rastered = e3d_now_ns();
     worker->counters.ns_raster += rastered - start;
     if (context->wants && !forward) {
-        int32_t count = context->kernels->find_runs(worker->visible->id, job->tile.width, job->tile.height,
-                                                    worker->tile->runs);
+        int32_t count = find_runs(job);
+        slots_to_ids(worker, count);
         if (!e3d_shade_runs(context, worker, &job->tile, count))
             return 0;
     }
@@ -230,11 +251,8 @@ static int draw_visible(tile_job *job)
     context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], depths);
     int64_t rastered = e3d_now_ns();
     worker->counters.ns_raster += rastered - start;
-    if (context->wants) {
-        int32_t count = e3d_visible_runs(context, worker, &job->tile);
-        if (count < 0 || !e3d_shade_runs(context, worker, &job->tile, count))
-            return 0;
-    }
+    if (context->wants && !e3d_shade_runs(context, worker, &job->tile, find_runs(job)))
+        return 0;
     worker->counters.ns_shade += e3d_now_ns() - rastered;
     return 1;
 }

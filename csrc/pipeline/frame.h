@@ -389,7 +389,8 @@ const e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
 /* surface.c */
 /* The pieces of runs that are sorted by their owners, record IDs, chained by group; 0 when memory is out. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_run *runs, int32_t count);
-void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t piece, int wanted);
+/* The surfaces of pieces of a group from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
+int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted);
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
 int32_t e3d_face_of(const e3d_visible_piece *piece);
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);

@@ -210,16 +210,12 @@ static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e
 static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
                         const e3d_group *group, const e3d_run *runs)
 {
-    const e3d_visible_piece *pieces = worker->pieces.data;
-    e3d_surfaces *surfaces = &worker->tile->surfaces;
     int wanted = wanted_of(context, group);
-    for (int32_t first = group->first, p = first; first >= 0; first = p) {
-        surfaces->count = surfaces->matrices = surfaces->irregular = surfaces->projected = 0;
-        for (; p >= 0 && surfaces->count < E3D_BATCH_SURFACES; p = pieces[p].next)
-            e3d_add_surface(context, worker, p, wanted);
+    for (int32_t first = group->first, end; first >= 0; first = end) {
+        end = e3d_add_surfaces(context, worker, group, first, wanted);
         if (wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(context, worker, tile, wanted);
-        shade_pieces(context, worker, tile, group, first, p, runs, wanted);
+        shade_pieces(context, worker, tile, group, first, end, runs, wanted);
     }
 }
 

@@ -242,24 +242,28 @@ static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n,
         s->normals[k][m] = context->instances[instance].normal[k];
 }
 
-static void add_vectors(const float *from, size_t stride, const int32_t *index, int count,
-                        e3d_surface_floats out[][3], int components, int32_t n)
+/* `out`: [component][vertex]; vertices that aren't there are 0. */
+static inline __attribute__((always_inline)) void add_vectors(const float *from, size_t components, const int32_t vertex[3],
+                                                              int count, e3d_surface_floats out[][3], int32_t n)
 {
-    for (int v = 0; v < 3; v++) {
-        const float *vector = from && v < count ? from + stride * (size_t)index[v] : NULL;
-        for (int c = 0; c < components; c++)
-            out[c][v][n] = vector ? vector[c] : 0.0f;
+    for (size_t c = 0; c < components && count == 3; c++) {
+        out[c][0][n] = from[components * (size_t)vertex[0] + c];
+        out[c][1][n] = from[components * (size_t)vertex[1] + c];
+        out[c][2][n] = from[components * (size_t)vertex[2] + c];
     }
+    for (int v = 0; v < 3 && count < 3; v++)
+        for (size_t c = 0; c < components; c++)
+            out[c][v][n] = v < count ? from[components * (size_t)vertex[v] + c] : 0.0f;
 }
 
 static void add_normals(const e3d_mesh_desc *mesh, int32_t face, int flat, const int32_t vertex[3], e3d_surfaces *s,
                         int32_t n)
 {
-    if (flat)
+    if (!flat)
+        add_vectors(mesh->normals, 3, vertex, face < 0 || !mesh->normals ? 0 : 3, s->normal, n);
+    else
         for (int c = 0; c < 3; c++)
             s->normal[c][0][n] = mesh->face_normals[3 * (size_t)face + c];
-    else
-        add_vectors(face < 0 ? NULL : mesh->normals, 3, vertex, 3, s->normal, 3, n);
 }
 
 /* R23 */
@@ -301,21 +305,11 @@ static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, 
 }
 
 /* The next surface is that of a piece, without what e3d_find_surfaces adds. */
-void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t number, int wanted)
+static void add_surface(const e3d_context *context, const e3d_visible_piece *piece, const e3d_group *group, int wanted,
+                        e3d_surfaces *s)
 {
-    enum { AHEAD = 12 };
-    const e3d_visible_piece *piece = (const e3d_visible_piece *)worker->pieces.data + number;
-    const e3d_group *group = (const e3d_group *)worker->groups.data + piece->group;
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    e3d_surfaces *s = &worker->tile->surfaces;
     int32_t vertex[3], n = s->count++, face = e3d_face_of(piece);
-    s->piece[n] = number;
-    if (!(wanted & E3D_WANT_SURFACE))
-        return;
-    if (number + 2 * AHEAD < (int32_t)worker->pieces.count) {
-        fetch_face(piece + 2 * AHEAD);
-        fetch_vertices(piece + AHEAD, wanted);
-    }
     int count = vertices_of(piece, vertex);
     s->irregular += piece->corners || face < 0 || mesh->components == 4;
     add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
@@ -324,13 +318,35 @@ void e3d_add_surface(const e3d_context *context, e3d_worker *worker, int32_t num
     if (!piece->drawn)
         add_record(piece->record, face, s, n);
     if (wanted & E3D_WANT_POSITION || piece->drawn)
-        add_vectors(mesh->components == 3 ? mesh->positions : NULL, 3, vertex, count, s->position, 3, n);
+        add_vectors(mesh->positions, 3, vertex, mesh->components == 3 ? count : 0, s->position, n);
     if (wanted & E3D_WANT_NORMAL)
         add_normals(mesh, face, group->flat, vertex, s, n);
     if (wanted & E3D_WANT_UV)
-        add_vectors(mesh->uvs, 2, vertex, count, s->uv, 2, n);
+        add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
     if (context->wants & E3D_NEED_ALBEDO)
         add_colors(context, piece, group, vertex, count, s, n);
+}
+
+int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted)
+{
+    enum { AHEAD = 12 };
+    const e3d_visible_piece *pieces = worker->pieces.data;
+    e3d_surfaces *s = &worker->tile->surfaces;
+    int32_t p = first, last = (int32_t)worker->pieces.count - 1 - 2 * AHEAD;
+    s->count = s->matrices = s->irregular = s->projected = 0;
+    for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
+        s->piece[s->count] = p;
+        if (!(wanted & E3D_WANT_SURFACE)) {
+            s->count++;
+            continue;
+        }
+        if (p <= last) {
+            fetch_face(&pieces[p + 2 * AHEAD]);
+            fetch_vertices(&pieces[p + AHEAD], wanted);
+        }
+        add_surface(context, &pieces[p], group, wanted, s);
+    }
+    return p;
 }
 
 /* ---- what the kernel leaves to do ---- */

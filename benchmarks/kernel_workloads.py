@@ -44,7 +44,7 @@ def transform():
     positions = rng.uniform(-1, 1, 3 * CLUSTER_VERTICES).astype(np.float32)
     matrix = np.array([1, 0.1, 0, 0, 0, 1, 0.2, 0, 0, 0, 1, 2, 0, 0.1, 1, 4], np.float32)
     viewport, out = viewport_of(1280, 720).view(np.uint8), np.zeros(1, VERTICES).view(np.uint8)
-    arguments = (positions, CLUSTER_VERTICES, CLUSTER_VERTICES, matrix, viewport, out)
+    arguments = (positions, CLUSTER_VERTICES, CLUSTER_VERTICES, matrix, viewport, False, out)
     return CLUSTER_VERTICES, lambda kernels: kernels.transform(*arguments)
 
 

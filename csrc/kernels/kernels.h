@@ -42,9 +42,8 @@ typedef struct e3d_vertices {
         w[E3D_CLUSTER_VERTICES];
     float iw[E3D_CLUSTER_VERTICES], zn[E3D_CLUSTER_VERTICES];
     int32_t sx[E3D_CLUSTER_VERTICES], sy[E3D_CLUSTER_VERTICES]; /* snapped, 1/256 sample */
-    int32_t code[E3D_CLUSTER_VERTICES];
-    int32_t count;
-    int32_t codes[E3D_PAD]; /* one after the other, the bits that any vertex has */
+    int32_t code[E3D_CLUSTER_VERTICES]; /* outcodes, where `special`; else all are in the frustum, and x, y, z, w may be missing */
+    int32_t count, special;
 } e3d_vertices;
 
 /* ---- setup ---- */
@@ -288,9 +287,10 @@ typedef struct e3d_paint {
 /* ---- the table ---- */
 
 typedef struct e3d_kernels {
-    /* positions: planes `stride` apart, 3 or 4 of them; count vertices. */
+    /* positions: planes `stride` apart, 3 or 4 of them; count vertices. inside: those that are finite are surely in the frustum,
+     * in spite of rounding. */
     void (*transform)(const float *positions, int stride, int count, const float matrix[16],
-                      const e3d_viewport *viewport, e3d_vertices *out);
+                      const e3d_viewport *viewport, int inside, e3d_vertices *out);
     void (*take_clip)(const float *positions, int stride, int count, const e3d_viewport *viewport,
                       e3d_vertices *out);
     /* indices: three planes of E3D_CLUSTER_TRIANGLES. cull: sign of the area (screen, Y down) to drop: -1, +1, 0 = neither.

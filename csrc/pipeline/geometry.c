@@ -179,7 +179,7 @@ static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *ind
         e3d_fragments_add(w->context, w->worker, &drawn, indices);
 }
 
-static void draw_cluster(walker *w, const e3d_cluster *cluster)
+static void draw_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster)
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_kernels *kernels = w->context->kernels;
@@ -190,6 +190,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
         kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, viewport, &worker->vertices);
     else
         kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, viewport,
+                           item->view.state == E3D_BOX_INSIDE && !w->context->frame->frozen_clip_from_world,
                            &worker->vertices);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
@@ -260,7 +261,7 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
         if (!(wanted >> k & 1))
             continue;
         if (fate == E3D_FATE_DRAWN)
-            draw_cluster(w, cluster);
+            draw_cluster(w, item, cluster);
         w->worker->counters.clusters[fate]++;
         w->worker->counters.triangles[fate] += cluster->triangles;
         mark(w, item, fate);

@@ -122,7 +122,7 @@ cdef extern from "kernels/kernels.h" nogil:
 
     ctypedef struct e3d_kernels:
         void (*transform)(const float *positions, int stride, int count, const float *matrix,
-                          const e3d_viewport *viewport, e3d_vertices *out)
+                          const e3d_viewport *viewport, int inside, e3d_vertices *out)
         void (*take_clip)(const float *positions, int stride, int count,
                           const e3d_viewport *viewport, e3d_vertices *out)
         void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,

@@ -29,6 +29,7 @@ class Kernels:
         count: int,
         matrix: _Floats,
         viewport: _Bytes,
+        inside: bool,
         out: _Bytes,
     ) -> None: ...
     def take_clip(

@@ -120,12 +120,13 @@ cdef class Kernels:
             raise LookupError("this build or CPU lacks the backend")
 
     def transform(self, const float[::1] positions, int stride, int count, const float[::1] matrix,
-                  const uint8_t[::1] viewport, uint8_t[::1] out):
+                  const uint8_t[::1] viewport, bint inside, uint8_t[::1] out):
         check_size(viewport, sizeof(e3d_viewport))
         check_size(out, sizeof(e3d_vertices))
         for _ in range(self.rounds):
             self.table.transform(&positions[0], stride, count, &matrix[0],
-                                 <const e3d_viewport *>&viewport[0], <e3d_vertices *>&out[0])
+                                 <const e3d_viewport *>&viewport[0], inside,
+                                 <e3d_vertices *>&out[0])
 
     def take_clip(self, const float[::1] positions, int stride, int count,
                   const uint8_t[::1] viewport, uint8_t[::1] out):

@@ -41,7 +41,7 @@ VIEWPORT = np.dtype(
 VERTICES = np.dtype(
     [(name, "f4", CLUSTER_VERTICES) for name in ("x", "y", "z", "w", "iw", "zn")]
     + [(name, "i4", CLUSTER_VERTICES) for name in ("sx", "sy", "code")]
-    + [("count", "i4"), ("codes", "i4", PAD)]
+    + [("count", "i4"), ("special", "i4")]
 )
 SURVIVORS = np.dtype(
     [

@@ -62,7 +62,16 @@ def run_and_check(rng, viewport, expected, call):
     for name, values in expected.items():
         check_lanes(name, out.fields[name], values, counts)
     assert np.array_equal(out.fields["count"], counts)
+    check_special(out.fields["special"], expected["code"], counts)
     out.check_gaps()
+
+
+def check_special(got, code, counts):
+    """Whether a vertex has outcodes; whole vectors are looked at, whose padding repeats some."""
+    lanes = np.arange(CLUSTER_VERTICES)
+    some = ((code != 0) & (lanes < counts[:, None])).any(axis=1)
+    padded = ((code != 0) & (lanes < -(-counts[:, None] // layouts.PAD) * layouts.PAD)).any(axis=1)
+    assert (got[some] != 0).all() and (got[~padded] == 0).all()
 
 
 def random_strides(rng):
@@ -94,10 +103,46 @@ def test_transform(kernels):
         def call(number, count, view, out, p=positions, m=matrices, strides=strides):
             stride = int(strides[number])
             kernels.transform(
-                planes(p[number], stride), stride, count, m[number].ravel(), view, out
+                planes(p[number], stride), stride, count, m[number].ravel(), view, False, out
             )
 
         run_and_check(rng, viewport, to_screen(clip, viewport), call)
+
+
+@all_backends
+def test_transform_inside(kernels):
+    """Vertices in the frustum; some aren't finite, and some calls come too near to the eye."""
+    rng = np.random.default_rng(4)
+    positions = rng.uniform(-1, 1, (CALLS, 3, CLUSTER_VERTICES)).astype(np.float32)
+    rate = rng.choice([0, 0, 0.01], (CALLS, 1, 1))
+    strange = rng.choice(np.float32([np.nan, np.inf, -np.inf]), positions.shape)
+    positions = np.where(rng.random(positions.shape) < rate, strange, positions)
+    viewport, counts = viewports(rng), every_count(rng, CLUSTER_VERTICES, CALLS)
+    given = (np.arange(CLUSTER_VERTICES) < counts[:, None])[:, None]
+    positions = np.where(given, positions, positions[..., :1])  # what a mesh pads with
+    matrices = rng.uniform(-0.24, 0.24, (CALLS, 4, 4)).astype(np.float32)
+    matrices[:, 3, 3] += 2
+    matrices *= 2.0 ** rng.choice([0, 3, -21, -22], (CALLS, 1, 1))
+    x, y, z = (positions[:, k] for k in range(3))
+    rows = [[matrices[:, r, c, None] for c in range(4)] for r in range(4)]
+    out = Records(VERTICES, CALLS)
+    for n in range(CALLS):
+        view = viewport[n : n + 1].view(np.uint8)
+        flat = planes(positions[n], CLUSTER_VERTICES)
+        kernels.transform(
+            flat, CLUSTER_VERTICES, int(counts[n]), matrices[n].ravel(), view, True, out.rows[n]
+        )
+    out.check_gaps()
+    with np.errstate(all="ignore"):
+        clip = [((m[0] * x + m[1] * y) + m[2] * z) + m[3] for m in rows]
+        expected = to_screen(clip, viewport)
+    special = (expected["code"] != 0).any(axis=1) & (counts > 0)
+    assert CALLS / 4 < special.sum() < 3 * CALLS / 4
+    assert np.array_equal(out.fields["special"] != 0, special)
+    for name, values in expected.items():
+        if name in ("iw", "zn", "sx", "sy"):
+            check_lanes(name, out.fields[name], values, counts)
+        check_lanes(name, out.fields[name][special], values[special], counts[special])
 
 
 def worst_clip_positions(rng, viewport):

@@ -3,12 +3,6 @@
  * Those with boxes of at most 2 x 2 samples are tried first: most of them cover nothing.
  */
 
-/* As many lanes as there are elements left. */
-static inline uint32_t fragment_tail(int left)
-{
-    return (uint32_t)((1ull << (left < V_LANES ? left : V_LANES)) - 1);
-}
-
 /* The lanes of `bits` of one vector, to the end of a list, which may be the same: it then is not longer than what was read. */
 static inline void fragment_move(const e3d_small_triangles *from, int first, uint32_t bits, e3d_small_triangles *to)
 {
@@ -32,7 +26,7 @@ static inline void fragment_sort(e3d_small_triangles *triangles, int first, int 
     }
     setup_span across = setup_samples(setup_min3(x[0], x[1], x[2]), setup_max3(x[0], x[1], x[2]), viewport->width);
     setup_span down = setup_samples(setup_min3(y[0], y[1], y[2]), setup_max3(y[0], y[1], y[2]), viewport->height);
-    uint32_t tinies = v_bits(v_mand(setup_narrow(across, 2), setup_narrow(down, 2))), asked = fragment_tail(left);
+    uint32_t tinies = v_bits(v_mand(setup_narrow(across, 2), setup_narrow(down, 2))), asked = setup_tail(left);
     if (asked & ~tinies)
         fragment_move(triangles, first, asked & ~tinies, wide);
     vi32 cover = record_cover(x, y, across, down);
@@ -66,7 +60,7 @@ static inline fragment_vector fragment_begin(const e3d_small_triangles *triangle
                            viewport->height);
     v.plane = record_plane_of(c, v.across, v.down, &finite);
     v.id = v_loadi(triangles->id + first);
-    v.lanes = v_bits(finite) & fragment_tail(triangles->count - first);
+    v.lanes = v_bits(finite) & setup_tail(triangles->count - first);
     return v;
 }
 

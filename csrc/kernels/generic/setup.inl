@@ -63,6 +63,12 @@ static inline setup_boxes setup_boxes_of(const vi32 x[3], const vi32 y[3], int c
     return (setup_boxes){v_mor(empty, v_mandnot(setup_culled(setup_area(x, y), cull), wide)), v_mandnot(narrow, large)};
 }
 
+/* As many lanes as there are elements left. */
+static inline uint32_t setup_tail(int left)
+{
+    return (uint32_t)((1ull << (left < V_LANES ? left : V_LANES)) - 1);
+}
+
 static inline int setup_append(uint8_t *list, int count, uint32_t bits, int first)
 {
     for (; bits; bits &= bits - 1)
@@ -90,18 +96,76 @@ static inline setup_fate setup_fate_of(const e3d_vertices *v, const uint8_t *ind
     return (setup_fate){v_mand(v_mand(keep, whole), good), v_mandnot(keep, whole)};
 }
 
-static inline int setup_any_code(const e3d_vertices *v)
+/* ---- close together: both coordinates in one word ---- */
+
+enum {
+    SETUP_WINDOW = 32000,        /* of 1/256 sample: what is added to such a distance still fits 16 bits */
+    SETUP_BACK = 16384 - 256     /* where the first vertex is in it: a whole number of samples from its own */
+};
+
+/* Vertices relative to a corner of their window: x below, y above; 0: it doesn't hold all. */
+static inline int setup_pack_vertices(const e3d_vertices *v, int32_t *out)
 {
-    int32_t any = 0;
-    for (int i = 0; i < V_LANES; i++)
-        any |= v->codes[i];
-    return any;
+    vi32 left = v_seti((v->sx[0] & -256) - SETUP_BACK), top = v_seti((v->sy[0] & -256) - SETUP_BACK), outside = v_seti(0);
+    for (int i = 0; i < v->count; i += V_LANES) {
+        vi32 x = v_subi(v_loadi(v->sx + i), left), y = v_subi(v_loadi(v->sy + i), top), most = v_seti(SETUP_WINDOW);
+        outside = v_ori(v_ori(outside, v_ori(x, y)), v_ori(v_subi(most, x), v_subi(most, y)));
+        v_storei(out + i, v_ori(x, v_shl(y, 16)));
+    }
+    return !v_any(v_negi(outside));
+}
+
+/* Lanes in which one of the halves is negative. */
+static inline vmask setup_negative(vi32 a)
+{
+    return v_mnot(v_eqi(v_andi(a, v_seti((int32_t)0x80008000)), v_seti(0)));
+}
+
+/* setup_boxes_of, where no vertex is outside of the viewport. */
+static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull)
+{
+    vi32 lo = v_min16(v_min16(p[0], p[1]), p[2]), hi = v_max16(v_max16(p[0], p[1]), p[2]);
+    vi32 first = v_sra16(v_add16(lo, v_seti(127 * 0x10001)), 8), last = v_sra16(v_sub16(hi, v_seti(128 * 0x10001)), 8);
+    vi32 more = v_sub16(last, first);
+    vi32 spare = v_ori(v_sub16(v_seti((E3D_SMALL - 1) * 0x10001), more),
+                       v_sub16(v_seti(E3D_SMALL_REACH * 0x10001), v_sub16(hi, lo)));
+    vi32 c = v_sub16(p[2], p[0]), turned = v_ori(v_shr(c, 16), v_shl(v_sub16(p[0], p[2]), 16));
+    vi32 area = v_madd16(v_sub16(p[1], p[0]), turned);
+    return (setup_boxes){v_mor(setup_negative(more), setup_culled(area, cull)), v_mnot(setup_negative(spare))};
+}
+
+/* Lists the lanes of one vector. */
+static inline void setup_list(vi32 triangle, uint32_t draw, uint32_t small, e3d_survivors *out)
+{
+    out->smalls += v_pack8(out->small + out->smalls, triangle, draw & small);
+    out->draws += v_pack8(out->draw + out->draws, triangle, draw & ~small);
+}
+
+/* 0: the vertices are too far apart. */
+static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int fragments,
+                             e3d_survivors *out)
+{
+    int32_t packed[E3D_CLUSTER_VERTICES + E3D_PAD];
+    if (!setup_pack_vertices(v, packed))
+        return 0;
+    const vtable table = v_table(packed, v->count);
+    for (int i = 0; i < triangles; i += V_LANES) {
+        vi32 p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = v_lookup(&table, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i));
+        setup_boxes boxes = setup_boxes_near(p, cull);
+        setup_list(v_addi(v_seti(i), v_iota()), v_bits(v_mnot(boxes.miss)) & setup_tail(triangles - i),
+                   fragments ? v_bits(boxes.small) : 0, out);
+    }
+    return 1;
 }
 
 static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int fragments,
                          const e3d_viewport *viewport, e3d_survivors *out)
 {
-    int draws = 0, smalls = 0, clips = 0, codes = setup_any_code(v);
+    out->draws = out->smalls = out->clips = 0;
+    if (V_LANES > 1 && !v->special && setup_near(v, indices, triangles, cull, fragments, out))
+        return;
     const vtable across = v_table(v->sx, v->count), down = v_table(v->sy, v->count);
     for (int i = 0; i < triangles; i += V_LANES) {
         vi32 x[3], y[3];
@@ -110,20 +174,13 @@ static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int tria
             x[k] = v_lookup(&across, at);
             y[k] = v_lookup(&down, at);
         }
-        uint32_t tail = triangles - i >= V_LANES ? ~0u : (1u << (triangles - i)) - 1;
-        vi32 triangle = v_addi(v_seti(i), v_iota());
         setup_boxes boxes = setup_boxes_of(x, y, cull, viewport);
-        uint32_t draw = v_bits(v_mnot(boxes.miss)) & tail;
-        if (codes) { /* a vertex isn't well inside the frustum */
+        uint32_t tail = setup_tail(triangles - i), draw = v_bits(v_mnot(boxes.miss)) & tail;
+        if (v->special) {
             setup_fate fate = setup_fate_of(v, indices, i);
             draw &= v_bits(fate.draw);
-            clips = setup_append(out->clip, clips, v_bits(fate.clip) & tail, i);
+            out->clips = setup_append(out->clip, out->clips, v_bits(fate.clip) & tail, i);
         }
-        uint32_t small = fragments ? draw & v_bits(boxes.small) : 0;
-        smalls += v_pack8(out->small + smalls, triangle, small);
-        draws += v_pack8(out->draw + draws, triangle, draw & ~small);
+        setup_list(v_addi(v_seti(i), v_iota()), draw, fragments ? v_bits(boxes.small) : 0, out);
     }
-    out->draws = draws;
-    out->smalls = smalls;
-    out->clips = clips;
 }

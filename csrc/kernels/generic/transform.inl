@@ -66,15 +66,36 @@ static inline vf32 transform_row(const float *m, vf32 x, vf32 y, vf32 z)
 static inline void transform_end(vi32 codes, int count, e3d_vertices *out)
 {
     out->count = count;
-    for (int i = 0; i < E3D_PAD; i += V_LANES)
-        v_storei(out->codes + i, codes);
+    out->special = v_any(v_mnot(v_eqi(codes, v_seti(0))));
+}
+
+/* In the frustum: no outcodes, and no coordinates for clipping. 0: a vertex isn't finite, or too near. */
+static inline int transform_inside(const float *positions, int stride, int count, const float matrix[16],
+                                   const e3d_viewport *viewport, e3d_vertices *out)
+{
+    vf32 scale_x = v_setf(viewport->scale_x), scale_y = v_setf(viewport->scale_y), none = v_setf(0.0f);
+    vmask good = v_eq(none, none);
+    for (int i = 0; i < count; i += V_LANES) {
+        vf32 x = v_loadf(positions + i), y = v_loadf(positions + stride + i),
+             z = v_loadf(positions + 2 * stride + i);
+        vf32 w = transform_row(matrix + 12, x, y, z), iw = v_div(v_setf(1.0f), w);
+        vf32 zn = v_mul(transform_row(matrix + 8, x, y, z), iw);
+        vf32 xn = v_mul(transform_row(matrix, x, y, z), iw), yn = v_mul(transform_row(matrix + 4, x, y, z), iw);
+        v_storef(out->iw + i, iw);
+        v_storef(out->zn + i, zn);
+        v_storei(out->sx + i, v_rint(v_add(v_mul(xn, scale_x), scale_x)));
+        v_storei(out->sy + i, v_rint(v_sub(scale_y, v_mul(yn, scale_y))));
+        good = v_mand(good, v_mand(v_eq(v_sub(zn, zn), none), v_ge(w, v_setf(E3D_W_MIN))));
+    }
+    return !v_any(v_mnot(good));
 }
 
 static void kernel_transform(const float *positions, int stride, int count, const float matrix[16],
-                             const e3d_viewport *viewport, e3d_vertices *out)
+                             const e3d_viewport *viewport, int inside, e3d_vertices *out)
 {
     vi32 codes = v_seti(0);
-    for (int i = 0; i < count; i += V_LANES) {
+    inside = inside && transform_inside(positions, stride, count, matrix, viewport, out);
+    for (int i = 0; i < count && !inside; i += V_LANES) {
         vf32 x = v_loadf(positions + i), y = v_loadf(positions + stride + i),
              z = v_loadf(positions + 2 * stride + i);
         vi32 code = transform_finish(transform_row(matrix, x, y, z), transform_row(matrix + 4, x, y, z),

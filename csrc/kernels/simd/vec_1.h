@@ -60,14 +60,26 @@ static inline vi32 v_maxi(vi32 a, vi32 b) { return a > b ? a : b; }
 static inline vmask v_gti(vi32 a, vi32 b) { return a > b; }
 static inline vmask v_eqi(vi32 a, vi32 b) { return a == b; }
 static inline vmask v_negi(vi32 a) { return a < 0; }
-/* Products and sums of the 16-bit halves: the low 16 bits of each; signed, both added. */
+/* Of the signed 16-bit halves. */
+static inline int32_t half_low(vi32 a) { return (int16_t)a; }
+static inline int32_t half_high(vi32 a) { return (int16_t)(a >> 16); }
+static inline vi32 halves_of(int32_t low, int32_t high) { return (int32_t)((uint16_t)low | (uint32_t)high << 16); }
+static inline vi32 v_add16(vi32 a, vi32 b) { return halves_of(half_low(a) + half_low(b), half_high(a) + half_high(b)); }
+static inline vi32 v_sub16(vi32 a, vi32 b) { return halves_of(half_low(a) - half_low(b), half_high(a) - half_high(b)); }
+static inline vi32 v_min16(vi32 a, vi32 b) {
+    return halves_of(v_mini(half_low(a), half_low(b)), v_mini(half_high(a), half_high(b)));
+}
+static inline vi32 v_max16(vi32 a, vi32 b) {
+    return halves_of(v_maxi(half_low(a), half_low(b)), v_maxi(half_high(a), half_high(b)));
+}
+#define v_sra16(a, n) halves_of(half_low(a) >> (n), half_high(a) >> (n))
+/* Products of the 16-bit halves: the low 16 bits of each; signed, both added. */
 static inline vi32 v_mul16(vi32 a, vi32 b) {
     uint32_t x = (uint32_t)a, y = (uint32_t)b;
     return (int32_t)((((x >> 16) * (y >> 16)) << 16) | ((x & 0xFFFFu) * (y & 0xFFFFu) & 0xFFFFu));
 }
 static inline vi32 v_madd16(vi32 a, vi32 b) {
-    int32_t low = (int16_t)a * (int16_t)b, high = (int16_t)(a >> 16) * (int16_t)(b >> 16);
-    return v_addi(low, high);
+    return v_addi(half_low(a) * half_low(b), half_high(a) * half_high(b));
 }
 #define v_shl(a, n) ((int32_t)((uint32_t)(a) << (n)))
 #define v_shr(a, n) ((int32_t)((uint32_t)(a) >> (n)))

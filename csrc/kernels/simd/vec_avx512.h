@@ -94,8 +94,13 @@ static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm512_max_epi32(a, b); }
 static inline vmask v_gti(vi32 a, vi32 b) { return _mm512_cmpgt_epi32_mask(a, b); }
 static inline vmask v_eqi(vi32 a, vi32 b) { return _mm512_cmpeq_epi32_mask(a, b); }
 static inline vmask v_negi(vi32 a) { return _mm512_movepi32_mask(a); }
+static inline vi32 v_add16(vi32 a, vi32 b) { return _mm512_add_epi16(a, b); }
+static inline vi32 v_sub16(vi32 a, vi32 b) { return _mm512_sub_epi16(a, b); }
+static inline vi32 v_min16(vi32 a, vi32 b) { return _mm512_min_epi16(a, b); }
+static inline vi32 v_max16(vi32 a, vi32 b) { return _mm512_max_epi16(a, b); }
 static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm512_mullo_epi16(a, b); }
 static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm512_madd_epi16(a, b); }
+#define v_sra16(a, n) _mm512_srai_epi16(a, n)
 #define v_shl(a, n) _mm512_slli_epi32(a, n)
 #define v_shr(a, n) _mm512_srli_epi32(a, n)
 #define v_sra(a, n) _mm512_srai_epi32(a, n)

@@ -233,7 +233,7 @@ static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_t
 
 /* ---- blocks: a batch of neighbours is in reach of few lights ---- */
 
-enum { BLOCK = 16, BLOCKS_A_ROW = E3D_TILE / BLOCK, BLOCKS = BLOCKS_A_ROW * BLOCKS_A_ROW };
+enum { BLOCK = 32, BLOCKS_A_ROW = E3D_TILE / BLOCK, BLOCKS = BLOCKS_A_ROW * BLOCKS_A_ROW };
 
 static int block_of(int sample)
 {

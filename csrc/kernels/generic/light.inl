@@ -64,7 +64,7 @@ static inline void light_one(const e3d_light *light, float shininess, lit_lanes 
         vf32 more = v_add(lit->energy[k], v_mul(v_setf(light->color[k]), amount));
         lit->energy[k] = v_self(near, more, lit->energy[k]);
     }
-    if (shininess > 0.0f)
+    if (shininess > 0.0f && v_any(v_mand(near, v_gt(facing, zero)))) /* else it would add 0 */
         light_highlight(light, l, facing, attenuation, near, shininess, lit);
 }
 

@@ -34,14 +34,14 @@ static void find_corners(const float clip[16], const float lo[3], const float hi
     out->slack = size * splat(0x1p-20f); /* some f32 roundings here, some in the kernels */
 }
 
-static int32_t block_of(float sample, int32_t samples)
+static int32_t sample_of(float sample, int32_t samples)
 {
     float last = (float)(samples - 1);
     sample = sample > 0.0f ? sample : 0.0f; /* a NaN, too */
-    return (int32_t)(sample < last ? sample : last) / E3D_BLOCK;
+    return (int32_t)(sample < last ? sample : last);
 }
 
-/* Rectangle of blocks and nearest depth; the whole picture and the nearest of all where the box reaches the eye. */
+/* Rectangle of samples and nearest depth; the whole picture and the nearest of all where the box reaches the eye. */
 static void project(const e3d_viewport *viewport, const corners *c, e3d_box_view *out)
 {
     float4 lo = c->at[0] / splat(c->at[0][3]), hi = lo, nearest = c->at[0];
@@ -53,8 +53,7 @@ static void project(const e3d_viewport *viewport, const corners *c, e3d_box_view
     }
     float w = nearest[3] - c->slack[3], all = (c->slack[0] + c->slack[1]) + (c->slack[2] + c->slack[3]);
     if (!(w > E3D_W_MIN) || !(all < INFINITY)) {
-        *out = (e3d_box_view){out->state, E3D_NEAREST, {0, 0, (viewport->width - 1) / E3D_BLOCK,
-                                                         (viewport->height - 1) / E3D_BLOCK}};
+        *out = (e3d_box_view){out->state, E3D_NEAREST, {0, 0, viewport->width - 1, viewport->height - 1}};
         return;
     }
     float4 most = more_of(size_of(lo), size_of(hi));
@@ -64,10 +63,10 @@ static void project(const e3d_viewport *viewport, const corners *c, e3d_box_view
     float half_x = 0.5f * (float)viewport->width, half_y = 0.5f * (float)viewport->height;
     out->near = lo[2] > E3D_NEAREST ? lo[2] : E3D_NEAREST;
     /* Samples whose centres are within, and a quarter of a sample more for the snapping. */
-    out->blocks = (e3d_box){block_of(lo[0] * half_x + half_x - 0.75f, viewport->width),
-                            block_of(half_y - hi[1] * half_y - 0.75f, viewport->height),
-                            block_of(hi[0] * half_x + half_x - 0.25f, viewport->width),
-                            block_of(half_y - lo[1] * half_y - 0.25f, viewport->height)};
+    out->samples = (e3d_box){sample_of(lo[0] * half_x + half_x - 0.75f, viewport->width),
+                            sample_of(half_y - hi[1] * half_y - 0.75f, viewport->height),
+                            sample_of(hi[0] * half_x + half_x - 0.25f, viewport->width),
+                            sample_of(half_y - lo[1] * half_y - 0.25f, viewport->height)};
 }
 
 /* 0: all corners are beyond one plane; E3D_BOX_INSIDE: none is beyond any. */
@@ -139,8 +138,8 @@ static void add_item(e3d_context *context, e3d_worker *worker, const e3d_draw_st
         worker->counters.triangles[E3D_FATE_OUTSIDE] += box->triangles;
         return;
     }
-    const e3d_box *b = &item.view.blocks;
-    worker->counters.blocks += (int64_t)(b->x1 - b->x0 + 1) * (b->y1 - b->y0 + 1);
+    const e3d_box blocks = e3d_blocks_of(&item.view.samples);
+    worker->counters.blocks += (int64_t)(blocks.x1 - blocks.x0 + 1) * (blocks.y1 - blocks.y0 + 1);
     if (!e3d_array_reserve(&worker->items, worker->items.count + 1, sizeof item)) {
         worker->failed = 1;
         return;

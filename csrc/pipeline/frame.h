@@ -102,9 +102,13 @@ enum { E3D_BOX_OUTSIDE = 0, E3D_BOX_CROSSES, E3D_BOX_INSIDE };
 typedef struct e3d_box_view {
     int32_t state;
     float near;    /* no z_ndc in the box is less */
-    e3d_box blocks; /* of 8 x 8 samples, inclusive */
+    e3d_box samples; /* that it may cover, inclusive */
 } e3d_box_view;
 #define E3D_NEAREST (-2.0f) /* of a box that reaches the eye */
+static inline e3d_box e3d_blocks_of(const e3d_box *samples)
+{
+    return (e3d_box){samples->x0 / E3D_BLOCK, samples->y0 / E3D_BLOCK, samples->x1 / E3D_BLOCK, samples->y1 / E3D_BLOCK};
+}
 
 /* A group of clusters of one instance, in view. */
 typedef struct e3d_item {
@@ -258,7 +262,7 @@ typedef struct e3d_context {
     int by_fragments;  /* small triangles become fragments at once */
     int sorted;        /* painter or none: bins are made after sorting */
     int srgb;          /* the encoder of this frame (R34) */
-    int blockwise;     /* samples are shaded in blocks of 16 x 16, which few of the lights reach */
+    int blockwise;     /* samples are shaded in blocks, which few of the lights reach */
     int draw_faces;    /* faces are needed at all */
     int wants;         /* E3D_WANT_* and E3D_NEED_* of the visible samples; 0: no shading */
     int32_t line_half, point_half; /* 1/256 sample */

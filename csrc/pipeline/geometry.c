@@ -287,16 +287,31 @@ static void run_item(walker *w, const e3d_item *item)
 
 /* ---- the walk ---- */
 
+/* What an item soon to come reads of the frame: anywhere in memory. */
+static void fetch_item(const e3d_context *context, const e3d_item *item)
+{
+    enum { LINE = 64 };
+    const char *instance = (const char *)&context->instances[item->instance];
+    for (size_t at = 0; at < sizeof(e3d_instance); at += LINE)
+        __builtin_prefetch(instance + at);
+    if (context->round.choice != E3D_ALL_ITEMS)
+        __builtin_prefetch(&context->seen[item->unit]);
+}
+
 static void walk_items(walker *w)
 {
+    enum { AHEAD = 6 };
     e3d_context *context = w->context;
     const e3d_round *round = &context->round;
     while (!w->worker->failed) {
         int64_t first = round->first + atomic_fetch_add(&context->next, ITEMS_A_TASK);
         if (first >= round->end)
             return;
-        for (int64_t i = first; i < first + ITEMS_A_TASK && i < round->end; i++)
+        for (int64_t i = first; i < first + ITEMS_A_TASK && i < round->end; i++) {
+            if (i + AHEAD < round->end)
+                fetch_item(context, &context->items[i + AHEAD]);
             run_item(w, &context->items[i]);
+        }
     }
 }
 

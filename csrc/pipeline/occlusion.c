@@ -1,13 +1,14 @@
 /* raster, ahead of its time: what the nearest clusters cover is drawn first, so that clusters behind it are left out.
  *
  * Tiles are kept over the rounds of a frame; after each round the farthest depth of every block of 8 x 8 samples is noted, and
- * a box that is strictly behind all blocks that it may touch hides whatever is in it (Greene, Kass and Miller 1993). What
- * the last frame showed goes first; the picture does not depend on it.
+ * what is in a box that is strictly behind all samples that it may touch is hidden: behind a block (Greene, Kass and Miller
+ * 1993), or else one by one. What the last frame showed goes first; the picture does not depend on it.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/pool.h"
+#include "core/vectors.h"
 #include "pipeline/frame.h"
 
 /* Keeping tiles and trying boxes costs about what drawing a third of the clusters does (measured). */
@@ -79,27 +80,69 @@ void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats)
 
 /* ---- a box against what is drawn ---- */
 
-static int is_behind(const e3d_tile_depths *depths, float near, int x0, int y0, int x1, int y1)
+/* Whether all samples of a row are nearer. */
+static int row_is_nearer(const float *z, int count, float near)
 {
-    if (near > depths->most)
-        return 1;
-    if (depths->most == E3D_NOTHING_KEPT)
+    int i = 0;
+    for (; i + 4 <= count; i += 4) {
+        int4 nearer = splat(near) > load4(z + i);
+        if ((nearer[0] & nearer[1] & nearer[2] & nearer[3]) == 0)
+            return 0;
+    }
+    for (; i < count; i++)
+        if (!(near > z[i]))
+            return 0;
+    return 1;
+}
+
+/* The same of a block's samples, as far as they are written. */
+static int samples_are_nearer(const e3d_visible_tile *visible, int block, const e3d_box *samples, float near)
+{
+    int left = block % BLOCKS * E3D_BLOCK, top = block / BLOCKS * E3D_BLOCK;
+    int x0 = samples->x0 > left ? samples->x0 : left, y0 = samples->y0 > top ? samples->y0 : top;
+    int x1 = samples->x1 < left + E3D_BLOCK - 1 ? samples->x1 : left + E3D_BLOCK - 1;
+    int y1 = samples->y1 < top + E3D_BLOCK - 1 ? samples->y1 : top + E3D_BLOCK - 1;
+    if (visible->noted >> block & 1)
         return 0;
     for (int y = y0; y <= y1; y++)
-        for (int x = x0; x <= x1; x++)
-            if (!(near > depths->zmax[y * BLOCKS + x]))
+        if (!row_is_nearer(visible->z + y * E3D_TILE + x0, x1 - x0 + 1, near))
+            return 0;
+    return 1;
+}
+
+/* Whether the sample in a box's middle tells at once that the box isn't hidden. */
+static int is_open(const e3d_tile_depths *depths, const e3d_visible_tile *visible, const e3d_box *box, float near)
+{
+    int x = (box->x0 + box->x1) / 2, y = (box->y0 + box->y1) / 2, block = y / E3D_BLOCK * BLOCKS + x / E3D_BLOCK;
+    return !(near > (visible->noted >> block & 1 ? depths->zmax[block] : visible->z[y * E3D_TILE + x]));
+}
+
+/* Whether the samples of a box, in the tile, are all nearer. */
+static int is_behind(const e3d_tile_depths *depths, const e3d_visible_tile *visible, const e3d_box *samples, float near)
+{
+    const e3d_box blocks = e3d_blocks_of(samples);
+    if (near > depths->most)
+        return 1;
+    if (depths->most == E3D_NOTHING_KEPT || is_open(depths, visible, samples, near))
+        return 0;
+    for (int y = blocks.y0; y <= blocks.y1; y++)
+        for (int x = blocks.x0; x <= blocks.x1; x++) {
+            int block = y * BLOCKS + x;
+            if (!(near > depths->zmax[block]) && !samples_are_nearer(visible, block, samples, near))
                 return 0;
+        }
     return 1;
 }
 
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
 {
-    const e3d_box *b = &view->blocks;
-    for (int32_t ty = b->y0 / BLOCKS; ty <= b->y1 / BLOCKS; ty++)
-        for (int32_t tx = b->x0 / BLOCKS; tx <= b->x1 / BLOCKS; tx++) {
-            int x0 = tx == b->x0 / BLOCKS ? b->x0 % BLOCKS : 0, x1 = tx == b->x1 / BLOCKS ? b->x1 % BLOCKS : BLOCKS - 1;
-            int y0 = ty == b->y0 / BLOCKS ? b->y0 % BLOCKS : 0, y1 = ty == b->y1 / BLOCKS ? b->y1 % BLOCKS : BLOCKS - 1;
-            if (!is_behind(&context->depths[(int64_t)ty * context->tiles_x + tx], view->near, x0, y0, x1, y1))
+    const e3d_box *s = &view->samples;
+    for (int32_t ty = s->y0 / E3D_TILE; ty <= s->y1 / E3D_TILE; ty++)
+        for (int32_t tx = s->x0 / E3D_TILE; tx <= s->x1 / E3D_TILE; tx++) {
+            const e3d_box within = {e3d_in_tile(s->x0 - tx * E3D_TILE), e3d_in_tile(s->y0 - ty * E3D_TILE),
+                                    e3d_in_tile(s->x1 - tx * E3D_TILE), e3d_in_tile(s->y1 - ty * E3D_TILE)};
+            int64_t tile = (int64_t)ty * context->tiles_x + tx;
+            if (!is_behind(&context->depths[tile], &context->kept[tile], &within, view->near))
                 return 0;
         }
     return 1;

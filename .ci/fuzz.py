@@ -25,6 +25,7 @@ SHARED = Path(os.environ.get("ENGINE3D_SHARED") or ROOT.parent / "shared")
 LARGEST_SEED = 1 << 16
 # How long inputs are by default: those of files longer, those that take long to draw shorter.
 LENGTHS = {"obj": 4096, "rows": 384, "weld": 384, "draw": 4096, "canvas": 2048}
+LENGTHS.update(dict.fromkeys(("ply", "png", "sums", "text"), 256))
 SETTINGS = {
     # Little quarantine: fresh pages take most of the time otherwise.
     "ASAN_OPTIONS": "quarantine_size_mb=16",
@@ -49,22 +50,25 @@ def seed_files():
             yield path.name, path.read_bytes()
 
 
-def as_target(name, data):
-    """What a file is to a target: (target, bytes), or None. See the head of the target's file."""
+def as_targets(name, data):
+    """What a file is to which targets: (target, bytes) of each. See the heads of their files."""
     suffix = Path(name).suffix.lower()
     if suffix == ".obj":
-        return "obj", data
+        yield "obj", data
     if suffix == ".tga" and len(data) > 18 and data[2] & 8:
         size = (data[16] + 7) // 8
         start = 18 + data[0] + int.from_bytes(data[5:7], "little") * ((data[7] + 7) // 8)
         count = int.from_bytes(data[12:14], "little") * int.from_bytes(data[14:16], "little")
-        return "tga", bytes([(size - 1) & 3]) + (count & 0xFFFF).to_bytes(2, "little") + data[
-            start:
-        ]
+        head = bytes([(size - 1) & 3]) + (count & 0xFFFF).to_bytes(2, "little")
+        yield "tga", head + data[start:]
     if suffix in (".stl", ".ply"):
         columns, rows, gap, are_floats = 2, 2, 2, 1
-        return "rows", bytes([columns, rows, gap, are_floats]) + data[84:]
-    return None
+        yield "rows", bytes([columns, rows, gap, are_floats]) + data[84:]
+    if suffix == ".ply":
+        order, lists, tail, rows = int(b"big_endian" in data), 1, 0, 2
+        of_bytes_and_ints = bytes([0, 0, 3])
+        _, _, body = data.partition(b"end_header\n")
+        yield "ply", bytes([order, lists, tail, rows]) + 3 * of_bytes_and_ints + body
 
 
 def write_seeds(corpus, targets):
@@ -77,9 +81,9 @@ def write_seeds(corpus, targets):
         for path in (ROOT / "csrc/fuzz/seeds" / target).glob("*"):
             (corpus / target / f"seed-{path.name}").write_bytes(path.read_bytes())
     for number, (name, data) in enumerate(seed_files()):
-        found = as_target(name, data)
-        if found is not None and found[0] in targets:
-            (corpus / found[0] / f"seed-{number}").write_bytes(found[1])
+        for target, seed in as_targets(name, data):
+            if target in targets:
+                (corpus / target / f"seed-{number}").write_bytes(seed)
 
 
 def run(target, arguments, work):

@@ -15,10 +15,8 @@
 
 #include "huffman.h"
 
-#define HASH_BITS 15
 #define MIN_MATCH 4
 #define MAX_MATCH 258
-#define MAX_TOKENS 32768 /* of a block */
 #define LONG_MATCH 16    /* of longer ones only the ends are entered in the table */
 
 #define LITERALS 256
@@ -27,7 +25,6 @@
 #define DISTANCE_SYMBOLS 30
 #define CODE_LENGTH_SYMBOLS 19
 #define CODE_LENGTH_LIMIT 7
-#define STORED_MAX 65535
 
 struct deflater {
     bit_writer *out;
@@ -35,10 +32,10 @@ struct deflater {
     size_t pending; /* where the block begins that is being made */
     uint32_t base;  /* stream position of buffer[0], plus a window: 0 is never a place in reach */
     uint32_t token_count;
-    uint32_t tokens[MAX_TOKENS]; /* a literal, or length << 16 | distance */
+    uint32_t tokens[DEFLATE_MAX_TOKENS]; /* a literal, or length << 16 | distance */
     uint32_t literal_frequency[LENGTH_SYMBOLS];
     uint32_t distance_frequency[DISTANCE_SYMBOLS];
-    uint32_t places[1 << HASH_BITS];
+    uint32_t places[1 << DEFLATE_HASH_BITS];
     uint8_t buffer[DEFLATE_ROOM];
 };
 
@@ -219,7 +216,7 @@ static void write_tokens(const deflater *d, const huffman_code *literals,
 static void write_stored(bit_writer *out, const uint8_t *bytes, size_t count, bool is_last)
 {
     do {
-        const size_t part = count < STORED_MAX ? count : STORED_MAX;
+        const size_t part = count < DEFLATE_MAX_STORED ? count : DEFLATE_MAX_STORED;
         writer_bits(out, is_last && part == count, 1);
         writer_bits(out, 0, 2);
         writer_align(out);
@@ -265,7 +262,7 @@ static uint32_t read_four(const uint8_t *bytes)
 
 static uint32_t hash(uint32_t four)
 {
-    return four * 2654435761u >> (32 - HASH_BITS);
+    return four * 2654435761u >> (32 - DEFLATE_HASH_BITS);
 }
 
 static uint32_t common_length(const uint8_t *a, const uint8_t *b, uint32_t limit)
@@ -309,7 +306,7 @@ static void compress(deflater *d)
         const uint32_t limit = end - at < MAX_MATCH ? (uint32_t)(end - at) : MAX_MATCH;
         uint32_t distance = 0;
         const uint32_t length = limit < MIN_MATCH ? 0 : find_match(d, at, limit, &distance);
-        if (d->token_count == MAX_TOKENS) {
+        if (d->token_count == DEFLATE_MAX_TOKENS) {
             end_block(d, at, false);
         }
         if (length == 0) {

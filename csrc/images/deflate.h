@@ -6,8 +6,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define DEFLATE_WINDOW 32768 /* how far back a match may lie */
-#define DEFLATE_CHUNK 262144 /* bytes that are compressed at a time */
+#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+#define DEFLATE_WINDOW 32768     /* how far back a match may lie */
+#define DEFLATE_CHUNK 262144     /* bytes that are compressed at a time */
+#define DEFLATE_HASH_BITS 15     /* of the places that are remembered */
+#define DEFLATE_MAX_TOKENS 32768 /* of a block */
+#define DEFLATE_MAX_STORED 65535 /* bytes of a block that is not compressed */
+#else
+/* So little that a picture of a few pixels fills it all several times: a fuzzer makes thousands a second. */
+#define DEFLATE_WINDOW 128
+#define DEFLATE_CHUNK 256
+#define DEFLATE_HASH_BITS 7
+#define DEFLATE_MAX_TOKENS 96
+#define DEFLATE_MAX_STORED 60
+#endif
 #define DEFLATE_ROOM (DEFLATE_WINDOW + DEFLATE_CHUNK)
 
 /* Bytes that grow, and the bits that do not fill one yet. */

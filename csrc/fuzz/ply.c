@@ -1,0 +1,130 @@
+/* Fuzzes the walk along the rows of a binary PLY body, and the copying of the numbers in them.
+ *
+ * In:  a byte each: byte order, lists in a row, bytes behind them, rows; three bytes a list; then the body.
+ * Claims: a walk that cannot overflow finds the same; copies are the body's bytes, in this machine's order.
+ */
+#include "e3d_loaders.h"
+#include "fuzz/input.h"
+
+enum { MOST_LISTS = 3 };
+
+typedef struct element {
+    e3d_ply_body body;
+    e3d_ply_list lists[MOST_LISTS];
+    size_t list_count, tail, rows;
+} element;
+
+typedef unsigned __int128 wide;
+
+static wide length_at(const element *e, const e3d_ply_list *list, size_t place)
+{
+    wide length = 0;
+    for (size_t k = 0; k < list->count_size; k++)
+        length = length << 8 | e->body.bytes[place + (e->body.is_big_endian ? k : list->count_size - 1 - k)];
+    return length;
+}
+
+/* Walks as far as the rows are sound, and claims that what was found is that. */
+static void claim_walk(const element *e, e3d_ply_problem problem, const e3d_ply_rows *found)
+{
+    const wide end = e->body.end;
+    wide place = e->body.start;
+    for (size_t row = 0; row < e->rows; row++) {
+        CLAIM(found->places[row] == (int64_t)place);
+        for (size_t k = 0; k < e->list_count; k++) {
+            const e3d_ply_list *const list = &e->lists[k];
+            place += list->skip;
+            if (place + list->count_size > end) {
+                CLAIM(problem == E3D_PLY_SHORT);
+                return;
+            }
+            const wide length = length_at(e, list, (size_t)place);
+            if (list->is_signed && length >> (8 * list->count_size - 1)) {
+                CLAIM(problem == E3D_PLY_BAD_LIST && found->row == row && found->end == place);
+                return;
+            }
+            place += list->count_size;
+            if (place + length * list->item_size > end) {
+                CLAIM(problem == E3D_PLY_SHORT);
+                return;
+            }
+            CLAIM(found->starts[row * e->list_count + k] == (int64_t)place);
+            CLAIM(found->sizes[row * e->list_count + k] == (int64_t)length);
+            place += length * list->item_size;
+        }
+        place += e->tail;
+        if (place > end) {
+            CLAIM(problem == E3D_PLY_SHORT);
+            return;
+        }
+    }
+    CLAIM(problem == E3D_PLY_DONE && found->end == place);
+}
+
+/* Claims that the items at `from` were copied; returns what stands behind the copies. */
+static const uint8_t *claim_items(const element *e, const uint8_t *from, size_t count, size_t size, const uint8_t *copied)
+{
+    const int swapped = e->body.is_big_endian != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
+    for (size_t i = 0; i < count * size; i++)
+        CLAIM(copied[i] == from[swapped ? i / size * size + size - 1 - i % size : i]);
+    return copied + count * size;
+}
+
+static void claim_lists(const element *e, size_t k, const e3d_ply_rows *found)
+{
+    const size_t step = e->list_count, size = e->lists[k].item_size;
+    size_t total = 0;
+    for (size_t row = 0; row < e->rows; row++)
+        total += (size_t)found->sizes[row * step + k];
+    uint8_t *items = room_for(total, size);
+    const uint8_t *copied = items;
+    if (total)
+        e3d_ply_copy_lists(&e->body, found->starts + k, found->sizes + k, step, e->rows, size, items);
+    for (size_t row = 0; row < e->rows; row++)
+        copied = claim_items(e, e->body.bytes + found->starts[row * step + k], (size_t)found->sizes[row * step + k],
+                             size, copied);
+    free(items);
+}
+
+/* The lists' own sizes choose how wide the rows are that are copied as they lie. */
+static void claim_rows(const element *e)
+{
+    const size_t width = 1 + e->lists[0].skip % 5, size = 1 + e->lists[1].skip % 8, stride = e->tail + width * size;
+    const size_t held = e->body.end - e->body.start, rows = held / stride < e->rows ? held / stride : e->rows;
+    if (rows == 0)
+        return;
+    uint8_t *items = room_for(rows * width, size);
+    const uint8_t *copied = items;
+    e3d_ply_copy_rows(&e->body, stride, rows, width, size, items);
+    for (size_t row = 0; row < rows; row++)
+        copied = claim_items(e, e->body.bytes + e->body.start + row * stride, width, size, copied);
+    free(items);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    input in = {bytes, size};
+    element e = {.body.is_big_endian = take_byte(&in) & 1};
+    e.list_count = (size_t)take_below(&in, MOST_LISTS + 1);
+    e.tail = (size_t)take_below(&in, 24);
+    e.rows = take_byte(&in);
+    for (size_t k = 0; k < MOST_LISTS; k++) {
+        const uint32_t skip = take_byte(&in), count = take_byte(&in);
+        e.lists[k] = (e3d_ply_list){skip % 32, 1 + count % 8, 1 + (size_t)take_below(&in, 8), count >> 7};
+    }
+    e.body.bytes = in.at;
+    e.body.end = in.left;
+    e.body.start = in.left && e.tail > 16 ? e.tail % in.left : 0;
+    e3d_ply_rows found = {.places = room_for(e.rows, sizeof(int64_t)), .end = e.body.start};
+    found.starts = room_for(e.rows * e.list_count, sizeof(int64_t));
+    found.sizes = room_for(e.rows * e.list_count, sizeof(int64_t));
+    const e3d_ply_problem problem = e3d_ply_walk(&e.body, e.lists, e.list_count, e.tail, e.rows, &found);
+    claim_walk(&e, problem, &found);
+    for (size_t k = 0; problem == E3D_PLY_DONE && k < e.list_count; k++)
+        claim_lists(&e, k, &found);
+    claim_rows(&e);
+    free(found.places);
+    free(found.starts);
+    free(found.sizes);
+    return 0;
+}

@@ -61,12 +61,14 @@ static int write_png(input in)
 static int number_rows(input in)
 {
     int32_t numbers[512];
-    uint32_t found[512];
+    uint32_t *found = NULL;
     e3d_rows rows = {.bytes = in.at, .width = 1, .in_record = 1, .stride = 4};
     rows.count = in.left / 4 < 512 ? in.left / 4 : 512;
     if (rows.count == 0)
         return 1;
-    return e3d_number_rows(&rows, numbers, NULL, found) != SIZE_MAX && e3d_rows_repeat(&rows) >= 0;
+    const int done = e3d_number_rows(&rows, numbers, NULL, &found) != SIZE_MAX;
+    free(found);
+    return done && e3d_rows_repeat(&rows) >= 0;
 }
 
 static int weld(input in)

@@ -1,7 +1,8 @@
 /* Fuzzes the walk along the rows of a binary PLY body, and the copying of the numbers in them.
  *
  * In:  a byte each: byte order, lists in a row, bytes behind them, rows; three bytes a list; then the body.
- * Claims: a walk that cannot overflow finds the same; copies are the body's bytes, in this machine's order.
+ * Claims: a walk that cannot overflow finds the same; lists of one length are told from others; copies are the
+ *      body's bytes, in this machine's order.
  */
 #include "e3d_loaders.h"
 #include "fuzz/input.h"
@@ -16,12 +17,12 @@ typedef struct element {
 
 typedef unsigned __int128 wide;
 
-static wide length_at(const element *e, const e3d_ply_list *list, size_t place)
+static wide integer_at(const element *e, size_t size, size_t place)
 {
-    wide length = 0;
-    for (size_t k = 0; k < list->count_size; k++)
-        length = length << 8 | e->body.bytes[place + (e->body.is_big_endian ? k : list->count_size - 1 - k)];
-    return length;
+    wide integer = 0;
+    for (size_t k = 0; k < size; k++)
+        integer = integer << 8 | e->body.bytes[place + (e->body.is_big_endian ? k : size - 1 - k)];
+    return integer;
 }
 
 /* Walks as far as the rows are sound, and claims that what was found is that. */
@@ -38,7 +39,7 @@ static void claim_walk(const element *e, e3d_ply_problem problem, const e3d_ply_
                 CLAIM(problem == E3D_PLY_SHORT);
                 return;
             }
-            const wide length = length_at(e, list, (size_t)place);
+            const wide length = integer_at(e, list->count_size, (size_t)place);
             if (list->is_signed && length >> (8 * list->count_size - 1)) {
                 CLAIM(problem == E3D_PLY_BAD_LIST && found->row == row && found->end == place);
                 return;
@@ -62,7 +63,8 @@ static void claim_walk(const element *e, e3d_ply_problem problem, const e3d_ply_
 }
 
 /* Claims that the items at `from` were copied; returns what stands behind the copies. */
-static const uint8_t *claim_items(const element *e, const uint8_t *from, size_t count, size_t size, const uint8_t *copied)
+static const uint8_t *claim_items(const element *e, const uint8_t *from, size_t count, size_t size,
+                                  const uint8_t *copied)
 {
     const int swapped = e->body.is_big_endian != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
     for (size_t i = 0; i < count * size; i++)
@@ -86,6 +88,18 @@ static void claim_lists(const element *e, size_t k, const e3d_ply_rows *found)
     free(items);
 }
 
+/* Claims that rows of lists as long as the first are told from others; here their length ends each row. */
+static void claim_lengths(const element *e, size_t stride, size_t rows, size_t count_size)
+{
+    e3d_ply_body body = e->body;
+    body.start += stride - count_size;
+    const wide first = integer_at(e, count_size, body.start);
+    bool are_same = true;
+    for (size_t row = 0; row < rows; row++)
+        are_same &= integer_at(e, count_size, body.start + row * stride) == first;
+    CLAIM(e3d_ply_lengths_are(&body, stride, rows, count_size, (uint64_t)first) == are_same);
+}
+
 /* The lists' own sizes choose how wide the rows are that are copied as they lie. */
 static void claim_rows(const element *e)
 {
@@ -93,6 +107,7 @@ static void claim_rows(const element *e)
     const size_t held = e->body.end - e->body.start, rows = held / stride < e->rows ? held / stride : e->rows;
     if (rows == 0)
         return;
+    claim_lengths(e, stride, rows, size);
     uint8_t *items = room_for(rows * width, size);
     const uint8_t *copied = items;
     e3d_ply_copy_rows(&e->body, stride, rows, width, size, items);

@@ -121,7 +121,7 @@ size_t e3d_weld_corners(const int32_t *positions, const int32_t *uvs, const int3
                         size_t corners, size_t position_count, int32_t *faces, int32_t *of_position,
                         int32_t *of_uv, int32_t *of_normal);
 
-/* Sets used[i], of `total` zeros, to 1 for each index i. Returns how many it set. */
+/* Sets used[i], of `total` zeros, to 1 for each index i below `total`, which is below 2^31. Returns how many it set. */
 size_t e3d_mark_used(const int32_t *indices, size_t count, uint8_t *used, size_t total);
 
 #define E3D_ROW_WORDS 8
@@ -137,9 +137,10 @@ typedef struct e3d_rows {
 
 /* Numbers rows, equal ones alike, in the order of their first appearance.
  *
- * Out: numbers[count]; first: the first row of each number, or NULL; found: the first row itself; both
- *      with room for all. Returns how many numbers there are; SIZE_MAX if memory is out. */
-size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t *found);
+ * Out: numbers[count]; first[count]: the first row of each number, or NULL; *found: the first rows themselves,
+ *      to be freed with free(), unless it is NULL. Returns how many numbers there are; SIZE_MAX, and nothing to
+ *      free, if memory is out. */
+size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t **found);
 /* Whether any two rows are equal: 1 or 0; -1 if memory is out. Faster than numbering where none are. */
 int e3d_rows_repeat(const e3d_rows *rows);
 
@@ -193,6 +194,10 @@ typedef struct e3d_ply_rows {
 /* Goes along rows of lists, with `tail` bytes behind the last list of each. */
 e3d_ply_problem e3d_ply_walk(const e3d_ply_body *body, const e3d_ply_list *lists, size_t list_count,
                              size_t tail, size_t rows, e3d_ply_rows *found);
+
+/* Whether a list has `length` items in each row; from body->start on, all inside the bytes, the lengths themselves
+ * are `stride` bytes apart. */
+bool e3d_ply_lengths_are(const e3d_ply_body *body, size_t stride, size_t rows, size_t count_size, uint64_t length);
 
 /* Copies the items of a list of each row, which stand inside the bytes, row after row; from one row's
  * start and size to the next one's are `step`. */

@@ -11,15 +11,20 @@
 
 #define IS_BIG_ENDIAN_HERE (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)
 
+static inline uint64_t read_integer(const uint8_t *bytes, size_t size, bool is_big_endian)
+{
+    uint64_t integer = 0;
+    for (size_t k = 0; k < size; k++)
+        integer |= (uint64_t)bytes[is_big_endian ? size - 1 - k : k] << 8 * k;
+    return integer;
+}
+
 /* The length of a list: false if it is negative. */
 static inline bool read_length(const uint8_t *bytes, const e3d_ply_list *list, bool is_big_endian,
                                uint64_t *length)
 {
-    const size_t size = list->count_size;
-    *length = 0;
-    for (size_t k = 0; k < size; k++)
-        *length |= (uint64_t)bytes[is_big_endian ? size - 1 - k : k] << 8 * k;
-    return !(list->is_signed && *length >> (8 * size - 1));
+    *length = read_integer(bytes, list->count_size, is_big_endian);
+    return !(list->is_signed && *length >> (8 * list->count_size - 1));
 }
 
 e3d_ply_problem e3d_ply_walk(const e3d_ply_body *body, const e3d_ply_list *lists, size_t list_count,
@@ -51,6 +56,19 @@ e3d_ply_problem e3d_ply_walk(const e3d_ply_body *body, const e3d_ply_list *lists
     }
     found->end = place;
     return E3D_PLY_DONE;
+}
+
+bool e3d_ply_lengths_are(const e3d_ply_body *body, size_t stride, size_t rows, size_t count_size, uint64_t length)
+{
+    const uint8_t *at = body->bytes + body->start;
+    uint64_t differs = 0;
+    if (count_size == 1)
+        for (size_t row = 0; row < rows; row++)
+            differs |= at[row * stride] ^ length;
+    else
+        for (size_t row = 0; row < rows; row++)
+            differs |= read_integer(at + row * stride, count_size, body->is_big_endian) ^ length;
+    return !differs;
 }
 
 /* Inlined for sizes that are constants. */

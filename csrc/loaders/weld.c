@@ -109,12 +109,11 @@ size_t e3d_weld_corners(const int32_t *positions, const int32_t *uvs, const int3
 
 size_t e3d_mark_used(const int32_t *indices, size_t count, uint8_t *used, size_t total)
 {
+    for (size_t i = 0; i < count; i++)
+        if ((uint32_t)indices[i] < total)
+            used[indices[i]] = 1;
     size_t marked = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (indices[i] < 0 || (size_t)indices[i] >= total)
-            continue;
-        marked += !used[indices[i]];
-        used[indices[i]] = 1;
-    }
+    for (size_t k = 0; k < total; k++)
+        marked += used[k];
     return marked;
 }

@@ -1,6 +1,6 @@
 # Mirrors csrc/include/e3d_loaders.h.
 
-from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t, uint64_t
 
 
 cdef extern from "e3d_loaders.h" nogil:
@@ -89,7 +89,7 @@ cdef extern from "e3d_loaders.h" nogil:
         bint are_floats
 
     size_t e3d_number_rows(
-        const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t *found)
+        const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t **found)
     int e3d_rows_repeat(const e3d_rows *rows)
 
     ctypedef enum e3d_sums_problem:
@@ -130,6 +130,8 @@ cdef extern from "e3d_loaders.h" nogil:
     e3d_ply_problem e3d_ply_walk(
         const e3d_ply_body *body, const e3d_ply_list *lists, size_t list_count, size_t tail,
         size_t rows, e3d_ply_rows *found)
+    bint e3d_ply_lengths_are(
+        const e3d_ply_body *body, size_t stride, size_t rows, size_t count_size, uint64_t length)
     void e3d_ply_copy_lists(
         const e3d_ply_body *body, const int64_t *starts, const int64_t *sizes, size_t step,
         size_t rows, size_t item_size, void *items)

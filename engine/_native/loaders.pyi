@@ -69,6 +69,15 @@ def walk_ply_rows(
     tail: int,
     rows: int,
 ) -> tuple[int, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], int, int]: ...
+def ply_lengths_are(
+    data: bytes | memoryview,
+    is_big_endian: bool,
+    start: int,
+    stride: int,
+    rows: int,
+    count_size: int,
+    length: int,
+) -> bool: ...
 def copy_ply_lists(
     data: bytes | memoryview,
     is_big_endian: bool,

@@ -229,7 +229,7 @@ cdef int check_rows(const e3d_rows *rows) except -1:
 
 
 cdef size_t numbered(const e3d_rows *rows, int32_t *numbers, int32_t *first,
-                     uint32_t *found) except? 0:
+                     uint32_t **found) except? 0:
     cdef size_t made
     check_rows(rows)
     with nogil:
@@ -249,10 +249,9 @@ def number_rows(const uint32_t[:, ::1] rows not None, bint are_floats):
     if count == 0:
         return numbers, first
     cdef int32_t[::1] number_view = numbers, first_view = first
-    cdef uint32_t[::1] found = np.empty(count * width, np.uint32)
     cdef e3d_rows given = e3d_rows(
         <const uint8_t *>&rows[0, 0], count, width, 1, width * sizeof(uint32_t), are_floats)
-    made = numbered(&given, &number_view[0], &first_view[0], &found[0])
+    made = numbered(&given, &number_view[0], &first_view[0], NULL)
     return numbers, first[:made]
 
 
@@ -282,12 +281,11 @@ def weld_facets(const uint8_t[::1] data not None, size_t offset, size_t stride, 
             facets - 1 > (data.shape[0] - offset - 36) // stride):
         raise InvalidArgumentError("the facets are not inside the data")
     faces = np.empty((facets, 3), np.int32)
-    positions = np.empty((3 * facets, 3), np.float32)
     cdef int32_t[:, ::1] face_view = faces
-    cdef float[:, ::1] position_view = positions
+    cdef uint32_t *found = NULL
     cdef e3d_rows given = e3d_rows(&data[offset], 3 * facets, 3, 3, stride, True)
-    cdef size_t made = numbered(&given, &face_view[0, 0], NULL, <uint32_t *>&position_view[0, 0])
-    positions = positions[:made].copy()
+    cdef size_t made = numbered(&given, &face_view[0, 0], NULL, &found)
+    positions = owned(<void **>&found, 3 * made, np.dtype(np.float32)).reshape(-1, 3).copy()
     faces.setflags(write=False)
     positions.setflags(write=False)
     return faces, positions
@@ -372,6 +370,28 @@ def walk_ply_rows(const uint8_t[::1] data not None, size_t start, bint is_big_en
     return problem, places, starts, sizes, found.end, found.row
 
 
+cdef int check_rows_inside(size_t size, size_t start, size_t stride, size_t rows,
+                           size_t width) except -1:
+    """Raise unless rows of `width` bytes, `stride` bytes apart, are inside of so many bytes."""
+    if rows and (size < start or size - start < width or (
+            stride and (size - start - width) // stride < rows - 1)):
+        raise InvalidArgumentError("the rows are not inside the data")
+    return 0
+
+
+def ply_lengths_are(const uint8_t[::1] data not None, bint is_big_endian, size_t start,
+                    size_t stride, size_t rows, size_t count_size, size_t length):
+    """Tell whether the lists of all rows have a length; that of the first begins at ``start``."""
+    check_rows_inside(data.shape[0], start, stride, rows, count_size)
+    if rows == 0:
+        return True
+    cdef e3d_ply_body body = ply_body(data, start, is_big_endian)
+    cdef bint same
+    with nogil:
+        same = e3d_ply_lengths_are(&body, stride, rows, count_size, length)
+    return bool(same)
+
+
 def copy_ply_lists(const uint8_t[::1] data not None, bint is_big_endian,
                    const int64_t[:, ::1] starts not None, const int64_t[:, ::1] sizes not None,
                    size_t number, dtype):
@@ -394,13 +414,11 @@ def copy_ply_lists(const uint8_t[::1] data not None, bint is_big_endian,
 def copy_ply_rows(const uint8_t[::1] data not None, bint is_big_endian, size_t start,
                   size_t stride, size_t rows, size_t width, dtype):
     """Copy ``width`` neighbouring numbers of each row, ``stride`` bytes apart: (rows, width)."""
-    cdef size_t item_size = dtype.itemsize, size = data.shape[0]
+    cdef size_t item_size = dtype.itemsize
     items = np.empty((rows, width), dtype)
     if rows == 0 or width == 0:
         return items
-    if size < start or size - start < width * item_size or (
-            stride and (size - start - width * item_size) // stride < rows - 1):
-        raise InvalidArgumentError("the rows are not inside the data")
+    check_rows_inside(data.shape[0], start, stride, rows, width * item_size)
     cdef uint8_t[::1] view = items.reshape(-1).view(np.uint8)
     cdef e3d_ply_body body = ply_body(data, start, is_big_endian)
     with nogil:

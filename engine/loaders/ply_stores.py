@@ -97,6 +97,15 @@ class BinaryStore:
             raise BadListError(row, end)
         return WalkedRows(*walked, end)
 
+    def lengths_are(self, place: int, stride: int, rows: int, code: str, length: int) -> bool:
+        """Tell whether a list has ``length`` items in all rows, which are ``stride`` apart.
+
+        The length in the first row stands at ``place``.
+        """
+        return native.ply_lengths_are(
+            self._data, self._is_big_endian, place, stride, rows, self.size(code), length
+        )
+
     def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
         """Return the items of one list of all rows, row after row."""
         starts, sizes = walked.starts, walked.sizes
@@ -180,6 +189,9 @@ class TextStore:
         places, starts, sizes = found
         shape = (rows, len(lists))
         return WalkedRows(places, starts.reshape(shape), sizes.reshape(shape), place)
+
+    def lengths_are(self, place: int, stride: int, rows: int, code: str, length: int) -> bool:
+        return bool((self.grid(place, (rows, 1), stride, code) == length).all())
 
     def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
         sizes = walked.sizes[:, number]

@@ -252,7 +252,7 @@ def _is_uniform(element: PlyElement, store, first: WalkedRows, stride: int, coun
     lists = [p for p in element.properties.values() if p.count_type is not None]
     for item, begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
         place = int(begin) - store.size(item.count_type)
-        if (store.grid(place, (count, 1), stride, item.count_type) != size).any():
+        if not store.lengths_are(place, stride, count, item.count_type, int(size)):
             return False
     return True
 

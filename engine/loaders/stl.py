@@ -43,19 +43,19 @@ class _Facets(NamedTuple):
     positions : (V, 3) float32
         Of all corners, each place once.
     faces : (T, 3) int32
-    polygons : (T,) int32
-        The facet that each triangle was cut from.
+    polygons : (T,) int32 or None
+        The facet that each triangle was cut from; None if each facet is one.
     edge_visible : (T, 3) bool or None
     corner_count : int
         Corners of all facets together.
     solids : list of (str, int)
-        The name of each solid, and its first facet.
+        The name of each solid, and its first facet; none in the binary form.
     """
 
     count: int
     positions: np.ndarray
     faces: np.ndarray
-    polygons: np.ndarray
+    polygons: np.ndarray | None
     edge_visible: np.ndarray | None
     corner_count: int
     solids: list[tuple[str, int]]
@@ -83,7 +83,7 @@ def read_stl(source: Source, split: bool = False) -> Document:
         edge_visible=facets.edge_visible,
         name=source.stem,
     )
-    groups = _groups(facets.solids, facets.polygons)
+    groups = [] if facets.polygons is None else _groups(facets.solids, facets.polygons)
     whole.groups = {name: indices for name, indices in groups if name}
     objects = [DocumentObject(source.stem, whole)]
     if split and 1 < len(groups) <= _MAX_OBJECTS:
@@ -122,8 +122,7 @@ def _read_binary(source: Source, warnings: WarningList) -> _Facets:
     _require_facets(count, source)
     start = _HEADER + _CORNERS_AT
     faces, positions = native.weld_facets(data, start, _FACET_SIZE, count)
-    polygons = np.arange(count, dtype=np.int32)
-    return _Facets(count, positions, faces, polygons, None, 3 * count, [("", 0)])
+    return _Facets(count, positions, faces, None, None, 3 * count, [])
 
 
 def _require_facets(count: int, source: Source) -> None:

@@ -1,0 +1,102 @@
+/* Whether any two rows of a table are equal; faster than numbering them where none are.
+ *
+ * In:  rows of words. Out: yes or no.
+ * Each row marks a bit of a map that its hash chooses. Rows that share their bit with another are few, and only
+ * they are numbered.
+ */
+#include "loaders/rows.h"
+
+#include <stdlib.h>
+
+#define BLOCK 256
+/* Of the map for each row: about one row of nine shares its bit with an unequal one. */
+#define BITS 8
+
+typedef struct word {
+    uint64_t seen, again; /* whether any row has the bit, and whether several have */
+} word;
+
+typedef struct map {
+    word *words;
+    size_t count;     /* words */
+    uint32_t *hashes; /* [rows] */
+} map;
+
+/* The upper bits of a hash choose the word, the lower ones the bit. */
+static inline word *word_of(const map *m, uint32_t hash) { return &m->words[(uint64_t)hash * m->count >> 32]; }
+
+static inline uint64_t bit_of(uint32_t hash) { return UINT64_C(1) << hash % 64; }
+
+/* Hashes the next rows, and marks them; inlined for each width. */
+static ALWAYS_INLINE void mark_block(map *m, e3d_row_reader *in, size_t count, size_t width,
+                                     e3d_row_seeds seeds, uint32_t *hashes)
+{
+    const uint32_t zero = e3d_zero_of(in->rows);
+    for (size_t k = 0; k < count; k++) {
+        hashes[k] = (uint32_t)(e3d_hash_row(e3d_next_row(in, width), width, zero, seeds) >> 16);
+        __builtin_prefetch(word_of(m, hashes[k]), 1);
+    }
+    for (size_t k = 0; k < count; k++) {
+        word *const w = word_of(m, hashes[k]);
+        w->again |= w->seen & bit_of(hashes[k]);
+        w->seen |= bit_of(hashes[k]);
+    }
+}
+
+static void mark_rows(map *m, const e3d_rows *rows)
+{
+    const e3d_row_seeds seeds = e3d_random_seeds();
+    e3d_row_reader in = e3d_read_rows(rows);
+    for (size_t row = 0; row < rows->count; row += BLOCK) {
+        const size_t left = rows->count - row, count = left < BLOCK ? left : BLOCK;
+        if (rows->width == 3)
+            mark_block(m, &in, count, 3, seeds, m->hashes + row);
+        else
+            mark_block(m, &in, count, rows->width, seeds, m->hashes + row);
+    }
+}
+
+/* Puts the numbers of the rows that share their bit into the place of the hashes; returns how many. */
+static size_t find_suspects(const map *m, size_t rows)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < rows; i++) {
+        const uint32_t hash = m->hashes[i];
+        m->hashes[count] = (uint32_t)i;
+        count += (word_of(m, hash)->again & bit_of(hash)) != 0;
+    }
+    return count;
+}
+
+/* Whether two of the suspects are equal. */
+static int suspects_repeat(const e3d_rows *rows, const uint32_t *suspects, size_t count)
+{
+    const size_t size = rows->width * WORD;
+    uint8_t *const copies = malloc((count + 1) * size);
+    if (!copies)
+        return -1;
+    for (size_t i = 0; i < count; i++)
+        memcpy(copies + i * size,
+               rows->bytes + suspects[i] / rows->in_record * rows->stride + suspects[i] % rows->in_record * size,
+               size);
+    const e3d_rows few = {copies, count, rows->width, 1, size, rows->are_floats};
+    const int repeat = e3d_few_rows_repeat(&few);
+    free(copies);
+    return repeat;
+}
+
+int e3d_rows_repeat(const e3d_rows *rows)
+{
+    map m = {.count = rows->count * BITS / 64 + 1};
+    const size_t size = m.count * sizeof *m.words;
+    m.words = e3d_new_zeros(size);
+    m.hashes = malloc((rows->count + 1) * sizeof *m.hashes);
+    int repeat = -1;
+    if (m.words && m.hashes) {
+        mark_rows(&m, rows);
+        repeat = suspects_repeat(rows, m.hashes, find_suspects(&m, rows->count));
+    }
+    free(m.words);
+    free(m.hashes);
+    return repeat;
+}

@@ -134,11 +134,17 @@ static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull)
     return (setup_boxes){v_mor(setup_negative(more), setup_culled(area, cull)), v_mnot(setup_negative(spare))};
 }
 
+/* How long the lists are. */
+typedef struct setup_counts {
+    int draws, smalls, clips;
+} setup_counts;
+
 /* Lists the lanes of one vector. */
-static inline void setup_list(vi32 triangle, uint32_t draw, uint32_t small, e3d_survivors *out)
+static inline void setup_list(vi32 triangle, uint32_t draw, uint32_t small, setup_counts *counts, e3d_survivors *out)
 {
-    out->smalls += v_pack8(out->small + out->smalls, triangle, draw & small);
-    out->draws += v_pack8(out->draw + out->draws, triangle, draw & ~small);
+    counts->smalls += v_pack8(out->small + counts->smalls, triangle, draw & small);
+    if (draw & ~small)
+        counts->draws += v_pack8(out->draw + counts->draws, triangle, draw & ~small);
 }
 
 /* 0: the vertices are too far apart. */
@@ -148,25 +154,32 @@ static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int 
     int32_t packed[E3D_CLUSTER_VERTICES + E3D_PAD];
     if (!setup_pack_vertices(v, packed))
         return 0;
-    const vtable table = v_table(packed, v->count);
+    vtable table;
+    v_table(packed, v->count, &table);
+    setup_counts counts = {0, 0, 0};
     for (int i = 0; i < triangles; i += V_LANES) {
         vi32 p[3];
         for (int k = 0; k < 3; k++)
             p[k] = v_lookup(&table, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i));
         setup_boxes boxes = setup_boxes_near(p, cull);
         setup_list(v_addi(v_seti(i), v_iota()), v_bits(v_mnot(boxes.miss)) & setup_tail(triangles - i),
-                   fragments ? v_bits(boxes.small) : 0, out);
+                   fragments ? v_bits(boxes.small) : 0, &counts, out);
     }
+    out->draws = counts.draws;
+    out->smalls = counts.smalls;
+    out->clips = 0;
     return 1;
 }
 
 static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int fragments,
                          const e3d_viewport *viewport, e3d_survivors *out)
 {
-    out->draws = out->smalls = out->clips = 0;
     if (V_LANES > 1 && !v->special && setup_near(v, indices, triangles, cull, fragments, out))
         return;
-    const vtable across = v_table(v->sx, v->count), down = v_table(v->sy, v->count);
+    setup_counts counts = {0, 0, 0};
+    vtable across, down;
+    v_table(v->sx, v->count, &across);
+    v_table(v->sy, v->count, &down);
     for (int i = 0; i < triangles; i += V_LANES) {
         vi32 x[3], y[3];
         for (int k = 0; k < 3; k++) {
@@ -179,8 +192,11 @@ static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int tria
         if (v->special) {
             setup_fate fate = setup_fate_of(v, indices, i);
             draw &= v_bits(fate.draw);
-            out->clips = setup_append(out->clip, out->clips, v_bits(fate.clip) & tail, i);
+            counts.clips = setup_append(out->clip, counts.clips, v_bits(fate.clip) & tail, i);
         }
-        setup_list(v_addi(v_seti(i), v_iota()), draw, fragments ? v_bits(boxes.small) : 0, out);
+        setup_list(v_addi(v_seti(i), v_iota()), draw, fragments ? v_bits(boxes.small) : 0, &counts, out);
     }
+    out->draws = counts.draws;
+    out->smalls = counts.smalls;
+    out->clips = counts.clips;
 }

@@ -40,7 +40,7 @@ static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) {
 }
 
 typedef const int32_t *vtable;
-static inline vtable v_table(const int32_t *base, int count) { (void)count; return base; }
+static inline void v_table(const int32_t *base, int count, vtable *out) { (void)count; *out = base; }
 static inline vi32 v_lookup(const vtable *t, vi32 i) { return v_gatheri(*t, i); }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return _mm256_add_ps(a, b); }

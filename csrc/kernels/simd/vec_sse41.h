@@ -45,7 +45,7 @@ static inline vf32 v_gatherf(const float *base, vi32 i) {
 }
 
 typedef const int32_t *vtable;
-static inline vtable v_table(const int32_t *base, int count) { (void)count; return base; }
+static inline void v_table(const int32_t *base, int count, vtable *out) { (void)count; *out = base; }
 static inline vi32 v_lookup(const vtable *t, vi32 i) { return v_gatheri(*t, i); }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return _mm_add_ps(a, b); }

@@ -86,3 +86,17 @@ def test_every_length(kernels):
             got = run(kernels, planes, count, srgb)
             expected = expected_bytes([plane[:count] for plane in planes], srgb)
             assert np.array_equal(got, expected)
+
+
+@all_backends
+def test_grey(kernels):
+    """Whole vectors of grey, which are looked up once, beside some of which one sample is not."""
+    rng = np.random.default_rng(2)
+    grey = np.append(rng.permutation(worst_values()), hostile(rng, COUNT, 2.0))
+    planes = [grey, grey.copy(), grey.copy()]
+    for plane in planes[1:]:
+        plane[rng.integers(0, len(grey), len(grey) // 100)] = 0.5
+    padded = [np.append(plane, np.zeros(PAD, np.float32)) for plane in planes]
+    for srgb in (False, True):
+        got = run(kernels, padded, len(grey), srgb)
+        assert np.array_equal(got, expected_bytes(planes, srgb))

@@ -13,13 +13,21 @@ static inline vi32 encode_linear(vf32 v)
     return v_trunc(v_add(v_mul(v_setf(255.0f), v), v_setf(0.5f)));
 }
 
-/* One vector of colours. */
+/* Whether all samples are grey. */
+static inline int encode_is_grey(const vf32 color[3])
+{
+    vi32 differ = v_ori(v_xori(v_asi(color[0]), v_asi(color[1])), v_xori(v_asi(color[0]), v_asi(color[2])));
+    return !v_any(v_mnot(v_eqi(differ, v_seti(0))));
+}
+
+/* One vector of colours. Looking up takes long, and white in white light is common. */
 static inline vi32 encode_vector(const vf32 color[3], int srgb)
 {
     vi32 code[3];
+    int grey = srgb && encode_is_grey(color);
     for (int k = 0; k < 3; k++) {
         vf32 v = v_min(v_max(color[k], v_setf(0.0f)), v_setf(1.0f));
-        code[k] = srgb ? encode_srgb(v) : encode_linear(v);
+        code[k] = k > 0 && grey ? code[0] : srgb ? encode_srgb(v) : encode_linear(v);
     }
     vi32 low = v_ori(code[0], v_shl(code[1], 8)), high = v_ori(v_shl(code[2], 16), v_seti((int32_t)0xFF000000));
     return v_ori(low, high);

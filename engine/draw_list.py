@@ -7,17 +7,14 @@ placed by C, from the scene's arrays. Python looks at every object, never at eve
 
 from __future__ import annotations
 
-import itertools
-import operator
 import weakref
 
 import numpy as np
 
-from ._native.rasterizer import FALLOFFS, NativeDrawList
+from ._native.rasterizer import NativeDrawList
 from .display_colors import shading_color
 from .instances import InstancedMesh
-from .lights import DirectionalLight
-from .linalg import normalize
+from .light_list import LightList
 from .materials import Material
 from .mesh import Mesh
 from .native_handles import MeshNeeds, native_mesh, native_texture
@@ -63,7 +60,7 @@ class DrawList:
         self._frustum: np.ndarray | None = None
         self._how = 1.0, True
         self._selected: bytes | None = None
-        self._lights_listed: list | None = None
+        self._lights = LightList(self.native, color_space)
         self.changes = 0
 
     def update(
@@ -101,7 +98,7 @@ class DrawList:
             self._settle()
         widen = 1.0 + marks if self._marks or needs.edges else 1.0
         self._place(scene._arrays, frustum, widen, batching)
-        self._list_lights(scene, headlight)
+        self._lights.update(scene, headlight)
 
     def _settle(self) -> None:
         """Make trees of many instances, once these have stayed as they are for some frames."""
@@ -127,8 +124,9 @@ class DrawList:
 
     def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
         self._scene = lambda: None  # if anything below raises, the list is not current
-        self._placed = self._lights_listed = None
+        self._placed = None
         self.native.clear()
+        self._lights.forget()
         self._watched, self._material_lists = [], []
         self._marks = self._trees = False
         self._many, self._frames = [], 0
@@ -221,34 +219,6 @@ class DrawList:
             material.two_sided,
             material.flat_shading,
         )
-
-    def _list_lights(self, scene: Scene, headlight) -> None:
-        """List the lights anew unless all are the objects they were, at the poses they were."""
-        lights = [node for node in scene._lights.values() if node.shown] if scene._lights else ()
-        if scene._lights:
-            headlight = None
-        marks = [(node.object, node.object.version, node.world_pose) for node in lights]
-        marks = list(itertools.chain(*marks, headlight or ()))
-        listed, self._lights_listed = self._lights_listed, None  # for if anything below raises
-        if listed is None or len(listed) != len(marks) or not all(map(operator.is_, listed, marks)):
-            self.native.clear_lights()
-            for node in lights:
-                self._add_light(node.object, node.world_pose)
-            if headlight is not None:
-                self.native.add_directional_light(*headlight)
-        self._lights_listed = marks
-
-    def _add_light(self, light, pose: np.ndarray) -> None:
-        color = shading_color(light.color, self._color_space)
-        color = [component * light.intensity for component in color]
-        if isinstance(light, DirectionalLight):
-            x, y, z = light.direction.tolist()
-            towards = [-(a * x + b * y + c * z) for a, b, c, _ in pose[:3].tolist()]
-            self.native.add_directional_light(color, normalize(towards).tolist())
-        else:
-            light.check()
-            position = pose[:3, 3].tolist()
-            self.native.add_point_light(color, position, light.range, FALLOFFS[light.falloff])
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:

@@ -389,6 +389,19 @@ cdef class NativeDrawList:
         light.range = range
         light.falloff = <e3d_falloff>falloff
 
+    cdef e3d_light *light_at(self, int number) except NULL:
+        if not 0 <= number < self.light_count:
+            raise InvalidArgumentError("no such light")
+        return &self.lights[number]
+
+    def turn_light(self, int number, to_light):
+        """Set where a directional light comes from."""
+        copy_vector(self.light_at(number).to_light, to_light, 3)
+
+    def move_light(self, int number, position):
+        """Set where a point light is."""
+        copy_vector(self.light_at(number).position, position, 3)
+
     cdef e3d_light *new_light(self, e3d_light_kind kind, color) except NULL:
         self.lights = <e3d_light *>grown(
             self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light)

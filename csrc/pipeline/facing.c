@@ -62,6 +62,8 @@ static float distance_of(const e3d_cluster *c, const float centre[3], float radi
         square += v[k] * v[k];
         places += fabsf(centre[k]) + fabsf(eye[k]);
     }
+    if (!(along * c->cosine > 0)) /* all that follows makes it less */
+        return -1;
     float across = square - along * along, sine = sqrtf(1 - c->cosine * c->cosine);
     return along * c->cosine - (across > 0 ? sqrtf(across) : 0) * sine - radius -
            (1e-5f * sqrtf(square) + 1e-6f * places);

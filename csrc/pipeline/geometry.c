@@ -243,6 +243,15 @@ static void mark(walker *w, const e3d_item *item, e3d_fate fate)
         __atomic_fetch_or(marks, bits, __ATOMIC_RELAXED);
 }
 
+/* What a cluster is made of lies in memory cluster by cluster: the next one's, ahead of its use. */
+static inline __attribute__((always_inline)) void fetch_cluster(const e3d_cluster *c, int32_t components)
+{
+    enum { LINE = 64 };
+    const char *from = (const char *)c->positions, *end = (const char *)e3d_cluster_indices(c, components) + 3 * E3D_CLUSTER_TRIANGLES;
+    for (; from < end; from += LINE)
+        __builtin_prefetch(from);
+}
+
 /* Draws the group's clusters that are in `wanted` and may show; returns all that may. Bit k is cluster k. */
 static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned wanted)
 {
@@ -260,6 +269,8 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
             shown |= 1u << k;
         if (!(wanted >> k & 1))
             continue;
+        if (k + 1 < group->clusters)
+            fetch_cluster(cluster + 1, mesh->desc.components);
         if (fate == E3D_FATE_DRAWN)
             draw_cluster(w, item, cluster);
         w->worker->counters.clusters[fate]++;

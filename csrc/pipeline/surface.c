@@ -3,6 +3,8 @@
 
 #include "pipeline/frame.h"
 
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
 /* ---- which primitive a piece is of ---- */
 
 /* The instance that was found last, and the order of its first primitive: mostly the next piece is of it, too. */
@@ -124,32 +126,6 @@ static int32_t number_group(e3d_worker *worker, const e3d_group *group)
     return (int32_t)worker->groups.count++;
 }
 
-/* ---- ahead of their use: faces and vertices are anywhere in memory ---- */
-
-static void fetch_face(const e3d_visible_piece *piece)
-{
-    if (e3d_face_of(piece) >= 0)
-        __builtin_prefetch(piece->draw->mesh->desc.faces + 3 * (size_t)piece->local);
-}
-
-static void fetch_vertices(const e3d_visible_piece *piece, int wanted)
-{
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    int32_t vertex[3];
-    int count = vertices_of(piece, vertex);
-    for (int v = 0; v < count; v++) {
-        size_t at = (size_t)vertex[v];
-        if (wanted & E3D_WANT_POSITION || piece->drawn)
-            __builtin_prefetch(mesh->positions + 3 * at);
-        if (wanted & E3D_WANT_NORMAL && mesh->normals)
-            __builtin_prefetch(mesh->normals + 3 * at);
-        if (wanted & E3D_WANT_UV && mesh->uvs)
-            __builtin_prefetch(mesh->uvs + 2 * at);
-        if (mesh->colors_u8)
-            __builtin_prefetch(mesh->colors_u8 + 4 * at);
-    }
-}
-
 /* ---- the pieces of a tile ---- */
 
 /* The group of a piece, whose last it becomes; -1 when memory is out. */
@@ -174,14 +150,14 @@ static int32_t join_group(const e3d_context *context, e3d_worker *worker, int32_
 }
 
 /* What an ID stands for: first the record or cluster, and of a cluster then the face. */
-static void fetch_named(const e3d_record_table *table, uint32_t id)
+static ALWAYS_INLINE void fetch_named(const e3d_record_table *table, uint32_t id)
 {
     int32_t triangle;
     __builtin_prefetch(id & E3D_FRAGMENT_ID ? (const void *)e3d_drawn_at(table, id, &triangle)
                                             : (const void *)e3d_record_at(table, id));
 }
 
-static void fetch_number(const e3d_record_table *table, uint32_t id)
+static ALWAYS_INLINE void fetch_number(const e3d_record_table *table, uint32_t id)
 {
     int32_t triangle;
     if (id & E3D_FRAGMENT_ID) {
@@ -243,8 +219,8 @@ static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n,
 }
 
 /* `out`: [component][vertex]; vertices that aren't there are 0. */
-static inline __attribute__((always_inline)) void add_vectors(const float *from, size_t components, const int32_t vertex[3],
-                                                              int count, e3d_surface_floats out[][3], int32_t n)
+static ALWAYS_INLINE void add_vectors(const float *from, size_t components, const int32_t vertex[3], int count,
+                                      e3d_surface_floats out[][3], int32_t n)
 {
     for (size_t c = 0; c < components && count == 3; c++) {
         out[c][0][n] = from[components * (size_t)vertex[0] + c];
@@ -327,6 +303,31 @@ static void add_surface(const e3d_context *context, const e3d_visible_piece *pie
         add_colors(context, piece, group, vertex, count, s, n);
 }
 
+/* Ahead of their use: faces and vertices are anywhere in memory. Only of a piece of this draw. (GCC leaves out calls of what
+ * only fetches, unless it is inlined.) */
+static ALWAYS_INLINE void fetch_face(const e3d_visible_piece *piece, const e3d_draw_state *draw)
+{
+    if (piece->draw == draw)
+        __builtin_prefetch(draw->mesh->desc.faces + 3 * (size_t)piece->local);
+}
+
+static ALWAYS_INLINE void fetch_vertices(const e3d_visible_piece *piece, const e3d_draw_state *draw, int wanted)
+{
+    const e3d_mesh_desc *mesh = &draw->mesh->desc;
+    if (piece->draw != draw || piece->local >= mesh->faces_count)
+        return;
+    const int32_t *vertex = mesh->faces + 3 * (size_t)piece->local;
+    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *uvs = wanted & E3D_WANT_UV ? mesh->uvs : NULL;
+    for (int v = 0; v < 3; v++)
+        __builtin_prefetch(mesh->positions + 3 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && normals; v++)
+        __builtin_prefetch(normals + 3 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && uvs; v++)
+        __builtin_prefetch(uvs + 2 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && mesh->colors_u8; v++)
+        __builtin_prefetch(mesh->colors_u8 + 4 * (size_t)vertex[v]);
+}
+
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted)
 {
     enum { AHEAD = 12 };
@@ -341,8 +342,8 @@ int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e
             continue;
         }
         if (p <= last) {
-            fetch_face(&pieces[p + 2 * AHEAD]);
-            fetch_vertices(&pieces[p + AHEAD], wanted);
+            fetch_face(&pieces[p + 2 * AHEAD], pieces[p].draw);
+            fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
         }
         add_surface(context, &pieces[p], group, wanted, s);
     }

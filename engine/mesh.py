@@ -16,6 +16,7 @@ import numpy as np
 
 from . import normals as _normals
 from . import topology as _topology
+from ._native.loaders import frozen, large_array
 from ._native.rasterizer import bound_points
 from .errors import InvalidArgumentError
 from .materials import Material
@@ -190,7 +191,8 @@ class Mesh:
     @materials.setter
     def materials(self, value: Iterable[Material] | None) -> None:
         materials = _check_materials(value)
-        require_range(self.material_ids, len(materials), "material_ids", "materials")
+        if len(materials) < len(self._materials):
+            require_range(self.material_ids, len(materials), "material_ids", "materials")
         self._materials = materials
         self.version += 1
 
@@ -311,9 +313,9 @@ class Mesh:
         _check_length(self._arrays.get("edge_visible"), len(faces), "edge_visible", "faces")
         ids = self._arrays.get("material_ids")
         if ids is None or len(ids) != len(faces):
-            zeros = np.zeros(len(faces), np.int32)
-            zeros.setflags(write=False)
-            self._arrays["material_ids"] = check_indices(zeros, "")
+            zeros = large_array((len(faces),), np.int32)
+            zeros.fill(0)
+            self._arrays["material_ids"] = check_indices(frozen(zeros), "")
 
 
 def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:

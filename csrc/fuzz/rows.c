@@ -44,6 +44,28 @@ static void claim_numbers(const e3d_rows *rows, const int32_t *numbers, const in
     free(plain);
 }
 
+/* Claims that the records give the same in two pieces. */
+static void claim_pieces(const e3d_rows *rows, const int32_t *expected, const int32_t *expected_first, size_t made)
+{
+    const size_t records = rows->count / rows->in_record, half = records / 2 * rows->in_record;
+    int32_t *numbers = room_for(rows->count, sizeof *numbers), *first = room_for(rows->count, sizeof *first);
+    e3d_row_numbers *all = e3d_row_numbers_begin(rows->width, rows->are_floats, rows->count);
+    e3d_rows before = *rows, behind = *rows;
+    before.count = half;
+    behind.count = rows->count - half;
+    behind.bytes += records / 2 * rows->stride;
+    CLAIM(all && e3d_row_numbers_add(all, &before, numbers, first));
+    CLAIM(e3d_row_numbers_add(all, &behind, numbers + half, first));
+    uint32_t *found;
+    CLAIM(e3d_row_numbers_take(all, &found) == made);
+    CLAIM(memcmp(numbers, expected, rows->count * sizeof *numbers) == 0);
+    CLAIM(memcmp(first, expected_first, made * sizeof *first) == 0);
+    e3d_row_numbers_free(all);
+    free(found);
+    free(numbers);
+    free(first);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     input in = {bytes, size};
@@ -61,6 +83,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     uint32_t *found = NULL;
     const size_t made = e3d_number_rows(&rows, numbers, first, &found);
     claim_numbers(&rows, numbers, first, found, made);
+    claim_pieces(&rows, numbers, first, made);
     CLAIM(e3d_rows_repeat(&rows) == (made < rows.count));
     free(numbers);
     free(first);

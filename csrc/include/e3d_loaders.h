@@ -141,6 +141,16 @@ typedef struct e3d_rows {
  *      to be freed with free(), unless it is NULL. Returns how many numbers there are; SIZE_MAX, and nothing to
  *      free, if memory is out. */
 size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t **found);
+
+/* The same piece by piece: begin, for rows of so many words of which so many are expected (NULL if memory is out);
+ * add; take the first rows, which are to be freed with free(); free. Adding continues the numbers; `first` counts
+ * from the first row of all; false if memory is out. Taking returns how many numbers there are. */
+typedef struct e3d_row_numbers e3d_row_numbers;
+e3d_row_numbers *e3d_row_numbers_begin(size_t width, bool are_floats, size_t expected);
+bool e3d_row_numbers_add(e3d_row_numbers *taken, const e3d_rows *rows, int32_t *numbers, int32_t *first);
+size_t e3d_row_numbers_take(e3d_row_numbers *taken, uint32_t **found);
+void e3d_row_numbers_free(e3d_row_numbers *taken);
+
 /* Whether any two rows are equal: 1 or 0; -1 if memory is out. Faster than numbering where none are. */
 int e3d_rows_repeat(const e3d_rows *rows);
 

@@ -31,7 +31,7 @@ static inline uint64_t bit_of(uint32_t hash) { return UINT64_C(1) << hash % 64; 
 static ALWAYS_INLINE void mark_block(map *m, e3d_row_reader *in, size_t count, size_t width,
                                      e3d_row_seeds seeds, uint32_t *hashes)
 {
-    const uint32_t zero = e3d_zero_of(in->rows);
+    const uint32_t zero = e3d_zero_of(in->rows->are_floats);
     for (size_t k = 0; k < count; k++) {
         hashes[k] = (uint32_t)(e3d_hash_row(e3d_next_row(in, width), width, zero, seeds) >> 16);
         __builtin_prefetch(word_of(m, hashes[k]), 1);
@@ -89,14 +89,13 @@ int e3d_rows_repeat(const e3d_rows *rows)
 {
     map m = {.count = rows->count * BITS / 64 + 1};
     const size_t size = m.count * sizeof *m.words;
-    m.words = e3d_new_zeros(size);
-    m.hashes = malloc((rows->count + 1) * sizeof *m.hashes);
-    int repeat = -1;
-    if (m.words && m.hashes) {
-        mark_rows(&m, rows);
-        repeat = suspects_repeat(rows, m.hashes, find_suspects(&m, rows->count));
-    }
+    m.words = e3d_large_room(size + rows->count * sizeof *m.hashes);
+    if (!m.words)
+        return -1;
+    memset(m.words, 0, size);
+    m.hashes = (uint32_t *)(m.words + m.count);
+    mark_rows(&m, rows);
+    const int repeat = suspects_repeat(rows, m.hashes, find_suspects(&m, rows->count));
     free(m.words);
-    free(m.hashes);
     return repeat;
 }

@@ -23,10 +23,9 @@
 #define FEWEST_BITS 10
 #define MOST_BITS 32
 #define LARGE_PAGE ((size_t)2 << 20)
-#define MANY_BYTES ((size_t)4 << 20)
 
 /* A place is half a hash, never 0, and above it the number; 0 if it is empty. */
-typedef struct table {
+typedef struct e3d_row_numbers {
     uint64_t *places;
     size_t size;   /* places, a power of two */
     int shift;     /* of half a hash, to the first place for it */
@@ -34,19 +33,26 @@ typedef struct table {
     size_t room;   /* rows */
     size_t width;  /* words of a row */
     size_t count;  /* numbers */
+    size_t taken;  /* rows that were numbered */
     uint32_t zero;
     e3d_row_seeds seeds;
 } table;
 
-void *e3d_new_zeros(size_t size)
+void *e3d_large_room(size_t size)
 {
-    uint8_t *const zeros = malloc(size ? size : 1);
-    if (!zeros)
-        return NULL;
-    const size_t skip = -(uintptr_t)zeros % LARGE_PAGE;
-    if (size >= MANY_BYTES)
-        madvise(zeros + skip, (size - skip) / LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE);
-    return memset(zeros, 0, size);
+    if (size < LARGE_PAGE / 2)
+        return malloc(size ? size : 1);
+    const size_t pages = (size + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+    void *const room = aligned_alloc(LARGE_PAGE, pages);
+    if (room)
+        madvise(room, pages, MADV_HUGEPAGE);
+    return room;
+}
+
+void *e3d_large_zeros(size_t size)
+{
+    void *const room = e3d_large_room(size);
+    return room ? memset(room, 0, size) : NULL;
 }
 
 e3d_row_seeds e3d_random_seeds(void)
@@ -76,7 +82,7 @@ static bool reserve_places(table *t, size_t wanted)
         bits++;
     grown.size = (size_t)1 << bits;
     grown.shift = 32 - bits;
-    grown.places = e3d_new_zeros(grown.size * sizeof *grown.places);
+    grown.places = e3d_large_zeros(grown.size * sizeof *grown.places);
     if (!grown.places)
         return false;
     for (size_t i = 0; t->places && i < t->size; i++) {
@@ -97,9 +103,12 @@ static bool reserve_rows(table *t, size_t wanted)
     if (wanted <= t->room)
         return true;
     const size_t room = wanted + t->room / 2;
-    uint8_t *const rows = realloc(t->rows, room * t->width * WORD);
+    uint8_t *const rows = e3d_large_room(room * t->width * WORD);
     if (!rows)
         return false;
+    if (t->count)
+        memcpy(rows, t->rows, t->count * t->width * WORD);
+    free(t->rows);
     t->rows = rows;
     t->room = room;
     return true;
@@ -148,10 +157,10 @@ static bool number_next(table *t, e3d_row_reader *in, size_t count, int32_t *num
 }
 
 /* A table for so many numbers, which grows; false if memory is out. */
-static bool begin_table(table *t, const e3d_rows *rows, size_t numbers)
+static bool begin_table(table *t, size_t width, bool are_floats, size_t numbers)
 {
-    *t = (table){.seeds = e3d_random_seeds(), .width = rows->width, .zero = e3d_zero_of(rows)};
-    return rows->width <= E3D_ROW_WORDS && reserve_places(t, numbers + BLOCK) &&
+    *t = (table){.seeds = e3d_random_seeds(), .width = width, .zero = e3d_zero_of(are_floats)};
+    return width <= E3D_ROW_WORDS && reserve_places(t, numbers + BLOCK) &&
            reserve_rows(t, numbers + numbers / 4 + BLOCK);
 }
 
@@ -166,25 +175,57 @@ static size_t block_at(const e3d_rows *rows, size_t row)
     return rows->count - row < BLOCK ? rows->count - row : BLOCK;
 }
 
+e3d_row_numbers *e3d_row_numbers_begin(size_t width, bool are_floats, size_t expected)
+{
+    table *const t = malloc(sizeof *t);
+    /* Corners of triangles meet in six, most often. */
+    if (t && begin_table(t, width, are_floats, expected / 6))
+        return t;
+    e3d_row_numbers_free(t);
+    return NULL;
+}
+
+bool e3d_row_numbers_add(e3d_row_numbers *taken, const e3d_rows *rows, int32_t *numbers, int32_t *first)
+{
+    e3d_row_reader in = e3d_read_rows(rows);
+    bool done = true;
+    for (size_t row = 0; done && row < rows->count; row += BLOCK) {
+        size_t next = taken->count;
+        done = number_next(taken, &in, block_at(rows, row), numbers + row);
+        for (size_t k = 0; first && next < taken->count; k++)
+            if ((size_t)numbers[row + k] == next)
+                first[next++] = (int32_t)(taken->taken + row + k);
+    }
+    taken->taken += rows->count;
+    return done;
+}
+
+size_t e3d_row_numbers_take(e3d_row_numbers *taken, uint32_t **found)
+{
+    *found = (uint32_t *)taken->rows;
+    taken->rows = NULL;
+    taken->room = 0;
+    return taken->count;
+}
+
+void e3d_row_numbers_free(e3d_row_numbers *taken)
+{
+    if (taken)
+        free_table(taken);
+    free(taken);
+}
+
 size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t **found)
 {
-    table t;
-    e3d_row_reader in = e3d_read_rows(rows);
-    /* Corners of triangles meet in six, most often. */
-    bool done = begin_table(&t, rows, rows->count / 6);
-    for (size_t row = 0; done && row < rows->count; row += BLOCK) {
-        size_t next = t.count;
-        done = number_next(&t, &in, block_at(rows, row), numbers + row);
-        for (size_t k = 0; first && next < t.count; k++)
-            if ((size_t)numbers[row + k] == next)
-                first[next++] = (int32_t)(row + k);
+    e3d_row_numbers *const all = e3d_row_numbers_begin(rows->width, rows->are_floats, rows->count);
+    size_t made = SIZE_MAX;
+    if (all && e3d_row_numbers_add(all, rows, numbers, first)) {
+        made = all->count;
+        if (found)
+            e3d_row_numbers_take(all, found);
     }
-    if (done && found) {
-        *found = (uint32_t *)t.rows;
-        t.rows = NULL;
-    }
-    free_table(&t);
-    return done ? t.count : SIZE_MAX;
+    e3d_row_numbers_free(all);
+    return made;
 }
 
 int e3d_few_rows_repeat(const e3d_rows *rows)
@@ -192,7 +233,7 @@ int e3d_few_rows_repeat(const e3d_rows *rows)
     table t;
     e3d_row_reader in = e3d_read_rows(rows);
     int32_t numbers[BLOCK];
-    bool done = begin_table(&t, rows, rows->count), repeat = false;
+    bool done = begin_table(&t, rows->width, rows->are_floats, rows->count), repeat = false;
     for (size_t row = 0; done && !repeat && row < rows->count; row += BLOCK) {
         done = number_next(&t, &in, block_at(rows, row), numbers);
         repeat = t.count < row + block_at(rows, row);

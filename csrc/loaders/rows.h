@@ -28,9 +28,10 @@ e3d_row_seeds e3d_random_seeds(void);
 /* Whether two rows are equal, of rows that are few: each that differs takes memory. As e3d_rows_repeat(). */
 int e3d_few_rows_repeat(const e3d_rows *rows);
 
-/* Zeros, in large pages where they are many, since they are reached at random. To be freed with free(); NULL if
- * memory is out. */
-void *e3d_new_zeros(size_t size);
+/* Memory, or zeros, in large pages where it is much: many small ones take longer to come than to be filled. To be
+ * freed with free(); NULL if memory is out. */
+void *e3d_large_room(size_t size);
+void *e3d_large_zeros(size_t size);
 
 /* The rows that are still to be read. */
 typedef struct e3d_row_reader {
@@ -64,7 +65,7 @@ static inline e3d_pairs e3d_plain_words(const uint8_t *words, size_t count, uint
 }
 
 /* Which word equals 0; 0 itself if there is no other. */
-static inline uint32_t e3d_zero_of(const e3d_rows *rows) { return rows->are_floats ? MINUS_ZERO : 0; }
+static inline uint32_t e3d_zero_of(bool are_floats) { return are_floats ? MINUS_ZERO : 0; }
 
 static inline uint64_t e3d_hash_row(const uint8_t *row, size_t width, uint32_t zero, e3d_row_seeds seeds)
 {

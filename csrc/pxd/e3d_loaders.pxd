@@ -88,6 +88,14 @@ cdef extern from "e3d_loaders.h" nogil:
         size_t count, width, in_record, stride
         bint are_floats
 
+    ctypedef struct e3d_row_numbers:
+        pass
+
+    e3d_row_numbers *e3d_row_numbers_begin(size_t width, bint are_floats, size_t expected)
+    bint e3d_row_numbers_add(
+        e3d_row_numbers *taken, const e3d_rows *rows, int32_t *numbers, int32_t *first)
+    size_t e3d_row_numbers_take(e3d_row_numbers *taken, uint32_t **found)
+    void e3d_row_numbers_free(e3d_row_numbers *taken)
     size_t e3d_number_rows(
         const e3d_rows *rows, int32_t *numbers, int32_t *first, uint32_t **found)
     int e3d_rows_repeat(const e3d_rows *rows)

@@ -1,8 +1,8 @@
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 DONE: int
 NO_MEMORY: int
@@ -28,6 +28,8 @@ PLY_BAD_LIST: int
 
 SETTER: np.dtype
 
+def large_array(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray: ...
+def frozen(array: NDArray) -> NDArray: ...
 def read_bytes(readinto: Callable[[memoryview], int], size: int) -> bytes: ...
 
 class ObjReader:
@@ -52,7 +54,7 @@ def number_rows(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
 def rows_repeat(rows: NDArray[np.uint32], are_floats: bool) -> bool: ...
 def weld_facets(
-    data: bytes | memoryview, offset: int, stride: int, facets: int
+    pieces: Iterable[tuple[int, memoryview]], offset: int, stride: int, facets: int
 ) -> tuple[NDArray[np.int32], NDArray[np.float32]]: ...
 def smooth_sums(
     positions: NDArray[np.floating],
@@ -87,11 +89,5 @@ def copy_ply_lists(
     dtype: np.dtype,
 ) -> NDArray: ...
 def copy_ply_rows(
-    data: bytes | memoryview,
-    is_big_endian: bool,
-    start: int,
-    stride: int,
-    rows: int,
-    width: int,
-    dtype: np.dtype,
-) -> NDArray: ...
+    data: bytes | memoryview, is_big_endian: bool, start: int, stride: int, items: NDArray
+) -> None: ...

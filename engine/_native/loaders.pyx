@@ -74,6 +74,28 @@ def read_bytes(readinto, Py_ssize_t size):
     return data
 
 
+def large_array(shape, dtype):
+    """Return an array of any content, in large pages where it is large."""
+    dtype = np.dtype(dtype)
+    cdef size_t size = dtype.itemsize * int(np.prod(shape, dtype=object)), skip
+    if size < LARGE_PAGE:
+        return np.empty(shape, dtype)
+    # It owns the memory: a mesh takes over what nobody can write to.
+    owner = np.empty(size + LARGE_PAGE, np.uint8)
+    cdef uint8_t[::1] view = owner
+    skip = -<size_t>&view[0] % LARGE_PAGE
+    madvise(&view[skip], size // LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE)
+    return np.ndarray(shape, dtype, owner, skip)
+
+
+def frozen(array):
+    """Make an array read-only, and what owns its memory; return it."""
+    array.setflags(write=False)
+    if array.base is not None:
+        array.base.setflags(write=False)
+    return array
+
+
 cdef object owned(void **data, size_t count, object dtype):
     """An array over what C allocated, which it frees; `data` is taken over."""
     if data[0] == NULL or count == 0:
@@ -222,21 +244,16 @@ def used_or_all(const int32_t[::1] indices not None, size_t total):
     return None if marked == total else used
 
 
-cdef int check_rows(const e3d_rows *rows) except -1:
-    if rows.count > 2**31 - 1 or not 0 < rows.width <= E3D_ROW_WORDS:
-        raise InvalidArgumentError("more rows than 32 bits number, or too wide ones")
+cdef int check_row_count(size_t count) except -1:
+    if count > 2**31 - 1:
+        raise InvalidArgumentError("more rows than 32 bits number")
     return 0
 
 
-cdef size_t numbered(const e3d_rows *rows, int32_t *numbers, int32_t *first,
-                     uint32_t **found) except? 0:
-    cdef size_t made
-    check_rows(rows)
-    with nogil:
-        made = e3d_number_rows(rows, numbers, first, found)
-    if made == <size_t>-1:
-        raise OutOfMemoryError("no memory to weld the rows of a mesh")
-    return made
+cdef int check_rows(const e3d_rows *rows) except -1:
+    if not 0 < rows.width <= E3D_ROW_WORDS:
+        raise InvalidArgumentError("rows that are too wide")
+    return check_row_count(rows.count)
 
 
 def number_rows(const uint32_t[:, ::1] rows not None, bint are_floats):
@@ -251,7 +268,11 @@ def number_rows(const uint32_t[:, ::1] rows not None, bint are_floats):
     cdef int32_t[::1] number_view = numbers, first_view = first
     cdef e3d_rows given = e3d_rows(
         <const uint8_t *>&rows[0, 0], count, width, 1, width * sizeof(uint32_t), are_floats)
-    made = numbered(&given, &number_view[0], &first_view[0], NULL)
+    check_rows(&given)
+    with nogil:
+        made = e3d_number_rows(&given, &number_view[0], &first_view[0], NULL)
+    if made == <size_t>-1:
+        raise OutOfMemoryError("no memory to weld the rows of a mesh")
     return numbers, first[:made]
 
 
@@ -271,24 +292,45 @@ def rows_repeat(const uint32_t[:, ::1] rows not None, bint are_floats):
     return bool(repeat)
 
 
-def weld_facets(const uint8_t[::1] data not None, size_t offset, size_t stride, size_t facets):
-    """Weld the corners of records that hold nine floats from ``offset`` on, ``stride`` bytes apart.
+def weld_facets(pieces, size_t offset, size_t stride, size_t facets):
+    """Weld the corners of records of ``stride`` bytes that hold nine floats from ``offset`` on.
 
-    Returns the faces (facets, 3) int32 and the positions (M, 3) float32, in the order of their
-    first appearance.
+    ``pieces`` are (number of a record, bytes of some from there on), in order. Returns the faces
+    (facets, 3) int32 and the positions (M, 3) float32, in the order of their first appearance.
     """
-    if facets == 0 or stride < 36 or <size_t>data.shape[0] < offset + 36 or (
-            facets - 1 > (data.shape[0] - offset - 36) // stride):
-        raise InvalidArgumentError("the facets are not inside the data")
-    faces = np.empty((facets, 3), np.int32)
+    cdef size_t done = 0, count
+    if stride < offset + 36:
+        raise InvalidArgumentError("the facets are not inside their records")
+    check_row_count(3 * facets)
+    faces = large_array((facets, 3), np.int32)
     cdef int32_t[:, ::1] face_view = faces
+    cdef const uint8_t[::1] piece
+    cdef e3d_rows given = e3d_rows(NULL, 0, 3, 3, stride, True)
+    cdef e3d_row_numbers *numbers = e3d_row_numbers_begin(3, True, 3 * facets)
     cdef uint32_t *found = NULL
-    cdef e3d_rows given = e3d_rows(&data[offset], 3 * facets, 3, 3, stride, True)
-    cdef size_t made = numbered(&given, &face_view[0, 0], NULL, &found)
-    positions = owned(<void **>&found, 3 * made, np.dtype(np.float32)).reshape(-1, 3).copy()
-    faces.setflags(write=False)
-    positions.setflags(write=False)
-    return faces, positions
+    cdef bint fits = numbers != NULL
+    try:
+        for first, piece in pieces:
+            count = piece.shape[0] // stride
+            if first != done or count > facets - done:
+                raise InvalidArgumentError("the pieces do not follow each other")
+            if not fits or count == 0:
+                break
+            given.bytes, given.count = &piece[offset], 3 * count
+            with nogil:
+                fits = e3d_row_numbers_add(numbers, &given, &face_view[done, 0], NULL)
+            done += count
+        if fits and done == facets:
+            count = e3d_row_numbers_take(numbers, &found)
+    finally:
+        e3d_row_numbers_free(numbers)
+    if not fits:
+        raise OutOfMemoryError("no memory to weld the rows of a mesh")
+    if done != facets:
+        raise InvalidArgumentError("the facets are not inside the data")
+    positions = large_array((count, 3), np.float32)
+    positions[:] = owned(<void **>&found, 3 * count, np.dtype(np.float32)).reshape(-1, 3)
+    return frozen(faces), frozen(positions)
 
 
 def smooth_sums(positions, const int32_t[:, ::1] faces not None,
@@ -412,15 +454,13 @@ def copy_ply_lists(const uint8_t[::1] data not None, bint is_big_endian,
 
 
 def copy_ply_rows(const uint8_t[::1] data not None, bint is_big_endian, size_t start,
-                  size_t stride, size_t rows, size_t width, dtype):
-    """Copy ``width`` neighbouring numbers of each row, ``stride`` bytes apart: (rows, width)."""
-    cdef size_t item_size = dtype.itemsize
-    items = np.empty((rows, width), dtype)
+                  size_t stride, items not None):
+    """Copy neighbouring numbers of each row, ``stride`` bytes apart, into ``items`` (rows, width)."""
+    cdef size_t rows = items.shape[0], width = items.shape[1], item_size = items.dtype.itemsize
     if rows == 0 or width == 0:
-        return items
+        return
     check_rows_inside(data.shape[0], start, stride, rows, width * item_size)
     cdef uint8_t[::1] view = items.reshape(-1).view(np.uint8)
     cdef e3d_ply_body body = ply_body(data, start, is_big_endian)
     with nogil:
         e3d_ply_copy_rows(&body, stride, rows, width, item_size, &view[0])
-    return items

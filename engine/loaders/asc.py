@@ -104,7 +104,7 @@ class _Parser:
 
     def __init__(self, source: Source) -> None:
         if _END_OF_FILE in source.data:
-            source = source._replace(data=source.data.partition(_END_OF_FILE)[0])
+            source = source._replace(content=source.data.partition(_END_OF_FILE)[0])
         self._lines = decoded(text_lines(source)).split("\n")
         self._path = source.path
         self._number = 0

@@ -36,7 +36,7 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
         The format's name, such as ``"obj"``. Left out, it is told by the content and the name.
     progress : callable, optional
         ``progress(fraction)`` is called with the share of the work that is done: 0.0 once the file
-        is read into memory, 1.0 at the end, never less than before. OBJ files call it every four
+        is open, 1.0 at the end, never less than before. OBJ files call it every four
         megabytes; most formats tell the beginning and the end only. What it raises ends loading.
 
     Returns
@@ -55,8 +55,8 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
     InvalidArgumentError
         There is no such ``format``, or ``path`` is none of these things.
     """
-    source = read_source(path)
-    document = _read_document(source, format, progress, split=False)
+    with read_source(path) as source:
+        document = _read_document(source, format, progress, split=False)
     meshes = [entry.mesh for entry in document.objects]
     mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
     mesh.name = mesh.name or source.stem
@@ -71,7 +71,8 @@ def load_document(
 
     Parameters and exceptions are those of `load_mesh`.
     """
-    return _read_document(read_source(path), format, progress, split=True)
+    with read_source(path) as source:
+        return _read_document(source, format, progress, split=True)
 
 
 def load_texture(path: File, *, format: str | None = None, **options) -> Texture:
@@ -95,8 +96,8 @@ def load_texture(path: File, *, format: str | None = None, **options) -> Texture
     InvalidArgumentError
         There is no such ``format``, or ``path`` is none of these things.
     """
-    source = read_source(path)
-    pixels = find_reader(source, "image", format).read(source)
+    with read_source(path) as source:
+        pixels = find_reader(source, "image", format).read(source)
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
     return Texture(pixels, **options)
 

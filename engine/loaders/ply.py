@@ -48,7 +48,7 @@ def read_ply(source: Source, split: bool = False) -> Document:
         raise FileFormatError("the vertices have no x, y and z", source.path)
     vertices = read_vertices(table)
     count = len(table)
-    budget = WorkBudget.for_file(len(source.data))
+    budget = WorkBudget.for_file(source.size)
     faces = read_faces(tables.get("face"), vertices.positions, budget, warnings)
     strips = read_strips(tables.get("tristrips"), count)
     lines = read_edges(tables.get("edge"), count)

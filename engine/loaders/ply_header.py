@@ -44,6 +44,8 @@ _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _MAGIC = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
 _END = re.compile(rb"(?:^|(?<=[\r\n]))[ \t]*end_header[ \t]*(?:\r\n|\n|\r|$)")
 _MAX_DIGITS = 18
+# The bytes of most headers, and more.
+_USUAL_SIZE = 1 << 16
 
 
 @dataclass(frozen=True)
@@ -119,7 +121,10 @@ def read_header(source: Source, warnings: WarningList) -> PlyHeader:
     FileFormatError
         It is no PLY header, or announces what cannot be.
     """
-    data = source.data
+    data = source.head(_USUAL_SIZE)
+    end = _END.search(data)
+    if len(data) < source.size and (end is None or end.end() == len(data)):
+        data = source.data
     start = len(_BYTE_ORDER_MARK) if data.startswith(_BYTE_ORDER_MARK) else 0
     magic = _MAGIC.match(data, start)
     if magic is None:

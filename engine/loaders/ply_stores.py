@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from array import array
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -16,13 +17,15 @@ import numpy as np
 from .._native import loaders as native
 from ..errors import FileFormatError
 from .number_arrays import NotANumberError, parse_text
-from .ply_header import PlyHeader
+from .ply_header import PlyElement, PlyHeader
 from .sources import Source
 from .text import shown
 
 _COMMENT = re.compile(rb"^[ \t]*(?:comment|obj_info)\b[^\r\n]*", re.MULTILINE)
 _WORD = re.compile(rb"\S+")
 _BLANKS = b" \t\r\n\v\f"
+# The bytes that most first rows are shorter than.
+_NEAR = 1 << 12
 
 
 # A list in each row: the places of single numbers before it, and the types of its length and items.
@@ -70,10 +73,10 @@ class BinaryStore:
     """
 
     def __init__(self, source: Source, header: PlyHeader) -> None:
-        self._data = source.data
+        self._source = source
         self._order = header.byte_order
         self._is_big_endian = header.byte_order == ">"
-        self.start, self.end = header.body_start, len(source.data)
+        self.start, self.end = header.body_start, source.size
 
     def size(self, code: str) -> int:
         """Return how many places a number of a type takes."""
@@ -84,40 +87,85 @@ class BinaryStore:
 
         Raises `ShortBodyError` and `BadListError`.
         """
+        if rows <= 1:
+            near = min(self.end - place, _NEAR)
+            for _, data in self._source.pieces(place, near, 1) if near else ():
+                with suppress(ShortBodyError):
+                    return self._walk(data, place, lists, tail, place, rows)
+        return self._walk(self._source.data, 0, lists, tail, place, rows)
+
+    def _walk(self, data, base: int, lists: list[ListInRow], tail: int, place: int, rows: int):
+        """Go along rows in the bytes from ``base`` on."""
         sizes = [
             (before, self.size(count_type), count_type[0] == "i", self.size(item_type))
             for before, count_type, item_type in lists
         ]
-        problem, *walked, end, row = native.walk_ply_rows(
-            self._data, place, self._is_big_endian, sizes, tail, rows
+        problem, places, starts, lengths, end, row = native.walk_ply_rows(
+            data, place - base, self._is_big_endian, sizes, tail, rows
         )
         if problem == native.PLY_SHORT:
             raise ShortBodyError
         if problem == native.PLY_BAD_LIST:
-            raise BadListError(row, end)
-        return WalkedRows(*walked, end)
+            raise BadListError(row, base + end)
+        return WalkedRows(places + base, starts + base, lengths, base + end)
 
-    def lengths_are(self, place: int, stride: int, rows: int, code: str, length: int) -> bool:
+    def lengths_are(
+        self, place: int, offset: int, stride: int, rows: int, code: str, length: int
+    ) -> bool:
         """Tell whether a list has ``length`` items in all rows, which are ``stride`` apart.
 
-        The length in the first row stands at ``place``.
+        The first row stands at ``place``, the lengths themselves ``offset`` behind it.
         """
-        return native.ply_lengths_are(
-            self._data, self._is_big_endian, place, stride, rows, self.size(code), length
+        return all(
+            native.ply_lengths_are(
+                data,
+                self._is_big_endian,
+                offset,
+                stride,
+                len(data) // stride,
+                self.size(code),
+                length,
+            )
+            for _, data in self._source.pieces(place, stride, rows)
         )
+
+    def even_lists(
+        self, place: int, rows: int, count_type: str, code: str, length: int
+    ) -> np.ndarray | None:
+        """Return the items (rows, length) of rows of one list; None if they differ in length."""
+        before = self.size(count_type)
+        stride = before + length * self.size(code)
+        items = native.large_array((rows, length), code)
+        for first, data in self._source.pieces(place, stride, rows):
+            count = len(data) // stride
+            if not native.ply_lengths_are(
+                data, self._is_big_endian, 0, stride, count, before, length
+            ):
+                return None
+            native.copy_ply_rows(
+                data, self._is_big_endian, before, stride, items[first : first + count]
+            )
+        return items
 
     def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
         """Return the items of one list of all rows, row after row."""
         starts, sizes = walked.starts, walked.sizes
         return native.copy_ply_lists(
-            self._data, self._is_big_endian, starts, sizes, number, np.dtype(code)
+            self._source.data, self._is_big_endian, starts, sizes, number, np.dtype(code)
         )
 
-    def rows(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
-        """Return a copy of `grid`."""
-        return native.copy_ply_rows(
-            self._data, self._is_big_endian, start, stride, *shape, np.dtype(code)
-        )
+    def rows(
+        self, place: int, offset: int, shape: tuple[int, int], stride: int, code: str
+    ) -> np.ndarray:
+        """Return neighbouring numbers of rows that are ``stride`` apart.
+
+        The first row stands at ``place``, its numbers ``offset`` behind it.
+        """
+        items = native.large_array(shape, code)
+        for first, data in self._source.pieces(place, stride, shape[0]):
+            block = items[first : first + len(data) // stride]
+            native.copy_ply_rows(data, self._is_big_endian, offset, stride, block)
+        return items
 
     def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
         """Return the numbers at ``places`` (any shape), all of which are inside."""
@@ -125,15 +173,14 @@ class BinaryStore:
             return np.zeros(places.shape, code)
         # A view of all numbers that begin at any byte.
         count = self.end - self.size(code) + 1
-        every = np.ndarray((count,), self._order + code, self._data, 0, (1,))
+        every = np.ndarray((count,), self._order + code, self._source.data, 0, (1,))
         return every[places].astype(code, copy=False)
 
-    def grid(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
-        """Return neighbouring numbers of rows that are ``stride`` apart, as a view."""
-        if 0 in shape:
-            return np.zeros(shape, code)
-        strides = (stride, self.size(code))
-        return np.ndarray(shape, self._order + code, self._data, start, strides)
+    def column(self, start: int, rows: int, stride: int, code: str) -> np.ndarray:
+        """Return one number of each row, rows being ``stride`` apart, as a view."""
+        if not rows:
+            return np.zeros(0, code)
+        return np.ndarray((rows,), self._order + code, self._source.data, start, (stride,))
 
     def line(self, place: int) -> None:
         """Binary files have no lines."""
@@ -190,8 +237,17 @@ class TextStore:
         shape = (rows, len(lists))
         return WalkedRows(places, starts.reshape(shape), sizes.reshape(shape), place)
 
-    def lengths_are(self, place: int, stride: int, rows: int, code: str, length: int) -> bool:
-        return bool((self.grid(place, (rows, 1), stride, code) == length).all())
+    def lengths_are(
+        self, place: int, offset: int, stride: int, rows: int, code: str, length: int
+    ) -> bool:
+        return bool((self.column(place + offset, rows, stride, code) == length).all())
+
+    def even_lists(
+        self, place: int, rows: int, count_type: str, code: str, length: int
+    ) -> np.ndarray | None:
+        if not self.lengths_are(place, 0, 1 + length, rows, count_type, length):
+            return None
+        return self.rows(place, 1, (rows, length), 1 + length, code)
 
     def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
         sizes = walked.sizes[:, number]
@@ -199,16 +255,19 @@ class TextStore:
         places += np.repeat(walked.starts[:, number], sizes)
         return self._values[places]
 
-    def rows(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
-        return self.grid(start, shape, stride, code).copy()
+    def rows(
+        self, place: int, offset: int, shape: tuple[int, int], stride: int, code: str
+    ) -> np.ndarray:
+        if 0 in shape:
+            return np.zeros(shape, np.float64)
+        view = np.ndarray(shape, np.float64, self._values, 8 * (place + offset), (8 * stride, 8))
+        return view.copy()
 
     def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
         return self._values[places]
 
-    def grid(self, start: int, shape: tuple[int, int], stride: int, code: str) -> np.ndarray:
-        if 0 in shape:
-            return np.zeros(shape, np.float64)
-        return np.ndarray(shape, np.float64, self._values, 8 * start, (8 * stride, 8))
+    def column(self, start: int, rows: int, stride: int, code: str) -> np.ndarray:
+        return self._values[start :: max(stride, 1)][:rows]
 
     def line(self, place: int) -> int:
         """Return the line that a word stands in; the last one for places behind the end."""
@@ -230,4 +289,15 @@ class TextStore:
 
 def open_store(source: Source, header: PlyHeader) -> BinaryStore | TextStore:
     """Return the store for a file's body."""
-    return BinaryStore(source, header) if header.byte_order else TextStore(source, header)
+    if not header.byte_order:
+        return TextStore(source, header)
+    if not all(map(_is_read_once, header.elements.values())):
+        # Everything at once is faster than from the file several times.
+        _ = source.data
+    return BinaryStore(source, header)
+
+
+def _is_read_once(element: PlyElement) -> bool:
+    """Whether all properties of an element are read together."""
+    lists = [item for item in element.properties.values() if item.count_type is not None]
+    return len(element.properties) == 1 if lists else len(element.properties) <= 3

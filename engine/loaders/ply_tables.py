@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._native import loaders as native
 from ..errors import FileFormatError
 from .ply_header import PlyElement, PlyHeader
 from .ply_stores import (
@@ -53,12 +54,15 @@ class _Layout(NamedTuple):
         All rows; only the first if there is a stride.
     end : int
         The place behind the last row.
+    items : (N, K) number or None
+        All items, where rows are nothing but one list, of the same length in each.
     """
 
     count: int
     stride: int | None
     rows: WalkedRows
     end: int
+    items: np.ndarray | None = None
 
 
 class PlyTable:
@@ -95,7 +99,7 @@ class PlyTable:
         layout = self._layout
         if layout.stride is not None:
             first = self._first_place(after, offset)
-            return self._store.grid(first, (len(self), 1), layout.stride, code)[:, 0]
+            return self._store.column(first, len(self), layout.stride, code)
         if after == 0:
             return self._store.numbers(layout.rows.places + offset, code)
         return self._store.numbers(self._list_ends(after - 1) + offset, code)
@@ -126,8 +130,7 @@ class PlyTable:
         ):
             return None
         shape = (len(self), len(names))
-        start = self._first_place(after, offset)
-        return _frozen(self._store.rows(start, shape, layout.stride, code))
+        return self._rows(self._first_place(after, offset), shape, code)
 
     def list(self, name: str) -> PlyList:
         """Return a list property."""
@@ -136,11 +139,17 @@ class PlyTable:
         layout = self._layout
         sizes = layout.rows.sizes[:, number]
         if layout.stride is None:
-            return PlyList(sizes, _frozen(self._store.lists(layout.rows, number, code)))
-        shape = (len(self), int(sizes[0]))
-        first = int(layout.rows.starts[0, number])
-        values = _frozen(self._store.rows(first, shape, layout.stride, code))
-        return PlyList(np.broadcast_to(sizes, len(self)), values.reshape(-1))
+            return PlyList(sizes, native.frozen(self._store.lists(layout.rows, number, code)))
+        values = layout.items
+        if values is None:
+            shape = (len(self), int(sizes[0]))
+            values = self._rows(int(layout.rows.starts[0, number]), shape, code)
+        return PlyList(np.broadcast_to(sizes, len(self)), native.frozen(values).reshape(-1))
+
+    def _rows(self, start: int, shape: tuple[int, int], code: str) -> np.ndarray:
+        """Neighbouring numbers of all rows, of one shape; those of the first row at ``start``."""
+        place, stride = int(self._layout.rows.places[0]), self._layout.stride
+        return native.frozen(self._store.rows(place, start - place, shape, stride, code))
 
     def fail(self, row: int, message: str):
         """Raise an error about a row."""
@@ -164,12 +173,6 @@ class PlyTable:
         size = self._store.size(lists[number].type)
         rows = self._layout.rows
         return rows.starts[:, number] + rows.sizes[:, number] * size
-
-
-def _frozen(numbers: np.ndarray) -> np.ndarray:
-    """A mesh takes over what nobody can write to."""
-    numbers.setflags(write=False)
-    return numbers
 
 
 def read_tables(
@@ -220,8 +223,15 @@ def _find_rows(source: Source, element: PlyElement, store, start: int) -> _Layou
         first = store.walk(lists, tail, start, min(count, 1))
         stride = first.end - start
         fits = count * stride <= store.end - start
-        if count and fits and _is_uniform(element, store, first, stride, count):
-            return _Layout(count, stride, first, start + stride * count)
+        if count and fits:
+            found = _Layout(count, stride, first, start + stride * count)
+            if len(element.properties) == 1 and lists:
+                _, *types = lists[0]
+                items = store.even_lists(start, count, *types, int(first.sizes[0, 0]))
+                if items is not None:
+                    return found._replace(items=items)
+            elif _is_uniform(element, store, first, stride, count):
+                return found
         rows = store.walk(lists, tail, start, count)
     except ShortBodyError:
         _fail_short(source, element, store)
@@ -251,8 +261,9 @@ def _is_uniform(element: PlyElement, store, first: WalkedRows, stride: int, coun
     """Whether the lists of all rows have the lengths of those in the first."""
     lists = [p for p in element.properties.values() if p.count_type is not None]
     for item, begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
-        place = int(begin) - store.size(item.count_type)
-        if not store.lengths_are(place, stride, count, item.count_type, int(size)):
+        place = int(first.places[0])
+        offset = int(begin) - store.size(item.count_type) - place
+        if not store.lengths_are(place, offset, stride, count, item.count_type, int(size)):
             return False
     return True
 

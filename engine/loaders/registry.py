@@ -101,7 +101,7 @@ def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
     InvalidArgumentError
         No format of this kind has that name.
     """
-    head = source.data[:SNIFFED_BYTES]
+    head = source.head(SNIFFED_BYTES)
     namesake = _namesake(source.extension, kind)
     if name is None and namesake is not None and _recognises(namesake, head):
         return namesake

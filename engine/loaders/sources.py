@@ -1,18 +1,19 @@
-"""The content of a file, read whole, and the name it goes by in messages.
+"""The content of a file, and the name it goes by in messages.
 
 In: a path, bytes, or a binary file object. Out: a `Source`, unpacked if it was compressed by gzip.
-Of paths only regular files are read: a FIFO or a device could block for ever or never end.
+Of paths only regular files are read: a FIFO or a device could block for ever or never end. Large
+ones are not in memory before somebody asks for all their bytes.
 """
 
 from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from .._native.loaders import read_bytes
 from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
+from .open_files import OpenFile, unreadable
 
 # A compressed file may unpack to this many bytes, and so many times its own size besides. Assign
 # other values to change it.
@@ -22,6 +23,10 @@ MAX_UNPACKED_RATIO = 50
 _GZIP = b"\x1f\x8b\x08"
 _GZIP_WINDOW = 16 + 15
 _CHUNK = 1 << 20
+# Files below this many bytes are read at once.
+_LARGE = 4 << 20
+# The bytes of a piece stay in the processor's cache until they are dealt with.
+_PIECE = 1 << 18
 
 
 def _no_progress(fraction: float) -> None:
@@ -35,14 +40,53 @@ class Source(NamedTuple):
     ----------
     path : str
         As the caller gave it; messages name it. In angle brackets for what has no name.
-    data : bytes
+    content : bytes or OpenFile
     progress : callable
         ``progress(fraction)``: told by the reader how much of its work is done, 0..1.
     """
 
     path: str
-    data: bytes
+    content: bytes | OpenFile
     progress: Callable[[float], object] = _no_progress
+
+    def __enter__(self) -> Source:
+        return self
+
+    def __exit__(self, *_) -> None:
+        if isinstance(self.content, OpenFile):
+            self.content.close()
+
+    @property
+    def data(self) -> bytes:
+        """All bytes."""
+        return self.content.whole() if isinstance(self.content, OpenFile) else self.content
+
+    @property
+    def size(self) -> int:
+        """Number of bytes."""
+        return self.content.size if isinstance(self.content, OpenFile) else len(self.content)
+
+    def head(self, count: int) -> bytes:
+        """Return at most ``count`` of the first bytes."""
+        if isinstance(self.content, OpenFile):
+            return self.content.head(count)
+        return self.content[:count]
+
+    def pieces(self, start: int, stride: int, rows: int) -> Iterator[tuple[int, memoryview]]:
+        """Go along rows of ``stride`` bytes from ``start`` on, all of which are inside.
+
+        Yields the number of a row, and the bytes of some rows from there on: all of them if the
+        file is in memory. A view holds until the next one comes.
+        """
+        if not isinstance(self.content, OpenFile) or self.content.is_whole:
+            yield 0, memoryview(self.data)[start : start + rows * stride]
+            return
+        step = max(_PIECE // stride, 1)
+        buffer = memoryview(bytearray(min(step, rows) * stride))
+        for first in range(0, rows, step):
+            view = buffer[: min(step, rows - first) * stride]
+            self.content.read_into(view, start + first * stride)
+            yield first, view
 
     @property
     def has_name(self) -> bool:
@@ -101,8 +145,9 @@ def read_source(file) -> Source:
         source = _read_stream(file)
     else:
         raise InvalidArgumentError(f"not a path, bytes or a file object: {type(file).__name__}")
-    if source.data.startswith(_GZIP):
-        return Source(source.path, _unpacked(source))
+    if source.head(len(_GZIP)) == _GZIP:
+        with source:
+            return Source(source.path, _unpacked(source))
     return source
 
 
@@ -110,20 +155,18 @@ def _read_path(path: str) -> Source:
     try:
         # Without O_NONBLOCK, opening a FIFO that nobody writes to would wait for ever.
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | os.O_CLOEXEC)
-        with os.fdopen(handle, "rb", buffering=0) as file:
-            status = os.fstat(handle)
-            if not stat.S_ISREG(status.st_mode):
-                raise FileAccessError("not a regular file", path)
-            data = read_bytes(file.readinto, status.st_size)
-            # Some files (of /proc, say) are longer than they say.
-            return Source(path, data + file.readall())
-    except FileAccessError:
-        raise
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise FileAccessError(f"cannot read: {reason}", path) from error
-    except MemoryError as error:
-        raise FileAccessError("cannot read: too large for this machine's memory", path) from error
+        raise unreadable(path, error) from error
+    mode = os.fstat(handle).st_mode
+    if not stat.S_ISREG(mode):
+        os.close(handle)
+        is_folder = stat.S_ISDIR(mode)
+        raise FileAccessError(
+            "cannot read: Is a directory" if is_folder else "not a regular file", path
+        )
+    file = os.fdopen(handle, "rb", buffering=0)
+    content = OpenFile(path, file)
+    return Source(path, content if content.size >= _LARGE else content.whole())
 
 
 def _read_stream(file) -> Source:

@@ -31,6 +31,7 @@ _HEADER = 84
 _FACET_SIZE, _CORNERS_AT = 50, 12
 _TEXT = re.compile(rb"\s*solid\b", re.IGNORECASE)
 _MAX_OBJECTS = 1000
+_SNIFFED = 4096
 
 
 class _Facets(NamedTuple):
@@ -75,7 +76,7 @@ def read_stl(source: Source, split: bool = False) -> Document:
     FileFormatError
     """
     warnings = WarningList(source.path)
-    facets = (_read_text if _is_text(source.data) else _read_binary)(source, warnings)
+    facets = (_read_text if _is_text(source) else _read_binary)(source, warnings)
     whole = Mesh(
         facets.positions,
         facets.faces,
@@ -98,30 +99,31 @@ def read_stl(source: Source, split: bool = False) -> Document:
     return Document("stl", objects, counts=counts, warnings=warnings.messages())
 
 
-def _is_text(data: bytes) -> bool:
-    if _TEXT.match(data) is None:
+def _is_text(source: Source) -> bool:
+    head = source.head(_SNIFFED)
+    if _TEXT.match(head) is None and (head.strip() or _TEXT.match(source.data) is None):
         return False
-    count = int.from_bytes(data[80:_HEADER], "little")
-    has_binary_length = len(data) == _HEADER + _FACET_SIZE * count
-    return not has_binary_length and b"\0" not in data
+    count = int.from_bytes(head[80:_HEADER], "little")
+    has_binary_length = source.size == _HEADER + _FACET_SIZE * count
+    return not has_binary_length and b"\0" not in source.data
 
 
 def _read_binary(source: Source, warnings: WarningList) -> _Facets:
-    data = source.data
-    if len(data) < _HEADER:
+    size = source.size
+    if size < _HEADER:
         raise FileFormatError("too short for an STL file", source.path)
-    count = int.from_bytes(data[80:_HEADER], "little")
+    count = int.from_bytes(source.head(_HEADER)[80:], "little")
     end = _HEADER + _FACET_SIZE * count
-    if end > len(data):
-        held = (len(data) - _HEADER) // _FACET_SIZE
+    if end > size:
+        held = (size - _HEADER) // _FACET_SIZE
         raise FileFormatError(
-            f"the file ends after {held} of {count} triangles (at byte {len(data)})", source.path
+            f"the file ends after {held} of {count} triangles (at byte {size})", source.path
         )
-    if end < len(data):
-        warnings.add(f"{len(data) - end} bytes behind the last triangle are left out")
+    if end < size:
+        warnings.add(f"{size - end} bytes behind the last triangle are left out")
     _require_facets(count, source)
-    start = _HEADER + _CORNERS_AT
-    faces, positions = native.weld_facets(data, start, _FACET_SIZE, count)
+    pieces = source.pieces(_HEADER, _FACET_SIZE, count)
+    faces, positions = native.weld_facets(pieces, _CORNERS_AT, _FACET_SIZE, count)
     return _Facets(count, positions, faces, None, None, 3 * count, [])
 
 
@@ -160,7 +162,7 @@ def _read_text(source: Source, warnings: WarningList) -> _Facets:
     with np.errstate(over="ignore"):
         corners = values.astype(np.float32).reshape(-1, 3)
     _require_facets(len(ends), source)
-    budget = WorkBudget.for_file(len(source.data))
+    budget = WorkBudget.for_file(source.size)
     sizes = np.diff(ends, prepend=0)
     cut = triangulate(sizes, corners.astype(np.float64), budget)
     if not cut.is_complete:

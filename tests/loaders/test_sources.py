@@ -3,10 +3,13 @@
 import contextlib
 import gzip
 import io
+import os
 import tracemalloc
+import warnings
 
 import numpy as np
 import pytest
+from loaders.seeds import FILES
 
 from engine3d.errors import FileAccessError, FileFormatError, InvalidArgumentError
 from engine3d.loaders import load_document, load_mesh, load_texture, sources
@@ -109,3 +112,42 @@ def test_what_is_read_is_the_same(write):
     whole = quietly(OBJ)
     packed = quietly(gzip.compress(OBJ))
     assert np.array_equal(whole.positions, packed.positions)
+
+
+@pytest.mark.parametrize("name", ["a.obj", "a.ply", "binary.ply", "a.stl", "binary.stl", "a.off"])
+@pytest.mark.parametrize("piece", [1, 150])
+def test_large_files_are_read_piece_by_piece(write, monkeypatch, name, piece):
+    """They give what small ones give, sound or cut off, and are closed whatever happens."""
+    content = FILES.get(name, OBJ)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for length in (len(content), len(content) - 3):
+            path = write(name, content[:length])
+            expected = outcome(path)
+            with monkeypatch.context() as patch:
+                patch.setattr(sources, "_LARGE", 0)
+                patch.setattr(sources, "_PIECE", piece)
+                before = os.listdir("/proc/self/fd")
+                assert outcome(path) == expected
+                assert os.listdir("/proc/self/fd") == before
+
+
+def outcome(path):
+    try:
+        mesh = load_mesh(path)
+    except FileFormatError as error:
+        return str(error)
+    return mesh.positions.tobytes(), mesh.faces.tobytes(), mesh.warnings
+
+
+@pytest.mark.parametrize("name", ["binary.ply", "binary.stl"])
+def test_a_file_that_becomes_shorter(write, monkeypatch, name):
+    path = write(name, FILES[name])
+    source = sources.read_source(path)
+    monkeypatch.setattr(sources, "_LARGE", 0)
+    with sources.read_source(path) as large:
+        assert large.head(20) == source.data[:20]
+        assert large.size == len(FILES[name])
+        os.truncate(path, 40)
+        with pytest.raises(FileAccessError, match="became shorter"):
+            list(large.pieces(0, 10, 5))

@@ -62,6 +62,14 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
 
 /* ---- fragments to tiles ---- */
 
+/* Blocks are in no cache when they are written or read first. */
+static inline __attribute__((always_inline)) void fetch_block(const e3d_fragment_block *block)
+{
+    enum { LINE = 64 };
+    for (size_t at = 0; at < sizeof *block; at += LINE)
+        __builtin_prefetch((const char *)block + at);
+}
+
 /* The tile's last block, with room; NULL when memory is out. */
 static inline e3d_fragment_block *open_block(e3d_fragment_set *set, e3d_bin *bin)
 {
@@ -72,6 +80,7 @@ static inline e3d_fragment_block *open_block(e3d_fragment_set *set, e3d_bin *bin
         return NULL;
     blocks = set->blocks.data;
     uint32_t fresh = (uint32_t)set->blocks.count++;
+    fetch_block(&blocks[fresh]);
     blocks[fresh].next = E3D_NO_BLOCK;
     blocks[fresh].count = 0;
     *(bin->last == E3D_NO_BLOCK ? &bin->first : &blocks[bin->last].next) = fresh;
@@ -79,18 +88,29 @@ static inline e3d_fragment_block *open_block(e3d_fragment_set *set, e3d_bin *bin
     return &blocks[fresh];
 }
 
-/* Each to the tile that it lies in; 0 when memory is out. */
+/* Each to the tile that it lies in, which mostly is that of the one before; 0 when memory is out. */
 static int bin_fragments(e3d_fragment_set *set)
 {
     const e3d_fragments *from = &set->fragments;
+    e3d_fragment_block *block = NULL;
+    uint32_t tile = 0, count = E3D_BLOCK_FRAGMENTS;
     for (int32_t i = 0; i < from->count; i++) {
-        e3d_fragment_block *block = open_block(set, (e3d_bin *)set->bins.data + (from->place[i] >> E3D_PLACE_BITS));
-        if (!block)
-            return 0;
-        block->z[block->count] = from->z[i];
-        block->id[block->count] = from->id[i];
-        block->sample[block->count++] = (uint16_t)(from->place[i] % E3D_TILE_SAMPLES);
+        uint32_t place = from->place[i];
+        if (count == E3D_BLOCK_FRAGMENTS || place >> E3D_PLACE_BITS != tile) {
+            if (block)
+                block->count = count;
+            tile = place >> E3D_PLACE_BITS;
+            block = open_block(set, (e3d_bin *)set->bins.data + tile);
+            if (!block)
+                return 0;
+            count = block->count;
+        }
+        block->z[count] = from->z[i];
+        block->id[count] = from->id[i];
+        block->sample[count++] = (uint16_t)(place % E3D_TILE_SAMPLES);
     }
+    if (block)
+        block->count = count;
     return 1;
 }
 
@@ -111,13 +131,11 @@ void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker)
 
 void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number)
 {
-    enum { LINE = 64 }; /* of a cache */
     const e3d_fragment_block *blocks = worker->fragments.blocks.data;
     uint32_t next = ((const e3d_bin *)worker->fragments.bins.data)[tile_number].first;
     for (; next != E3D_NO_BLOCK; next = blocks[next].next) {
         if (blocks[next].next != E3D_NO_BLOCK)
-            for (size_t at = 0; at < sizeof *blocks; at += LINE)
-                __builtin_prefetch((const char *)&blocks[blocks[next].next] + at);
+            fetch_block(&blocks[blocks[next].next]);
         context->kernels->raster_fragments(visible, &context->tables[E3D_PASS_SCENE], &blocks[next]);
     }
 }

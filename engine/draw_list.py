@@ -34,7 +34,7 @@ class DrawList:
     color_space : {"srgb", "linear"}
         How 8-bit colours of materials and lights are read.
     threads : int
-        That cut meshes into clusters; 0: all.
+        That cut meshes into clusters, and move nodes; 0: all.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ class DrawList:
         batching : bool
             Nodes of one mesh are drawn as one.
         """
-        scene._update()
+        scene._update(self._threads)
         if self._needs != needs or self._normals != normals or not self._lists(scene):
             self._rebuild(scene, needs, normals)
         if self._many and not self._trees:

@@ -406,12 +406,12 @@ class Scene:
         slot = int(np.searchsorted(ids, number))
         return self._arrays.nodes[slot] if slot < len(ids) and ids[slot] == number else None
 
-    def _update(self) -> None:
-        """Make world poses, visibility and bounds of all nodes true."""
+    def _update(self, threads: int = 1) -> None:
+        """Make world poses, visibility and bounds of all nodes true; threads: 0 is all."""
         changed = self._objects.refresh()
         if changed is not None:
             self._arrays.touch_objects(changed)
-        self._arrays.update(self._objects.boxes)
+        self._arrays.update(self._objects.boxes, threads)
 
     @property
     def bounds(self) -> np.ndarray:

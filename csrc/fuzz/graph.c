@@ -70,7 +70,7 @@ static void take_object(world *w, input *in, int k)
 static e3d_tree *tree_of(const double *boxes, int32_t count)
 {
     e3d_tree *tree = e3d_tree_create();
-    CLAIM(tree && e3d_tree_build(tree, boxes, count));
+    CLAIM(tree && e3d_tree_build(tree, boxes, count, 1));
     return tree;
 }
 
@@ -118,7 +118,7 @@ static void claim_update(const world *w)
     e3d_graph fresh = w->graph;
     use_columns(&fresh, &again);
     e3d_graph_adopt(&fresh, w->graph.count);
-    e3d_graph_update(&fresh, w->boxes, OBJECTS);
+    e3d_graph_update(&fresh, w->boxes, OBJECTS, 1);
     for (int32_t slot = 0; slot < fresh.count; slot++) {
         CLAIM(memcmp(again.world + 12 * slot, w->columns.world + 12 * slot, 12 * sizeof(double)) == 0);
         CLAIM(memcmp(again.bounds + E3D_BOX * slot, w->columns.bounds + E3D_BOX * slot, E3D_BOX * sizeof(double)) == 0);
@@ -130,12 +130,12 @@ static void claim_update(const world *w)
 static void update(world *w)
 {
     e3d_graph *g = &w->graph;
-    e3d_graph_update(g, w->boxes, OBJECTS);
+    e3d_graph_update(g, w->boxes, OBJECTS, 1);
     claim_update(w);
     const int32_t moved = g->changed_count;
     g->changed_count = 0;
     if (w->tree)
-        CLAIM(e3d_tree_refit(w->tree, g->bounds, g->count, g->changed, moved));
+        CLAIM(e3d_tree_refit(w->tree, g->bounds, g->count, g->changed, moved, 1));
     else
         w->tree = tree_of(g->bounds, g->count);
     w->updated = 1;

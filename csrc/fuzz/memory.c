@@ -94,7 +94,7 @@ static int build_tree(input in)
     if (!tree)
         return 0;
     for (int32_t first = count / 2; done && first <= count; first += 1 + count / 4)
-        done = e3d_tree_refit(tree, boxes, first, moved, first);
+        done = e3d_tree_refit(tree, boxes, first, moved, first, 1);
     e3d_tree_destroy(tree);
     return done;
 }

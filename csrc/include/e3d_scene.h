@@ -83,8 +83,8 @@ void e3d_graph_find_parts(e3d_graph *graph, int32_t slot);
 /* Makes one node's world pose true, and with it those above it. */
 void e3d_graph_find_world(e3d_graph *graph, int32_t slot);
 /* Makes all world poses, SHOWN and bounds true. `changed` still lists what was touched, for who has to follow:
- * the caller then empties it. boxes: (objects, E3D_OBJECT_BOX); lowest > highest for none. */
-void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects);
+ * the caller then empties it. boxes: (objects, E3D_OBJECT_BOX); lowest > highest for none. Threads change nothing. */
+void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects, int threads);
 /* Touches the nodes of objects whose box changed: dirty is (objects,). */
 void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects);
 /* ---- Boxes ---- */
@@ -105,10 +105,10 @@ typedef struct e3d_tree e3d_tree;
 e3d_tree *e3d_tree_create(void);
 void e3d_tree_destroy(e3d_tree *tree);
 /* Items are numbered by the rows of boxes: (count, E3D_BOX). Rows without a box are left out. 0 when memory is
- * out: the tree is then empty. */
-int e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count);
+ * out: the tree is then empty. Threads change nothing. */
+int e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count, int threads);
 /* Says which rows are other boxes now; new rows may have come. Builds again where that is better; as above. */
-int e3d_tree_refit(e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves);
+int e3d_tree_refit(e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves, int threads);
 /* Sets the bits of the items that may show, by the planes of the clip volume; the planes of the sides stand off by
  * the factor widen (1: none), for what is drawn wider than it is. */
 void e3d_tree_select(const e3d_tree *tree, const double *boxes, const double clip_from_world[16],

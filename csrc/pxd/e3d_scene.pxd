@@ -49,7 +49,7 @@ cdef extern from "e3d_scene.h" nogil:
     )
     void e3d_graph_find_parts(e3d_graph *graph, int32_t slot)
     void e3d_graph_find_world(e3d_graph *graph, int32_t slot)
-    void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects)
+    void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects, int threads)
     void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects)
 
     void e3d_instance_boxes(
@@ -65,9 +65,10 @@ cdef extern from "e3d_scene.h" nogil:
 
     e3d_tree *e3d_tree_create()
     void e3d_tree_destroy(e3d_tree *tree)
-    bint e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count)
+    bint e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count, int threads)
     bint e3d_tree_refit(
-        e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves
+        e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves,
+        int threads,
     )
     void e3d_tree_select(
         const e3d_tree *tree, const double *boxes, const double *clip_from_world, double widen,

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/pool.h"
+
 enum { BITS = 12, RADIX = 12, PASSES = 3 }; /* a coordinate's bits; 3 * 12 are sorted 12 at a time */
 
 static const double WORN = 1.7; /* times the cost when built: then build again, */
@@ -30,6 +32,37 @@ void e3d_tree_destroy(e3d_tree *t)
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         e3d_array_free(arrays[i]);
     free(t);
+}
+
+/* ---- tasks ---- */
+
+/* Always as many, whatever the number of threads: what they add up is the same. */
+enum { TASKS = 16, FEW = 4096 };
+
+typedef struct tree_job {
+    e3d_tree *tree;
+    const double *boxes;
+    double cost[TASKS];
+    key *keys; /* `used` of them */
+    int32_t used;
+    double low[TASKS][3], high[TASKS][3]; /* of the middles of the task's boxes */
+} tree_job;
+
+typedef struct task_range {
+    int32_t first, end;
+} task_range;
+
+/* One task's share of some elements; all but the last end at a multiple of 4. */
+static task_range range_of(int32_t count, int task)
+{
+    int32_t each = (count / TASKS + 4) / 4 * 4;
+    int64_t first = (int64_t)each * task, end = first + each;
+    return (task_range){(int32_t)(first < count ? first : count), (int32_t)(end < count ? end : count)};
+}
+
+static void run_tasks(tree_job *job, void (*task)(void *, int), int threads)
+{
+    e3d_pool_share(job->tree->count > FEW ? threads : 1, TASKS, task, job);
 }
 
 /* ---- boxes ---- */
@@ -87,17 +120,58 @@ static double gather(const e3d_block *from, e3d_block *to, int lane)
     return area[1] - area[0];
 }
 
-static void gather_all(e3d_tree *t)
+/* Blocks [first, end) of a level into that above; returns by how much its cost grew from nothing. */
+static double gather_some(e3d_tree *t, int level, int32_t first, int32_t end)
 {
-    t->cost = 0;
-    for (int level = 0; level + 1 < t->levels; level++) {
-        e3d_block *from = e3d_tree_level(t, level), *to = e3d_tree_level(t, level + 1);
-        for (int32_t b = 0; b < t->blocks_in[level]; b++) {
-            if (b % 4 == 0)
-                clear(&to[b / 4]);
-            t->cost += gather(&from[b], &to[b / 4], b % 4);
-        }
+    e3d_block *from = e3d_tree_level(t, level), *to = e3d_tree_level(t, level + 1);
+    double cost = 0;
+    for (int32_t b = first; b < end; b++) {
+        if (b % 4 == 0)
+            clear(&to[b / 4]);
+        cost += gather(&from[b], &to[b / 4], b % 4);
     }
+    return cost;
+}
+
+/* The boxes above the leaves' parents. The cost is summed up task by task, so that it is the same on any number of threads. */
+static void gather_rest(tree_job *job)
+{
+    e3d_tree *t = job->tree;
+    t->cost = 0;
+    for (int i = 0; i < TASKS; i++)
+        t->cost += job->cost[i];
+    for (int level = 1; level + 1 < t->levels; level++)
+        t->cost += gather_some(t, level, 0, t->blocks_in[level]);
+}
+
+/* ---- leaves ---- */
+
+/* A task's leaves, from the items that stand there, and the boxes above them. */
+static void fill_some(void *argument, int task)
+{
+    enum { AHEAD = 16 };
+    tree_job *job = argument;
+    e3d_tree *t = job->tree;
+    e3d_block *leaves = e3d_tree_level(t, 0);
+    const int32_t *items = t->items.data;
+    task_range range = range_of(t->blocks_in[0], task);
+    for (int32_t i = 4 * range.first; i < 4 * range.end; i++) {
+        if (i % 4 == 0)
+            clear(&leaves[i / 4]);
+        if (i + AHEAD < t->count)
+            __builtin_prefetch(job->boxes + E3D_BOX * (size_t)items[i + AHEAD]);
+        if (i < t->count)
+            e3d_block_set(&leaves[i / 4], i % 4, job->boxes + E3D_BOX * (size_t)items[i]);
+    }
+    job->cost[task] = t->levels > 1 ? gather_some(t, 0, range.first, range.end) : 0;
+}
+
+/* All boxes of the tree, whose items have their positions. */
+static void fill_all(e3d_tree *t, const double *boxes, int threads)
+{
+    tree_job job = {.tree = t, .boxes = boxes};
+    run_tasks(&job, fill_some, threads);
+    gather_rest(&job);
 }
 
 /* ---- building ---- */
@@ -137,31 +211,63 @@ static double middle(const double *box, int k)
     return fabs(m) < INFINITY ? m : 0;
 }
 
-static void find_keys(key *keys, int32_t count, const double *boxes)
+/* Where the middles of a task's boxes lie. */
+static void find_extent(void *argument, int task)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, most = 0;
-    for (int32_t i = 0; i < count; i++)
+    tree_job *job = argument;
+    task_range range = range_of(job->used, task);
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int32_t i = range.first; i < range.end; i++)
         for (int k = 0; k < 3; k++) {
-            double m = middle(boxes + E3D_BOX * (size_t)keys[i].item, k);
+            double m = middle(job->boxes + E3D_BOX * (size_t)job->keys[i].item, k);
             low[k] = m < low[k] ? m : low[k];
             high[k] = m > high[k] ? m : high[k];
         }
+    memcpy(job->low[task], low, sizeof low);
+    memcpy(job->high[task], high, sizeof high);
+}
+
+/* The extents of all tasks into that of the first. */
+static void join_extents(tree_job *job)
+{
+    for (int task = 1; task < TASKS; task++)
+        for (int k = 0; k < 3; k++) {
+            job->low[0][k] = job->low[task][k] < job->low[0][k] ? job->low[task][k] : job->low[0][k];
+            job->high[0][k] = job->high[task][k] > job->high[0][k] ? job->high[task][k] : job->high[0][k];
+        }
+}
+
+static void find_codes(void *argument, int task)
+{
+    tree_job *job = argument;
+    task_range range = range_of(job->used, task);
+    const double *low = job->low[0], *high = job->high[0];
+    double most = 0;
     for (int k = 0; k < 3; k++)
         most = high[k] - low[k] > most ? high[k] - low[k] : most;
     double scale = most > 0 && isfinite(most) ? ((1 << BITS) - 1) / most : 0;
-    for (int32_t first = 0; first < count; first += 4) {
+    for (int32_t first = range.first; first < range.end; first += 4) {
+        key *keys = job->keys + first;
+        int count = range.end - first < 4 ? range.end - first : 4;
         e3d_v4i x[3] = {{0}};
-        for (int32_t i = first; i < first + 4 && i < count; i++)
+        for (int i = 0; i < count; i++)
             for (int k = 0; k < 3; k++) {
-                double place = (middle(boxes + E3D_BOX * (size_t)keys[i].item, k) - low[k]) * scale;
+                double place = (middle(job->boxes + E3D_BOX * (size_t)keys[i].item, k) - low[k]) * scale;
                 /* Not so where the boxes' middles are endlessly far or hardly apart. */
-                x[k][i - first] = place > 0 && place < 1 << BITS ? (int32_t)place : 0;
+                x[k][i] = place > 0 && place < 1 << BITS ? (int32_t)place : 0;
             }
         transpose(x);
-        for (int32_t i = first; i < first + 4 && i < count; i++)
-            keys[i].code = spread((uint32_t)x[0][i - first]) << 2 | spread((uint32_t)x[1][i - first]) << 1 |
-                           spread((uint32_t)x[2][i - first]);
+        for (int i = 0; i < count; i++)
+            keys[i].code = spread((uint32_t)x[0][i]) << 2 | spread((uint32_t)x[1][i]) << 1 | spread((uint32_t)x[2][i]);
     }
+}
+
+static void find_keys(e3d_tree *t, const double *boxes, int threads)
+{
+    tree_job job = {.tree = t, .boxes = boxes, .keys = t->keys.data, .used = t->count};
+    run_tasks(&job, find_extent, threads);
+    join_extents(&job);
+    run_tasks(&job, find_codes, threads);
 }
 
 /* Least digit first, each pass stable: equal keys stay in the order of items. */
@@ -201,22 +307,17 @@ static int lay_out(e3d_tree *t, int32_t count)
     return 1;
 }
 
-static void fill(e3d_tree *t, const key *keys, const double *boxes)
+/* Gives the items their positions. */
+static void place_items(e3d_tree *t, const key *keys)
 {
-    e3d_block *leaves = e3d_tree_level(t, 0);
     int32_t *items = t->items.data, *places = t->places.data;
     for (int32_t i = 0; i < t->count; i++) {
-        if (i % 4 == 0)
-            clear(&leaves[i / 4]);
         items[i] = keys[i].item;
         places[items[i]] = i;
-        e3d_block_set(&leaves[i / 4], i % 4, boxes + E3D_BOX * (size_t)items[i]);
     }
-    if (t->count == 0)
-        clear(leaves);
 }
 
-int e3d_tree_build(e3d_tree *t, const double *boxes, int32_t count)
+int e3d_tree_build(e3d_tree *t, const double *boxes, int32_t count, int threads)
 {
     t->count = t->levels = 0;
     t->loose.count = 0;
@@ -238,9 +339,9 @@ int e3d_tree_build(e3d_tree *t, const double *boxes, int32_t count)
         return 0;
     t->count = used;
     t->places.count = (size_t)count;
-    find_keys(keys, used, boxes);
-    fill(t, sort_keys(keys, t->keys_too.data, used), boxes);
-    gather_all(t);
+    find_keys(t, boxes, threads);
+    place_items(t, sort_keys(keys, t->keys_too.data, used));
+    fill_all(t, boxes, threads);
     t->built_cost = t->cost;
     t->refits = 0;
     return 1;
@@ -286,11 +387,11 @@ static int add_loose(e3d_tree *t, int32_t item, const double *box)
 
 static int is_worn(const e3d_tree *t) { return t->cost > WORN * t->built_cost && t->refits >= LEAST_REFITS; }
 
-int e3d_tree_refit(e3d_tree *t, const double *boxes, int32_t count, const int32_t *moved, int32_t moves)
+int e3d_tree_refit(e3d_tree *t, const double *boxes, int32_t count, const int32_t *moved, int32_t moves, int threads)
 {
     int all = moves > t->count / 4, loose_fit = 1;
     if (t->levels == 0 || (all && is_worn(t))) /* rather than renewing boxes first */
-        return e3d_tree_build(t, boxes, count);
+        return e3d_tree_build(t, boxes, count, threads);
     e3d_block *leaves = e3d_tree_level(t, 0);
     const int32_t *places = t->places.data;
     int32_t *list = t->dirty.data, dirty = 0;
@@ -303,18 +404,20 @@ int e3d_tree_refit(e3d_tree *t, const double *boxes, int32_t count, const int32_
             loose_fit = loose_fit && add_loose(t, item, box);
             continue;
         }
+        if (all)
+            continue;
         e3d_block_set(&leaves[place / 4], place % 4, box);
-        if (!all && !marks[place / 4]) {
+        if (!marks[place / 4]) {
             marks[place / 4] = 1;
             list[dirty++] = place / 4;
         }
     }
     if (all)
-        gather_all(t);
+        fill_all(t, boxes, threads);
     else
         gather_dirty(t, dirty);
     t->refits++;
     if (!loose_fit || (!all && is_worn(t)))
-        return e3d_tree_build(t, boxes, count);
+        return e3d_tree_build(t, boxes, count, threads);
     return 1;
 }

@@ -1,12 +1,13 @@
 /* update: poses in, world poses, visibility and bounds out, for what was touched and what is below it.
  *
- * Method: a node is found from its parent; the list of changed nodes is walked once, and climbs to the
- * topmost stale ancestor where a child was listed before it. Every node is found once.
+ * Method: a node is found from its parent; first those that others hang from, where the list of changed nodes climbs to
+ * the topmost stale ancestor if a child was listed before it. Then the others, on all threads. Every node is found once.
  */
 #include <math.h>
 #include <string.h>
 
 #include "core/fpenv.h"
+#include "core/pool.h"
 #include "e3d_scene.h"
 #include "scene/pose.h"
 
@@ -106,14 +107,37 @@ static void find_bounds(e3d_graph *g, int32_t slot, const double *boxes, int32_t
     bounds[6] = 0;
 }
 
-void e3d_graph_update(e3d_graph *g, const double *boxes, int32_t objects)
+enum { NODES_A_TASK = 1024 };
+
+typedef struct update_job {
+    e3d_graph *graph;
+    const double *boxes;
+    int32_t objects, count; /* of the list */
+} update_job;
+
+/* Those above have their world poses: a task writes the rows of its own nodes alone. */
+static void update_some(void *argument, int task)
 {
-    e3d_fpenv saved = e3d_fpenv_enter();
-    for (int32_t i = 0; i < g->changed_count; i++) {
+    const update_job *job = argument;
+    e3d_graph *g = job->graph;
+    int32_t first = NODES_A_TASK * task, end = job->count - first < NODES_A_TASK ? job->count : first + NODES_A_TASK;
+    for (int32_t i = first; i < end; i++) {
         int32_t slot = g->changed[i];
-        e3d_graph_find_world(g, slot);
-        find_bounds(g, slot, boxes, objects);
+        if (g->flags[slot] & E3D_NODE_STALE)
+            find_from_parent(g, slot);
+        find_bounds(g, slot, job->boxes, job->objects);
         g->flags[slot] &= ~E3D_NODE_LISTED;
     }
+}
+
+void e3d_graph_update(e3d_graph *g, const double *boxes, int32_t objects, int threads)
+{
+    update_job job = {g, boxes, objects, g->changed_count};
+    int32_t tasks = (g->changed_count + NODES_A_TASK - 1) / NODES_A_TASK;
+    e3d_fpenv saved = e3d_fpenv_enter();
+    for (int32_t i = 0; i < g->changed_count; i++)
+        if (g->first_child[g->changed[i]] >= 0)
+            e3d_graph_find_world(g, g->changed[i]);
+    e3d_pool_share(threads, tasks, update_some, &job);
     e3d_fpenv_leave(saved);
 }

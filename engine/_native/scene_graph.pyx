@@ -11,10 +11,16 @@ from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 from libc.stdlib cimport calloc, free
 from libc.string cimport memcpy, memset
 
-from e3d cimport E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind
+from e3d cimport (
+    E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind, e3d_thread_count,
+)
+from e3d_pool cimport e3d_pool_borrow, e3d_pool_runner
 from e3d_scene cimport *
 
 from ..errors import InvalidArgumentError, OutOfMemoryError
+from .rasterizer import pool_address
+
+e3d_pool_borrow(<e3d_pool_runner><size_t>pool_address())  # one pool a process
 
 ALIVE = E3D_NODE_ALIVE
 VISIBLE = E3D_NODE_VISIBLE
@@ -36,7 +42,7 @@ cdef class NativeTree:
             raise InvalidArgumentError("boxes must be (N, BOX)")
         self.tree = e3d_tree_create()
         if self.tree == NULL or not e3d_tree_build(
-            self.tree, &boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0]
+            self.tree, &boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0], 1
         ):
             raise OutOfMemoryError("no memory for a tree of boxes")
 
@@ -393,19 +399,25 @@ cdef class NativeGraph:
         memcpy(&rotation[0], self.graph.rotation + 4 * <size_t>slot, 4 * sizeof(double))
         memcpy(&scale[0], self.graph.scale + 3 * <size_t>slot, 3 * sizeof(double))
 
-    def update(self, const double[:, ::1] boxes not None):
-        """Make every world pose, SHOWN and bounds true; boxes: (objects, OBJECT_BOX)."""
+    def update(self, const double[:, ::1] boxes not None, int threads):
+        """Make every world pose, SHOWN and bounds true; boxes: (objects, OBJECT_BOX).
+
+        On so many threads, or on all that this process may use (0).
+        """
         cdef e3d_graph *g = &self.graph
         if g.changed_count == 0:
             return
         if boxes.shape[1] != E3D_OBJECT_BOX:
             raise InvalidArgumentError("boxes must be (objects, OBJECT_BOX)")
         cdef int32_t objects = <int32_t>boxes.shape[0]
-        e3d_graph_update(g, &boxes[0, 0] if objects else NULL, objects)
+        threads = threads if threads else e3d_thread_count()
+        e3d_graph_update(g, &boxes[0, 0] if objects else NULL, objects, threads)
         cdef int32_t moved = g.changed_count
         g.changed_count = 0
         if self.tree != NULL:
-            self.require_memory(e3d_tree_refit(self.tree, g.bounds, g.count, g.changed, moved))
+            self.require_memory(
+                e3d_tree_refit(self.tree, g.bounds, g.count, g.changed, moved, threads)
+            )
 
     cdef int require_memory(self, bint done) except -1:
         """Without memory for its tree, a graph has none."""
@@ -419,7 +431,7 @@ cdef class NativeGraph:
         if self.tree == NULL:
             self.tree = e3d_tree_create()
             self.require_memory(self.tree != NULL)
-            self.require_memory(e3d_tree_build(self.tree, self.graph.bounds, self.graph.count))
+            self.require_memory(e3d_tree_build(self.tree, self.graph.bounds, self.graph.count, 1))
         return 0
 
     def select(self, const double[:, ::1] clip_from_world not None, double widen,

@@ -329,3 +329,34 @@ def test_static_is_a_promise_not_a_lock():
     assert scene.bounds[1, 0] == 1.5
     node.static = False
     assert not node.static
+
+
+@pytest.mark.parametrize("threads", [2, 3, 8])
+def test_threads_change_nothing(threads):
+    """Many nodes, some below others, wander until their tree is built again, and more come."""
+    rng = np.random.default_rng(5)
+    twins = [e3d.Scene(), e3d.Scene()]
+    for scene in twins:
+        groups = [scene.add() for _ in range(12)]
+        for number in range(9000):
+            scene.add(MESHES[number % 3], parent=groups[number % 12] if number % 5 else None)
+    camera = e3d.PerspectiveCamera(yfov=0.8, znear=0.1, zfar=30.0)
+    view = linalg.inverse(e3d.look_at((9, 9, 9), (0, 0, 0)))
+    clip_from_world = linalg.multiply(camera.projection(64, 64), view)
+    places = rng.uniform(-5, 5, (9012, 3))
+    for step in range(24):
+        places += rng.normal(0, 0.1 * step, places.shape)
+        rows = []
+        for scene, number in zip(twins, (1, threads), strict=True):
+            scene.select(scene.nodes[:9012]).translations = places
+            if step % 10 == 7:
+                for place in places[:20]:
+                    scene.add(MESHES[0], translation=place)
+            scene._update(number)
+            arrays = scene._arrays
+            bits = np.empty((arrays.count + 63) // 64, np.uint64)
+            arrays.select(clip_from_world, 1.0, bits)
+            names = ("world", "bounds", "flags", "world_version")
+            rows.append([arrays.columns[name][: arrays.count] for name in names] + [bits])
+        for one, many in zip(*rows, strict=True):
+            np.testing.assert_array_equal(one, many)

@@ -48,13 +48,14 @@ typedef struct e3d_vertices {
 
 /* ---- setup ---- */
 
-/* Triangles of a cluster that may show: `small` become fragments, where these are asked for, `draw` records, and `clip` need
- * clipping first. None that covers a sample is missing; of the others, those go that have no sample in their box, or face the
- * wrong way as far as 32 bits tell. */
+/* Triangles of a cluster that may show, a bit each: `small` become fragments, where these are asked for, `draw` records, and
+ * `clip` need clipping first. None that covers a sample is missing; of the others, those go that have no sample in their box,
+ * or face the wrong way as far as 32 bits tell. */
 typedef struct e3d_survivors {
-    uint8_t draw[E3D_CLUSTER_TRIANGLES + E3D_PAD], small[E3D_CLUSTER_TRIANGLES + E3D_PAD], clip[E3D_CLUSTER_TRIANGLES];
-    int draws, smalls, clips;
+    uint64_t draw, small, clip;
 } e3d_survivors;
+
+_Static_assert(E3D_CLUSTER_TRIANGLES == 64, "a bit for each triangle of a cluster");
 
 /* Small are boxes of so many samples a side, and sides of so many steps at most: 32 bits hold their edge functions. */
 enum { E3D_SMALL = 4, E3D_SMALL_REACH = 16383 };

@@ -43,10 +43,10 @@ static void add_triangle(e3d_small_triangles *to, const e3d_vertices *v, const u
     to->id[n] = id;
 }
 
-void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices)
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices,
+                       uint64_t triangles)
 {
     e3d_fragment_set *set = &worker->fragments;
-    const e3d_survivors *s = &worker->survivors;
     int bits = context->tables[E3D_PASS_SCENE].bits;
     int32_t first = first_id(context, worker);
     if (!e3d_array_reserve(&set->drawn, set->drawn.count + 1, sizeof *drawn)) {
@@ -54,10 +54,12 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
         return;
     }
     ((e3d_drawn_cluster *)set->drawn.data)[set->drawn.count++] = *drawn;
-    if (set->triangles.count > E3D_SMALLS - s->smalls)
+    if (set->triangles.count > E3D_SMALLS - E3D_CLUSTER_TRIANGLES)
         e3d_fragments_flush(context, worker);
-    for (int i = 0; i < s->smalls; i++)
-        add_triangle(&set->triangles, &worker->vertices, indices, s->small[i], first + (s->small[i] << bits));
+    for (uint64_t left = triangles; left; left &= left - 1) {
+        int triangle = __builtin_ctzll(left);
+        add_triangle(&set->triangles, &worker->vertices, indices, triangle, first + (triangle << bits));
+    }
 }
 
 /* ---- fragments to tiles ---- */

@@ -360,8 +360,9 @@ int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
 /* Whether a cluster more can have IDs. */
 int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker);
-/* Takes the small triangles of a cluster, which become fragments now or later. */
-void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices);
+/* Takes small triangles of a cluster, a bit each, which become fragments now or later. */
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices,
+                       uint64_t triangles);
 /* All that were taken become fragments. */
 void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number);

@@ -3,6 +3,8 @@
  * Items are groups of clusters, the near ones first. Threads take some of them at a time; each keeps its
  * records and bins to itself.
  */
+#include <string.h>
+
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
@@ -116,67 +118,65 @@ static void draw_records(walker *w, const e3d_record_request *request)
             w->worker->failed = 1;
 }
 
-/* Triangles of a cluster, a vector at a time; those are dropped whose area has the sign `cull`. */
-static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, const uint8_t *triangles, int count,
-                      int cull)
+/* Triangles of a cluster, a bit each, a vector at a time; those are dropped whose area has the sign `cull`. */
+static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int cull)
 {
-    const e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = triangles,
+    uint8_t list[E3D_CLUSTER_TRIANGLES + E3D_PAD];
+    int count = 0;
+    if (!triangles)
+        return;
+    for (uint64_t left = triangles; left; left &= left - 1)
+        list[count++] = (uint8_t)__builtin_ctzll(left);
+    memset(list + count, 0, E3D_PAD);
+    const e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = list,
                                         .count = count, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
                                         .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->viewport};
-    if (count)
-        draw_records(w, &request);
+    draw_records(w, &request);
 }
 
-/* Of two-sided materials, and of the others. */
-static void draw_sides(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+/* Those of two-sided materials. */
+static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint64_t triangles)
 {
-    const e3d_survivors *s = &w->worker->survivors;
-    uint8_t lists[2][E3D_CLUSTER_TRIANGLES + E3D_PAD] = {{0}};
-    int counts[2] = {0, 0};
-    for (int i = 0; i < s->draws; i++) {
-        int both = cull_of(w, w->draw->mesh->faces[cluster->first + s->draw[i]]) == E3D_CULL_NONE;
-        lists[both][counts[both]++] = s->draw[i];
-    }
-    draw_some(w, cluster, indices, lists[0], counts[0], culled_sign(w));
-    draw_some(w, cluster, indices, lists[1], counts[1], 0);
+    uint64_t found = 0;
+    for (uint64_t left = triangles; left; left &= left - 1)
+        if (cull_of(w, w->draw->mesh->faces[cluster->first + __builtin_ctzll(left)]) == E3D_CULL_NONE)
+            found |= left & -left;
+    return found;
 }
 
 static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
 {
-    const e3d_survivors *s = &w->worker->survivors;
-    if (w->draw->any_two_sided)
-        draw_sides(w, cluster, indices);
-    else
-        draw_some(w, cluster, indices, s->draw, s->draws, culled_sign(w));
+    uint64_t draw = w->worker->survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
+    draw_some(w, cluster, indices, draw & ~both, culled_sign(w));
+    draw_some(w, cluster, indices, both, 0);
 }
 
-/* Leaves out the small triangles that are culled, where some materials are two-sided. */
-static void drop_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+/* The small triangles that are culled, where some materials are two-sided. */
+static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t one_sided)
 {
     const e3d_vertices *v = &w->worker->vertices;
-    e3d_survivors *s = &w->worker->survivors;
-    int kept = 0, culled = culled_sign(w);
-    for (int i = 0; i < s->smalls; i++) {
-        int32_t x[3], y[3], triangle = s->small[i];
+    uint64_t found = 0;
+    for (uint64_t left = one_sided; left; left &= left - 1) {
+        int32_t x[3], y[3], triangle = __builtin_ctzll(left);
         for (int k = 0; k < 3; k++) {
             x[k] = v->sx[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
             y[k] = v->sy[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
         }
-        int sign = e3d_doubled_area(x, y) < 0 ? -1 : 1;
-        if (sign != culled || cull_of(w, w->draw->mesh->faces[cluster->first + triangle]) == E3D_CULL_NONE)
-            s->small[kept++] = (uint8_t)triangle;
+        if ((e3d_doubled_area(x, y) < 0 ? -1 : 1) == culled_sign(w))
+            found |= left & -left;
     }
-    s->smalls = kept;
+    return found;
 }
 
 static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
 {
     const e3d_drawn_cluster drawn = {w->draw->mesh->faces + cluster->first, w->order,
                                      (int32_t)(w->instance - w->context->instances), w->instance->draw, w->instance->mirrored};
+    uint64_t small = w->worker->survivors.small;
     if (w->draw->any_two_sided)
-        drop_small(w, cluster, indices);
-    if (w->worker->survivors.smalls)
-        e3d_fragments_add(w->context, w->worker, &drawn, indices);
+        small &= ~find_culled(w, indices, small & ~find_two_sided(w, cluster, small));
+    if (small)
+        e3d_fragments_add(w->context, w->worker, &drawn, indices, small);
 }
 
 static void draw_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster)
@@ -195,15 +195,15 @@ static void draw_cluster(walker *w, const e3d_item *item, const e3d_cluster *clu
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
     kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
-    worker->counters.triangles_rejected += cluster->triangles - s->draws - s->smalls - s->clips;
-    if (s->smalls)
+    worker->counters.triangles_rejected += cluster->triangles - __builtin_popcountll(s->draw | s->small | s->clip);
+    if (s->small)
         draw_small(w, cluster, indices);
     if (!w->context->sorted)
         draw_triangles(w, cluster, indices);
-    for (int i = 0; i < s->draws && w->context->sorted; i++)
-        draw_triangle(w, cluster, indices, s->draw[i]);
-    for (int i = 0; i < s->clips; i++)
-        draw_clipped(w, cluster, indices, s->clip[i]);
+    for (uint64_t left = w->context->sorted ? s->draw : 0; left; left &= left - 1)
+        draw_triangle(w, cluster, indices, __builtin_ctzll(left));
+    for (uint64_t left = s->clip; left; left &= left - 1)
+        draw_clipped(w, cluster, indices, __builtin_ctzll(left));
 }
 
 /* ---- items ---- */

@@ -43,16 +43,7 @@ VERTICES = np.dtype(
     + [(name, "i4", CLUSTER_VERTICES) for name in ("sx", "sy", "code")]
     + [("count", "i4"), ("special", "i4")]
 )
-SURVIVORS = np.dtype(
-    [
-        ("draw", "u1", CLUSTER_TRIANGLES + PAD),
-        ("small", "u1", CLUSTER_TRIANGLES + PAD),
-        ("clip", "u1", CLUSTER_TRIANGLES),
-        ("draws", "i4"),
-        ("smalls", "i4"),
-        ("clips", "i4"),
-    ]
-)
+SURVIVORS = np.dtype([("draw", "u8"), ("small", "u8"), ("clip", "u8")])
 RECORD = np.dtype(
     [("x", "i4", 3), ("y", "i4", 3)]
     + [(name, "f4") for name in ("z0", "gx", "gy", "zmin", "zmax")]

@@ -69,13 +69,6 @@ static inline uint32_t setup_tail(int left)
     return (uint32_t)((1ull << (left < V_LANES ? left : V_LANES)) - 1);
 }
 
-static inline int setup_append(uint8_t *list, int count, uint32_t bits, int first)
-{
-    for (; bits; bits &= bits - 1)
-        list[count++] = (uint8_t)(first + __builtin_ctz(bits));
-    return count;
-}
-
 /* Lanes that are drawn as they are, or clipped, as far as outcodes tell (R4-R7). */
 typedef struct setup_fate {
     vmask draw, clip;
@@ -134,49 +127,30 @@ static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull)
     return (setup_boxes){v_mor(setup_negative(more), setup_culled(area, cull)), v_mnot(setup_negative(spare))};
 }
 
-/* How long the lists are. */
-typedef struct setup_counts {
-    int draws, smalls, clips;
-} setup_counts;
-
-/* Lists the lanes of one vector. */
-static inline void setup_list(vi32 triangle, uint32_t draw, uint32_t small, setup_counts *counts, e3d_survivors *out)
-{
-    counts->smalls += v_pack8(out->small + counts->smalls, triangle, draw & small);
-    if (draw & ~small)
-        counts->draws += v_pack8(out->draw + counts->draws, triangle, draw & ~small);
-}
-
 /* 0: the vertices are too far apart. */
-static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int fragments,
-                             e3d_survivors *out)
+static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, uint64_t *draw,
+                             uint64_t *small)
 {
     int32_t packed[E3D_CLUSTER_VERTICES + E3D_PAD];
     if (!setup_pack_vertices(v, packed))
         return 0;
     vtable table;
     v_table(packed, v->count, &table);
-    setup_counts counts = {0, 0, 0};
     for (int i = 0; i < triangles; i += V_LANES) {
         vi32 p[3];
         for (int k = 0; k < 3; k++)
             p[k] = v_lookup(&table, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i));
         setup_boxes boxes = setup_boxes_near(p, cull);
-        setup_list(v_addi(v_seti(i), v_iota()), v_bits(v_mnot(boxes.miss)) & setup_tail(triangles - i),
-                   fragments ? v_bits(boxes.small) : 0, &counts, out);
+        *draw |= (uint64_t)v_bits(v_mnot(boxes.miss)) << i;
+        *small |= (uint64_t)v_bits(boxes.small) << i;
     }
-    out->draws = counts.draws;
-    out->smalls = counts.smalls;
-    out->clips = 0;
     return 1;
 }
 
-static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int fragments,
-                         const e3d_viewport *viewport, e3d_survivors *out)
+static inline uint64_t setup_far(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull,
+                                 const e3d_viewport *viewport, uint64_t *draw, uint64_t *small)
 {
-    if (V_LANES > 1 && !v->special && setup_near(v, indices, triangles, cull, fragments, out))
-        return;
-    setup_counts counts = {0, 0, 0};
+    uint64_t clip = 0;
     vtable across, down;
     v_table(v->sx, v->count, &across);
     v_table(v->sy, v->count, &down);
@@ -188,15 +162,24 @@ static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int tria
             y[k] = v_lookup(&down, at);
         }
         setup_boxes boxes = setup_boxes_of(x, y, cull, viewport);
-        uint32_t tail = setup_tail(triangles - i), draw = v_bits(v_mnot(boxes.miss)) & tail;
+        uint32_t shown = v_bits(v_mnot(boxes.miss));
         if (v->special) {
             setup_fate fate = setup_fate_of(v, indices, i);
-            draw &= v_bits(fate.draw);
-            counts.clips = setup_append(out->clip, counts.clips, v_bits(fate.clip) & tail, i);
+            shown &= v_bits(fate.draw);
+            clip |= (uint64_t)v_bits(fate.clip) << i;
         }
-        setup_list(v_addi(v_seti(i), v_iota()), draw, fragments ? v_bits(boxes.small) : 0, &counts, out);
+        *draw |= (uint64_t)shown << i;
+        *small |= (uint64_t)v_bits(boxes.small) << i;
     }
-    out->draws = counts.draws;
-    out->smalls = counts.smalls;
-    out->clips = counts.clips;
+    return clip;
+}
+
+static void kernel_setup(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int fragments,
+                         const e3d_viewport *viewport, e3d_survivors *out)
+{
+    uint64_t draw = 0, small = 0, clip = 0, asked = triangles ? ~(uint64_t)0 >> (E3D_CLUSTER_TRIANGLES - triangles) : 0;
+    if (V_LANES == 1 || v->special || !setup_near(v, indices, triangles, cull, &draw, &small))
+        clip = setup_far(v, indices, triangles, cull, viewport, &draw, &small);
+    small &= fragments ? draw & asked : 0;
+    *out = (e3d_survivors){draw & asked & ~small, small, clip & asked};
 }

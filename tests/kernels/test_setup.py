@@ -1,9 +1,9 @@
 """setup against R4–R7, R9 and R10: which triangles of a cluster stay.
 
 Those that are small, boxes of at most 4 x 4 samples and sides of at most 16383 steps, are listed
-apart where fragments are asked for. It may keep what only 64 bits can decide (boxes wider than 32767 steps of 1/256 sample), and what
-covers none of the samples of its box; nothing else that the rules drop. It must keep all that they
-keep.
+apart where fragments are asked for. It may keep what only 64 bits can decide (boxes wider than
+32767 steps of 1/256 sample), and what covers none of the samples of its box; nothing else that the
+rules drop. It must keep all that they keep.
 """
 
 import numpy as np

@@ -1,20 +1,14 @@
 /* shade: runs sorted by what they are of, so that each piece is met once, and pieces of a cluster one after the other. */
-#include <string.h>
-
 #include "pipeline/frame.h"
 
-enum { DIGIT = 8, DIGITS = 1 << DIGIT, FEW = 24 };
+enum { FEW = 24, DIGIT = 8, DIGITS = 1 << DIGIT };
 
-/* The bits in which owners differ; 0 where they are in order. */
-static uint32_t bits_to_sort(const e3d_run *runs, int32_t count)
+static uint32_t bits_that_differ(const e3d_run *runs, int32_t count)
 {
     uint32_t differ = 0;
-    int unordered = 0;
-    for (int32_t i = 1; i < count; i++) {
+    for (int32_t i = 1; i < count; i++)
         differ |= (uint32_t)(runs[i].owner ^ runs[0].owner);
-        unordered |= runs[i].owner < runs[i - 1].owner;
-    }
-    return unordered ? differ : 0;
+    return differ;
 }
 
 static void sort_few(e3d_run *runs, int32_t count)
@@ -44,19 +38,18 @@ static void sort_by_digit(const e3d_run *from, e3d_run *to, int32_t count, int s
 
 const e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
 {
-    uint32_t differ = bits_to_sort(runs, count);
+    uint32_t differ = bits_that_differ(runs, count);
     if (differ && count <= FEW) {
         sort_few(runs, count);
         return runs;
     }
-    for (int shift = 0; differ;) {
-        shift += __builtin_ctz(differ >> shift);
+    while (differ) {
+        int shift = __builtin_ctz(differ);
         sort_by_digit(runs, spare, count, shift);
         e3d_run *sorted = spare;
         spare = runs;
         runs = sorted;
-        differ = shift + DIGIT < 32 ? differ >> (shift + DIGIT) << (shift + DIGIT) : 0;
-        shift += DIGIT;
+        differ &= ~((uint32_t)(DIGITS - 1) << shift);
     }
     return runs;
 }

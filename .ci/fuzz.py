@@ -25,7 +25,7 @@ SHARED = Path(os.environ.get("ENGINE3D_SHARED") or ROOT.parent / "shared")
 LARGEST_SEED = 1 << 16
 # How long inputs are by default: those of files longer, those that take long to draw shorter.
 LENGTHS = {"obj": 4096, "rows": 384, "weld": 384, "draw": 4096, "canvas": 2048}
-LENGTHS.update(dict.fromkeys(("ply", "png", "sums", "text"), 256))
+LENGTHS.update(dict.fromkeys(("ply", "png", "polygons", "sums", "text"), 256))
 SETTINGS = {
     # Little quarantine: fresh pages take most of the time otherwise.
     "ASAN_OPTIONS": "quarantine_size_mb=16",

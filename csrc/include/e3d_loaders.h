@@ -172,6 +172,33 @@ typedef struct e3d_surface {
  * the group; `block_faces` triangles are added up at a time, and their sums to the others. */
 e3d_sums_problem e3d_smooth_sums(const e3d_surface *surface, size_t block_faces, double *sums);
 
+typedef enum e3d_cut_problem {
+    E3D_CUT_DONE,
+    E3D_CUT_NO_MEMORY,
+    E3D_CUT_OUT_OF_RANGE, /* an index of a position, a size, or the number of all corners */
+} e3d_cut_problem;
+
+/* Polygons, whose corners stand one behind another. */
+typedef struct e3d_polygons {
+    const int32_t *sizes;   /* [count] corners of each; those of fewer than three give no triangle */
+    const int32_t *indices; /* [corner_count] of each corner its position; NULL if it has the corner's number */
+    const void *positions;  /* [3 * position_count] doubles or floats */
+    bool are_doubles;
+    size_t count, corner_count, position_count;
+} e3d_polygons;
+
+/* n - 2 triangles for a polygon of n corners. */
+typedef struct e3d_cut {
+    int32_t *corners;  /* [3 * triangles] corner numbers, counted over all polygons */
+    int32_t *polygons; /* [triangles] the polygon that each is part of */
+    uint8_t *visible;  /* [3 * triangles] whether the edge behind a corner is the polygon's */
+    bool all_visible;
+    bool is_complete;  /* false if concave polygons were cut as fans, since no tests were left or they are too large */
+} e3d_cut;
+
+/* Cuts polygons into triangles; what is tested to find the ears of concave ones is taken from *tests. */
+e3d_cut_problem e3d_cut_polygons(const e3d_polygons *polygons, int64_t *tests, e3d_cut *made);
+
 typedef enum e3d_ply_problem {
     E3D_PLY_DONE,
     E3D_PLY_SHORT,    /* the body ends within a row */

@@ -115,6 +115,27 @@ cdef extern from "e3d_loaders.h" nogil:
     e3d_sums_problem e3d_smooth_sums(
         const e3d_surface *surface, size_t block_faces, double *sums)
 
+    ctypedef enum e3d_cut_problem:
+        E3D_CUT_DONE
+        E3D_CUT_NO_MEMORY
+        E3D_CUT_OUT_OF_RANGE
+
+    ctypedef struct e3d_polygons:
+        const int32_t *sizes
+        const int32_t *indices
+        const void *positions
+        bint are_doubles
+        size_t count, corner_count, position_count
+
+    ctypedef struct e3d_cut:
+        int32_t *corners
+        int32_t *polygons
+        uint8_t *visible
+        bint all_visible
+        bint is_complete
+
+    e3d_cut_problem e3d_cut_polygons(const e3d_polygons *polygons, int64_t *tests, e3d_cut *made)
+
     ctypedef enum e3d_ply_problem:
         E3D_PLY_DONE
         E3D_PLY_SHORT

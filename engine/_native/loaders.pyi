@@ -63,6 +63,14 @@ def smooth_sums(
     count: int,
     block: int,
 ) -> NDArray[np.float64]: ...
+def cut_polygons(
+    sizes: NDArray[np.int32],
+    positions: NDArray[np.floating],
+    indices: NDArray[np.int32] | None,
+    corners: int,
+    triangles: int,
+    tests: int,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.bool_] | None, bool, int]: ...
 def walk_ply_rows(
     data: bytes | memoryview,
     start: int,

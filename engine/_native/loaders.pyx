@@ -369,6 +369,55 @@ def smooth_sums(positions, const int32_t[:, ::1] faces not None,
     return sums
 
 
+def cut_polygons(const int32_t[::1] sizes not None, positions, const int32_t[::1] indices,
+                 size_t corners, size_t triangles, int64_t tests):
+    """Cut polygons (P,) of so many corners each into so many triangles.
+
+    ``indices`` (C,) are the corners' positions; None if they are the first of ``positions`` (V, 3),
+    float64 or float32. Returns corner numbers (T, 3) int32, the polygon of each triangle (T,)
+    int32, which edges are the polygons' (T, 3) bool or None, whether no concave polygon was cut as
+    a fan, and how many tests are left.
+    """
+    cdef e3d_polygons given = e3d_polygons(NULL, NULL, NULL, False, sizes.shape[0], corners, 0)
+    cdef const double[:, ::1] doubles
+    cdef const float[:, ::1] floats
+    cdef e3d_cut made
+    cdef e3d_cut_problem problem
+    cut = large_array((triangles, 3), np.int32)
+    polygons = large_array((triangles,), np.int32)
+    visible = large_array((triangles, 3), np.bool_)
+    if triangles == 0:
+        return cut, polygons, None, True, tests
+    given.position_count = len(positions)
+    if given.position_count == 0 or positions.shape[1] != 3 or (
+            (np.maximum(sizes, 2) - 2).sum() != triangles) or (
+            indices is not None and <size_t>indices.shape[0] != corners):
+        raise InvalidArgumentError("the corners of polygons do not match")
+    given.are_doubles = positions.dtype == np.float64
+    if given.are_doubles:
+        doubles = positions
+        given.positions = &doubles[0, 0]
+    else:
+        floats = positions
+        given.positions = &floats[0, 0]
+    given.sizes = &sizes[0]
+    if indices is not None:
+        given.indices = &indices[0]
+    cdef int32_t[:, ::1] cut_view = cut
+    cdef int32_t[::1] polygon_view = polygons
+    cdef uint8_t[:, ::1] visible_view = visible.view(np.uint8)
+    made.corners, made.polygons = &cut_view[0, 0], &polygon_view[0]
+    made.visible = &visible_view[0, 0]
+    with nogil:
+        problem = e3d_cut_polygons(&given, &tests, &made)
+    if problem == E3D_CUT_NO_MEMORY:
+        raise OutOfMemoryError("no memory to cut the polygons of a mesh")
+    if problem != E3D_CUT_DONE:
+        raise InvalidArgumentError("a polygon has an index that is out of range")
+    edges = None if made.all_visible else frozen(visible)
+    return cut, polygons, edges, bool(made.is_complete), tests
+
+
 cdef e3d_ply_body ply_body(const uint8_t[::1] data, size_t start, bint is_big_endian):
     cdef e3d_ply_body body = e3d_ply_body(NULL, start, data.shape[0], is_big_endian)
     if data.shape[0]:

@@ -12,7 +12,6 @@ import numpy as np
 from ..materials import Material
 from .corner_mesh import Triangles
 from .documents import Document
-from .ear_clipping import WorkBudget
 from .obj_file import Elements, ObjFile, read_obj_file
 from .obj_materials import give_companion_texture, read_library, used_materials
 from .obj_parts import ObjParts
@@ -20,7 +19,7 @@ from .obj_states import ObjStates, run_lengths
 from .registry import Reader
 from .smoothing import fill_normals
 from .sources import Source
-from .triangulation import Triangulation, triangulate
+from .triangulation import Triangulation, WorkBudget, triangulate
 from .warning_list import WarningList
 
 
@@ -53,9 +52,9 @@ def _cut(source, file: ObjFile, warnings) -> Triangulation | None:
     """Cut the faces into triangles; None if all are."""
     if file.faces.are_triangles:
         return None
-    budget = WorkBudget.for_file(len(source.data))
-    positions = file.vertices.positions[file.faces.positions]
-    cut = triangulate(file.faces.sizes, positions, budget)
+    budget = WorkBudget.for_file(source.size)
+    faces = file.faces
+    cut = triangulate(faces.sizes, file.vertices.positions, budget, indices=faces.positions)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     return cut

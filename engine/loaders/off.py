@@ -15,14 +15,13 @@ import numpy as np
 from ..errors import FileFormatError
 from ..materials import Material
 from .documents import Document, DocumentObject
-from .ear_clipping import WorkBudget
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .number_arrays import NotANumberError, parse_text
 from .ply_vertices import finite_uvs, usable_normals
 from .registry import Reader
 from .sources import Source
 from .text import shown, text_lines
-from .triangulation import triangulate
+from .triangulation import WorkBudget, triangulate
 from .warning_list import WarningList
 
 _KEYWORD = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF\b")
@@ -61,7 +60,7 @@ class _OffReader:
     def __init__(self, source: Source, warnings: WarningList) -> None:
         self._path = source.path
         self._warnings = warnings
-        self._budget = WorkBudget.for_file(len(source.data))
+        self._budget = WorkBudget.for_file(source.size)
         if b"BINARY" in source.data[:20]:
             self._fail("binary OFF files are not read")
         self._lines = [line.partition(b"#")[0] for line in text_lines(source).split(b"\n")]
@@ -178,7 +177,7 @@ class _OffReader:
             count = int((sizes < 3).sum())
             self._warnings.add(f"{count} faces of fewer than three corners are left out")
         corners = corners.astype(np.int32)
-        cut = triangulate(sizes, geometry.positions[corners], self._budget)
+        cut = triangulate(sizes, geometry.positions, self._budget, indices=corners)
         if not cut.is_complete:
             self._warnings.add("too many concave polygons: some are cut as if they were convex")
         geometry.corners = corners[cut.corners]

@@ -12,7 +12,6 @@ import numpy as np
 from ..errors import FileFormatError
 from ..mesh import Mesh
 from .documents import Document, DocumentObject
-from .ear_clipping import WorkBudget
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .ply_faces import PlyFaces, read_edges, read_faces, read_strips
 from .ply_header import is_ply, read_header
@@ -22,6 +21,7 @@ from .ply_tables import PlyTable, read_tables
 from .ply_vertices import PlyVertices, read_vertices, usable_normals
 from .registry import Reader
 from .sources import Source
+from .triangulation import WorkBudget
 from .warning_list import WarningList
 
 

@@ -10,10 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .ear_clipping import WorkBudget
 from .ply_tables import PlyList, PlyTable
 from .ply_vertices import finite_uvs, read_colors
-from .triangulation import triangulate
+from .triangulation import WorkBudget, triangulate
 from .warning_list import WarningList
 
 _INDEX_LISTS = ("vertex_indices", "vertex_index")
@@ -68,7 +67,7 @@ def read_faces(
     if outlines.sizes.min() == 3 == outlines.sizes.max():
         corners = indices.reshape(-1, 3)
         return PlyFaces(corners, None if uvs is None else uvs.reshape(-1, 3, 2), colors, textures)
-    cut = triangulate(outlines.sizes, positions.astype(np.float64)[indices], budget)
+    cut = triangulate(outlines.sizes, positions, budget, indices=indices)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     return PlyFaces(

@@ -17,12 +17,11 @@ from ..errors import FileFormatError
 from ..materials import Material
 from ..mesh import Mesh
 from .documents import Document, DocumentObject
-from .ear_clipping import WorkBudget
 from .number_arrays import NotANumberError, parse_text
 from .registry import Reader
 from .sources import Source
 from .text import decoded, shown, text_lines
-from .triangulation import triangulate
+from .triangulation import WorkBudget, triangulate
 from .warning_list import WarningList
 from .welding import number_rows
 
@@ -164,7 +163,7 @@ def _read_text(source: Source, warnings: WarningList) -> _Facets:
     _require_facets(len(ends), source)
     budget = WorkBudget.for_file(source.size)
     sizes = np.diff(ends, prepend=0)
-    cut = triangulate(sizes, corners.astype(np.float64), budget)
+    cut = triangulate(sizes, corners, budget)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     place, first = number_rows(corners)

@@ -3,7 +3,7 @@
 In: the number of corners of each polygon, and the positions of all corners. Out: triangles as
 corner numbers, in the order of the polygons, each polygon wound as it was; and which of their edges
 are the polygon's own. Convex polygons become fans; a concave quad is cut from its reflex corner;
-other concave polygons have their ears clipped.
+other concave polygons have their ears clipped. Work is counted, so that no file can hang a loader.
 """
 
 from __future__ import annotations
@@ -12,15 +12,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .ear_clipping import WorkBudget, clip_ears
+from .._native import loaders as native
 
-# A corner counts as reflex if it turns back by more than this share of the polygon's area: flat
-# corners, and those bent by rounding, are left to the fan.
-_FLAT = 1e-9
-# Corners worked on at a time, which bounds the memory for intermediate results.
-_BLOCK = 1 << 17
-# Polygons of more corners are cut as fans, whatever they look like.
-_MOST_CORNERS = 1 << 18
+
+class WorkBudget:
+    """Tests of corners that may still be made, for all concave polygons of a file together.
+
+    A hundred million take about a second.
+    """
+
+    def __init__(self, tests: int = 50_000_000) -> None:
+        self.tests = tests
+
+    @classmethod
+    def for_file(cls, size: int) -> WorkBudget:
+        """Return the budget of a file of so many bytes.
+
+        One of up to a megabyte loads within two seconds, a larger one within ten.
+        """
+        return cls(50_000_000 if size <= 1 << 20 else 300_000_000)
 
 
 class Triangulation(NamedTuple):
@@ -35,7 +45,8 @@ class Triangulation(NamedTuple):
     edge_visible : (T, 3) bool or None
         Which edges are the polygon's; None if all are.
     is_complete : bool
-        False if some concave polygons were cut as fans because the file holds too many.
+        False if some concave polygons were cut as fans because the file holds too many, or one of
+        more than 262,144 corners.
     """
 
     corners: np.ndarray
@@ -45,7 +56,11 @@ class Triangulation(NamedTuple):
 
 
 def triangulate(
-    sizes: np.ndarray, positions: np.ndarray, budget: WorkBudget | None = None
+    sizes: np.ndarray,
+    positions: np.ndarray,
+    budget: WorkBudget | None = None,
+    *,
+    indices: np.ndarray | None = None,
 ) -> Triangulation:
     """Cut polygons into triangles.
 
@@ -53,101 +68,29 @@ def triangulate(
     ----------
     sizes : (P,) int
         Corners of each polygon; those of fewer than three give no triangle.
-    positions : (C, 3) float64
-        The corners' positions, polygon after polygon; C is the sum of ``sizes``.
+    positions : (V, 3) float64 or float32
+        The corners' positions, polygon after polygon, or what ``indices`` refer to.
     budget : WorkBudget, optional
         The work that concave polygons may take.
+    indices : (C,) int32, optional
+        The position of each corner; C is the sum of ``sizes``.
 
     Returns
     -------
     triangulation : Triangulation
         n - 2 triangles for a polygon of n corners, degenerate ones included.
     """
+    sizes = np.ascontiguousarray(sizes, np.int32)
     if len(sizes) and sizes.min() == 3 == sizes.max():
         corners = np.arange(3 * len(sizes), dtype=np.int32).reshape(-1, 3)
         return Triangulation(corners, np.arange(len(sizes), dtype=np.int32), None, True)
-    counts = np.maximum(sizes - 2, 0)
-    first_triangle = np.cumsum(counts) - counts
-    first_corner = np.cumsum(sizes) - sizes
-    # Corner numbers within the polygon first, then within the file.
-    corners = np.empty((int(counts.sum()), 3), np.int32)
-    polygons = np.repeat(np.arange(len(sizes), dtype=np.int32), counts)
     budget = budget or WorkBudget()
-    # Which sizes occur; np.unique would import numpy.ma for it, a tenth of a small picture's time.
-    for size in (np.flatnonzero(np.bincount(sizes)[3:]) + 3).tolist():
-        members = np.flatnonzero(sizes == size)
-        step = max(_BLOCK // size, 1)
-        for start in range(0, len(members), step):
-            block = members[start : start + step]
-            rows = first_triangle[block, np.newaxis] + np.arange(size - 2)
-            corners[rows] = _cut_polygons(size, positions, first_corner[block], budget)
-    last = (1 - sizes[polygons]).astype(np.int32)
-    edge_visible = np.empty(corners.shape, bool)
-    for edge in range(3):
-        step = corners[:, (edge + 1) % 3] - corners[:, edge]
-        edge_visible[:, edge] = (step == 1) | (step == last)
-    corners += first_corner[polygons].astype(np.int32)[:, np.newaxis]
-    visible = None if edge_visible.all() else edge_visible
-    return Triangulation(corners, polygons, visible, not budget.is_spent)
-
-
-def _cut_polygons(size, positions, first_corner, budget) -> np.ndarray:
-    """Cut polygons of one size: (P, size - 2, 3) corner numbers within each polygon."""
-    cut = np.zeros((len(first_corner), size - 2, 3), np.int32)
-    cut[:, :, 1] = np.arange(1, size - 1, dtype=np.int32)
-    cut[:, :, 2] = cut[:, :, 1] + 1
-    if size > _MOST_CORNERS:
-        budget.tests = 0
-    if size == 3 or size > _MOST_CORNERS:
-        return cut
-    outlines = positions[first_corner[:, np.newaxis] + np.arange(size)]
-    area = _area_vectors(outlines)
-    reflex = _reflex_corners(outlines, area)
-    concave = np.flatnonzero(reflex.any(axis=1))
-    if size == 4:
-        start = reflex[concave].argmax(axis=1)
-        cut[concave] = (cut[concave] + start[:, np.newaxis, np.newaxis]) % 4
-        return cut
-    for polygon in concave.tolist():
-        if budget.is_spent:
-            break
-        cut[polygon] = clip_ears(_projected(outlines[polygon], area[polygon]), budget)
-    return cut
-
-
-def _area_vectors(outlines: np.ndarray) -> np.ndarray:
-    """Newell's area vector, twice the area long, of polygons (P, n, 3): (P, 3).
-
-    Sums run in the order of the corners, whatever the processor, so that ties between axes are
-    the same everywhere.
-    """
-    area = np.empty((len(outlines), 3), np.float64)
-    with np.errstate(all="ignore"):
-        for axis in range(3):
-            a, b = (
-                outlines[:, :, (axis + k) % 3] - outlines[:, :1, (axis + k) % 3] for k in (1, 2)
-            )
-            terms = a * np.roll(b, -1, axis=1) - b * np.roll(a, -1, axis=1)
-            area[:, axis] = np.cumsum(terms, axis=1)[:, -1]
-    area[~np.isfinite(area).all(axis=1)] = 0
-    return area
-
-
-def _reflex_corners(outlines: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """Which corners (P, n) turn against their polygon; none where a corner is not finite."""
-    along = np.zeros(outlines.shape[:2], np.float64)
-    with np.errstate(all="ignore"):
-        edges = np.roll(outlines, -1, axis=1) - outlines
-        before = np.roll(edges, 1, axis=1)
-        for axis in range(3):
-            y, z = (axis + 1) % 3, (axis + 2) % 3
-            turn = before[:, :, y] * edges[:, :, z] - before[:, :, z] * edges[:, :, y]
-            along += turn * area[:, axis, np.newaxis]
-        size = area[:, 0] ** 2 + area[:, 1] ** 2 + area[:, 2] ** 2
-        return (along < -_FLAT * size[:, np.newaxis]) & (size > 0)[:, np.newaxis]
-
-
-def _projected(outline: np.ndarray, area: np.ndarray) -> list[tuple[float, float]]:
-    """The outline along the axis that its area vector follows most."""
-    kept = np.delete(np.arange(3), np.abs(area).argmax())
-    return list(map(tuple, outline[:, kept].tolist()))
+    if positions.dtype not in (np.float32, np.float64):
+        positions = positions.astype(np.float64)
+    positions = np.ascontiguousarray(positions)
+    indices = None if indices is None else np.ascontiguousarray(indices, np.int32)
+    triangles = int(np.maximum(sizes - 2, 0).sum(dtype=np.int64))
+    corners, polygons, visible, is_complete, budget.tests = native.cut_polygons(
+        sizes, positions, indices, int(sizes.sum(dtype=np.int64)), triangles, budget.tests
+    )
+    return Triangulation(corners, polygons, visible, is_complete)

@@ -4,9 +4,11 @@ import time
 
 import numpy as np
 import pytest
+from loaders import triangulation_reference as reference
+from loaders.ear_clipping_reference import WorkBudget as ReferenceBudget
 
-from engine3d.loaders.ear_clipping import WorkBudget, clip_ears
-from engine3d.loaders.triangulation import triangulate
+from engine3d.errors import InvalidArgumentError
+from engine3d.loaders.triangulation import WorkBudget, triangulate
 from engine3d.normals import face_area_vectors
 
 STAR = [(np.cos(k * np.pi / 5) * r, np.sin(k * np.pi / 5) * r) for k, r in enumerate([1, 0.4] * 5)]
@@ -15,6 +17,12 @@ LETTER_U = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
 HOLED = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)]
 COMB = [(k, 0 if k % 2 else 5) for k in range(301)] + [(300, -1), (0, -1)]
 SHAPES = {"star": STAR, "u": LETTER_U, "holed": HOLED, "comb": COMB}
+
+
+def clip_ears(points, budget=None):
+    """Triangles of one polygon in the plane."""
+    flat = np.insert(np.array(points, float), 2, 0.0, axis=1)
+    return triangulate(np.array([len(flat)]), flat, budget).corners.tolist()
 
 
 def area(points):
@@ -33,7 +41,7 @@ def signed_areas(points, triangles):
 def test_ears_cover_the_polygon_once(name, reverse):
     points = [(float(x), float(y)) for x, y in SHAPES[name]]
     points = points[::-1] if reverse else points
-    triangles = clip_ears(points, WorkBudget())
+    triangles = clip_ears(points)
     areas = signed_areas(points, triangles)
     assert len(triangles) == len(points) - 2
     assert areas.sum() == pytest.approx(area(points))
@@ -43,7 +51,7 @@ def test_ears_cover_the_polygon_once(name, reverse):
 @pytest.mark.parametrize("start", range(8))
 def test_the_first_corner_does_not_matter(start):
     points = LETTER_U[start:] + LETTER_U[:start]
-    areas = signed_areas(points, clip_ears(points, WorkBudget()))
+    areas = signed_areas(points, clip_ears(points))
     assert areas.sum() == pytest.approx(7)
     assert (areas >= 0).all()
 
@@ -85,7 +93,7 @@ def test_flat_and_not_finite_polygons_still_give_their_triangles():
 def test_self_intersecting_polygons_end_in_time(seed):
     points = np.random.default_rng(seed).random((3000, 2))
     started = time.process_time()
-    triangles = clip_ears([tuple(p) for p in points.tolist()], WorkBudget())
+    triangles = clip_ears(points)
     assert len(triangles) == 2998
     assert time.process_time() - started < 5
 
@@ -97,6 +105,43 @@ def test_many_concave_polygons_share_one_budget():
     cut = triangulate(sizes, corners, WorkBudget(1000))
     assert len(cut.corners) == 800
     assert not cut.is_complete
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("seed", range(8))
+def test_polygons_are_cut_as_by_the_reference(dtype, seed):
+    """Of all sizes; convex, star-shaped and tangled ones; on grids, in planes and far from flat."""
+    rng = np.random.default_rng(seed)
+    sizes = rng.integers(0, 24, 150)
+    sizes[-1] = 130
+    count = int(sizes.sum())
+    angle = np.concatenate([np.arange(n) * 2 * np.pi / max(n, 1) for n in sizes])
+    radius = rng.choice([1, 1, 1, 0.3], count)
+    rings = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.1 * rng.random(count)], 1)
+    tangled = rng.integers(-3, 4, (count, 3))
+    kind = np.repeat(rng.integers(0, 3, len(sizes)), sizes)[:, np.newaxis]
+    corners = np.where(kind == 0, tangled, np.where(kind == 1, rings @ rng.random((3, 3)), rings))
+    corners[rng.integers(0, count, 3)] = [[np.nan, 0, 0], [np.inf, 1, 0], [1e300, 1e-300, 0]]
+    with np.errstate(over="ignore"):
+        corners = corners.astype(dtype)
+    expected = reference.triangulate(sizes, corners.astype(np.float64), ReferenceBudget(10**9))
+    order = rng.permutation(count)
+    indices = np.argsort(order).astype(np.int32)
+    for cut in (triangulate(sizes, corners), triangulate(sizes, corners[order], indices=indices)):
+        for made, reference_made in zip(cut, expected, strict=True):
+            assert np.array_equal(made, reference_made)
+            assert np.asarray(made).dtype == np.asarray(reference_made).dtype
+
+
+def test_indices_are_checked():
+    sizes, positions = np.array([4]), np.zeros((4, 3))
+    for indices in ([0, 1, 2, 4], [0, -1, 2, 3], [0, 1, 2]):
+        with pytest.raises(InvalidArgumentError):
+            triangulate(sizes, positions, indices=np.array(indices, np.int32))
+    with pytest.raises(InvalidArgumentError):
+        triangulate(np.array([5]), positions)
+    with pytest.raises(InvalidArgumentError):
+        triangulate(np.array([6, -2]), positions)
 
 
 def test_nothing_gives_nothing():

@@ -1,4 +1,4 @@
-"""Triangles of one polygon that may be concave: ear clipping.
+"""Triangles of one polygon that may be concave: ear clipping, in Python.
 
 In: the corners of a polygon in the plane. Out: n - 2 triangles that cover it, wound like it.
 Corners that lie upon each other are allowed (a hole joined to the outline by a bridge). Source: G.
@@ -22,14 +22,6 @@ class WorkBudget:
 
     def __init__(self, tests: int = 1_000_000) -> None:
         self.tests = tests
-
-    @classmethod
-    def for_file(cls, size: int) -> WorkBudget:
-        """Return the budget of a file of so many bytes.
-
-        One of up to a megabyte loads within two seconds, a larger one within ten.
-        """
-        return cls(1_000_000 if size <= 1 << 20 else 6_000_000)
 
     @property
     def is_spent(self) -> bool:

@@ -184,7 +184,7 @@ def light():
     lights["to_light"] = (0.36, 0.48, 0.8)
     lights["position"] = rng.uniform(-4, 4, (3, 3))
     ambient, clamp = np.full(3, 0.1, np.float32), np.array([0, np.inf], np.float32)
-    reach = np.full((4, 3 + PAD), np.nan, np.float32)  # none is out of it
+    reach = np.full((5, 3 + PAD), np.nan, np.float32)  # none is out of it
     eye = np.float32([0, 0, 5, 1])
     arguments = (batch, lights.view(np.uint8), reach, ambient, clamp, eye, 32.0)
     return BATCH, lambda kernels: kernels.light(*arguments)

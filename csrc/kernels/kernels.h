@@ -265,11 +265,12 @@ enum {
     E3D_WANT_SURFACE = 32 /* any of these, or barycentrics */
 };
 
-/* `reach`: of each light, and E3D_PAD more, its position and the square of its range; a NaN where nothing is out of it. */
+/* `reach`: of each light, and E3D_PAD more, its position, the square of its range (a NaN where nothing is out of it) and 1
+ * over that square. */
 typedef struct e3d_lighting {
     const e3d_light *lights;
     int light_count;
-    const float *reach[4];
+    const float *reach[5];
     float ambient[3], clamp[2], eye[4];
 } e3d_lighting;
 

@@ -293,11 +293,11 @@ static int prepare_lights(e3d_context *context)
 {
     const e3d_frame *frame = context->frame;
     size_t room = (size_t)frame->light_count + E3D_PAD;
-    if (!e3d_array_reserve(&context->renderer->reach, 4 * room, sizeof(float)))
+    if (!e3d_array_reserve(&context->renderer->reach, 5 * room, sizeof(float)))
         return 0;
     float *rows = context->renderer->reach.data;
     int ranged = 0;
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 5; k++)
         context->lighting.reach[k] = rows + (size_t)k * room;
     for (size_t n = 0; n < room; n++) {
         const e3d_light *light = n < (size_t)frame->light_count ? &frame->lights[n] : NULL;
@@ -305,6 +305,7 @@ static int prepare_lights(e3d_context *context)
         for (int k = 0; k < 3; k++)
             rows[(size_t)k * room + n] = point ? light->position[k] : 0.0f;
         rows[3 * room + n] = point ? light->range * light->range : NAN;
+        rows[4 * room + n] = 1.0f / rows[3 * room + n];
         ranged += point && light->range < INFINITY;
     }
     context->lighting.lights = frame->lights;

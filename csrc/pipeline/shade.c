@@ -233,6 +233,8 @@ static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_t
 
 /* ---- blocks: a batch of neighbours is in reach of few lights ---- */
 
+enum { MANY_RUNS = 512 }; /* in a tile: batches of one material are small as they are */
+
 enum { BLOCK = 32, BLOCKS_A_ROW = E3D_TILE / BLOCK, BLOCKS = BLOCKS_A_ROW * BLOCKS_A_ROW };
 
 static int block_of(int sample)
@@ -274,6 +276,6 @@ static int shade_blocks(const e3d_context *context, e3d_worker *worker, const e3
 
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
 {
-    return context->blockwise ? shade_blocks(context, worker, tile, count)
-                              : shade_all(context, worker, tile, worker->tile->runs, count);
+    return context->blockwise && count < MANY_RUNS ? shade_blocks(context, worker, tile, count)
+                                                   : shade_all(context, worker, tile, worker->tile->runs, count);
 }

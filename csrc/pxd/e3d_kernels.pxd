@@ -103,7 +103,7 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_lighting:
         const e3d_light *lights
         int light_count
-        const float *reach[4]
+        const float *reach[5]
         float ambient[3]
         float clamp[2]
         float eye[4]

@@ -295,7 +295,7 @@ cdef class Kernels:
     def light(self, uint8_t[::1] batch, const uint8_t[::1] lights, const float[:, ::1] reach,
               const float[::1] ambient, const float[::1] clamp, const float[::1] eye,
               float shininess):
-        """``reach``: (4, lights + PAD)."""
+        """``reach``: (5, lights + PAD)."""
         cdef e3d_lighting lighting = lighting_of(lights, reach, ambient, clamp, eye)
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
@@ -404,7 +404,7 @@ cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] rea
     cdef int row
     lighting.light_count = <int>(lights.shape[0] // sizeof(e3d_light))
     lighting.lights = <const e3d_light *>&lights[0] if lighting.light_count else NULL
-    for row in range(4):
+    for row in range(5):
         lighting.reach[row] = &reach[row, 0]
     memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
     memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))

@@ -27,12 +27,16 @@ def random_lights(rng, count):
 
 
 def reach_of(lights):
-    """What the kernel leaves lights out by: (4, lights and pad), positions and squared ranges."""
-    reach = np.full((4, len(lights) + PAD), np.nan, np.float32)
+    """What the kernel reads of lights side by side: (5, lights and pad).
+
+    Positions, squared ranges, and one over these.
+    """
+    reach = np.full((5, len(lights) + PAD), np.nan, np.float32)
     point = lights["kind"] == POINT
     reach[:3, : len(lights)] = np.where(point, lights["position"].T, np.float32(0))
     squares = lights["range"] * lights["range"]
     reach[3, : len(lights)] = np.where(point, squares, np.float32(np.nan))
+    reach[4] = ONE / reach[3]
     return reach
 
 

@@ -7,21 +7,21 @@ typedef struct lit_lanes {
 } lit_lanes;
 
 /* Unit vector towards a point light; the attenuation; lanes within range. */
-static inline vmask light_towards(const e3d_light *light, const vf32 position[3], vf32 l[3],
+static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], vf32 l[3],
                                   vf32 *attenuation)
 {
+    const e3d_light *light = &lighting->lights[n];
     vf32 one = v_setf(1.0f);
-    float range2 = light->range * light->range;
     for (int k = 0; k < 3; k++)
         l[k] = v_sub(v_setf(light->position[k]), position[k]);
     vf32 d2 = dot_three(l, l);
-    vmask near = v_mnot(v_ge(d2, v_setf(range2)));
+    vmask near = v_mnot(v_ge(d2, v_setf(lighting->reach[3][n])));
     d2 = v_max(d2, v_setf(0x1p-40f));
     vf32 inverse = v_div(one, v_sqrt(d2));
     for (int k = 0; k < 3; k++)
         l[k] = v_mul(l[k], inverse);
     if (light->falloff == E3D_FALLOFF_WINDOW) {
-        vf32 t = v_sub(one, v_mul(d2, v_setf(1.0f / range2)));
+        vf32 t = v_sub(one, v_mul(d2, v_setf(lighting->reach[4][n])));
         *attenuation = v_mul(t, t);
     } else {
         *attenuation = v_div(one, d2);
@@ -47,15 +47,16 @@ static inline void light_highlight(const e3d_light *light, const vf32 l[3], vf32
     }
 }
 
-static inline void light_one(const e3d_light *light, float shininess, lit_lanes *lit)
+static inline void light_one(const e3d_lighting *lighting, int n, float shininess, lit_lanes *lit)
 {
+    const e3d_light *light = &lighting->lights[n];
     vf32 zero = v_setf(0.0f), l[3], attenuation = v_setf(1.0f);
     vmask near = v_eq(zero, zero);
     if (light->kind == E3D_LIGHT_DIRECTIONAL)
         for (int k = 0; k < 3; k++)
             l[k] = v_setf(light->to_light[k]);
     else
-        near = light_towards(light, lit->position, l, &attenuation);
+        near = light_towards(lighting, n, lit->position, l, &attenuation);
     if (!v_any(near))
         return;
     vf32 facing = v_max(dot_three(lit->normal, l), zero);
@@ -175,7 +176,7 @@ static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, con
         if (shininess > 0.0f)
             light_view(lighting, &lit);
         for (int n = 0; n < count; n++)
-            light_one(&lighting->lights[chosen[n]], shininess, &lit);
+            light_one(lighting, chosen[n], shininess, &lit);
         for (int k = 0; k < 3; k++) {
             v_storef(batch->energy[k] + i, lit.energy[k]);
             v_storef(batch->shine[k] + i, lit.shine[k]);

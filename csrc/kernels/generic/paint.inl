@@ -39,7 +39,7 @@ static inline void paint_light(const e3d_paint *paint, const paint_lanes *lanes,
     if (paint->shininess > 0.0f)
         light_view(lighting, &lit);
     for (int n = 0; n < lighting->light_count; n++)
-        light_one(&lighting->lights[n], paint->shininess, &lit);
+        light_one(lighting, n, paint->shininess, &lit);
     for (int k = 0; k < 3; k++)
         lit.energy[k] = light_clamp(lighting, lit.energy[k]);
     combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, color);

@@ -7,6 +7,9 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "core/large_pages.h"
 
 typedef struct e3d_array {
     void *data;
@@ -23,7 +26,13 @@ static inline int e3d_array_reserve(e3d_array *array, size_t wanted, size_t size
         room *= 2;
     if (room > SIZE_MAX / size)
         return 0;
-    void *data = realloc(array->data, room * size);
+    void *data;
+    if (room * size < E3D_LARGE_ROOM) {
+        data = realloc(array->data, room * size);
+    } else if ((data = e3d_large_memory(room * size)) && array->data) {
+        memcpy(data, array->data, array->room * size);
+        free(array->data);
+    }
     if (!data)
         return 0;
     array->data = data;

@@ -28,10 +28,9 @@ static int reserve_tiles(e3d_renderer *renderer, size_t tiles)
     free(renderer->kept);
     renderer->kept = NULL;
     renderer->kept_room = 0;
-    void *memory = NULL;
-    if (posix_memalign(&memory, 64, tiles * sizeof(e3d_visible_tile)))
+    renderer->kept = e3d_large_memory(tiles * sizeof(e3d_visible_tile));
+    if (!renderer->kept)
         return 0;
-    renderer->kept = memory;
     renderer->kept_room = tiles;
     return 1;
 }

@@ -310,6 +310,8 @@ int e3d_occlusion_begin(e3d_context *context);
 /* Finds what the last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
 int e3d_remember(e3d_context *context);
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
+/* Asks for what that reads first. */
+void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
 void e3d_draw_kept_tiles(e3d_context *context);
 
 /* lines.c: units of 256 lines, then points, then edges of an instance */

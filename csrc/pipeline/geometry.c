@@ -213,10 +213,9 @@ static int faces_away(const walker *w, const e3d_cluster *cluster)
     return e3d_faces_away(&w->context->viewport, &w->instance->facing, w->instance->clip, cluster, drop_sign(w));
 }
 
-static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster)
+/* Without what is drawn already: *view tells of a cluster that may show whether it must be tried against that. */
+static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_box_view *view)
 {
-    e3d_box_view view;
-    int tested = w->context->round.tested;
     const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
     if (!cluster->any_finite)
         return E3D_FATE_OUTSIDE;
@@ -224,12 +223,34 @@ static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster
         return item->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
                    ? E3D_FATE_AWAY
                    : E3D_FATE_OUTSIDE;
-    if (!tested && item->view.state == E3D_BOX_INSIDE)
+    if (!w->context->round.tested && item->view.state == E3D_BOX_INSIDE)
         return E3D_FATE_DRAWN;
-    e3d_view_box(&w->context->viewport, clip, cluster->lo, cluster->hi, &view);
-    if (view.state == E3D_BOX_OUTSIDE)
-        return E3D_FATE_OUTSIDE;
-    return tested && e3d_is_hidden(w->context, &view) ? E3D_FATE_OCCLUDED : E3D_FATE_DRAWN;
+    e3d_view_box(&w->context->viewport, clip, cluster->lo, cluster->hi, view);
+    return view->state == E3D_BOX_OUTSIDE ? E3D_FATE_OUTSIDE : E3D_FATE_DRAWN;
+}
+
+/* The fates of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. */
+static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked,
+                           e3d_fate fates[E3D_GROUP_CLUSTERS])
+{
+    const e3d_context *context = w->context;
+    e3d_box_view views[E3D_GROUP_CLUSTERS];
+    unsigned shown = 0;
+    for (unsigned left = asked; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        fates[k] = fate_of(w, item, &w->draw->mesh->clusters[group->first_cluster + k], &views[k]);
+        shown |= (unsigned)(fates[k] == E3D_FATE_DRAWN) << k;
+        if (context->round.tested && fates[k] == E3D_FATE_DRAWN)
+            e3d_fetch_kept(context, &views[k]);
+    }
+    for (unsigned left = context->round.tested ? shown : 0; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        if (!e3d_is_hidden(context, &views[k]))
+            continue;
+        fates[k] = E3D_FATE_OCCLUDED;
+        shown &= ~(1u << k);
+    }
+    return shown;
 }
 
 /* Threads may mark the same instance. */
@@ -252,30 +273,35 @@ static inline __attribute__((always_inline)) void fetch_cluster(const e3d_cluste
         __builtin_prefetch(from);
 }
 
-/* Draws the group's clusters that are in `wanted` and may show; returns all that may. Bit k is cluster k. */
+static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_fate fate)
+{
+    w->worker->counters.clusters[fate]++;
+    w->worker->counters.triangles[fate] += cluster->triangles;
+    mark(w, item, fate);
+}
+
+/* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those whose turn it is. Bit k is
+ * cluster k. */
 static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned wanted)
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_round *round = &w->context->round;
-    int each = mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE;
-    int hidden = round->tested && e3d_is_hidden(w->context, &item->view);
-    unsigned shown = 0;
-    for (int k = 0; k < group->clusters; k++) {
-        const e3d_cluster *cluster = &mesh->clusters[group->first_cluster + k];
-        if (round->choice == E3D_SEEN_ITEMS && !(wanted >> k & 1))
-            continue; /* its turn comes in the next round */
-        e3d_fate fate = hidden ? E3D_FATE_OCCLUDED : each ? fate_of(w, item, cluster) : E3D_FATE_DRAWN;
-        if (fate == E3D_FATE_DRAWN)
-            shown |= 1u << k;
-        if (!(wanted >> k & 1))
-            continue;
-        if (k + 1 < group->clusters)
-            fetch_cluster(cluster + 1, mesh->desc.components);
-        if (fate == E3D_FATE_DRAWN)
-            draw_cluster(w, item, cluster);
-        w->worker->counters.clusters[fate]++;
-        w->worker->counters.triangles[fate] += cluster->triangles;
-        mark(w, item, fate);
+    const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
+    unsigned all = (1u << group->clusters) - 1, asked = round->choice == E3D_SEEN_ITEMS ? wanted & all : all, shown = asked;
+    e3d_fate fates[E3D_GROUP_CLUSTERS] = {E3D_FATE_DRAWN};
+    if (round->tested && e3d_is_hidden(w->context, &item->view)) {
+        shown = 0;
+        for (int k = 0; k < group->clusters; k++)
+            fates[k] = E3D_FATE_OCCLUDED;
+    } else if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE) {
+        shown = find_fates(w, item, group, asked, fates);
+    }
+    for (unsigned left = asked & wanted; left; left &= left - 1)
+        count_cluster(w, item, &clusters[__builtin_ctz(left)], fates[__builtin_ctz(left)]);
+    for (unsigned left = shown & wanted; left; left &= left - 1) {
+        if (left & (left - 1))
+            fetch_cluster(&clusters[__builtin_ctz(left & (left - 1))], mesh->desc.components);
+        draw_cluster(w, item, &clusters[__builtin_ctz(left)]);
     }
     return shown;
 }
@@ -307,6 +333,8 @@ static void fetch_item(const e3d_context *context, const e3d_item *item)
         __builtin_prefetch(instance + at);
     if (context->round.choice != E3D_ALL_ITEMS)
         __builtin_prefetch(&context->seen[item->unit]);
+    if (context->round.tested)
+        e3d_fetch_kept(context, &item->view);
 }
 
 static void walk_items(walker *w)

@@ -133,6 +133,17 @@ static int is_behind(const e3d_tile_depths *depths, const e3d_visible_tile *visi
     return 1;
 }
 
+void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view)
+{
+    const e3d_box *s = &view->samples;
+    int32_t x = (s->x0 + s->x1) / 2, y = (s->y0 + s->y1) / 2;
+    int64_t tile = (int64_t)(y / E3D_TILE) * context->tiles_x + x / E3D_TILE;
+    int sample = y % E3D_TILE * E3D_TILE + x % E3D_TILE;
+    __builtin_prefetch(&context->depths[tile]);
+    __builtin_prefetch(&context->depths[tile].zmax[y % E3D_TILE / E3D_BLOCK * BLOCKS]);
+    __builtin_prefetch(&context->kept[tile].z[sample]);
+}
+
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
 {
     const e3d_box *s = &view->samples;

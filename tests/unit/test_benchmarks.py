@@ -87,8 +87,9 @@ def test_lights(tmp_path):
 def test_worlds():
     small = ["--side", "4", "--triangles", "30000", "--largest", "100000", "--frames", "1"]
     rows = report("worlds.py", *small, "--resolution", "64x36")["rows"]
-    assert len(rows) == 7 + 3 + 2 + 1
-    assert all(row["cpu_milliseconds"] > 0 for row in rows)
+    assert len(rows) == 12 + 4 + 2 + 1
+    assert all(row.get("cpu_milliseconds", 1) > 0 for row in rows)
+    assert sum("aim" in row and "reached" in row for row in rows) == 9
     for word in ("64 spheres", "OBJ", "256 lights, street", "the same street"):
         assert any(word in row["what"] for row in rows)
 

@@ -85,7 +85,7 @@ static int32_t group_id_of(const e3d_visible_piece *piece)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
     int32_t face = e3d_face_of(piece);
-    return face < 0 ? -1 : mesh->material_ids ? mesh->material_ids[face] : 0;
+    return face < 0 ? -1 : piece->draw->mesh->material_most ? mesh->material_ids[face] : 0;
 }
 
 static e3d_group group_of(const e3d_context *context, const e3d_draw_state *state, int32_t id)
@@ -166,6 +166,16 @@ static ALWAYS_INLINE void fetch_number(const e3d_record_table *table, uint32_t i
     }
 }
 
+/* The material of a face, of a draw whose pieces come now. */
+static ALWAYS_INLINE void fetch_material(const e3d_record_table *table, uint32_t id, const e3d_draw_state *draw)
+{
+    int32_t triangle;
+    if (id & E3D_FRAGMENT_ID && draw && draw->mesh->material_most) {
+        const e3d_drawn_cluster *drawn = e3d_drawn_at(table, id, &triangle);
+        __builtin_prefetch(draw->mesh->desc.material_ids + drawn->faces[triangle]);
+    }
+}
+
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_run *runs, int32_t count)
 {
     enum { AHEAD = 8 };
@@ -183,6 +193,7 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_ru
         if (end + 2 * AHEAD < count) {
             fetch_named(table, (uint32_t)runs[end + 2 * AHEAD].owner);
             fetch_number(table, (uint32_t)runs[end + AHEAD].owner);
+            fetch_material(table, (uint32_t)runs[end + AHEAD / 2].owner, finder.draw);
         }
         pieces[n] = (e3d_visible_piece){.next = -1, .first_run = i, .end_run = end};
         if (id & E3D_FRAGMENT_ID)

@@ -165,8 +165,9 @@ def _middle(reach, axes, center, edges: FrustumReach, distance: float) -> tuple[
     """
     slopes = list(edges.slopes)
     for way in range(2):  # the first guess: in the ratio of the distances to the farthest point
-        share = (edges.distances[way] + edges.far) / (distance + edges.far)
-        slopes[way] *= min(1.0, share)
+        if distance + edges.far > 0:  # no single point
+            share = (edges.distances[way] + edges.far) / (distance + edges.far)
+            slopes[way] *= min(1.0, share)
     narrow = edges
     for _ in range(_SECANTS):
         if slopes == list(narrow.slopes):

@@ -89,7 +89,8 @@ def _world_points(scene) -> Iterator[np.ndarray]:
     for node in scene.nodes:
         points = _outline(node) if node.shown else None
         if points is not None:
-            points = linalg.transform_points(node.world_pose, points)
+            with np.errstate(over="ignore", invalid="ignore"):
+                points = linalg.transform_points(node.world_pose, points)
             yield points[np.isfinite(points).all(axis=1)]
 
 

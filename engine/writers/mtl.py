@@ -37,14 +37,16 @@ def _fields(material: Material) -> tuple:
 
 def material_names(materials: list[Material]) -> list[str]:
     """Return a name for each material that a library can hold, all different."""
+    copies: dict[str, int] = {}  # of each name that is taken, the last number behind it
     names: list[str] = []
     for number, material in enumerate(materials):
         name = re.sub(r"(^|\s)#", r"\1_", " ".join(material.name.split())).rstrip("\\")
         name = name or f"material_{number}"
-        candidate, copy = name, 1
-        while candidate in names:
-            copy += 1
-            candidate = f"{name}_{copy}"
+        candidate = name
+        while candidate in copies:
+            copies[name] += 1
+            candidate = f"{name}_{copies[name]}"
+        copies[candidate] = 1
         names.append(candidate)
     return names
 

@@ -463,3 +463,13 @@ def test_a_walk_without_a_screen(tmp_path):
     assert main([*command, *SMALL, "--frames", "1", "-o", "first.png"]) == 0
     assert main([*command[:-3], "--headless", *SMALL, "--frames", "1", "-o", "above.png"]) == 0
     assert not np.array_equal(pixels(tmp_path / "first.png"), pixels(tmp_path / "above.png"))
+
+
+@pytest.mark.parametrize("vertices", ["v 1 1 1", "v nan inf 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3"])
+def test_models_without_extent_print_nothing(tmp_path, capsys, vertices):
+    """A single point, and a triangle of which one corner is finite: no warnings of NumPy's."""
+    path = tmp_path / "a.obj"
+    path.write_text(vertices + "\n")
+    with np.errstate(all="raise", under="ignore"):
+        assert main(["render", str(path), *SMALL, "-o", str(tmp_path / "a.png")]) == 0
+    assert capsys.readouterr() == ("", "")

@@ -2,6 +2,7 @@
 
 import struct
 import time
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -216,3 +217,21 @@ def test_mixed_polygons_are_fast(load):
     start = time.process_time()
     assert len(load(data).faces) == 150_000
     assert time.process_time() - start < 5
+
+
+def test_memory_for_polygons_is_bounded(write):
+    """Indices of one byte: nothing else makes as much of a file."""
+    count = 100_000
+    polygon = bytes([5, *range(5)])
+    header = b"ply\nformat binary_little_endian 1.0\nelement vertex 5\nproperty float x\n"
+    header += b"property float y\nproperty float z\nelement face %d\n" % count
+    header += b"property list uchar uchar vertex_indices\nend_header\n"
+    corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.9, 0.5, 0)], "<f4")
+    path = write("a.ply", header + corners.tobytes() + polygon * (count - 1) + b"\3\0\1\2\0\0")
+    load_mesh(path)
+    tracemalloc.start()
+    try:
+        assert len(load_mesh(path).faces) == 3 * (count - 1) + 1
+        assert tracemalloc.get_traced_memory()[1] < 40 * path.stat().st_size
+    finally:
+        tracemalloc.stop()

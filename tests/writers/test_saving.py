@@ -9,6 +9,7 @@ from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 import engine3d as e3d
 from engine3d.errors import FileAccessError, InvalidArgumentError
 from engine3d.writers import formats
+from engine3d.writers.mtl import material_names
 
 ARRAYS = ("positions", "faces", "normals", "uvs", "colors", "material_ids", "lines", "points")
 ARRAYS += ("edge_visible", "position_ids")
@@ -164,6 +165,13 @@ def test_materials_and_textures(tmp_path):
 def test_a_plain_mesh_has_no_library(tmp_path):
     saved(e3d.Mesh(np.eye(3), [[0, 1, 2]]), tmp_path / "a.obj")
     assert [p.name for p in tmp_path.iterdir()] == ["a.obj"]
+
+
+def test_names_of_materials_differ():
+    named = [e3d.Material(name=name) for name in ("a", "a", "a_2", "a", "a_2_2")]
+    assert material_names(named) == ["a", "a_2", "a_2_2", "a_3", "a_2_2_2"]
+    many = material_names([e3d.Material(name="a")] * 100_000)
+    assert many[-1] == "a_100000"
 
 
 def test_flat_materials_are_not_smooth(tmp_path):

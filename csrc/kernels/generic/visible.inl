@@ -285,16 +285,19 @@ static inline uint64_t visible_met(int x0, int y0, int x1, int y1)
     return met;
 }
 
-/* Before samples of these blocks are written one by one, no nearer than `near`. 0: all of them are nearer. */
-static inline int visible_open(uint64_t met, float near, e3d_visible_tile *tile, const e3d_record_table *table)
+/* Whether all samples of the blocks that a piece meets are nearer. */
+static inline int visible_is_behind(const e3d_piece *p, uint64_t met, float near, const e3d_visible_tile *tile)
 {
-    int open = 0;
-    for (uint64_t left = met; left; left &= left - 1) {
-        int block = __builtin_ctzll(left);
-        open |= !(near > tile->zmax[block]);
-    }
-    if (!open)
-        return 0;
+    uint64_t open = met;
+    int first = p->y0 / RASTER_BLOCK * VISIBLE_BLOCKS & -V_LANES, end = (p->y1 / RASTER_BLOCK + 1) * VISIBLE_BLOCKS;
+    for (; first < end; first += V_LANES)
+        open &= ~((uint64_t)v_bits(v_gt(v_setf(near), v_loadf(tile->zmax + first))) << first);
+    return !open;
+}
+
+/* Before samples of these blocks are written one by one, no nearer than `near`. */
+static inline void visible_open(uint64_t met, float near, e3d_visible_tile *tile, const e3d_record_table *table)
+{
     for (uint64_t left = met & tile->noted; left; left &= left - 1)
         visible_unfold(tile, table, __builtin_ctzll(left));
     for (uint64_t left = met; left; left &= left - 1) {
@@ -302,14 +305,12 @@ static inline int visible_open(uint64_t met, float near, e3d_visible_tile *tile,
         tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
     }
     tile->stale |= met;
-    return 1;
 }
 
-static inline void visible_narrow(const e3d_piece *p, const raster_constants *c, const e3d_record *r,
+static inline void visible_narrow(const e3d_piece *p, const raster_constants *c, uint64_t met, const e3d_record *r,
                                   e3d_visible_tile *tile, const e3d_record_table *table)
 {
-    if (!visible_open(visible_met(p->x0, p->y0, p->x1, p->y1), p->zmin, tile, table))
-        return;
+    visible_open(met, p->zmin, tile, table);
     int strips = (p->x1 - p->x0) / ROW_LANES + 1, y0 = p->y0 & -ROWS;
     int most = E3D_TILE - strips * ROW_LANES;
     int x0 = p->x0 < most ? p->x0 : most;
@@ -387,6 +388,9 @@ static inline void visible_piece(const e3d_record *r, int32_t id, e3d_visible_ti
     p.y0 = e3d_in_tile(p.base_y);
     p.x1 = e3d_in_tile(((right - 128) >> 8) - tile->x);
     p.y1 = e3d_in_tile(((bottom - 128) >> 8) - tile->y);
+    uint64_t met = visible_met(p.x0, p.y0, p.x1, p.y1);
+    if (visible_is_behind(&p, met, r->zmin, tile))
+        return;
     if (right - visible_min3(r->x) <= E3D_TILE * 256 && bottom - visible_min3(r->y) <= E3D_TILE * 256)
         visible_small_edges(r, &p, tile);
     else
@@ -400,7 +404,7 @@ static inline void visible_piece(const e3d_record *r, int32_t id, e3d_visible_ti
     p.slot = (uint32_t)id;
     raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
     if (raster_is_narrow(&p))
-        visible_narrow(&p, &c, r, tile, table);
+        visible_narrow(&p, &c, met, r, tile, table);
     else
         visible_wide(&p, &c, r, tile, table);
 }

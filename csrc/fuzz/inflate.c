@@ -7,7 +7,7 @@ enum { MAX_LENGTH = 15, LITERALS = 288, DISTANCES = 30, ALL = LITERALS + DISTANC
 
 typedef struct stream {
     const uint8_t *bytes;
-    size_t size, bit, done, count;
+    size_t size, bit, done, count, window;
     uint8_t *to;
     int bad;
 } stream;
@@ -129,7 +129,7 @@ static void copy_match(stream *s, int symbol, const code *distances)
     if (s->bad)
         return;
     const size_t distance = base[far] + take_bits(s, far < 4 ? 0 : far / 2 - 1);
-    s->bad |= distance > s->done;
+    s->bad |= distance > s->done || distance > s->window;
     for (uint32_t k = 0; k < length && !s->bad; k++)
         put_byte(s, s->to[s->done - distance]);
 }
@@ -149,9 +149,9 @@ static void copy_coded(stream *s)
     }
 }
 
-size_t inflate_stream(const uint8_t *bytes, size_t size, uint8_t *to, size_t count)
+size_t inflate_stream(const uint8_t *bytes, size_t size, uint8_t *to, size_t count, size_t window)
 {
-    stream s = {.bytes = bytes, .size = size, .to = to, .count = count};
+    stream s = {.bytes = bytes, .size = size, .to = to, .count = count, .window = window};
     for (uint32_t last = 0; !last && !s.bad;) {
         last = take_bits(&s, 1);
         const uint32_t kind = take_bits(&s, 2);

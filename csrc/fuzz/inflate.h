@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 /* Unpacks a stream that must give exactly `count` bytes. Returns how many bytes of it were read; SIZE_MAX if it is
- * not sound. */
-size_t inflate_stream(const uint8_t *bytes, size_t size, uint8_t *to, size_t count);
+ * not sound, or refers to more than `window` bytes before. */
+size_t inflate_stream(const uint8_t *bytes, size_t size, uint8_t *to, size_t count, size_t window);
 
 #endif

@@ -6,6 +6,7 @@
 #include "e3d_images.h"
 #include "fuzz/inflate.h"
 #include "fuzz/input.h"
+#include "images/deflate.h"
 
 enum { PIXEL = 4, HEADER = 33, CHUNK = 12, MOST_COLUMNS = 63, MOST_PIXELS = 192 };
 
@@ -90,7 +91,7 @@ static void claim_file(const uint8_t *file, size_t size, const uint8_t *pixels, 
     const size_t count = height * (1 + PIXEL * width);
     uint8_t *rows = room_for(count, 1);
     CLAIM(length > 6 && ((unsigned)chunk[0] << 8 | chunk[1]) % 31 == 0);
-    CLAIM(inflate_stream(chunk + 2, length - 6, rows, count) == length - 6);
+    CLAIM(inflate_stream(chunk + 2, length - 6, rows, count, DEFLATE_WINDOW) == length - 6);
     CLAIM(big_endian(chunk + length - 4) == adler_of(rows, count));
     claim_rows(rows, pixels, width, height, stride);
     free(rows);

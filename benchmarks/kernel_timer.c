@@ -49,7 +49,7 @@ static void make_transform(random_stream *r)
 static void run_transform(void)
 {
     table->transform(transform_work.positions, E3D_CLUSTER_VERTICES, E3D_CLUSTER_VERTICES,
-                     transform_work.matrix, &transform_work.viewport, &transform_work.out);
+                     transform_work.matrix, &transform_work.viewport, 0, &transform_work.out);
 }
 
 /* ---- record and visible: triangles in one tile ---- */
@@ -152,6 +152,7 @@ static struct {
     uint16_t texels[4 * (TEXTURE_SIDE + 2) * (TEXTURE_SIDE + 2) * 2];
     e3d_texture_view texture;
     e3d_light lights[LIGHTS];
+    float reach[5][LIGHTS + E3D_PAD];
     e3d_lighting lighting;
     e3d_batch batch;
 } shade_work;
@@ -178,14 +179,18 @@ static void make_lights(random_stream *r)
                              .range = 100.0f};
         for (int k = 0; k < 3; k++) {
             light->color[k] = random_float(r, 0.2f, 1.0f);
-            light->position[k] = random_float(r, -4.0f, 4.0f);
+            shade_work.reach[k][n] = light->position[k] = random_float(r, -4.0f, 4.0f);
         }
+        shade_work.reach[3][n] = light->range * light->range;
+        shade_work.reach[4][n] = 1.0f / shade_work.reach[3][n];
     }
     shade_work.lighting = (e3d_lighting){.lights = shade_work.lights,
                                          .light_count = LIGHTS,
                                          .ambient = {0.1f, 0.1f, 0.1f},
                                          .clamp = {0.0f, 100.0f},
                                          .eye = {0.0f, 0.0f, 5.0f, 1.0f}};
+    for (int row = 0; row < 5; row++)
+        shade_work.lighting.reach[row] = shade_work.reach[row];
 }
 
 static void make_batch(random_stream *r)

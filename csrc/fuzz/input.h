@@ -6,6 +6,8 @@
 #ifndef E3D_FUZZ_INPUT_H
 #define E3D_FUZZ_INPUT_H
 
+#include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -65,6 +67,19 @@ static inline void *room_for(size_t count, size_t size)
     void *room = malloc(count * size ? count * size : 1);
     CLAIM(room);
     return room;
+}
+
+/* Three numbers each, in room_for them. */
+static inline void *take_positions(input *in, size_t count, bool are_doubles)
+{
+    const size_t size = are_doubles ? sizeof(double) : sizeof(float);
+    uint8_t *positions = room_for(3 * count, size);
+    for (size_t k = 0; k < 3 * count; k++) {
+        const double number = take_number(in);
+        const float rounded = fabs(number) <= 3e38 ? (float)number : (float)(number > 0 ? INFINITY : NAN);
+        memcpy(positions + k * size, are_doubles ? (const void *)&number : (const void *)&rounded, size);
+    }
+    return positions;
 }
 
 #endif

@@ -13,19 +13,6 @@ enum { MOST_TRIANGLES = 96 };
 
 static int32_t faces[3 * MOST_TRIANGLES], groups[3 * MOST_TRIANGLES];
 
-/* Positions of exactly the memory that they take. */
-static void *take_positions(input *in, size_t count, bool are_doubles)
-{
-    const size_t size = are_doubles ? sizeof(double) : sizeof(float);
-    uint8_t *positions = room_for(3 * count, size);
-    for (size_t k = 0; k < 3 * count; k++) {
-        const double number = take_number(in);
-        const float rounded = fabs(number) <= 3e38 ? (float)number : (float)(number > 0 ? INFINITY : NAN);
-        memcpy(positions + k * size, are_doubles ? (const void *)&number : (const void *)&rounded, size);
-    }
-    return positions;
-}
-
 static bool are_in_range(const e3d_surface *surface)
 {
     bool all = true;

@@ -115,7 +115,7 @@ typedef struct update_job {
     int32_t objects, count; /* of the list */
 } update_job;
 
-/* Those above have their world poses: a task writes the rows of its own nodes alone. */
+/* Those above have their world poses and keep their flags: a task writes the rows of its own nodes alone. */
 static void update_some(void *argument, int task)
 {
     const update_job *job = argument;
@@ -126,7 +126,6 @@ static void update_some(void *argument, int task)
         if (g->flags[slot] & E3D_NODE_STALE)
             find_from_parent(g, slot);
         find_bounds(g, slot, job->boxes, job->objects);
-        g->flags[slot] &= ~E3D_NODE_LISTED;
     }
 }
 
@@ -135,9 +134,12 @@ void e3d_graph_update(e3d_graph *g, const double *boxes, int32_t objects, int th
     update_job job = {g, boxes, objects, g->changed_count};
     int32_t tasks = (g->changed_count + NODES_A_TASK - 1) / NODES_A_TASK;
     e3d_fpenv saved = e3d_fpenv_enter();
-    for (int32_t i = 0; i < g->changed_count; i++)
-        if (g->first_child[g->changed[i]] >= 0)
-            e3d_graph_find_world(g, g->changed[i]);
+    for (int32_t i = 0; i < g->changed_count; i++) {
+        int32_t slot = g->changed[i];
+        g->flags[slot] &= ~E3D_NODE_LISTED;
+        if (g->first_child[slot] >= 0)
+            e3d_graph_find_world(g, slot);
+    }
     e3d_pool_share(threads, tasks, update_some, &job);
     e3d_fpenv_leave(saved);
 }

@@ -1,4 +1,4 @@
-/* The core without Python: draws random and hostile scenes, prints one hash a scene.
+/* The core without Python: draws random and hostile scenes, moves random graphs, prints one hash each.
  *
  * Usage: driver [--scenes N] [--first N] [--backend NAME] [--threads N]
  * Out:   "scene 0007 0123456789abcdef ok" a line; what depends on the machine goes to standard
@@ -11,6 +11,7 @@
 
 #include "driver/canvas_scene.h"
 #include "driver/compare.h"
+#include "driver/graph_scene.h"
 
 typedef struct options {
     long scenes, first;
@@ -80,6 +81,8 @@ int main(int count, char **arguments)
         failures += report("rasterize", i, compare_rasterize(r, &o.plan, title));
         snprintf(title, sizeof title, "canvas %04ld", i);
         failures += report("canvas", i, compare_canvas(r, title));
+        snprintf(title, sizeof title, "graph %04ld", i);
+        failures += report("graph", i, compare_graph(r, &o.plan, title));
     }
     if (failures > 0)
         fprintf(stderr, "driver: %d scenes differ between runs\n", failures);

@@ -12,7 +12,7 @@ static const double OBJECT_BOXES[OBJECTS][E3D_OBJECT_BOX] = {{-1, -1, -1, 1, 1, 
 
 /* A graph with its memory. */
 typedef struct nodes {
-    int32_t words[10][MOST_NODES];
+    int32_t words[9][MOST_NODES];
     double numbers[12 + 4 + 3 + 12 + E3D_BOX][MOST_NODES];
     uint32_t versions[2][MOST_NODES];
     uint8_t flags[MOST_NODES];

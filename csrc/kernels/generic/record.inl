@@ -143,13 +143,12 @@ static inline void record_try(const e3d_record_request *q, int first, record_lis
     setup_span down = setup_samples(ylo, yhi, q->viewport->height);
     vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* than 32-bit products hold */
     vmask tiny = v_mandnot(v_mand(setup_narrow(across, 2), setup_narrow(down, 2)), large);
-    uint32_t tinies = v_bits(tiny), keep = q->count - first >= V_LANES ? ~0u : (1u << (q->count - first)) - 1;
+    uint32_t tinies = v_bits(tiny), keep = setup_tail(q->count - first);
     vi32 cover = v_seti(0);
     if (tinies) {
         cover = v_seli(tiny, record_cover(x, y, across, down), cover);
         keep &= ~(tinies & v_bits(v_eqi(cover, v_seti(0))));
     }
-    keep &= v_bits(v_eqi(x[0], x[0])); /* all lanes */
     v_pack8(list->cover + list->count, cover, keep);
     list->count += v_pack8(list->triangles + list->count, v_loadu8(triangles), keep);
 }
@@ -204,8 +203,7 @@ static inline int record_vector(const e3d_record_request *q, const record_list *
     record_plane p = record_plane_of(&c, across, down, &finite);
     vmask back = q->mirrored ? swapped : v_mnot(swapped); /* front faces turn the other way, Y being down */
     vi32 meta = record_meta(v_loadu8(list->cover + first), back, swapped);
-    uint32_t tail = count >= V_LANES ? ~0u : (1u << count) - 1;
-    uint32_t keep = v_bits(v_mandnot(finite, drop)) & tail;
+    uint32_t keep = v_bits(v_mandnot(finite, drop)) & setup_tail(count);
     const vi32 words[16] = {c.x[0], c.x[1], c.x[2], c.y[0], c.y[1], c.y[2], v_asi(p.z0), v_asi(p.gx),
                             v_asi(p.gy), v_asi(p.zmin), v_asi(p.zmax), v_asi(c.iw[0]), v_asi(c.iw[1]),
                             v_asi(c.iw[2]), v_loadi(order), meta};

@@ -211,10 +211,11 @@ struct e3d_renderer {
     e3d_array tasks, items;     /* e3d_item, near ones first */
     e3d_array rows, rows_before; /* e3d_memory_row of each turn: what `seen` and `seen_before` are of */
     e3d_array seen_before;
-    e3d_array seen;             /* uint8_t for each group of the frame: bit k tells whether the last frame showed cluster k */
+    e3d_array seen;             /* uint8_t for each group of the frame: bit k tells whether cluster k showed when it was last tried */
     e3d_array tile_depths;      /* e3d_tile_depths */
     e3d_visible_tile *kept;     /* over the rounds of a frame */
     size_t kept_room;
+    uint32_t trials;                /* of what was seen; grows with each frame that remembers */
     int32_t frames_without_rounds; /* still to come: lately rounds did not pay */
     int (*poll)(void *);
     void *poll_user;
@@ -223,7 +224,7 @@ struct e3d_renderer {
 /* Which items are drawn now. */
 typedef enum e3d_choice {
     E3D_ALL_ITEMS = 0,
-    E3D_SEEN_ITEMS,   /* what the last frame showed */
+    E3D_SEEN_ITEMS,   /* what showed when it was last tried */
     E3D_UNSEEN_ITEMS, /* the others */
 } e3d_choice;
 

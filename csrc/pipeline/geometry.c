@@ -280,16 +280,15 @@ static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cl
     mark(w, item, fate);
 }
 
-/* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those whose turn it is. Bit k is
+/* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those that are in `asked`. Bit k is
  * cluster k. */
-static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned wanted)
+static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked, unsigned wanted)
 {
     const e3d_mesh *mesh = w->draw->mesh;
-    const e3d_round *round = &w->context->round;
     const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
-    unsigned all = (1u << group->clusters) - 1, asked = round->choice == E3D_SEEN_ITEMS ? wanted & all : all, shown = asked;
+    unsigned shown = asked;
     e3d_fate fates[E3D_GROUP_CLUSTERS] = {E3D_FATE_DRAWN};
-    if (round->tested && e3d_is_hidden(w->context, &item->view)) {
+    if (w->context->round.tested && e3d_is_hidden(w->context, &item->view)) {
         shown = 0;
         for (int k = 0; k < group->clusters; k++)
             fates[k] = E3D_FATE_OCCLUDED;
@@ -306,20 +305,32 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     return shown;
 }
 
+/* What was seen is drawn untried, so it is tried in turn whether it still is: a share of it in each frame. */
+enum { FRAMES_A_TRIAL = 4 };
+
 static void run_item(walker *w, const e3d_item *item)
 {
     e3d_context *context = w->context;
-    e3d_choice choice = context->round.choice;
-    unsigned seen = choice == E3D_ALL_ITEMS ? 0 : context->seen[item->unit];
-    if (choice == E3D_SEEN_ITEMS && !seen)
-        return;
     w->instance = &context->instances[item->instance];
     w->draw = &context->draws[w->instance->draw];
     w->order = w->instance->order;
     const e3d_group_box *group = &w->draw->mesh->groups[item->group];
-    unsigned shown = draw_group(w, item, group, choice == E3D_SEEN_ITEMS ? seen : ~seen);
-    if (context->kept && choice != E3D_SEEN_ITEMS)
-        context->seen[item->unit] = (uint8_t)shown;
+    unsigned all = (1u << group->clusters) - 1;
+    if (context->round.choice == E3D_ALL_ITEMS) {
+        unsigned shown = draw_group(w, item, group, all, all);
+        if (context->kept)
+            context->seen[item->unit] = (uint8_t)shown;
+        return;
+    }
+    unsigned seen = context->seen[item->unit];
+    if (context->round.choice == E3D_SEEN_ITEMS) {
+        if (seen)
+            draw_group(w, item, group, seen, seen);
+        return;
+    }
+    unsigned trusted = (item->unit + context->renderer->trials) % FRAMES_A_TRIAL ? seen : 0;
+    if (trusted != all)
+        context->seen[item->unit] = (uint8_t)(trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));
 }
 
 /* ---- the walk ---- */

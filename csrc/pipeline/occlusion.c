@@ -2,7 +2,7 @@
  *
  * Tiles are kept over the rounds of a frame; after each round the farthest depth of every block of 8 x 8 samples is noted, and
  * what is in a box that is strictly behind all samples that it may touch is hidden: behind a block (Greene, Kass and Miller
- * 1993), or else one by one. What the last frame showed goes first; the picture does not depend on it.
+ * 1993), or else one by one. What the last frames showed goes first; the picture does not depend on it.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -269,6 +269,7 @@ int e3d_remember(e3d_context *context)
     exchange(&renderer->rows, &renderer->rows_before);
     exchange(&renderer->seen, &renderer->seen_before);
     size_t old_count = renderer->rows_before.count;
+    renderer->trials++;
     renderer->rows.count = 0; /* until it is whole */
     if (!e3d_array_reserve(&renderer->rows, count + 1, sizeof(e3d_memory_row)) ||
         !e3d_array_reserve(&renderer->seen, groups + 1, 1))

@@ -73,7 +73,7 @@ def test_unoccluded_and_drawn(threads):
         scene.add(mesh, translation=place)
     camera, pose = e3d.PerspectiveCamera(1.2, znear=0.1, zfar=200.0), np.eye(4)
     with e3d.Renderer(*SIZE, threads=threads) as renderer:
-        for _ in range(3):  # until what is seen is known
+        for _ in range(6):  # until all that was seen at first is tried again
             outputs = ("object_id", "triangle_id")
             frame = renderer.render(scene, (camera, pose), culling="always", outputs=outputs)
     normals = np.concatenate([np.eye(3), -np.eye(3)])

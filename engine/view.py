@@ -1,7 +1,7 @@
 """From where a frame looks: the matrices that the core gets, and depths along the view axis.
 
-In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. Matrices are float64
-products in a fixed order of operations, so that they have the same bits on every machine.
+In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. Matrices are found in
+C (csrc/scene/view.c), in float64 and a fixed order of operations: the same bits on every machine.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from . import linalg
+from ._native.scene_graph import camera_view
 from .attributes import matrix4
 from .cameras import Camera
 from .errors import InvalidArgumentError
@@ -22,6 +23,8 @@ class View:
     ----------
     camera : Camera
     projection, clip_from_world, view_from_world : (4, 4) float64
+    towards_viewer : tuple of 3 float
+        Of unit length, in the world.
     eye : tuple of 4 float
         The camera's world position and 1; without perspective the direction to the viewer and 0.
     """
@@ -38,17 +41,15 @@ class View:
         if previous is not None and previous._lens == self._lens:
             projection = previous.projection  # only the pose has changed
         else:
-            projection = camera.projection(width, height)
+            projection = np.ascontiguousarray(camera.projection(width, height), np.float64)
         self.projection = projection
         self.camera = camera
         self._pose_bytes = pose.tobytes()
-        self.view_from_world = linalg.inverse(pose)
-        self.clip_from_world = linalg.multiply(projection, self.view_from_world)
-        self.towards_viewer = tuple(linalg.normalize(pose[:3, 2]).tolist())
-        if any(projection[3].tolist()[:3]):
-            self.eye = (*pose[:3, 3].tolist(), 1.0)
-        else:
-            self.eye = (*self.towards_viewer, 0.0)
+        self.view_from_world, self.clip_from_world = np.empty((4, 4)), np.empty((4, 4))
+        look = camera_view(projection, pose, self.view_from_world, self.clip_from_world)
+        if look is None:
+            raise InvalidArgumentError("the camera's pose has no inverse: it is singular")
+        self.towards_viewer, self.eye = look
 
     def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
         """Whether the view is still that of this camera, pose and image."""

@@ -205,6 +205,18 @@ int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_sh
                       int32_t shape_count, const double origin[3], const double direction[3],
                       double farthest, e3d_cull cull, e3d_hit *hit);
 
+/* ---- Cameras ---- */
+
+/* What a frame needs of a camera at a pose. */
+typedef struct e3d_camera {
+    double view_from_world[16], clip_from_world[16];
+    double towards_viewer[3]; /* unit, in the world */
+    double eye[4];            /* position and 1; without perspective towards_viewer and 0 */
+} e3d_camera;
+
+/* 0 if the pose has no inverse. */
+int e3d_camera_view(const double clip_from_view[16], const double world_from_view[16], e3d_camera *out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -144,3 +144,13 @@ cdef extern from "e3d_scene.h" nogil:
         e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
         const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, bint batch,
     )
+
+    ctypedef struct e3d_camera:
+        double view_from_world[16]
+        double clip_from_world[16]
+        double towards_viewer[3]
+        double eye[4]
+
+    bint e3d_camera_view(
+        const double *clip_from_view, const double *world_from_view, e3d_camera *out
+    )

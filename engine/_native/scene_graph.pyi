@@ -109,3 +109,9 @@ def instance_boxes(
     poses: NDArray[np.float32], box: NDArray[np.float64], boxes: NDArray[np.float64]
 ) -> None: ...
 def union(boxes: NDArray[np.float64], out: NDArray[np.float64]) -> bool: ...
+def camera_view(
+    clip_from_view: NDArray[np.float64],
+    world_from_view: NDArray[np.float64],
+    view_from_world: NDArray[np.float64],
+    clip_from_world: NDArray[np.float64],
+) -> tuple[tuple[float, float, float], tuple[float, float, float, float]] | None: ...

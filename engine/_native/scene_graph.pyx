@@ -537,3 +537,30 @@ cdef int copy_affine(const double *pose, double[:, ::1] out) except -1:
     out[3, 0] = out[3, 1] = out[3, 2] = 0.0
     out[3, 3] = 1.0
     return 0
+
+
+def camera_view(
+    const double[:, ::1] clip_from_view not None,
+    const double[:, ::1] world_from_view not None,
+    double[:, ::1] view_from_world not None,
+    double[:, ::1] clip_from_world not None,
+):
+    """Fill the matrices of a camera at a pose; return the direction to the viewer and the eye.
+
+    None where the pose has no inverse.
+    """
+    cdef e3d_camera camera
+    if (
+        clip_from_view.shape[0] != 4 or clip_from_view.shape[1] != 4
+        or world_from_view.shape[0] != 4 or world_from_view.shape[1] != 4
+        or view_from_world.shape[0] != 4 or view_from_world.shape[1] != 4
+        or clip_from_world.shape[0] != 4 or clip_from_world.shape[1] != 4
+    ):
+        raise InvalidArgumentError("a matrix is 4x4")
+    if not e3d_camera_view(&clip_from_view[0, 0], &world_from_view[0, 0], &camera):
+        return None
+    memcpy(&view_from_world[0, 0], camera.view_from_world, sizeof(camera.view_from_world))
+    memcpy(&clip_from_world[0, 0], camera.clip_from_world, sizeof(camera.clip_from_world))
+    cdef double *t = camera.towards_viewer
+    cdef double *e = camera.eye
+    return (t[0], t[1], t[2]), (e[0], e[1], e[2], e[3])

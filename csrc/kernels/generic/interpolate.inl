@@ -80,10 +80,11 @@ static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, i
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         element_lanes lanes = lanes_of(batch->surface + i);
+        const e3d_surfaces *s = surfaces_from(surfaces, &lanes);
         if (lanes.same)
-            interpolate_vector(batch, i, surfaces, &lanes, 1, wanted);
+            interpolate_vector(batch, i, s, &lanes, 1, wanted);
         else
-            interpolate_vector(batch, i, surfaces, &lanes, 0, wanted);
+            interpolate_vector(batch, i, s, &lanes, 0, wanted);
     }
 }
 
@@ -103,7 +104,7 @@ static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_v
         element_lanes lanes = lanes_of(batch->surface + i);
         const vf32 b[3] = {v_loadf(batch->b[0] + i), v_loadf(batch->b[1] + i), v_loadf(batch->b[2] + i)};
         vf32 color[3] = {v_loadf(batch->color[0] + i), v_loadf(batch->color[1] + i), v_loadf(batch->color[2] + i)};
-        tint_vector(surfaces, &lanes, b, by_vertex, by_instance, color);
+        tint_vector(surfaces_from(surfaces, &lanes), &lanes, b, by_vertex, by_instance, color);
         for (int c = 0; c < 3; c++)
             v_storef(batch->color[c] + i, color[c]);
     }
@@ -171,6 +172,6 @@ static void kernel_select_level(e3d_batch *batch, const e3d_surfaces *surfaces, 
     for (int i = 0; i < batch->count; i += V_LANES) {
         element_lanes lanes = lanes_of(batch->surface + i);
         const vf32 uv[2] = {v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i)};
-        v_storei(batch->lod + i, level_of(surfaces, &lanes, uv, v_loadf(batch->r + i), texture));
+        v_storei(batch->lod + i, level_of(surfaces_from(surfaces, &lanes), &lanes, uv, v_loadf(batch->r + i), texture));
     }
 }

@@ -85,16 +85,17 @@ static void kernel_paint(const e3d_batch *batch, const e3d_surfaces *surfaces, c
     for (int i = 0; i < batch->count; i += V_LANES) {
         element_lanes lanes = lanes_of(batch->surface + i);
         paint_lanes *out = &waiting[paint->texture ? i / V_LANES : 0];
+        const e3d_surfaces *s = surfaces_from(surfaces, &lanes);
         vi32 sample = v_loadi(batch->sample + i);
         if (lanes.same)
-            paint_interpolate(surfaces, &lanes, 1, sample, paint, &plan, i, out);
+            paint_interpolate(s, &lanes, 1, sample, paint, &plan, i, out);
         else
-            paint_interpolate(surfaces, &lanes, 0, sample, paint, &plan, i, out);
+            paint_interpolate(s, &lanes, 0, sample, paint, &plan, i, out);
         if (!paint->texture)
-            paint_finish(batch, surfaces, &lanes, paint, &plan, i, out, rgba);
+            paint_finish(batch, s, &lanes, paint, &plan, i, out, rgba);
     }
     for (int i = 0; i < batch->count && paint->texture; i += V_LANES) {
         element_lanes lanes = lanes_of(batch->surface + i);
-        paint_finish(batch, surfaces, &lanes, paint, &plan, i, &waiting[i / V_LANES], rgba);
+        paint_finish(batch, surfaces_from(surfaces, &lanes), &lanes, paint, &plan, i, &waiting[i / V_LANES], rgba);
     }
 }

@@ -15,12 +15,13 @@ static void kernel_project(e3d_surfaces *s, const e3d_viewport *viewport)
     vf32 scale_x = v_setf(viewport->scale_x), scale_y = v_setf(viewport->scale_y);
     for (int n = 0; n < s->count; n += V_LANES) {
         element_lanes lanes = lanes_of(s->matrix + n);
+        const e3d_surfaces *matrices = surfaces_from(s, &lanes);
         vi32 x[3], y[3], kind = v_loadi(s->project + n), zero = v_seti(0), one = v_seti(1);
         vf32 iw[3], m[3][4];
         vmask chosen = v_mnot(v_eqi(kind, zero));
         for (int row = 0; row < 3; row++)
             for (int c = 0; c < 4; c++)
-                m[row][c] = take(s->clip[4 * (row < 2 ? row : 3) + c], &lanes, lanes.same);
+                m[row][c] = take(matrices->clip[4 * (row < 2 ? row : 3) + c], &lanes, lanes.same);
         for (int k = 0; k < 3; k++) {
             const vf32 v[3] = {v_loadf(s->position[0][k] + n), v_loadf(s->position[1][k] + n),
                                v_loadf(s->position[2][k] + n)};

@@ -87,9 +87,15 @@ static inline element_lanes lanes_of(const int32_t *elements)
     return lanes;
 }
 
+/* The surfaces from the first of one vector's on. (One address, from which all arrays are at constant offsets.) */
+static inline const e3d_surfaces *surfaces_from(const e3d_surfaces *s, const element_lanes *lanes)
+{
+    return (const e3d_surfaces *)((const float *)s + lanes->first);
+}
+
 static inline vf32 take(const float *elements, const element_lanes *lanes, int same)
 {
-    return same ? v_setf(elements[lanes->first]) : v_pick(elements + lanes->first, lanes->pick);
+    return same ? v_setf(elements[0]) : v_pick(elements, lanes->pick);
 }
 
 static inline void take_three(const e3d_surface_floats *rows, const element_lanes *lanes, int same, vf32 out[3])
@@ -144,11 +150,12 @@ static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)
 {
     for (int n = 0; n < s->count; n += V_LANES) {
         element_lanes lanes = lanes_of(s->matrix + n);
+        const e3d_surfaces *matrices = surfaces_from(s, &lanes);
         surface_planes(s, n, tile_x, tile_y);
         if (wanted & E3D_WANT_POSITION)
-            surface_transform(s->world, 4, &lanes, s->position, 3, n);
+            surface_transform(matrices->world, 4, &lanes, s->position, 3, n);
         if (wanted & E3D_WANT_NORMAL)
-            surface_transform(s->normals, 3, &lanes, s->normal, wanted & E3D_WANT_FLAT ? 1 : 3, n);
+            surface_transform(matrices->normals, 3, &lanes, s->normal, wanted & E3D_WANT_FLAT ? 1 : 3, n);
         if (wanted & E3D_WANT_LEVEL)
             surface_steps(s, n);
     }

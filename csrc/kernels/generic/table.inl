@@ -8,6 +8,8 @@
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
 
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/record.inl"

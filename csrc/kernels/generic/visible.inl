@@ -423,10 +423,16 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     }
 }
 
-/* A depth that is no nearer than what is kept changes nothing, not even the bounds: so all are written. */
+static int __attribute__((noinline, cold)) fragment_comes_first(int32_t id, int32_t kept, const e3d_record_table *table)
+{
+    return kept >= 0 && e3d_order_at(table, (uint32_t)id) < e3d_order_at(table, (uint32_t)kept);
+}
+
+/* A depth that is no nearer than what is kept changes nothing: so all are written, without a branch that few could foresee. */
 static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *b)
 {
     uint64_t met = 0;
+    float near = E3D_BEYOND_FAR;
     for (uint32_t i = 0; i < b->count; i++) {
         int at = b->sample[i], block = at / (RASTER_BLOCK * E3D_TILE) * VISIBLE_BLOCKS + at % E3D_TILE / RASTER_BLOCK;
         float z = b->z[i];
@@ -435,14 +441,21 @@ static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_tab
                 continue;
             visible_unfold(tile, table, block);
         }
-        float old = tile->z[at], zmin = tile->zmin[block];
+        float old = tile->z[at];
         int32_t kept = tile->id[at], nearer = -(z < old);
-        if (__builtin_expect(z == old, 0) && kept >= 0)
-            nearer = -(e3d_order_at(table, (uint32_t)b->id[i]) < e3d_order_at(table, (uint32_t)kept));
-        tile->z[at] = nearer ? z : old;
+        if (__builtin_expect(z == old, 0) && fragment_comes_first(b->id[i], kept, table)) {
+            tile->z[at] = z;
+            tile->id[at] = b->id[i];
+            continue;
+        }
+        tile->z[at] = z < old ? z : old;
         tile->id[at] = kept ^ ((kept ^ b->id[i]) & nearer);
-        tile->zmin[block] = z < zmin ? z : zmin;
+        near = z < near ? z : near;
         met |= 1ull << block;
+    }
+    for (uint64_t left = met; left; left &= left - 1) {
+        int block = __builtin_ctzll(left);
+        tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
     }
     tile->stale |= met;
 }

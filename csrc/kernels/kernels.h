@@ -109,23 +109,36 @@ typedef struct e3d_small_triangles {
     float zn[3][E3D_SMALLS + E3D_PAD];
 } e3d_small_triangles;
 
-/* What they cover, sample by sample; the place is tile << E3D_PLACE_BITS | sample in the tile. */
-enum { E3D_PLACE_BITS = 2 * E3D_TILE_SHIFT };
-typedef struct e3d_fragments {
-    float z[E3D_MOST_FRAGMENTS + E3D_PAD];
-    int32_t id[E3D_MOST_FRAGMENTS + E3D_PAD];
-    uint32_t place[E3D_MOST_FRAGMENTS + E3D_PAD];
-    int32_t count, triangles; /* triangles that have fragments */
-} e3d_fragments;
+/* A chain of blocks; without any, both are E3D_NO_BLOCK. */
+enum { E3D_NO_BLOCK = 0xFFFFFFFFu };
+typedef struct e3d_bin {
+    uint32_t first, last;
+} e3d_bin;
 
-/* Fragments of one tile, in order of arrival. */
-enum { E3D_BLOCK_FRAGMENTS = 100 };
+/* What they cover, sample by sample: fragments of one tile, in order of arrival. A whole vector is written, so that the last
+ * block of a bin takes none where there is less room than that. */
+enum { E3D_BLOCK_FRAGMENTS = 127 };
 typedef struct e3d_fragment_block {
     uint32_t next, count;
     float z[E3D_BLOCK_FRAGMENTS];
     int32_t id[E3D_BLOCK_FRAGMENTS];
     uint16_t sample[E3D_BLOCK_FRAGMENTS];
 } e3d_fragment_block;
+
+_Static_assert(sizeof(e3d_fragment_block) % 64 == 0, "blocks are whole cache lines");
+
+/* Blocks in use, and one bin for each tile. There is room for as many blocks more as fragments of E3D_SMALLS triangles take. */
+typedef struct e3d_fragment_bins {
+    e3d_fragment_block *blocks;
+    e3d_bin *bins;
+    uint32_t count;
+    int32_t fragments, triangles; /* made; triangles that they are of */
+} e3d_fragment_bins;
+
+static inline size_t e3d_fragment_blocks_most(size_t tiles)
+{
+    return (tiles < E3D_MOST_FRAGMENTS ? tiles : E3D_MOST_FRAGMENTS) + E3D_MOST_FRAGMENTS / (E3D_BLOCK_FRAGMENTS - E3D_PAD);
+}
 
 /* ---- raster ---- */
 
@@ -301,8 +314,8 @@ typedef struct e3d_kernels {
                   const e3d_viewport *viewport, e3d_survivors *out);
     /* Records and their tiles; how many. Room for as many as are asked for. */
     int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
-    /* The fragments of small triangles, which are consumed; tiles in a row of them. */
-    void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragments *out);
+    /* The fragments of small triangles, which are consumed, to their tiles; tiles in a row of them. */
+    void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out);
     void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);

@@ -3,8 +3,6 @@
  * A triangle of a few samples is cheaper as these than as a record: 10 bytes a sample, written and read one after the other. What
  * shading needs of the triangle it finds again by its ID.
  */
-#include <string.h>
-
 #include "pipeline/frame.h"
 
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
@@ -64,72 +62,34 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
 
 /* ---- fragments to tiles ---- */
 
-/* Blocks are in no cache when they are written or read first. */
+void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker)
+{
+    e3d_fragment_set *set = &worker->fragments;
+    size_t most = e3d_fragment_blocks_most((size_t)e3d_tile_count(context));
+    if (!set->triangles.count)
+        return;
+    if (!e3d_array_reserve(&set->blocks, set->blocks.count + most, sizeof(e3d_fragment_block))) {
+        set->triangles.count = 0;
+        worker->failed = 1;
+        return;
+    }
+    e3d_fragment_bins out = {.blocks = set->blocks.data, .bins = set->bins.data, .count = (uint32_t)set->blocks.count};
+    context->kernels->fragments(&set->triangles, &context->viewport, context->tiles_x, &out);
+    set->blocks.count = out.count;
+    worker->counters.records += out.triangles;
+    worker->counters.triangles_drawn += out.triangles;
+    worker->counters.bin_entries += out.fragments;
+}
+
+/* ---- to the visible surface ---- */
+
+/* Blocks are in no cache when they are read first. */
 static inline __attribute__((always_inline)) void fetch_block(const e3d_fragment_block *block)
 {
     enum { LINE = 64 };
     for (size_t at = 0; at < sizeof *block; at += LINE)
         __builtin_prefetch((const char *)block + at);
 }
-
-/* The tile's last block, with room; NULL when memory is out. */
-static inline e3d_fragment_block *open_block(e3d_fragment_set *set, e3d_bin *bin)
-{
-    e3d_fragment_block *blocks = set->blocks.data;
-    if (bin->last != E3D_NO_BLOCK && blocks[bin->last].count < E3D_BLOCK_FRAGMENTS)
-        return &blocks[bin->last];
-    if (!e3d_array_reserve(&set->blocks, set->blocks.count + 1, sizeof *blocks))
-        return NULL;
-    blocks = set->blocks.data;
-    uint32_t fresh = (uint32_t)set->blocks.count++;
-    fetch_block(&blocks[fresh]);
-    blocks[fresh].next = E3D_NO_BLOCK;
-    blocks[fresh].count = 0;
-    *(bin->last == E3D_NO_BLOCK ? &bin->first : &blocks[bin->last].next) = fresh;
-    bin->last = fresh;
-    return &blocks[fresh];
-}
-
-/* Each to the tile that it lies in, which mostly is that of the one before; 0 when memory is out. */
-static int bin_fragments(e3d_fragment_set *set)
-{
-    const e3d_fragments *from = &set->fragments;
-    e3d_fragment_block *block = NULL;
-    uint32_t tile = 0, count = E3D_BLOCK_FRAGMENTS;
-    for (int32_t i = 0; i < from->count; i++) {
-        uint32_t place = from->place[i];
-        if (count == E3D_BLOCK_FRAGMENTS || place >> E3D_PLACE_BITS != tile) {
-            if (block)
-                block->count = count;
-            tile = place >> E3D_PLACE_BITS;
-            block = open_block(set, (e3d_bin *)set->bins.data + tile);
-            if (!block)
-                return 0;
-            count = block->count;
-        }
-        block->z[count] = from->z[i];
-        block->id[count] = from->id[i];
-        block->sample[count++] = (uint16_t)(place % E3D_TILE_SAMPLES);
-    }
-    if (block)
-        block->count = count;
-    return 1;
-}
-
-void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker)
-{
-    e3d_fragment_set *set = &worker->fragments;
-    if (!set->triangles.count)
-        return;
-    context->kernels->fragments(&set->triangles, &context->viewport, context->tiles_x, &set->fragments);
-    worker->counters.records += set->fragments.triangles;
-    worker->counters.triangles_drawn += set->fragments.triangles;
-    worker->counters.bin_entries += set->fragments.count;
-    if (!bin_fragments(set))
-        worker->failed = 1;
-}
-
-/* ---- to the visible surface ---- */
 
 void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number)
 {

@@ -71,12 +71,6 @@ typedef struct e3d_bin_block {
     uint32_t id[30];
 } e3d_bin_block;
 
-enum { E3D_NO_BLOCK = 0xFFFFFFFFu };
-
-typedef struct e3d_bin {
-    uint32_t first, last;
-} e3d_bin;
-
 /* One thread's records of one pass. */
 typedef struct e3d_record_set {
     e3d_array records; /* e3d_record */
@@ -94,7 +88,6 @@ typedef struct e3d_fragment_set {
     e3d_array bins;   /* e3d_bin, one a tile */
     e3d_array drawn;  /* e3d_drawn_cluster: of the whole frame, since IDs tell of them */
     e3d_small_triangles triangles; /* that are fragments soon */
-    e3d_fragments fragments;
 } e3d_fragment_set;
 
 /* A box as the camera sees it. */

@@ -63,7 +63,7 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_tile_span:
         pass
 
-    ctypedef struct e3d_fragments:
+    ctypedef struct e3d_bin:
         pass
 
     ctypedef struct e3d_small_triangles:
@@ -71,6 +71,14 @@ cdef extern from "kernels/kernels.h" nogil:
 
     ctypedef struct e3d_fragment_block:
         pass
+
+    ctypedef struct e3d_fragment_bins:
+        e3d_fragment_block *blocks
+        e3d_bin *bins
+        uint32_t count
+        int32_t fragments, triangles
+
+    size_t e3d_fragment_blocks_most(size_t tiles)
 
     ctypedef struct e3d_drawn_cluster:
         pass
@@ -129,7 +137,7 @@ cdef extern from "kernels/kernels.h" nogil:
                       int fragments, const e3d_viewport *viewport, e3d_survivors *out)
         int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans)
         void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x,
-                          e3d_fragments *out)
+                          e3d_fragment_bins *out)
         void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile)
         void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile)

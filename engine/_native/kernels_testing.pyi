@@ -59,7 +59,15 @@ class Kernels:
         out: _Bytes,
         spans: _Bytes,
     ) -> int: ...
-    def fragments(self, triangles: _Bytes, viewport: _Bytes, tiles_x: int, out: _Bytes) -> None: ...
+    def fragments(
+        self,
+        triangles: _Bytes,
+        viewport: _Bytes,
+        tiles_x: int,
+        blocks: _Bytes,
+        bins: _Bytes,
+        count: int,
+    ) -> tuple[int, int, int]: ...
     def raster_depth(self, pieces: _Bytes, z: _Floats, slot: _Integers, orders: _Words) -> None: ...
     def raster_overwrite(
         self, pieces: _Bytes, z: _Floats, slot: _Integers, orders: _Words

@@ -53,7 +53,7 @@ STRUCT_SIZES = {
     "record": sizeof(e3d_record),
     "tile_span": sizeof(e3d_tile_span),
     "small_triangles": sizeof(e3d_small_triangles),
-    "fragments": sizeof(e3d_fragments),
+    "bin": sizeof(e3d_bin),
     "fragment_block": sizeof(e3d_fragment_block),
     "drawn_cluster": sizeof(e3d_drawn_cluster),
     "piece": sizeof(e3d_piece),
@@ -170,16 +170,23 @@ cdef class Kernels:
         return made
 
     def fragments(self, const uint8_t[::1] triangles, const uint8_t[::1] viewport, int tiles_x,
-                  uint8_t[::1] out):
-        """Of a copy of the triangles."""
+                  uint8_t[::1] blocks, uint8_t[::1] bins, uint32_t count):
+        """Of a copy of the triangles, to ``blocks`` of which ``count`` are in use; returns how many are then, the
+        fragments and the triangles that have some."""
         cdef e3d_small_triangles taken
+        cdef e3d_fragment_bins out
         check_size(triangles, sizeof(e3d_small_triangles))
         check_size(viewport, sizeof(e3d_viewport))
-        check_size(out, sizeof(e3d_fragments))
+        cdef size_t tiles = <size_t>bins.shape[0] // sizeof(e3d_bin)
+        out.blocks = <e3d_fragment_block *>&blocks[0]
+        out.bins = <e3d_bin *>&bins[0]
+        out.count = count
         for _ in range(self.rounds):
+            if <size_t>blocks.shape[0] < (out.count + e3d_fragment_blocks_most(tiles)) * sizeof(e3d_fragment_block):
+                raise ValueError(f"{blocks.shape[0]} bytes are too few for the blocks")
             taken = (<const e3d_small_triangles *>&triangles[0])[0]
-            self.table.fragments(&taken, <const e3d_viewport *>&viewport[0], tiles_x,
-                                 <e3d_fragments *>&out[0])
+            self.table.fragments(&taken, <const e3d_viewport *>&viewport[0], tiles_x, &out)
+        return out.count, out.fragments, out.triangles
 
     def raster_depth(self, const uint8_t[::1] pieces, float[::1] z, int32_t[::1] slot,
                      const uint32_t[::1] orders):

@@ -54,18 +54,10 @@ SMALL_TRIANGLES = np.dtype(
     [("count", "i4"), ("x", "i4", (3, SMALLS + PAD)), ("y", "i4", (3, SMALLS + PAD))]
     + [("id", "i4", SMALLS + PAD), ("zn", "f4", (3, SMALLS + PAD))]
 )
-FRAGMENTS = np.dtype(
-    [
-        ("z", "f4", MOST_FRAGMENTS + PAD),
-        ("id", "i4", MOST_FRAGMENTS + PAD),
-        ("place", "u4", MOST_FRAGMENTS + PAD),
-        ("count", "i4"),
-        ("triangles", "i4"),
-    ]
-)
+BIN = np.dtype([("first", "u4"), ("last", "u4")])
 FRAGMENT_BLOCK = np.dtype(
     [("next", "u4"), ("count", "u4"), ("z", "f4", BLOCK_FRAGMENTS), ("id", "i4", BLOCK_FRAGMENTS)]
-    + [("sample", "u2", BLOCK_FRAGMENTS)]
+    + [("sample", "u2", BLOCK_FRAGMENTS), ("unused", "u2")]
 )
 DRAWN_CLUSTER = np.dtype(
     [("faces", "u8"), ("order", "u4"), ("instance", "i4"), ("draw", "i4"), ("mirrored", "i4")]
@@ -133,7 +125,7 @@ STRUCTS = {
     "record": RECORD,
     "tile_span": TILE_SPAN,
     "small_triangles": SMALL_TRIANGLES,
-    "fragments": FRAGMENTS,
+    "bin": BIN,
     "fragment_block": FRAGMENT_BLOCK,
     "drawn_cluster": DRAWN_CLUSTER,
     "piece": PIECE,

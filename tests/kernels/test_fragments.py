@@ -1,4 +1,4 @@
-"""fragments against R9, R10 and R12-R14: what small triangles cover.
+"""fragments against R9, R10 and R12-R14: what small triangles cover, in lists of their tiles.
 
 Small is a box of at most 4 x 4 samples, at least one, and sides of at most 16383 steps. The oracle
 works in 64 bits; the order of fragments says nothing, so both sides are sorted.
@@ -7,10 +7,13 @@ works in 64 bits; the order of fragments says nothing, so both sides are sorted.
 import numpy as np
 import pytest
 from kernels.arithmetic import clamp, greatest, least
-from kernels.harness import Records, all_backends, bits, every_count
+from kernels.harness import POISON, all_backends, bits, every_count
 from kernels.layouts import (
+    BIN,
+    BLOCK_FRAGMENTS,
     CLUSTER_VERTICES,
-    FRAGMENTS,
+    FRAGMENT_BLOCK,
+    MOST_FRAGMENTS,
     PAD,
     SMALL_TRIANGLES,
     SMALLS,
@@ -32,6 +35,7 @@ from kernels.test_record import (
 BATCHES = 700  # with four kinds: 500,000 triangles and more
 REACH = 16383
 SIDE = 4
+NO_BLOCK = 0xFFFFFFFF
 
 
 def boxes(rng, size, shape):
@@ -110,6 +114,57 @@ def small_triangles(rng, kind, viewport, sizes):
     return triangles, counts, corners
 
 
+class Lists:
+    """The bins of a picture's tiles, and blocks of fragments for so many calls."""
+
+    def __init__(self, tiles, calls):
+        self.bins = np.full(2 * tiles, NO_BLOCK, np.uint32).view(BIN)
+        most = min(tiles, MOST_FRAGMENTS) + MOST_FRAGMENTS // (BLOCK_FRAGMENTS - PAD)
+        words = np.full(calls * most * FRAGMENT_BLOCK.itemsize // 4, POISON, np.uint32)
+        self.blocks = words.view(FRAGMENT_BLOCK)
+        self.count = 0
+
+    def add(self, kernels, triangles, viewport, tiles_x):
+        """How many fragments there are more, and of how many triangles."""
+        self.count, *made = kernels.fragments(
+            triangles.view(np.uint8),
+            viewport.view(np.uint8),
+            tiles_x,
+            self.blocks.view(np.uint8),
+            self.bins.view(np.uint8),
+            self.count,
+        )
+        return made
+
+    def owners(self):
+        """The tile whose chain each block in use is in: each is in one."""
+        owner = np.full(self.count, -1)
+        tiles = np.flatnonzero(self.bins["first"] != NO_BLOCK)
+        blocks = self.bins["first"][tiles]
+        while len(blocks):
+            assert (owner[blocks] < 0).all()
+            owner[blocks] = tiles
+            after = self.blocks["next"][blocks]
+            assert np.array_equal(after == NO_BLOCK, self.bins["last"][tiles] == blocks)
+            tiles, blocks = tiles[after != NO_BLOCK], after[after != NO_BLOCK]
+        assert (owner >= 0).all()
+        return owner
+
+    def fragments(self):
+        """ID, place in the picture, depth's bits of each, sorted."""
+        used = self.blocks[: self.count]
+        assert (used["count"] > 0).all() and (used["count"] <= BLOCK_FRAGMENTS).all()
+        assert (self.blocks[self.count :].view(np.uint32) == POISON).all()
+        there = np.arange(BLOCK_FRAGMENTS) < used["count"][:, None]
+        places = self.owners()[:, None] * TILE * TILE + used["sample"]
+        return in_order(used["id"][there], places[there], bits(used["z"][there]))
+
+
+def in_order(ids, places, depths):
+    rows = np.array([ids, places, depths], np.int64)
+    return rows[:, np.lexsort(rows[:2])]
+
+
 @all_backends
 @pytest.mark.parametrize("kind", ["everywhere", "tiny", "boxes", "edges"])
 def test_fragments(kernels, kind):
@@ -120,29 +175,19 @@ def test_fragments(kernels, kind):
     sizes = chosen[:BATCHES].T
     triangles, counts, corners = small_triangles(rng, kind, viewport, sizes)
 
-    out = Records(FRAGMENTS, BATCHES)
-    for n in range(BATCHES):
-        kernels.fragments(
-            triangles[n : n + 1].view(np.uint8),
-            viewport[n : n + 1].view(np.uint8),
-            int(sizes[0][n] + TILE - 1) // TILE,
-            out.rows[n],
-        )
-    out.check_gaps()
-
     with np.errstate(all="ignore"):
         covered, depths, places = expectation(corners, sizes)
     covered &= (np.arange(SMALLS) < counts[:, None])[..., None]
-    got = out.fields
-    assert np.array_equal(got["count"], covered.sum(axis=(1, 2)))
-    assert np.array_equal(got["triangles"], covered.any(axis=2).sum(axis=1))
     assert kind == "everywhere" or covered.sum() > 1000
     assert kind != "boxes" or (covered.reshape(-1, SIDE * SIDE).sum(axis=0) > 100).all()
     for n in range(BATCHES):
-        count = got["count"][n]
+        tiles = (sizes[:, n] + TILE - 1) // TILE
+        calls = 1 + n % 3  # the same triangles again: chains go on
+        lists = Lists(tiles.prod(), calls)
+        for _ in range(calls):
+            made = lists.add(kernels, triangles[n : n + 1], viewport[n : n + 1], int(tiles[0]))
+            assert made == [covered[n].sum(), covered[n].any(axis=1).sum()]
         ids = np.broadcast_to(triangles["id"][n, :SMALLS, None], covered[n].shape)
-        expected = [v[covered[n]] for v in (ids, places[n].astype(np.uint32), bits(depths[n]))]
-        made = [got["id"][n, :count], got["place"][n, :count], bits(got["z"][n, :count])]
-        for some in (expected, made):
-            some[:] = np.array(some)[:, np.lexsort(some[:2])]
-        assert np.array_equal(made, expected), f"batch {n}"
+        expected = [v[covered[n]] for v in (ids, places[n], bits(depths[n]))]
+        expected = in_order(*(np.tile(values, calls) for values in expected))
+        assert np.array_equal(lists.fragments(), expected), f"batch {n}"

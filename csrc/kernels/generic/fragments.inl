@@ -64,23 +64,55 @@ static inline fragment_vector fragment_begin(const e3d_small_triangles *triangle
     return v;
 }
 
+/* The tile's last block, with room for a vector. */
+static inline e3d_fragment_block *fragment_block(e3d_fragment_bins *out, int32_t tile)
+{
+    e3d_bin *bin = &out->bins[tile];
+    if (bin->last != E3D_NO_BLOCK && out->blocks[bin->last].count <= E3D_BLOCK_FRAGMENTS - V_LANES)
+        return &out->blocks[bin->last];
+    e3d_fragment_block *block = &out->blocks[out->count];
+    for (size_t at = 0; at < sizeof *block; at += 64) /* in no cache yet */
+        __builtin_prefetch((const char *)block + at, 1);
+    block->next = E3D_NO_BLOCK;
+    block->count = 0;
+    *(bin->last == E3D_NO_BLOCK ? &bin->first : &out->blocks[bin->last].next) = out->count;
+    bin->last = out->count++;
+    return block;
+}
+
+/* The fragments in the lanes of `bits` to the tiles that they lie in, which mostly is one. */
+static inline void fragment_bin(vf32 z, vi32 id, vi32 tile, vi32 sample, uint32_t bits, e3d_fragment_bins *out)
+{
+    int32_t tiles[V_LANES];
+    v_storei(tiles, tile);
+    out->fragments += __builtin_popcount(bits);
+    while (bits) {
+        int32_t one = tiles[__builtin_ctz(bits)];
+        uint32_t here = bits & v_bits(v_eqi(tile, v_seti(one)));
+        e3d_fragment_block *block = fragment_block(out, one);
+        uint32_t count = block->count;
+        v_pack(block->z + count, v_asi(z), here);
+        v_pack(block->id + count, id, here);
+        block->count = count + (uint32_t)v_pack16(block->sample + count, sample, here);
+        bits &= ~here;
+    }
+}
+
 /* The fragments in the lanes of `bits`, at one sample of their boxes. */
 static inline void fragment_add(const fragment_vector *v, int column, int row, uint32_t bits, int32_t tiles_x,
-                                e3d_fragments *out)
+                                e3d_fragment_bins *out)
 {
     const record_plane *p = &v->plane;
     vf32 z = v_add(v_add(p->z0, v_mul(v_setf((float)column), p->gx)), v_mul(v_setf((float)row), p->gy));
     z = v_min(v_max(z, p->zmin), p->zmax);
     vi32 x = v_addi(v->across.first, v_seti(column)), y = v_addi(v->down.first, v_seti(row)), low = v_seti(E3D_TILE - 1);
     vi32 tile = v_addi(v_muli(v_sra(y, E3D_TILE_SHIFT), v_seti(tiles_x)), v_sra(x, E3D_TILE_SHIFT));
-    vi32 place = v_ori(v_shl(v_andi(y, low), E3D_TILE_SHIFT), v_andi(x, low));
-    v_pack(out->z + out->count, v_asi(z), bits);
-    v_pack(out->id + out->count, v->id, bits);
-    out->count += v_pack(out->place + out->count, v_ori(place, v_shl(tile, E3D_PLACE_BITS)), bits);
+    vi32 sample = v_ori(v_shl(v_andi(y, low), E3D_TILE_SHIFT), v_andi(x, low));
+    fragment_bin(z, v->id, tile, sample, bits, out);
 }
 
 static inline void fragment_tiny(const e3d_small_triangles *triangles, int first, const uint8_t *covers,
-                                 const e3d_viewport *viewport, int tiles_x, e3d_fragments *out)
+                                 const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out)
 {
     record_corners c;
     fragment_vector v = fragment_begin(triangles, first, viewport, &c);
@@ -95,7 +127,7 @@ static inline void fragment_tiny(const e3d_small_triangles *triangles, int first
 }
 
 static inline void fragment_wide(const e3d_small_triangles *triangles, int first, const e3d_viewport *viewport, int tiles_x,
-                                 e3d_fragments *out)
+                                 e3d_fragment_bins *out)
 {
     record_corners c;
     record_edge e[3];
@@ -128,12 +160,12 @@ static inline void fragment_wide(const e3d_small_triangles *triangles, int first
     out->triangles += __builtin_popcount(any);
 }
 
-static void kernel_fragments(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragments *out)
+static void kernel_fragments(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out)
 {
     e3d_small_triangles wide;
     uint8_t covers[E3D_SMALLS + E3D_PAD];
     int count = triangles->count;
-    wide.count = triangles->count = out->count = out->triangles = 0;
+    wide.count = triangles->count = out->fragments = out->triangles = 0;
     for (int i = 0; i < count; i += V_LANES)
         fragment_sort(triangles, i, count - i, viewport, covers, &wide);
     for (int i = 0; i < triangles->count; i += V_LANES)

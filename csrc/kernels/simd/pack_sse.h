@@ -36,4 +36,12 @@ static inline int pack_bytes(uint8_t *out, __m128i a, uint32_t bits)
     return pack_count(bits);
 }
 
+/* The same, of numbers below 65536 to halves of words. */
+static inline int pack_halves(uint16_t *out, __m128i a, uint32_t bits)
+{
+    __m128i four = pack_lanes(a, bits);
+    _mm_storel_epi64((__m128i *)out, _mm_packus_epi32(four, four));
+    return pack_count(bits);
+}
+
 #endif

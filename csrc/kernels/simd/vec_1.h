@@ -120,6 +120,8 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c,
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { memcpy(out, &a, 4); return (int)bits; }
 /* The same, of numbers below 256 to bytes. */
 static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { *out = (uint8_t)a; return (int)bits; }
+/* The same, of numbers below 65536. */
+static inline int v_pack16(uint16_t *out, vi32 a, uint32_t bits) { *out = (uint16_t)a; return (int)bits; }
 
 /* Elements base[index[lane]] of an array, 0 <= index < V_LANES; prepared once for many arrays. */
 typedef int32_t vpick;

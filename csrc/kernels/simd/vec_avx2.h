@@ -127,6 +127,10 @@ static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) {
     int low = pack_bytes(out, _mm256_castsi256_si128(a), bits & 15);
     return low + pack_bytes(out + low, _mm256_extracti128_si256(a, 1), bits >> 4);
 }
+static inline int v_pack16(uint16_t *out, vi32 a, uint32_t bits) {
+    int low = pack_halves(out, _mm256_castsi256_si128(a), bits & 15);
+    return low + pack_halves(out + low, _mm256_extracti128_si256(a, 1), bits >> 4);
+}
 
 typedef __m256i vpick;
 static inline vpick v_picker(vi32 index) { return index; }

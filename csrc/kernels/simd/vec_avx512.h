@@ -160,6 +160,11 @@ static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) {
     _mm_storeu_si128((__m128i *)out, _mm512_cvtepi32_epi8(packed));
     return __builtin_popcount(bits);
 }
+static inline int v_pack16(uint16_t *out, vi32 a, uint32_t bits) {
+    __m512i packed = _mm512_maskz_compress_epi32((__mmask16)bits, a);
+    _mm256_storeu_si256((__m256i *)out, _mm512_cvtepi32_epi16(packed));
+    return __builtin_popcount(bits);
+}
 
 typedef __m512i vpick;
 static inline vpick v_picker(vi32 index) { return index; }

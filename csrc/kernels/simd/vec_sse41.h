@@ -126,6 +126,7 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
 
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { return pack_four(out, a, bits); }
 static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { return pack_bytes(out, a, bits); }
+static inline int v_pack16(uint16_t *out, vi32 a, uint32_t bits) { return pack_halves(out, a, bits); }
 
 typedef __m128i vpick;
 static inline vpick v_picker(vi32 index) {

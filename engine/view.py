@@ -1,7 +1,7 @@
 """From where a frame looks: the matrices that the core gets, and depths along the view axis.
 
-In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. Matrices are found in
-C (csrc/scene/view.c), in float64 and a fixed order of operations: the same bits on every machine.
+In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. Matrices are found
+in C (csrc/scene/view.c), in float64 and a fixed order of operations: the same bits everywhere.
 """
 
 from __future__ import annotations

@@ -130,7 +130,7 @@ class DrawList:
         self._watched, self._material_lists = [], []
         self._marks = self._trees = False
         self._many, self._frames = [], 0
-        bases: dict[Mesh, int] = {}
+        bases: dict[tuple[int, ...], int] = {}
         for obj in scene._objects.objects:
             if obj is None:
                 self.native.add_object(None, 0)
@@ -140,13 +140,17 @@ class DrawList:
         self._needs, self._normals = needs, normals
         self._scene = weakref.ref(scene)
 
-    def _add_object(self, obj, bases: dict[Mesh, int], needs, normals: str) -> None:
+    def _add_object(self, obj, bases: dict[tuple[int, ...], int], needs, normals: str) -> None:
+        """Add a mesh, once or at many poses. `bases` knows where materials begin, by their ids."""
         mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
-        if mesh not in bases:
-            bases[mesh] = self.native.material_count
-            self._watch_mesh(mesh)
+        self._watch_mesh(mesh)
+        surfaces = tuple(map(id, mesh.materials))
+        if surfaces not in bases:
+            bases[surfaces] = self.native.material_count
+            for number, material in enumerate(mesh.materials):
+                self._add_material(material, number)
         native = native_mesh(mesh, _needs_of(mesh, needs, normals), self._threads)
-        index = self.native.add_object(native, bases[mesh])
+        index = self.native.add_object(native, bases[surfaces])
         if obj is not mesh:
             self._watched.append((obj, obj.version))
             if len(obj) >= _MANY:
@@ -196,15 +200,13 @@ class DrawList:
         self._frustum, self._how = frustum, how
 
     def _watch_mesh(self, mesh: Mesh) -> None:
-        """Add the materials of a mesh, and remember what would make them out of date."""
+        """Remember what would make a mesh, or the list of its materials, out of date."""
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
         self._watched.append((mesh, mesh.version))
         self._material_lists.append((mesh, list(mesh.materials)))
-        for number, material in enumerate(mesh.materials):
-            self._watched.append((material, material.version))
-            self._add_material(material, number)
 
     def _add_material(self, material: Material, number: int) -> None:
+        self._watched.append((material, material.version))
         texture = material.texture
         if texture is not None:
             self._watched.append((texture, texture.version))

@@ -168,3 +168,38 @@ def test_a_moving_camera_with_rounds():
         rounds.append(on.stats["rounds"])
         assert on.stats["clusters_occluded"] > 0
     assert rounds[-1] == 2  # of what was seen, and of the others
+
+
+def test_meshes_of_the_same_materials_share_them():
+    """Whether meshes share materials or have equal ones of their own never shows."""
+    base = e3d.uv_sphere(0.8, (12, 8))
+    two = np.arange(len(base.faces)) % 2
+
+    def scene(shared):
+        made = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+        made.add(e3d.DirectionalLight((-0.4, -0.7, -0.6)))
+        colors = ((200, 80, 30), (30, 90, 200))
+        common = [e3d.Material(color=color) for color in colors]
+        for k in range(12):
+            own = [e3d.Material(color=color) for color in colors]
+            materials = list(common if shared else own)[:: -1 if k % 3 == 0 else 1]
+            mesh = e3d.Mesh(
+                base.positions,
+                base.faces,
+                normals=base.normals,
+                materials=materials,
+                material_ids=two,
+            )
+            made.add(mesh, translation=(1.5 * (k % 4) - 2.2, 1.5 * (k // 4) - 1.5, 0))
+        return made, common
+
+    with e3d.Renderer(96, 64) as renderer:
+        apart = renderer.render(scene(False)[0], CAMERA, outputs=OUTPUTS)
+        made, common = scene(True)
+        together = renderer.render(made, CAMERA, outputs=OUTPUTS)
+        assert_same(together, apart)
+        assert (apart.stats["materials"], together.stats["materials"]) == (24, 4)
+        common[0].color = (10, 250, 10)
+        assert (renderer.render(made, CAMERA).color != apart.color).any()
+        made.nodes[3].object.materials[0] = e3d.Material(color=(255, 255, 255))
+        assert renderer.render(made, CAMERA).stats["materials"] == 6

@@ -25,7 +25,7 @@ SHARED = Path(os.environ.get("ENGINE3D_SHARED") or ROOT.parent / "shared")
 LARGEST_SEED = 1 << 16
 # How long inputs are by default: those of files longer, those that take long to draw shorter.
 LENGTHS = {"obj": 4096, "rows": 384, "weld": 384, "draw": 4096, "canvas": 2048}
-LENGTHS.update(dict.fromkeys(("ply", "png", "polygons", "sums", "text"), 256))
+LENGTHS.update(dict.fromkeys(("forms", "numbers", "ply", "png", "polygons", "sums", "text"), 256))
 SETTINGS = {
     # Little quarantine: fresh pages take most of the time otherwise.
     "ASAN_OPTIONS": "quarantine_size_mb=16",
@@ -69,6 +69,13 @@ def as_targets(name, data):
         of_bytes_and_ints = bytes([0, 0, 3])
         _, _, body = data.partition(b"end_header\n")
         yield "ply", bytes([order, lists, tail, rows]) + 3 * of_bytes_and_ints + body
+        of_comments, widths, all_rows, one_list = 2, 128, 255, 1
+        yield "numbers", bytes([of_comments | widths, all_rows, one_list]) + body
+    if suffix == ".off":
+        of_hash, widths, all_rows, one_list = 1, 128, 255, 1
+        yield "numbers", bytes([of_hash | widths, all_rows, one_list]) + data.partition(b"\n")[2]
+    if suffix in (".stl", ".asc"):
+        yield "forms", bytes([suffix == ".stl", 255]) + data
 
 
 def write_seeds(corpus, targets):

@@ -244,4 +244,103 @@ void e3d_ply_copy_lists(const e3d_ply_body *body, const int64_t *starts, const i
 void e3d_ply_copy_rows(const e3d_ply_body *body, size_t stride, size_t rows, size_t width,
                        size_t item_size, void *items);
 
+/* Texts whose last byte is a blank or ends a line, as LF, CR or both do. */
+
+typedef enum e3d_comments {
+    E3D_NO_COMMENTS,
+    E3D_HASH_COMMENTS, /* from '#' to the end of a line */
+    E3D_PLY_COMMENTS,  /* lines that begin with `comment` or `obj_info` */
+} e3d_comments;
+
+typedef enum e3d_numbers_problem {
+    E3D_NUMBERS_DONE,
+    E3D_NUMBERS_NO_MEMORY,
+    E3D_NUMBERS_NOT_A_NUMBER,
+} e3d_numbers_problem;
+
+/* The numbers of a text, and of its rows: the lines that hold any. */
+typedef struct e3d_numbers {
+    double *values;  /* [count] */
+    int64_t *widths; /* [rows] how many numbers each holds; NULL if nobody asked */
+    size_t count, rows;
+    size_t place;    /* behind the last line read; or the word that is no number */
+} e3d_numbers;
+
+/* Reads as many rows, or all. Whatever it returns, e3d_numbers_free() frees what `found` holds. */
+e3d_numbers_problem e3d_read_numbers(const uint8_t *bytes, size_t size, e3d_comments comments, size_t most_rows,
+                                     bool with_widths, e3d_numbers *found);
+void e3d_numbers_free(e3d_numbers *found);
+
+/* Numbers from `start` on and before `end`. */
+typedef struct e3d_number_body {
+    const double *values;
+    size_t start, end;
+} e3d_number_body;
+
+/* Goes along rows of lists as e3d_ply_walk() does: skips[k] numbers stand before the length of a list, `tail` behind
+ * the last list of a row. Offsets are those of numbers. */
+e3d_ply_problem e3d_walk_numbers(const e3d_number_body *body, const size_t *skips, size_t list_count, size_t tail,
+                                 size_t rows, e3d_ply_rows *found);
+/* Copies the items of a list of each row, row after row; from one row's start and size to the next one's are `step`. */
+void e3d_copy_numbers(const double *values, const int64_t *starts, const int64_t *sizes, size_t step, size_t rows,
+                      double *items);
+/* Writes `width` numbers of each row, rows being `stride` apart, as indices; returns how many it wrote before one
+ * that is not whole, or not from 0 on and below `limit`. */
+size_t e3d_numbers_to_indices(const double *values, size_t width, size_t stride, size_t rows, size_t limit,
+                              int32_t *indices);
+
+/* What lines of some form look like, and what is kept of them. A pattern stands for itself, but for
+ *
+ *     %  a number, which a blank or the end of the line follows
+ *     @  likewise, and a whole one, below the number of rows of the first form
+ *     ?  likewise, 0 or 1
+ *     #  a whole number: how many rows of this form came before
+ *     _  blanks, or none
+ *     (a blank)  one at least, or the end of the line
+ *     |  what follows may be missing, all of it
+ *
+ * Whole numbers have no zeros in front. */
+typedef enum e3d_form_kind {
+    E3D_FORM_ROW,     /* the numbers for %, @ and ? are kept; nothing stands behind them */
+    E3D_FORM_MARK,    /* the place is */
+    E3D_FORM_SKIPPED, /* nothing is */
+} e3d_form_kind;
+
+typedef struct e3d_form {
+    const char *pattern;
+    e3d_form_kind kind;
+    size_t width;   /* of a row: its numbers; up to E3D_FORM_WIDTH */
+    size_t most;    /* of rows: a further one has another form */
+    double missing; /* for what is missing behind | */
+    size_t of;      /* of a mark: the form whose rows before it are counted */
+} e3d_form;
+
+#define E3D_FORM_WIDTH 8
+
+typedef struct e3d_mark {
+    size_t form, rows, start, end; /* the bytes behind the pattern */
+} e3d_mark;
+
+typedef struct e3d_form_rows {
+    double *values;      /* [rows * width] */
+    size_t rows, whole; /* those that lack nothing */
+    size_t room;
+} e3d_form_rows;
+
+/* What was read of a text whose lines are of some forms. */
+typedef struct e3d_form_text {
+    const e3d_form *forms;
+    size_t form_count;
+    bool any_case;       /* letters of patterns, which are small ones, stand for capitals too */
+    e3d_form_rows *rows; /* [form_count] zeros, to begin with */
+    e3d_mark *marks;     /* NULL, to begin with */
+    size_t mark_count, mark_room;
+} e3d_form_text;
+
+/* Reads lines from *place on until one has none of the forms, or all; puts its place there. False if memory is
+ * out. Whoever begins frees rows[].values and marks. */
+bool e3d_read_forms(e3d_form_text *text, const uint8_t *bytes, size_t size, size_t *place);
+/* Adds a row; false if memory is out. */
+bool e3d_add_form_row(e3d_form_text *text, size_t form, const double *numbers, bool is_whole);
+
 #endif

@@ -227,9 +227,22 @@ static bool is_word(const uint8_t *text, size_t length, const char *word)
     return true;
 }
 
+/* Without the parentheses that newer libraries of Microsoft put behind nan, such as nan(ind). */
+static size_t plain_length(const uint8_t *text, size_t length)
+{
+    const uint8_t *const parenthesis = length ? memchr(text, '(', length) : NULL;
+    if (!parenthesis || text[length - 1] != ')')
+        return length;
+    for (const uint8_t *at = parenthesis + 1; at < text + length - 1; at++)
+        if ((*at | 0x20) < 'a' || (*at | 0x20) > 'z')
+            return length;
+    return (size_t)(parenthesis - text);
+}
+
 bool e3d_decimal_word(const uint8_t *text, size_t length, double *value)
 {
-    const uint8_t *const end = text + length;
+    const size_t plain = plain_length(text, length);
+    const uint8_t *const end = text + plain;
     const bool negative = length && *text == '-';
     text += length && (negative || *text == '+');
     bool infinite = is_word(text, (size_t)(end - text), "inf") ||
@@ -244,7 +257,7 @@ bool e3d_decimal_word(const uint8_t *text, size_t length, double *value)
         known = infinite || is_word(letters, count, "ind") || is_word(letters, count, "qnan") ||
                 is_word(letters, count, "snan") || is_word(letters, count, "qnb");
     }
-    if (!known)
+    if (!known || (infinite && plain < length))
         return false;
     const double size = infinite ? INFINITY : NAN;
     *value = negative ? -size : size;

@@ -24,7 +24,7 @@ double e3d_decimal_value(uint64_t digits, int64_t exponent);
 /* The same of more digits than 64 bits hold: those of `count` characters from `text`, of which one
  * may be a point; `exponent` is that of the last. */
 double e3d_decimal_long_value(const uint8_t *text, size_t count, int64_t exponent);
-/* inf, infinity and nan, and what old C libraries of Microsoft wrote, such as 1.#QNAN. */
+/* inf, infinity and nan, and what C libraries of Microsoft write, such as 1.#QNAN and nan(ind). */
 bool e3d_decimal_word(const uint8_t *text, size_t length, double *value);
 
 static inline bool e3d_is_digit(uint8_t byte) { return (uint8_t)(byte - '0') <= 9; }

@@ -103,7 +103,7 @@ static bool read_other(e3d_obj *obj, const obj_line *line, const uint8_t *keywor
 {
     const uint8_t *keyword = line->at, *end = line->end;
     const uint8_t *name = obj_skip_gaps(keyword_end, end);
-    while (end > name && obj_is_gap(end[-1]))
+    while (end > name && e3d_is_gap(end[-1]))
         end--;
     static const char *const keywords[] = {"o", "g", "s", "usemtl", "mtllib"};
     for (int kind = 0; kind < E3D_OBJ_UNKNOWN; kind++)
@@ -119,8 +119,8 @@ static bool read_other(e3d_obj *obj, const obj_line *line, const uint8_t *keywor
 static inline bool begins(const obj_line *line, char first, char second)
 {
     const uint8_t *at = line->at;
-    return at[0] == (uint8_t)first && (second ? at[1] == (uint8_t)second && obj_is_gap(at[2])
-                                              : obj_is_gap(at[1]));
+    return at[0] == (uint8_t)first && (second ? at[1] == (uint8_t)second && e3d_is_gap(at[2])
+                                              : e3d_is_gap(at[1]));
 }
 
 obj_element_kind obj_elements_of(obj_line *line)

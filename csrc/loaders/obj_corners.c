@@ -45,7 +45,7 @@ static inline const uint8_t *read_corner(const uint8_t *at, const size_t totals[
         at = read_index(at + 1, totals[E3D_OBJ_VT], &corner[E3D_OBJ_VT]);
     if (at && *at == '/')
         at = read_index(at + 1, totals[E3D_OBJ_VN], &corner[E3D_OBJ_VN]);
-    return at && obj_is_gap(*at) && corner[E3D_OBJ_V] != OBJ_NONE ? at : NULL;
+    return at && e3d_is_gap(*at) && corner[E3D_OBJ_V] != OBJ_NONE ? at : NULL;
 }
 
 /* Says what is wrong with a corner. */

@@ -66,10 +66,10 @@ static const uint8_t *find_comment(const uint8_t *start, const uint8_t *end)
         return end;
     const uint8_t *first = obj_skip_gaps(start, end);
     const bool has_numbers = memchr("vflps", *first, 5) != NULL;
-    if (sign == start || obj_is_gap(sign[-1]) || (has_numbers && sign[-1] != '.'))
+    if (sign == start || e3d_is_gap(sign[-1]) || (has_numbers && sign[-1] != '.'))
         return sign;
     for (sign++; sign < end; sign++)
-        if (*sign == '#' && obj_is_gap(sign[-1]))
+        if (*sign == '#' && e3d_is_gap(sign[-1]))
             return sign;
     return end;
 }

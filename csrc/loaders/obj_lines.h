@@ -9,6 +9,7 @@
 #define E3D_OBJ_LINES_H
 
 #include "core/grow.h"
+#include "number_text.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -30,22 +31,16 @@ typedef enum obj_step { OBJ_LINE, OBJ_NO_MORE_LINES, OBJ_LINES_NO_MEMORY } obj_s
 void obj_lines_begin(obj_lines *lines, const uint8_t *bytes, size_t size);
 obj_step obj_next_line(obj_lines *lines, obj_line *line);
 
-/* Blanks, and what ends lines. */
-static inline bool obj_is_gap(uint8_t byte)
-{
-    return byte <= ' ' && (UINT64_C(0x100003E00) >> byte & 1);
-}
-
 static inline const uint8_t *obj_skip_gaps(const uint8_t *at, const uint8_t *end)
 {
-    while (at < end && obj_is_gap(*at))
+    while (at < end && e3d_is_gap(*at))
         at++;
     return at;
 }
 
 static inline const uint8_t *obj_word_end(const uint8_t *at, const uint8_t *end)
 {
-    while (at < end && !obj_is_gap(*at))
+    while (at < end && !e3d_is_gap(*at))
         at++;
     return at;
 }

@@ -5,7 +5,6 @@
  * Colours come after the coordinates, `x y z r g b` with or without alpha, as scanners and painting
  * programs write them: display values of 0..1, or of 0..255 if any in the file is above 1.
  */
-#include "decimal.h"
 #include "obj_reader.h"
 
 #include <math.h>
@@ -28,16 +27,13 @@ static bool read_numbers(e3d_obj *obj, e3d_obj_list list, const obj_line *line,
         if (at == line->end)
             break;
         double value;
-        const uint8_t *next = e3d_decimal_read(at, &value);
-        if (!next || !obj_is_gap(*next)) {
-            next = obj_word_end(at, line->end);
-            if (!e3d_decimal_word(at, (size_t)(next - at), &value))
-                return obj_fail_at(obj,
-                                   (e3d_obj_error){.problem = E3D_OBJ_NOT_A_NUMBER,
-                                                   .list = list,
-                                                   .place.line = line->number},
-                                   at, next);
-        }
+        const uint8_t *const next = e3d_read_number(at, ' ', &value);
+        if (!next)
+            return obj_fail_at(obj,
+                               (e3d_obj_error){.problem = E3D_OBJ_NOT_A_NUMBER,
+                                               .list = list,
+                                               .place.line = line->number},
+                               at, obj_word_end(at, line->end));
         if (read < WITH_ALPHA)
             numbers[read] = value;
         at = next;

@@ -167,3 +167,70 @@ cdef extern from "e3d_loaders.h" nogil:
     void e3d_ply_copy_rows(
         const e3d_ply_body *body, size_t stride, size_t rows, size_t width, size_t item_size,
         void *items)
+
+    ctypedef enum e3d_comments:
+        E3D_NO_COMMENTS
+        E3D_HASH_COMMENTS
+        E3D_PLY_COMMENTS
+
+    ctypedef enum e3d_numbers_problem:
+        E3D_NUMBERS_DONE
+        E3D_NUMBERS_NO_MEMORY
+        E3D_NUMBERS_NOT_A_NUMBER
+
+    ctypedef struct e3d_numbers:
+        double *values
+        int64_t *widths
+        size_t count, rows, place
+
+    e3d_numbers_problem e3d_read_numbers(
+        const uint8_t *bytes, size_t size, e3d_comments comments, size_t most_rows,
+        bint with_widths, e3d_numbers *found)
+    void e3d_numbers_free(e3d_numbers *found)
+
+    ctypedef struct e3d_number_body:
+        const double *values
+        size_t start, end
+
+    e3d_ply_problem e3d_walk_numbers(
+        const e3d_number_body *body, const size_t *skips, size_t list_count, size_t tail,
+        size_t rows, e3d_ply_rows *found)
+    void e3d_copy_numbers(
+        const double *values, const int64_t *starts, const int64_t *sizes, size_t step,
+        size_t rows, double *items)
+    size_t e3d_numbers_to_indices(
+        const double *values, size_t width, size_t stride, size_t rows, size_t limit,
+        int32_t *indices)
+
+    size_t E3D_FORM_WIDTH
+
+    ctypedef enum e3d_form_kind:
+        E3D_FORM_ROW
+        E3D_FORM_MARK
+        E3D_FORM_SKIPPED
+
+    ctypedef struct e3d_form:
+        const char *pattern
+        e3d_form_kind kind
+        size_t width, most
+        double missing
+        size_t of
+
+    ctypedef struct e3d_mark:
+        size_t form, rows, start, end
+
+    ctypedef struct e3d_form_rows:
+        double *values
+        size_t rows, whole, room
+
+    ctypedef struct e3d_form_text:
+        const e3d_form *forms
+        size_t form_count
+        bint any_case
+        e3d_form_rows *rows
+        e3d_mark *marks
+        size_t mark_count, mark_room
+
+    bint e3d_read_forms(e3d_form_text *text, const uint8_t *bytes, size_t size, size_t *place)
+    bint e3d_add_form_row(
+        e3d_form_text *text, size_t form, const double *numbers, bint is_whole)

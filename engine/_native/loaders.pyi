@@ -1,4 +1,4 @@
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,15 @@ PLY_DONE: int
 PLY_SHORT: int
 PLY_BAD_LIST: int
 
+NO_COMMENTS: int
+HASH_COMMENTS: int
+PLY_COMMENTS: int
+
+ROW: int
+MARKED: int
+SKIPPED: int
+
+MARK: np.dtype
 SETTER: np.dtype
 
 def large_array(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray: ...
@@ -99,3 +108,29 @@ def copy_ply_lists(
 def copy_ply_rows(
     data: bytes | memoryview, is_big_endian: bool, start: int, stride: int, items: NDArray
 ) -> None: ...
+def read_numbers(
+    text: bytes | memoryview, comments: int, rows: int | None = None, with_widths: bool = False
+) -> tuple[NDArray[np.float64], NDArray[np.int64] | None, int, int | None]: ...
+def walk_number_rows(
+    values: NDArray[np.float64], start: int, skips: list[int], tail: int, rows: int
+) -> tuple[int, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], int, int]: ...
+def copy_numbers(
+    values: NDArray[np.float64],
+    starts: NDArray[np.int64],
+    sizes: NDArray[np.int64],
+    number: int,
+) -> NDArray[np.float64]: ...
+def indices_of(values: NDArray[np.float64], limit: int) -> tuple[NDArray[np.int32], int | None]: ...
+
+class FormReader:
+    def __init__(
+        self,
+        text: bytes | memoryview,
+        forms: Iterable[tuple[bytes, int, int, int, float, int]],
+        any_case: bool = False,
+    ) -> None: ...
+    def read(self, place: int) -> int: ...
+    def add(self, form: int, numbers: Sequence[float], is_whole: bool = True) -> None: ...
+    def count(self, form: int) -> tuple[int, int]: ...
+    def take_rows(self, form: int) -> NDArray[np.float64]: ...
+    def take_marks(self) -> NDArray: ...

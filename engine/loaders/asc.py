@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, field
 
 import numpy as np
 
+from .._native import loaders as native
 from ..errors import FileFormatError
 from ..materials import Material
 from ..mesh import Mesh
@@ -38,6 +38,12 @@ _CORNERS = rf"A:{_NUMBER}\s+B:{_NUMBER}\s+C:{_NUMBER}"
 _FLAGS = rf"AB:{_NUMBER}\s+BC:{_NUMBER}\s+CA:{_NUMBER}"
 _FACE = re.compile(rf"Face\s+(\d+)\s*:\s*{_CORNERS}(?:\s+{_FLAGS})?\s*$")
 _TRI_MESH = re.compile(r"Tri-mesh,\s*Vertices:\s*(\S+)\s+Faces:\s*(\S+)\s*$")
+# What takes up most of a file, as native.FormReader reads it: the same, of a whole line.
+_VERTEX_FORM = b"Vertex #_:_X:%_Y:%_Z:%|_U:%_V:%"
+_FACE_FORM = b"Face #_:_A:@_B:@_C:@|_AB:?_BC:?_CA:?"
+_MARKS = (b"Material:", b"Smoothing:")
+_VERTICES, _FACES, _MATERIAL, _SMOOTHING = range(4)
+_UNNAMED = -1
 _PAGE = re.compile(r"Page\s+\d+$")
 _CAMERA = re.compile(r"Camera\s*\(\s*([^\s)]+)\s*mm\s*\)")
 _COLOR_NAME = re.compile(r"r(\d{1,3})g(\d{1,3})b(\d{1,3})a(\d{1,3})", re.IGNORECASE)
@@ -50,21 +56,40 @@ _UP = (0.0, 0.0, 1.0)
 _MAX_OBJECTS = 5000
 
 
-@dataclass
 class _MeshRecord:
-    """A tri-mesh as it stands in the file."""
+    """A tri-mesh as it stands in the file.
 
-    name: str
-    line: int
-    vertex_count: int
-    face_count: int
-    is_mapped: bool = False
-    positions: list = field(default_factory=list)
-    uvs: list = field(default_factory=list)
-    corners: list = field(default_factory=list)
-    edge_visible: list = field(default_factory=list)
-    materials: list = field(default_factory=list)
-    smoothing: list = field(default_factory=list)
+    Attributes
+    ----------
+    name : str
+    line : int
+    vertex_count, face_count : int
+        As announced.
+    is_mapped : bool
+    rows : native.FormReader
+        Of vertices X, Y, Z, U and V; of faces A, B and C, and whether AB, BC and CA are visible.
+    said : dict of int to ((N,) int64, (N,) int64)
+        Faces, and their materials' numbers, or the smoothing groups that they are in as bits.
+    """
+
+    def __init__(self, text: bytes, name: str, line: int, vertices: int, faces: int) -> None:
+        self.name, self.line = name, line
+        self.vertex_count, self.face_count = vertices, faces
+        self.is_mapped = False
+        self.rows = native.FormReader(
+            text,
+            (
+                (_VERTEX_FORM, native.ROW, 5, vertices, 0.0, 0),
+                (_FACE_FORM, native.ROW, 6, faces, 1.0, 0),
+                *((mark, native.MARKED, 0, 0, 0.0, _FACES) for mark in _MARKS),
+            ),
+        )
+        nothing = np.zeros(0, np.int64), np.zeros(0, np.int64)
+        self.said = {_MATERIAL: nothing, _SMOOTHING: nothing}
+
+    def count(self, form: int) -> int:
+        """Return how many vertices or faces were read."""
+        return self.rows.count(form)[0]
 
 
 def read_asc(source: Source, split: bool = False) -> Document:
@@ -83,7 +108,7 @@ def read_asc(source: Source, split: bool = False) -> Document:
     """
     parser = _Parser(source)
     parser.parse()
-    materials = {name: _material(name) for name in parser.material_names}
+    materials = [_material(name) for name in parser.material_names]
     warnings = parser.warnings
     meshes = [_mesh(record, materials) for record in parser.meshes]
     if any(mesh.uvs is not None for mesh in meshes):
@@ -100,35 +125,53 @@ def read_asc(source: Source, split: bool = False) -> Document:
 
 
 class _Parser:
-    """Goes through the lines once; each line belongs to the object named last."""
+    """Goes through the lines once; each line belongs to the object named last.
+
+    Vertices, faces, and what is said about faces, are read in C, up to a line that is no such.
+    """
 
     def __init__(self, source: Source) -> None:
         if _END_OF_FILE in source.data:
             source = source._replace(content=source.data.partition(_END_OF_FILE)[0])
-        self._lines = decoded(text_lines(source)).split("\n")
+        self._text = text_lines(source)
         self._path = source.path
-        self._number = 0
+        # The number of the line that holds the byte counted to.
+        self._number, self._counted = 1, 0
         self._name = ""
         self._mesh: _MeshRecord | None = None
         self._item: LightRecord | CameraRecord | None = None
+        # What lines about faces say, for each text; and the line last warned of, and its place.
+        self._materials: dict[bytes, int] = {}
+        self._groups: dict[bytes, int] = {}
+        self._warned = 1, 0
         self.warnings = WarningList(source.path)
         self.meshes: list[_MeshRecord] = []
         self.lights: list[LightRecord] = []
         self.cameras: list[CameraRecord] = []
-        self.material_names: dict[str, None] = {}
+        self.material_names: dict[str, int] = {}
 
     def parse(self) -> None:
-        for number, text in enumerate(self._lines, 1):
-            self._number, line = number, text.strip()
-            if line.startswith("Vertex "):
-                self._read_vertex(line)
-            elif line.startswith("Face "):
-                self._read_face(line)
-            elif line and not self._read_other(line) and not _PAGE.match(line):
-                self.warnings.add(f"{shown(line)} is not understood", self._number)
+        place = 0
+        while place < len(self._text):
+            if self._mesh is not None:
+                place = self._mesh.rows.read(place)
+            if place < len(self._text):
+                end = self._text.index(b"\n", place)
+                self._number += self._text.count(b"\n", self._counted, place)
+                self._counted = place
+                self._read_line(decoded(self._text[place:end]).strip())
+                place = end + 1
         self._finish_mesh()
         if not self.meshes:
             raise FileFormatError("no tri-mesh in it: not a 3D Studio ASCII model", self._path)
+
+    def _read_line(self, line: str) -> None:
+        if line.startswith("Vertex "):
+            self._read_vertex(line)
+        elif line.startswith("Face "):
+            self._read_face(line)
+        elif line and not self._read_other(line) and not _PAGE.match(line):
+            self.warnings.add(f"{shown(line)} is not understood", self._number)
 
     def _read_vertex(self, line: str) -> None:
         if line.startswith("Vertex list"):
@@ -136,11 +179,11 @@ class _Parser:
         mesh, match = self._open_mesh(line), _VERTEX.match(line)
         if match is None:
             self._fail(f"not a whole vertex: {shown(line)}")
-        self._check_number(match[1], len(mesh.positions), mesh.vertex_count, "vertex", "vertices")
-        mesh.positions.append([self._float(match[k]) for k in (2, 3, 4)])
-        uv = [self._float(match[k]) for k in (5, 6)] if match[5] else [0.0, 0.0]
-        mesh.is_mapped |= match[5] is not None
-        mesh.uvs.append(uv)
+        count = mesh.count(_VERTICES)
+        self._check_number(match[1], count, mesh.vertex_count, "vertex", "vertices")
+        has_uv = match[5] is not None
+        numbers = [self._float(match[k]) for k in range(2, 7 if has_uv else 5)]
+        mesh.rows.add(_VERTICES, numbers if has_uv else [*numbers, 0, 0], has_uv)
 
     def _read_face(self, line: str) -> None:
         mesh = self._open_mesh(line)
@@ -149,11 +192,9 @@ class _Parser:
         match = _FACE.match(line)
         if match is None:
             self._fail(f"not a whole face: {shown(line)}")
-        self._check_number(match[1], len(mesh.corners), mesh.face_count, "face", "faces")
-        mesh.corners.append([self._index(match[k], len(mesh.positions)) for k in (2, 3, 4)])
-        mesh.edge_visible.append([match[k] != "0" for k in (5, 6, 7)])
-        mesh.materials.append("")
-        mesh.smoothing.append(FLAT)
+        self._check_number(match[1], mesh.count(_FACES), mesh.face_count, "face", "faces")
+        corners = [self._index(match[k], mesh.count(_VERTICES)) for k in (2, 3, 4)]
+        mesh.rows.add(_FACES, [*corners, *(match[k] != "0" for k in (5, 6, 7))])
 
     def _read_other(self, line: str) -> bool:
         """Read a line that is no vertex and no face; False if it says nothing that is known."""
@@ -163,10 +204,8 @@ class _Parser:
             self._finish_mesh()
             self._item = None
             self._name = rest.strip('"')
-        elif keyword == "Material":
-            self._read_material(rest.strip('"'))
-        elif keyword == "Smoothing":
-            self._read_smoothing(rest)
+        elif keyword in ("Material", "Smoothing"):
+            self._open_mesh(keyword)
         elif keyword.startswith("Tri-mesh"):
             self._start_mesh(line)
         elif line == "Mapped":
@@ -181,15 +220,15 @@ class _Parser:
         if match is None:
             self._fail(f"not a whole tri-mesh line: {shown(line)}")
         counts = [self._count(match[k]) for k in (1, 2)]
-        self._mesh = _MeshRecord(self._name, self._number, *counts)
+        self._mesh = _MeshRecord(self._text, self._name, self._number, *counts)
 
     def _finish_mesh(self) -> None:
         mesh, self._mesh = self._mesh, None
         if mesh is None:
             return
         for found, announced, what in (
-            (len(mesh.positions), mesh.vertex_count, "vertices"),
-            (len(mesh.corners), mesh.face_count, "faces"),
+            (mesh.count(_VERTICES), mesh.vertex_count, "vertices"),
+            (mesh.count(_FACES), mesh.face_count, "faces"),
         ):
             if found != announced:
                 raise FileFormatError(
@@ -197,29 +236,61 @@ class _Parser:
                     self._path,
                     mesh.line,
                 )
-        if not mesh.corners:
+        self._take_marks(mesh)
+        mesh.is_mapped |= mesh.rows.count(_VERTICES)[1] > 0
+        if not mesh.face_count:
             self.warnings.add(f"tri-mesh {shown(mesh.name)} without faces is left out", mesh.line)
         elif len(self.meshes) >= _MAX_OBJECTS:
             raise FileFormatError(f"more than {_MAX_OBJECTS} objects", self._path, mesh.line)
         else:
             self.meshes.append(mesh)
 
-    def _read_material(self, name: str) -> None:
-        mesh = self._open_mesh("Material")
-        self.material_names[name] = None
-        if mesh.materials:
-            mesh.materials[-1] = name
+    def _take_marks(self, mesh: _MeshRecord) -> None:
+        """Take what was said about the faces of a mesh; most of it is said many times."""
+        marks = mesh.rows.take_marks()
+        if not len(marks):
+            return
+        for form, known, read in (
+            (_MATERIAL, self._materials, self._read_material),
+            (_SMOOTHING, self._groups, self._read_groups),
+        ):
+            chosen = marks[marks["form"] == form]
+            places = zip(chosen["start"].tolist(), chosen["end"].tolist(), strict=True)
+            said = [
+                known[text] if (text := self._text[start:end]) in known else read(text, start)
+                for start, end in places
+            ]
+            # What comes before the first face is said of none.
+            has_face = chosen["rows"] > 0
+            mesh.said[form] = chosen["rows"][has_face] - 1, np.array(said, np.int64)[has_face]
 
-    def _read_smoothing(self, rest: str) -> None:
-        mesh = self._open_mesh("Smoothing")
-        for word in rest.replace(",", " ").split():
+    def _read_material(self, text: bytes, place: int) -> int:
+        name = decoded(text).strip().strip('"')
+        number = self.material_names.setdefault(name, len(self.material_names))
+        self._materials[text] = number if name else _UNNAMED
+        return self._materials[text]
+
+    def _read_groups(self, text: bytes, place: int) -> int:
+        """The smoothing groups that a line names, as bits; remembered if all of them can be."""
+        groups, is_sound = 0, True
+        for word in decoded(text).replace(",", " ").split():
             digits = word.lstrip("0")
             if not (
                 digits.isascii() and digits.isdigit() and len(digits) < 3 and int(digits) <= 32
             ):
-                self.warnings.add(f"smoothing group {shown(word)} is left out", self._number)
-            elif mesh.smoothing:
-                mesh.smoothing[-1] |= 1 << (int(digits) - 1)
+                is_sound = False
+                self._warn_of_group(word, place)
+            else:
+                groups |= 1 << (int(digits) - 1)
+        if is_sound:
+            self._groups[text] = groups
+        return groups
+
+    def _warn_of_group(self, word: str, place: int) -> None:
+        number, counted = self._warned
+        number += self._text.count(b"\n", counted, place)
+        self._warned = number, place
+        self.warnings.add(f"smoothing group {shown(word)} is left out", number)
 
     def _read_light_or_camera(self, line: str, keyword: str, rest: str) -> bool:
         camera = _CAMERA.match(line)
@@ -332,40 +403,46 @@ def _material(name: str) -> Material:
     return Material(name=name, color=tuple(round(c * 255) for c in color))
 
 
-def _mesh(record: _MeshRecord, materials: dict[str, Material]) -> Mesh:
-    positions = np.array(record.positions, np.float64).reshape(-1, 3)
-    corners = np.array(record.corners, np.int32).reshape(-1, 3)
-    edge_visible = np.array(record.edge_visible, bool).reshape(-1, 3)
-    names = list(dict.fromkeys(record.materials)) or [""]
-    number = {name: k for k, name in enumerate(names)}
+def _mesh(record: _MeshRecord, materials: list[Material]) -> Mesh:
+    vertices, faces = record.rows.take_rows(_VERTICES), record.rows.take_rows(_FACES)
+    positions, uvs = vertices[:, :3].copy(), vertices[:, 3:]
+    corners, edge_visible = faces[:, :3].astype(np.int32), faces[:, 3:] != 0
+    numbers = np.full(len(faces), _UNNAMED, np.int64)
+    given, named = record.said[_MATERIAL]
+    numbers[given] = named
+    found, first, of_face = np.unique(numbers, return_index=True, return_inverse=True)
+    order = np.argsort(first)
     triangles = Triangles(
         corners,
         corners if record.is_mapped else None,
         None,
-        np.array([number[name] for name in record.materials], np.int32),
+        np.argsort(order).astype(np.int32)[of_face.reshape(-1)],
         polygon_ids(corners, edge_visible),
         None if edge_visible.all() else edge_visible,
     )
+    masks = np.full(len(faces), FLAT, np.int64)
+    np.bitwise_or.at(masks, *record.said[_SMOOTHING])
     geometry = Geometry(
-        Vertices(positions, None, np.array(record.uvs).reshape(-1, 2), np.zeros((0, 3))),
+        Vertices(positions, None, uvs, np.zeros((0, 3))),
         triangles,
-        _smooth(positions, triangles, record.smoothing),
+        _smooth(positions, triangles, masks),
         np.zeros((0, 2), np.int32),
         np.zeros(0, np.int32),
     )
-    mesh = build_mesh(geometry, [materials.get(name) or Material() for name in names], record.name)
+    chosen = [materials[k] if k >= 0 else Material() for k in found[order].tolist()]
+    mesh = build_mesh(geometry, chosen, record.name)
     mesh.groups = {record.name: np.arange(len(corners), dtype=np.int32)}
     return mesh
 
 
-def _smooth(positions: np.ndarray, triangles: Triangles, masks: list[int]) -> np.ndarray | None:
+def _smooth(positions: np.ndarray, triangles: Triangles, masks: np.ndarray) -> np.ndarray | None:
     """Give the triangles normals by their smoothing groups; None leaves that to the mesh."""
     filled = fill_normals(
         positions,
         triangles.positions,
         None,
         np.zeros((0, 3)),
-        np.array(masks, np.int64),
+        masks,
         triangles.polygons,
         are_masks=True,
     )
@@ -377,11 +454,11 @@ def _smooth(positions: np.ndarray, triangles: Triangles, masks: list[int]) -> np
 
 def _counts(parser: _Parser) -> dict:
     return {
-        "vertices": sum(len(mesh.positions) for mesh in parser.meshes),
-        "uvs": sum(len(mesh.uvs) for mesh in parser.meshes if mesh.is_mapped),
+        "vertices": sum(mesh.vertex_count for mesh in parser.meshes),
+        "uvs": sum(mesh.vertex_count for mesh in parser.meshes if mesh.is_mapped),
         "normals": 0,
-        "faces": sum(len(mesh.corners) for mesh in parser.meshes),
-        "triangles": sum(len(mesh.corners) for mesh in parser.meshes),
+        "faces": sum(mesh.face_count for mesh in parser.meshes),
+        "triangles": sum(mesh.face_count for mesh in parser.meshes),
         "lines": 0,
         "points": 0,
         "objects": [mesh.name for mesh in parser.meshes],

@@ -1,20 +1,20 @@
-"""Numbers out of text, many at a time.
+"""Numbers out of text, each rounded correctly whatever the locale.
 
-In: text of nothing but numbers. Out: an array, each number rounded correctly whatever the locale.
+In: text of nothing but numbers and comments, or one word. Out: an array, or a float.
 """
 
 from __future__ import annotations
 
 import re
-import warnings
-from array import array
+from typing import NamedTuple
 
 import numpy as np
 
-# What the C runtime of old Microsoft compilers wrote for values that are not numbers.
-_MICROSOFT = re.compile(rb"([+-]?)\d\.#(INF|IND|QNAN|SNAN|QNB)\d*", re.IGNORECASE)
+from .._native import loaders as native
+
+# What the C runtimes of Microsoft's compilers write for values that are not numbers.
+_MICROSOFT = re.compile(rb"([+-]?)(?:\d\.#(INF|IND|QNAN|SNAN|QNB)\d*|nan\([a-z]*\))", re.IGNORECASE)
 _WORD = re.compile(rb"\S+")
-_BLANKS = b" \t\r\n\v\f"
 
 
 class NotANumberError(ValueError):
@@ -25,40 +25,62 @@ class NotANumberError(ValueError):
     word : bytes
     position : int
         Its offset in the text.
+    widths : (R,) int64 or None
+        Of the lines before: see `NumberRows`.
     """
 
-    def __init__(self, word: bytes, position: int) -> None:
-        super().__init__(word, position)
-        self.word, self.position = word, position
+    def __init__(self, word: bytes, position: int, widths: np.ndarray | None) -> None:
+        super().__init__(word, position, widths)
+        self.word, self.position, self.widths = word, position, widths
 
 
-def parse_text(text: bytes) -> np.ndarray:
-    """Read a text of nothing but numbers and blanks: (N,) float64.
+class NumberRows(NamedTuple):
+    """The numbers of a text.
+
+    Attributes
+    ----------
+    values : (N,) float64
+    widths : (R,) int64 or None
+        How many each line has, of those that hold any.
+    end : int
+        The offset behind the last line read.
+    """
+
+    values: np.ndarray
+    widths: np.ndarray | None
+    end: int
+
+
+def read_numbers(text, comments: int, rows: int | None = None, widths: bool = False) -> NumberRows:
+    """Read numbers between blanks.
+
+    Parameters
+    ----------
+    text : bytes-like
+        Its last byte is a blank or ends a line: see `ended`.
+    comments : int
+        ``native.NO_COMMENTS``, ``HASH_COMMENTS`` or ``PLY_COMMENTS``.
+    rows : int, optional
+        Lines to read, of those that hold numbers; all of them by default.
+    widths : bool
+        Count the numbers of each.
 
     Raises
     ------
     NotANumberError
     """
-    if not text.strip(_BLANKS):
-        return np.zeros(0, np.float64)
-    try:
-        # NumPy before 2.4 warns where later ones raise.
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", DeprecationWarning)
-            return np.fromstring(text, np.float64, sep=" ")
-    except (ValueError, DeprecationWarning):
-        # Either one of the few words that only Python takes for a number, or none at all.
-        return _parse_words(text)
+    values, found, end, wrong = native.read_numbers(text, comments, rows, widths)
+    if wrong is not None:
+        word = _WORD.match(text, wrong)[0]
+        if comments == native.HASH_COMMENTS:
+            word = word.partition(b"#")[0]
+        raise NotANumberError(word, wrong, found)
+    return NumberRows(values, found, end)
 
 
-def _parse_words(text: bytes) -> np.ndarray:
-    values, match = array("d"), None
-    try:
-        for match in _WORD.finditer(text):
-            values.append(parse_float(match[0].replace(b"_", b"?")))
-    except ValueError:
-        raise NotANumberError(match[0], match.start()) from None
-    return np.frombuffer(values, np.float64)
+def ended(text):
+    """Return a text with a blank or a line's end behind it: itself, or a copy."""
+    return text if bytes(text[-1:]).isspace() else bytes(text) + b"\n"
 
 
 def parse_float(word: bytes) -> float:
@@ -69,5 +91,5 @@ def parse_float(word: bytes) -> float:
         match = _MICROSOFT.fullmatch(word)
         if match is None:
             raise
-        value = float("inf") if match[2].upper() == b"INF" else float("nan")
+        value = float("inf") if (match[2] or b"").upper() == b"INF" else float("nan")
         return -value if match[1] == b"-" else value

@@ -9,14 +9,17 @@ refused.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 
+from .._native import loaders as native
 from ..errors import FileFormatError
 from ..materials import Material
 from .documents import Document, DocumentObject
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
-from .number_arrays import NotANumberError, parse_text
+from .number_arrays import NotANumberError, NumberRows, read_numbers
 from .ply_vertices import finite_uvs, usable_normals
 from .registry import Reader
 from .sources import Source
@@ -55,7 +58,7 @@ def read_off(source: Source, split: bool = False) -> Document:
 
 
 class _OffReader:
-    """Goes through the lines that hold anything, and knows their numbers."""
+    """Reads the first lines one by one, and the numbers of all others at once."""
 
     def __init__(self, source: Source, warnings: WarningList) -> None:
         self._path = source.path
@@ -63,84 +66,90 @@ class _OffReader:
         self._budget = WorkBudget.for_file(source.size)
         if b"BINARY" in source.data[:20]:
             self._fail("binary OFF files are not read")
-        self._lines = [line.partition(b"#")[0] for line in text_lines(source).split(b"\n")]
-        filled = (k for k, line in enumerate(self._lines) if line and not line.isspace())
-        self._filled = np.fromiter(filled, np.int64)
-        self._has = self._take_keyword()
-        self._next = 0
-        self.face_count = 0
+        self._text = text_lines(source)
+        self._has = dict.fromkeys(("uvs", "colors", "normals"), False)
+        # Where the lines of numbers begin.
+        self._body = 0
+        self._vertex_count = self.face_count = 0
 
     def read(self) -> IndexedGeometry:
-        counts = self._counts()
-        rows = self._rows(counts[0], "vertices")
-        table = self._vertex_table(rows)
-        self.face_count = counts[1]
-        geometry = self._vertices(table)
-        self._faces(geometry, self._rows(counts[1], "faces"))
+        self._read_head()
+        rows = self._rows()
+        count = self._vertex_count
+        split = int(rows.widths[:count].sum())
+        geometry = self._vertices(rows.values[:split].reshape(count, -1))
+        if self.face_count:
+            self._faces(geometry, rows.values[split:], rows.widths[count:])
         if geometry.normals is not None:
             geometry.normals = usable_normals(
                 geometry.normals, geometry.positions, geometry.corners
             )
         return geometry
 
-    def _take_keyword(self) -> dict[str, bool]:
-        """Take the keyword, if there is one, off the first line that holds anything."""
-        first = self._filled[0] if len(self._filled) else 0
-        line = self._lines[first].lstrip()
-        match = _KEYWORD.match(line)
-        if match is None:
-            return dict.fromkeys(("uvs", "colors", "normals"), False)
-        if match[4] or match[5]:
-            self._fail("only three-dimensional OFF files are read", int(first) + 1)
-        self._lines[first] = line[match.end() :]
-        if not self._lines[first].strip():
-            self._filled = self._filled[1:]
-        return {"uvs": bool(match[1]), "colors": bool(match[2]), "normals": bool(match[3])}
-
-    def _counts(self) -> list[int]:
-        """Vertices and faces; the number of edges, the third, says nothing and may be missing."""
-        if not len(self._filled):
+    def _read_head(self) -> None:
+        """Read the keyword, if there is one, and the counts, which may stand behind it."""
+        lines = self._filled_lines(0)
+        position, line = next(lines, (0, b""))
+        match = _KEYWORD.match(line.lstrip())
+        if match is not None:
+            if match[4] or match[5]:
+                self._fail("only three-dimensional OFF files are read", position)
+            self._has = {name: bool(match[k]) for k, name in enumerate(self._has, 1)}
+            line = line.lstrip()[match.end() :]
+            if not line.strip():
+                position, line = next(lines, (0, b""))
+        if not line:
             self._fail("no counts of vertices and faces")
-        line = self._lines[self._filled[0]]
+        self._vertex_count, self.face_count = self._counts(line, position)
+        self._body = self._text.index(b"\n", position) + 1
+
+    def _filled_lines(self, start: int) -> Iterator[tuple[int, bytes]]:
+        """Go along the lines that hold anything: the place of each, and it without a comment."""
+        while start < len(self._text):
+            end = self._text.index(b"\n", start)
+            line = self._text[start:end].partition(b"#")[0]
+            if line and not line.isspace():
+                yield start, line
+            start = end + 1
+
+    def _counts(self, line: bytes, position: int) -> list[int]:
+        """Vertices and faces; the number of edges, the third, says nothing and may be missing."""
         words = line.split()
-        self._next = 1
         if not 2 <= len(words) <= 3 or not all(w.isdigit() and len(w) < 19 for w in words[:2]):
-            self._fail(f"not counts of vertices and faces: {shown(line)}", int(self._filled[0]) + 1)
+            self._fail(f"not counts of vertices and faces: {shown(line)}", position)
         counts = [int(word) for word in words[:2]]
         if counts[0] == 0:
             self._fail("no vertices in this OFF file")
         return counts
 
-    def _rows(self, count: int, what: str) -> slice:
-        start = self._next
-        if start + count > len(self._filled):
-            self._fail(f"the file ends before its {count} {what} do", len(self._lines) - 1)
-        self._next += count
-        return slice(start, self._next)
-
-    def _numbers(self, rows: slice) -> tuple[np.ndarray, np.ndarray]:
-        """The numbers of some lines, and how many each line holds."""
-        lines = [self._lines[k] for k in self._filled[rows].tolist()]
-        text = b"\n".join(lines)
+    def _rows(self) -> NumberRows:
+        """The lines of vertices and faces, as many as there must be."""
+        vertices, faces = self._vertex_count, self.face_count
+        body = memoryview(self._text)[self._body :]
         try:
-            values = parse_text(text)
+            rows = read_numbers(body, native.HASH_COMMENTS, vertices + faces, widths=True)
         except NotANumberError as error:
-            row = text.count(b"\n", 0, error.position)
-            self._fail(f"not a number: {shown(error.word)}", self._line(rows.start + row))
-        widths = np.fromiter((len(line.split()) for line in lines), np.int64, len(lines))
-        return values, widths
+            self._check_widths(error.widths)
+            self._fail(f"not a number: {shown(error.word)}", self._body + error.position)
+        count = len(rows.widths)
+        if count < vertices:
+            self._fail(f"the file ends before its {vertices} vertices do", len(self._text) - 1)
+        self._check_widths(rows.widths)
+        if count < vertices + faces:
+            self._fail(f"the file ends before its {faces} faces do", len(self._text) - 1)
+        return rows
 
-    def _vertex_table(self, rows: slice) -> np.ndarray:
-        values, widths = self._numbers(rows)
+    def _check_widths(self, widths: np.ndarray) -> None:
+        """Check that the lines of vertices hold enough numbers, and all as many."""
+        widths = widths[: self._vertex_count]
         needed = 3 + 3 * self._has["normals"] + 2 * self._has["uvs"]
-        wrong = (widths != widths[0]) | (widths < needed)
+        wrong = (widths != widths[:1]) | (widths < needed)
         if wrong.any():
             row = int(wrong.argmax())
             self._fail(
                 f"a vertex of {widths[row]} numbers, {max(widths[0], needed)} are expected",
-                self._line(rows.start + row),
+                self._row(row)[0],
             )
-        return values.reshape(len(widths), -1)
 
     def _vertices(self, table: np.ndarray) -> IndexedGeometry:
         geometry = IndexedGeometry(table[:, :3], np.zeros((0, 3), np.int32))
@@ -158,44 +167,48 @@ class _OffReader:
             self._warnings.add(f"{rest.shape[1]} further numbers of each vertex are left out")
         return geometry
 
-    def _faces(self, geometry: IndexedGeometry, rows: slice) -> None:
-        if rows.start == rows.stop:
-            return
-        values, widths = self._numbers(rows)
+    def _faces(self, geometry: IndexedGeometry, values: np.ndarray, widths: np.ndarray) -> None:
         starts = np.cumsum(widths) - widths
         sizes = values[starts]
-        self._check(
-            ~((sizes >= 0) & (sizes < widths) & (sizes == np.floor(sizes))), rows, "corners"
-        )
+        wrong = ~((sizes >= 0) & (sizes < widths) & (sizes == np.floor(sizes)))
+        if wrong.any():
+            self._fail_at_face("not a face", int(wrong.argmax()))
         sizes = sizes.astype(np.int64)
-        within = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-        corners = values[np.repeat(starts + 1, sizes) + within]
-        is_vertex = (corners >= 0) & (corners < len(geometry.positions))
-        wrong = ~is_vertex | (corners != np.floor(corners))
-        self._check(np.bincount(np.repeat(np.arange(len(sizes)), sizes), wrong) > 0, rows, "vertex")
+        starts += 1
+        corners = self._corners(values, starts, sizes)
+        colors = _face_colors(values, starts + sizes, widths - 1 - sizes)
+        if sizes.min() == 3 == sizes.max():
+            geometry.corners, geometry.face_colors = corners.reshape(-1, 3), colors
+            return
         if (sizes < 3).any():
             count = int((sizes < 3).sum())
             self._warnings.add(f"{count} faces of fewer than three corners are left out")
-        corners = corners.astype(np.int32)
         cut = triangulate(sizes, geometry.positions, self._budget, indices=corners)
         if not cut.is_complete:
             self._warnings.add("too many concave polygons: some are cut as if they were convex")
         geometry.corners = corners[cut.corners]
         geometry.edge_visible = cut.edge_visible
-        colors = _face_colors(values, starts + 1 + sizes, widths - 1 - sizes)
         geometry.face_colors = None if colors is None else colors[cut.polygons]
 
-    def _check(self, wrong: np.ndarray, rows: slice, what: str) -> None:
-        if wrong.any():
-            number = rows.start + int(wrong.argmax())
-            text = shown(self._lines[self._filled[number]].strip())
-            reason = {"corners": "not a face", "vertex": "vertex index out of range"}[what]
-            self._fail(f"{reason}: {text}", self._line(number))
+    def _corners(self, values: np.ndarray, starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+        """The vertices of all corners, (C,) int32."""
+        items = native.copy_numbers(values, starts.reshape(-1, 1), sizes.reshape(-1, 1), 0)
+        corners, wrong = native.indices_of(items.reshape(1, -1), self._vertex_count)
+        if wrong is not None:
+            row = int(np.searchsorted(np.cumsum(sizes), wrong, side="right"))
+            self._fail_at_face("vertex index out of range", row)
+        return native.frozen(corners).reshape(-1)
 
-    def _line(self, filled: int) -> int:
-        return int(self._filled[filled]) + 1
+    def _row(self, row: int) -> tuple[int, bytes]:
+        """The place and the text of a vertex's line, or, counted on, of a face's."""
+        return next(islice(self._filled_lines(self._body), row, None))
 
-    def _fail(self, message: str, line: int | None = None):
+    def _fail_at_face(self, reason: str, face: int):
+        position, line = self._row(self._vertex_count + face)
+        self._fail(f"{reason}: {shown(line.strip())}", position)
+
+    def _fail(self, message: str, position: int | None = None):
+        line = None if position is None else self._text.count(b"\n", 0, position) + 1
         raise FileFormatError(message, self._path, line)
 
 

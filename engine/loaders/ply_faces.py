@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._native import loaders as native
 from .ply_tables import PlyList, PlyTable
 from .ply_vertices import finite_uvs, read_colors
 from .triangulation import WorkBudget, triangulate
@@ -127,6 +128,10 @@ def _checked(table: PlyTable, found: PlyList, count: int, others: tuple = ()) ->
     # Without their sign, negative numbers are beyond every count.
     if kind in "iu" and len(values) and values.view(f"u{size}").max() < count:
         return values.astype(np.int32, copy=False)
+    if values.dtype == np.float64 and not others:
+        indices, first_wrong = native.indices_of(values.reshape(1, -1), count)
+        if first_wrong is None:
+            return native.frozen(indices).reshape(-1)
     wrong = ~((values >= 0) & (values < count))
     for other in others:
         wrong &= values != other

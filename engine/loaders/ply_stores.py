@@ -8,22 +8,21 @@ that `ply_tables` reads both in one way.
 from __future__ import annotations
 
 import re
-from array import array
 from contextlib import suppress
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 
 from .._native import loaders as native
 from ..errors import FileFormatError
-from .number_arrays import NotANumberError, parse_text
+from .number_arrays import NotANumberError, ended, read_numbers
 from .ply_header import PlyElement, PlyHeader
 from .sources import Source
 from .text import shown
 
-_COMMENT = re.compile(rb"^[ \t]*(?:comment|obj_info)\b[^\r\n]*", re.MULTILINE)
+_COMMENT = re.compile(rb"(?:^|(?<=[\r\n]))[ \t]*(?:comment|obj_info)\b[^\r\n]*")
 _WORD = re.compile(rb"\S+")
-_BLANKS = b" \t\r\n\v\f"
 # The bytes that most first rows are shorter than.
 _NEAR = 1 << 12
 
@@ -195,13 +194,10 @@ class TextStore:
     """The numbers of a text body; comments may stand between its lines."""
 
     def __init__(self, source: Source, header: PlyHeader) -> None:
-        body = source.data[header.body_start :]
-        if b"comment" in body or b"obj_info" in body:
-            body = _COMMENT.sub(b"", body)
-        self._body = body
+        self._body = ended(memoryview(source.data)[header.body_start :])
         self._first_line = header.body_line
         try:
-            self._values = parse_text(body)
+            self._values = read_numbers(self._body, native.PLY_COMMENTS).values
         except NotANumberError as error:
             raise FileFormatError(
                 f"not a number: {shown(error.word)}", source.path, self._line_at(error.position)
@@ -212,30 +208,15 @@ class TextStore:
         return 1
 
     def walk(self, lists: list[ListInRow], tail: int, place: int, rows: int) -> WalkedRows:
-        view, end = memoryview(self._values), self.end
-        places, starts, sizes = array("q"), array("q"), array("q")
-        for row in range(rows):
-            places.append(place)
-            for before, _, _ in lists:
-                place += before
-                if place >= end:
-                    raise ShortBodyError
-                size = view[place]
-                if not size.is_integer() or size < 0:
-                    raise BadListError(row, place)
-                place += 1
-                if place + int(size) > end:
-                    raise ShortBodyError
-                starts.append(place)
-                sizes.append(int(size))
-                place += int(size)
-            place += tail
-            if place > end:
-                raise ShortBodyError
-        found = (np.frombuffer(numbers, np.int64) for numbers in (places, starts, sizes))
-        places, starts, sizes = found
-        shape = (rows, len(lists))
-        return WalkedRows(places, starts.reshape(shape), sizes.reshape(shape), place)
+        skips = [before for before, _, _ in lists]
+        problem, places, starts, sizes, end, row = native.walk_number_rows(
+            self._values, place, skips, tail, rows
+        )
+        if problem == native.PLY_SHORT:
+            raise ShortBodyError
+        if problem == native.PLY_BAD_LIST:
+            raise BadListError(row, end)
+        return WalkedRows(places, starts, sizes, end)
 
     def lengths_are(
         self, place: int, offset: int, stride: int, rows: int, code: str, length: int
@@ -250,10 +231,7 @@ class TextStore:
         return self.rows(place, 1, (rows, length), 1 + length, code)
 
     def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
-        sizes = walked.sizes[:, number]
-        places = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-        places += np.repeat(walked.starts[:, number], sizes)
-        return self._values[places]
+        return native.copy_numbers(self._values, walked.starts, walked.sizes, number)
 
     def rows(
         self, place: int, offset: int, shape: tuple[int, int], stride: int, code: str
@@ -261,7 +239,9 @@ class TextStore:
         if 0 in shape:
             return np.zeros(shape, np.float64)
         view = np.ndarray(shape, np.float64, self._values, 8 * (place + offset), (8 * stride, 8))
-        return view.copy()
+        items = native.large_array(shape, np.float64)
+        items[:] = view
+        return items
 
     def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
         return self._values[places]
@@ -270,19 +250,17 @@ class TextStore:
         return self._values[start :: max(stride, 1)][:rows]
 
     def line(self, place: int) -> int:
-        """Return the line that a word stands in; the last one for places behind the end."""
-        position = len(self._body.rstrip(_BLANKS))
-        for number, match in enumerate(_WORD.finditer(self._body)):
-            if number == place:
-                position = match.start()
-                break
-        return self._line_at(position)
+        """Return the line that a number stands in; the last one for places behind the end."""
+        body = _COMMENT.sub(lambda comment: b" " * len(comment[0]), self._body)
+        words = islice(_WORD.finditer(body), place, None)
+        found = next(words, None)
+        return self._line_at(len(body.rstrip()) if found is None else found.start())
 
     def describe(self, place: int) -> str:
         return ""
 
     def _line_at(self, position: int) -> int:
-        before = self._body[:position]
+        before = bytes(self._body[:position])
         feeds, returns, pairs = (before.count(mark) for mark in (b"\n", b"\r", b"\r\n"))
         return self._first_line + feeds + returns - pairs
 

@@ -17,7 +17,6 @@ from ..errors import FileFormatError
 from ..materials import Material
 from ..mesh import Mesh
 from .documents import Document, DocumentObject
-from .number_arrays import NotANumberError, parse_text
 from .registry import Reader
 from .sources import Source
 from .text import decoded, shown, text_lines
@@ -28,8 +27,15 @@ from .welding import number_rows
 _HEADER = 84
 # A facet is a normal, three corners, and two bytes of attributes.
 _FACET_SIZE, _CORNERS_AT = 50, 12
+_SKIPPED = (b"facet", b"outer", b"endfacet", b"endsolid")
 _TEXT = re.compile(rb"\s*solid\b", re.IGNORECASE)
 _MAX_OBJECTS = 1000
+_MOST = 2**31 - 1
+_FORMS = (
+    (b"vertex % % %", native.ROW, 3, _MOST, 0.0, 0),
+    (b"endloop ", native.MARKED, 0, 0, 0.0, 0),
+    *((word + b" ", native.SKIPPED, 0, 0, 0.0, 0) for word in _SKIPPED),
+)
 _SNIFFED = 4096
 
 
@@ -132,57 +138,46 @@ def _require_facets(count: int, source: Source) -> None:
 
 
 def _read_text(source: Source, warnings: WarningList) -> _Facets:
-    """Read the text form line by line: what counts are the lines of vertices and of loops' ends."""
-    lines = text_lines(source).split(b"\n")
-    numbers: list[bytes] = []
-    ends: list[int] = []
+    """Read the text form: what counts are the lines of vertices and of loops' ends."""
+    text = text_lines(source)
+    reader = native.FormReader(text, _FORMS, True)
     solids: list[tuple[str, int]] = []
-    for number, line in enumerate(lines, 1):
-        words = line.split(None, 1)
-        if not words:
-            continue
-        keyword = words[0].lower()
-        if keyword == b"vertex":
-            numbers.append(words[1] if len(words) > 1 else b"")
-        elif keyword == b"endloop":
-            ends.append(len(numbers))
-        elif keyword == b"solid":
-            solids.append((decoded(words[1].strip()) if len(words) > 1 else "", len(ends)))
-        elif keyword not in (b"facet", b"outer", b"endfacet", b"endsolid"):
-            raise FileFormatError(f"not a line of an STL file: {shown(line)}", source.path, number)
-    if ends[-1:] != [len(numbers)] and (ends or numbers):
-        raise FileFormatError("the file ends within a facet", source.path, len(lines) - 1)
-    try:
-        values = parse_text(b"\n".join(numbers))
-    except NotANumberError:
-        values = np.zeros(0)
-    if len(values) != 3 * len(numbers):
-        _fail_at_vertex(source.path, lines)
+    ends = [np.zeros(1, np.int64)]
+    count, place = 0, reader.read(0)
+    while place < len(text):
+        end = text.index(b"\n", place)
+        words = text[place:end].split(None, 1)
+        if words[0].lower() != b"solid":
+            _fail_at(source.path, text, place)
+        ends.append(reader.take_marks()["rows"])
+        name = decoded(words[1].strip()) if len(words) > 1 else ""
+        count += len(ends[-1])
+        solids.append((name, count))
+        place = reader.read(end + 1)
+    ends = np.concatenate([*ends, reader.take_marks()["rows"]])
+    corners = reader.take_rows(0)
+    if ends[-1] != len(corners):
+        raise FileFormatError("the file ends within a facet", source.path, text.count(b"\n"))
     with np.errstate(over="ignore"):
-        corners = values.astype(np.float32).reshape(-1, 3)
-    _require_facets(len(ends), source)
+        corners = corners.astype(np.float32)
+    count = len(ends) - 1
+    _require_facets(count, source)
     budget = WorkBudget.for_file(source.size)
-    sizes = np.diff(ends, prepend=0)
-    cut = triangulate(sizes, corners, budget)
+    cut = triangulate(np.diff(ends), corners, budget)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     place, first = number_rows(corners)
     faces, visible = place[cut.corners], cut.edge_visible
-    return _Facets(len(ends), corners[first], faces, cut.polygons, visible, len(corners), solids)
+    return _Facets(count, corners[first], faces, cut.polygons, visible, len(corners), solids)
 
 
-def _fail_at_vertex(path: str, lines: list[bytes]):
-    """Raise an error about the first vertex that has not got three numbers."""
-    for number, line in enumerate(lines, 1):
-        words = line.split()
-        if words and words[0].lower() == b"vertex":
-            try:
-                is_sound = len(parse_text(b" ".join(words[1:]))) == 3
-            except NotANumberError:
-                is_sound = False
-            if not is_sound:
-                raise FileFormatError(f"not three numbers: {shown(line.strip())}", path, number)
-    raise FileFormatError("a vertex has not got three numbers", path)
+def _fail_at(path: str, text: bytes, place: int):
+    """Raise an error about the line that begins there, which has no form."""
+    line = text[place : text.index(b"\n", place)]
+    is_vertex = line.split()[0].lower() == b"vertex"
+    what = "not three numbers" if is_vertex else "not a line of an STL file"
+    number = text.count(b"\n", 0, place) + 1
+    raise FileFormatError(f"{what}: {shown(line.strip())}", path, number)
 
 
 def _groups(solids: list[tuple[str, int]], facets: np.ndarray) -> list[tuple[str, np.ndarray]]:

@@ -8,6 +8,7 @@ its folder only.
 from __future__ import annotations
 
 import io
+import json
 
 from ..errors import Engine3DError, FileFormatError
 from .documents import Document, DocumentObject
@@ -19,6 +20,10 @@ from .warning_list import WarningList
 # What trimesh reads by itself, and what it reads with further packages.
 _EXTENSIONS = (".glb", ".gltf", ".xyz", ".dxf", ".dae", ".zae", ".3mf", ".3dxml", ".xaml")
 _GLB = b"glTF"
+# What files of a kind begin with, if anything.
+_BEGINNINGS = {"glb": _GLB, **dict.fromkeys(("3mf", "3dxml", "zae"), b"PK")}
+_BEGINNINGS |= dict.fromkeys(("dae", "xaml"), b"<")
+_BYTE_ORDER_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
 
 
 def read_with_trimesh(source: Source, split: bool = False) -> Document:
@@ -44,6 +49,7 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
             f"trimesh needs further packages for {kind} files: pip install trimesh[easy]",
             source.path,
         )
+    _check_beginning(source, kind)
     warnings = WarningList(source.path)
     try:
         loaded = trimesh.load(
@@ -56,10 +62,15 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
         parts = scene_parts(scene)
     except Engine3DError:
         raise
+    except FileNotFoundError as error:
+        raise FileFormatError(f"trimesh cannot read it: {error}", source.path) from error
     # Damaged files lead trimesh to whatever its libraries raise: KeyError, struct.error, ...
     except Exception as error:
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise FileFormatError(f"trimesh cannot read it: {reason}", source.path) from error
+        said = " ".join(str(error).split())
+        reason = f"{type(error).__name__}: {said}" if said else type(error).__name__
+        raise FileFormatError(
+            f"damaged, or no {kind} file (trimesh ended with {reason})", source.path
+        ) from error
     objects = [
         DocumentObject(part.name, part.mesh, part.pose)
         if split
@@ -75,6 +86,21 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
         "objects": [entry.name for entry in objects],
     }
     return Document(kind, objects, counts=counts, warnings=warnings.messages())
+
+
+def _check_beginning(source: Source, kind: str) -> None:
+    """Refuse what is no such file at all: trimesh would find fault with something else."""
+    if kind == "gltf":
+        try:
+            is_sound = isinstance(json.loads(source.data), dict)
+        except (ValueError, RecursionError):
+            is_sound = False
+    else:
+        head = source.data[:64]
+        is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
+        is_sound = is_marked or head.lstrip().startswith(_BEGINNINGS.get(kind, b""))
+    if not is_sound:
+        raise FileFormatError(f"not a {kind} file", source.path)
 
 
 def _trimesh(source: Source):

@@ -100,6 +100,8 @@ def test_bytes_behind_the_last_triangle(load):
         ),
         (TEXT.replace("vertex 1 0 0", "vertex 1 0"), r"a\.stl:5: not three numbers"),
         (TEXT.replace("vertex 1 0 0", "vertex"), r"a\.stl:5: not three numbers"),
+        (TEXT.replace("vertex 1 0 0", "vertex 1 0 0 0"), r"a\.stl:5: not three numbers"),
+        (TEXT.replace("0\n", "\n", 1).replace("vertex 1", "vertex 1 0"), "not three numbers"),
         (TEXT.replace("vertex 1", "vortex 1"), r"a\.stl:5: not a line of an STL file"),
         (TEXT[: TEXT.index("endloop")], r"a\.stl:7: the file ends within a facet"),
     ],

@@ -153,3 +153,21 @@ def test_without_trimesh(write):
     lines = found.stdout.splitlines()
     assert "a.glb: .glb files need the package trimesh" in lines[0]
     assert "engine3d[formats]" in lines[1]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("a.gltf", b"nonsense", "not a gltf file"),
+        ("a.gltf", b"[1]", "not a gltf file"),
+        ("a.glb", b"", "not a glb file"),
+        ("a.dae", b"{}", "not a dae file"),
+        ("a.3mf", b"<a/>", "not a 3mf file"),
+        ("a.gltf", b'{"scenes": 3}', "damaged, or no gltf file .trimesh ended with TypeError"),
+    ],
+)
+def test_what_is_no_such_file_at_all_is_told(tmp_path, name, content, message):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(FileFormatError, match=rf"{name}: {message}") as caught:
+        load_mesh(tmp_path / name)
+    assert "\n" not in str(caught.value)

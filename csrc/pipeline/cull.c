@@ -109,6 +109,43 @@ void e3d_view_box(const e3d_viewport *viewport, const float clip[16], const floa
         project(viewport, &c, out);
 }
 
+static inline int4 load_words(const int32_t *p)
+{
+    int4 v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+static inline int32_t least(int4 v)
+{
+    int32_t a = v[0] < v[1] ? v[0] : v[1], b = v[2] < v[3] ? v[2] : v[3];
+    return a < b ? a : b;
+}
+
+int e3d_view_vertices(const e3d_viewport *viewport, const e3d_vertices *v, e3d_box_view *out)
+{
+    if (v->special || v->count < 4)
+        return 0;
+    int4 x[2], y[2];
+    float4 z = load4(v->zn);
+    x[0] = x[1] = load_words(v->sx);
+    y[0] = y[1] = load_words(v->sy);
+    for (int i = 4; i < v->count; i += 4) {
+        int at = i < v->count - 4 ? i : v->count - 4; /* the last may be looked at twice */
+        int4 ax = load_words(v->sx + at), ay = load_words(v->sy + at);
+        x[0] = choose_bits(ax < x[0], ax, x[0]);
+        x[1] = choose_bits(ax > x[1], ax, x[1]);
+        y[0] = choose_bits(ay < y[0], ay, y[0]);
+        y[1] = choose_bits(ay > y[1], ay, y[1]);
+        z = less_of(load4(v->zn + at), z);
+    }
+    int32_t left = least(x[0]), top = least(y[0]);
+    const int32_t xs[3] = {left, -least(-x[1]), left}, ys[3] = {top, -least(-y[1]), top};
+    float a = z[0] < z[1] ? z[0] : z[1], b = z[2] < z[3] ? z[2] : z[3];
+    *out = (e3d_box_view){E3D_BOX_INSIDE, a < b ? a : b, e3d_sample_box(xs, ys, viewport)};
+    return out->samples.x0 <= out->samples.x1 && out->samples.y0 <= out->samples.y1;
+}
+
 const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance)
 {
     return frame->frozen_clip_from_world ? instance->frozen : instance->clip;

@@ -282,6 +282,8 @@ int e3d_box_state(const float clip[16], const float lo[3], const float hi[3]);
 /* Only the state is set of a box that is outside. */
 void e3d_view_box(const e3d_viewport *viewport, const float clip[16], const float lo[3], const float hi[3],
                   e3d_box_view *out);
+/* Of vertices that are all in the frustum, four or more, around a sample; 0 if they are not. */
+int e3d_view_vertices(const e3d_viewport *viewport, const e3d_vertices *vertices, e3d_box_view *out);
 /* Lists the frame's items; 0 when memory is out. */
 int e3d_find_items(e3d_context *context);
 const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);

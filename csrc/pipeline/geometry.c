@@ -179,19 +179,25 @@ static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *ind
         e3d_fragments_add(w->context, w->worker, &drawn, indices, small);
 }
 
-static void draw_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster)
+static void transform_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster)
+{
+    const e3d_context *context = w->context;
+    if (w->draw->mesh->desc.components == 4)
+        context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->viewport, &w->worker->vertices);
+    else
+        context->kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &context->viewport,
+                                    item->view.state == E3D_BOX_INSIDE && !context->frame->frozen_clip_from_world,
+                                    &w->worker->vertices);
+}
+
+/* A cluster that is transformed. */
+static void draw_cluster(walker *w, const e3d_cluster *cluster)
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_kernels *kernels = w->context->kernels;
     const e3d_viewport *viewport = &w->context->viewport;
     e3d_worker *worker = w->worker;
     int fragments = w->context->by_fragments && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
-    if (mesh->desc.components == 4)
-        kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, viewport, &worker->vertices);
-    else
-        kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, viewport,
-                           item->view.state == E3D_BOX_INSIDE && !w->context->frame->frozen_clip_from_world,
-                           &worker->vertices);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
     kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
@@ -253,6 +259,20 @@ static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_grou
     return shown;
 }
 
+/* Whether what is drawn hides all that the cluster's vertices enclose on the screen: less than its box does. */
+static int vertices_are_hidden(const walker *w)
+{
+    e3d_box_view view;
+    return e3d_view_vertices(&w->context->viewport, &w->worker->vertices, &view) && e3d_is_hidden(w->context, &view);
+}
+
+/* Of a smaller group, clusters are drawn in the time that a closer look takes. */
+static int is_wide(const e3d_box *samples)
+{
+    enum { WIDE = 48 };
+    return (samples->x1 - samples->x0) + (samples->y1 - samples->y0) > WIDE;
+}
+
 /* Threads may mark the same instance. */
 static void mark(walker *w, const e3d_item *item, e3d_fate fate)
 {
@@ -295,13 +315,21 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     } else if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE) {
         shown = find_fates(w, item, group, asked, fates);
     }
-    for (unsigned left = asked & wanted; left; left &= left - 1)
-        count_cluster(w, item, &clusters[__builtin_ctz(left)], fates[__builtin_ctz(left)]);
-    for (unsigned left = shown & wanted; left; left &= left - 1) {
+    int closely = w->context->round.tested && is_wide(&item->view.samples);
+    for (unsigned left = closely ? shown : shown & wanted; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
         if (left & (left - 1))
             fetch_cluster(&clusters[__builtin_ctz(left & (left - 1))], mesh->desc.components);
-        draw_cluster(w, item, &clusters[__builtin_ctz(left)]);
+        transform_cluster(w, item, &clusters[k]);
+        if (closely && vertices_are_hidden(w)) {
+            fates[k] = E3D_FATE_OCCLUDED;
+            shown &= ~(1u << k);
+        } else if (wanted >> k & 1) {
+            draw_cluster(w, &clusters[k]);
+        }
     }
+    for (unsigned left = asked & wanted; left; left &= left - 1)
+        count_cluster(w, item, &clusters[__builtin_ctz(left)], fates[__builtin_ctz(left)]);
     return shown;
 }
 

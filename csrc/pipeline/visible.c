@@ -13,16 +13,30 @@ void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
     visible->y = tile->y;
 }
 
-void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number)
+/* The next block of each thread in turn: all of them list records from near to far. */
+static void draw_records(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number)
 {
     const e3d_renderer *renderer = context->renderer;
-    for (int32_t w = 0; w < renderer->threads; w++) {
-        const e3d_record_set *set = &renderer->workers[w]->pass[E3D_PASS_SCENE];
-        const e3d_bin_block *blocks = set->blocks.data;
-        uint32_t next = ((const e3d_bin *)set->bins.data)[tile_number].first;
-        for (; next != E3D_NO_BLOCK; next = blocks[next].next)
-            context->kernels->raster_visible(visible, &context->tables[E3D_PASS_SCENE], blocks[next].id,
-                                             (int)blocks[next].count);
-        e3d_fragments_draw(context, renderer->workers[w], visible, tile_number);
+    uint32_t next[E3D_MAX_THREADS];
+    int32_t left = renderer->threads;
+    for (int32_t w = 0; w < renderer->threads; w++)
+        next[w] = ((const e3d_bin *)renderer->workers[w]->pass[E3D_PASS_SCENE].bins.data)[tile_number].first;
+    while (left) {
+        left = 0;
+        for (int32_t w = 0; w < renderer->threads; w++) {
+            if (next[w] == E3D_NO_BLOCK)
+                continue;
+            const e3d_bin_block *block = (const e3d_bin_block *)renderer->workers[w]->pass[E3D_PASS_SCENE].blocks.data + next[w];
+            context->kernels->raster_visible(visible, &context->tables[E3D_PASS_SCENE], block->id, (int)block->count);
+            next[w] = block->next;
+            left += next[w] != E3D_NO_BLOCK;
+        }
     }
+}
+
+void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number)
+{
+    draw_records(context, visible, tile_number);
+    for (int32_t w = 0; w < context->renderer->threads; w++)
+        e3d_fragments_draw(context, context->renderer->workers[w], visible, tile_number);
 }

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ._native.loaders import find_edges
+
 
 def visible_edges(
     faces: np.ndarray,
@@ -31,14 +33,18 @@ def visible_edges(
         Vertex indices as they stand in the first face that shows the edge, in that order.
         Edges from a point to itself are left out.
     """
-    edges = half_edges(faces)
-    if edge_visible is not None:
-        edges = edges[edge_visible.ravel()]
-    keys, proper = _edge_keys(edges, position_ids)
-    edges, keys = edges[proper], keys[proper]
-    _, first = np.unique(keys, return_index=True)
-    first.sort()
-    return np.ascontiguousarray(edges[first], np.int32)
+    faces = np.ascontiguousarray(faces, np.int32)
+    if position_ids is None:
+        count = int(faces.max(initial=-1)) + 1
+    else:
+        position_ids = np.ascontiguousarray(position_ids, np.int32)
+        count = int(position_ids.max(initial=-1)) + 1
+    wanted = None if edge_visible is None else np.ascontiguousarray(edge_visible, bool)
+    wanted = None if wanted is None else wanted.reshape(-1).view(np.uint8)
+    sides = np.flatnonzero(find_edges(faces, position_ids, wanted, count))
+    corners = faces.reshape(-1)
+    behind = sides + np.where(sides % 3 == 2, -2, 1)
+    return np.stack([corners[sides], corners[behind]], axis=1)
 
 
 def polygon_ids(

@@ -1,8 +1,9 @@
-/* Fuzzes the sums of angle-weighted normals.
+/* Fuzzes the sums of angle-weighted normals, and the edges of the same triangles.
  *
  * In:  a byte each: positions, groups, triangles in a block, whether doubles; positions; six bytes a triangle.
  * Claims: an index out of range is found; sums are finite, and no longer than their corners allow; a group without
- *      corners has none; triangles wound the other way round add the opposite, to the bit.
+ *      corners has none; triangles wound the other way round add the opposite, to the bit; of the sides between two points the first is
+ *      an edge, and no other.
  */
 #include "e3d_loaders.h"
 #include "fuzz/input.h"
@@ -64,6 +65,32 @@ static void claim_opposite(const e3d_surface *surface, size_t block, const doubl
     free(opposite);
 }
 
+/* Points are those of each vertex, or NULL; the groups tell which sides are wanted. */
+static void claim_edges(const e3d_surface *surface, const int32_t *points, size_t point_count)
+{
+    static uint8_t wanted[3 * MOST_TRIANGLES], first[3 * MOST_TRIANGLES];
+    const e3d_sides sides = {surface->faces, points, wanted, surface->face_count, point_count};
+    size_t count = 3 * surface->face_count;
+    for (size_t i = 0; i < count; i++) {
+        wanted[i] = groups[i] % 3 != 0;
+        first[i] = 0;
+    }
+    CLAIM(e3d_find_edges(&sides, first));
+    for (size_t i = 0; i < count; i++) {
+        int32_t ends[2] = {faces[i], faces[i % 3 == 2 ? i - 2 : i + 1]};
+        bool is_first = wanted[i];
+        for (int k = 0; k < 2 && points; k++)
+            ends[k] = points[ends[k]];
+        for (size_t j = 0; j < i && is_first; j++) {
+            int32_t a = faces[j], b = faces[j % 3 == 2 ? j - 2 : j + 1];
+            a = points ? points[a] : a;
+            b = points ? points[b] : b;
+            is_first = !(wanted[j] && ((a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0])));
+        }
+        CLAIM(first[i] == (is_first && ends[0] != ends[1]));
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     input in = {bytes, size};
@@ -87,6 +114,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         claim_sizes(&surface, sums);
         if (groups_differ(surface.face_count))
             claim_opposite(&surface, block, sums);
+        const int32_t points[16] = {0, 1, 1, 2, 3, 3, 3, 4, 4, 5, 6, 7, 7, 0, 1, 9};
+        claim_edges(&surface, NULL, surface.position_count);
+        claim_edges(&surface, points, 10);
     }
     free(sums);
     free(positions);

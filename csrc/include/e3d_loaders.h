@@ -172,6 +172,18 @@ typedef struct e3d_surface {
  * the group; `block_faces` triangles are added up at a time, and their sums to the others. */
 e3d_sums_problem e3d_smooth_sums(const e3d_surface *surface, size_t block_faces, double *sums);
 
+/* The sides of triangles: side k of a face is from its vertex k to the next one. */
+typedef struct e3d_sides {
+    const int32_t *faces;  /* [3 * face_count] */
+    const int32_t *points; /* of each vertex the point that it is, less than point_count; NULL: each is its own */
+    const uint8_t *wanted; /* [3 * face_count]; NULL: all are */
+    size_t face_count, point_count;
+} e3d_sides;
+
+/* Marks each side that is the first between its two points, of those that are wanted and join two. first[3 * face_count] is
+ * zeros to begin with. False if memory is out; fewer than 2^32 sides. */
+bool e3d_find_edges(const e3d_sides *sides, uint8_t *first);
+
 typedef enum e3d_cut_problem {
     E3D_CUT_DONE,
     E3D_CUT_NO_MEMORY,

@@ -115,6 +115,14 @@ cdef extern from "e3d_loaders.h" nogil:
     e3d_sums_problem e3d_smooth_sums(
         const e3d_surface *surface, size_t block_faces, double *sums)
 
+    ctypedef struct e3d_sides:
+        const int32_t *faces
+        const int32_t *points
+        const uint8_t *wanted
+        size_t face_count, point_count
+
+    bint e3d_find_edges(const e3d_sides *sides, uint8_t *first)
+
     ctypedef enum e3d_cut_problem:
         E3D_CUT_DONE
         E3D_CUT_NO_MEMORY

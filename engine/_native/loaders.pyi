@@ -72,6 +72,12 @@ def smooth_sums(
     count: int,
     block: int,
 ) -> NDArray[np.float64]: ...
+def find_edges(
+    faces: NDArray[np.int32],
+    points: NDArray[np.int32] | None,
+    wanted: NDArray[np.uint8] | None,
+    count: int,
+) -> NDArray[np.uint8]: ...
 def cut_polygons(
     sizes: NDArray[np.int32],
     positions: NDArray[np.floating],

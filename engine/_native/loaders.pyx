@@ -380,6 +380,39 @@ def smooth_sums(positions, const int32_t[:, ::1] faces not None,
     return sums
 
 
+def find_edges(const int32_t[:, ::1] faces not None, const int32_t[::1] points,
+               const uint8_t[::1] wanted, size_t count):
+    """Mark the first of all sides between two points: (3 F,) uint8.
+
+    ``points`` (V,) are the vertices' points, below ``count``, or None if each vertex is its own;
+    ``wanted`` (3 F,) leaves out sides where it is 0.
+    """
+    cdef e3d_sides sides = e3d_sides(NULL, NULL, NULL, faces.shape[0], count)
+    first = np.zeros(3 * faces.shape[0], np.uint8)
+    cdef uint8_t[::1] view = first
+    cdef bint done = True
+    if faces.shape[0] == 0:
+        return first
+    if faces.shape[1] != 3 or (wanted is not None and wanted.shape[0] != view.shape[0]):
+        raise InvalidArgumentError("faces must be (F, 3), wanted (3 F,)")
+    vertices = count if points is None else points.shape[0]
+    low, high = np.min(faces), np.max(faces)
+    if low < 0 or high >= vertices:
+        raise InvalidArgumentError("a face holds an index that is out of range")
+    if points is not None and (np.min(points) < 0 or np.max(points) >= count):
+        raise InvalidArgumentError("a vertex is a point that is out of range")
+    sides.faces = &faces[0, 0]
+    if points is not None:
+        sides.points = &points[0]
+    if wanted is not None:
+        sides.wanted = &wanted[0]
+    with nogil:
+        done = e3d_find_edges(&sides, &view[0])
+    if not done:
+        raise OutOfMemoryError("no memory for the edges of a mesh")
+    return first
+
+
 def cut_polygons(const int32_t[::1] sizes not None, positions, const int32_t[::1] indices,
                  size_t corners, size_t triangles, int64_t tests):
     """Cut polygons (P,) of so many corners each into so many triangles.

@@ -6,6 +6,7 @@
  * Always: the same arrays give the same order on any number of threads. A stable radix sort, most significant digit
  *      first: ranges of faces are sorted into buckets, then each bucket by itself, in cache.
  */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -188,13 +189,70 @@ static void sort_bucket(void *argument, int bucket)
 
 /* ---- all of it ---- */
 
-static void set_grid(order *o, const float lo[3], const float hi[3])
+static float longest_side(const float lo[3], const float hi[3])
 {
     float size = 0;
-    for (int k = 0; k < 3; k++) {
-        o->lo[k] = lo[k];
+    for (int k = 0; k < 3; k++)
         size = hi[k] - lo[k] > size ? hi[k] - lo[k] : size;
+    return size;
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    float x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return (x > y) - (x < y);
+}
+
+/* Where most of the faces are, by the corners of some: the others are in the cells at the border. */
+static void find_middle(const e3d_mesh_desc *d, float lo[3], float hi[3])
+{
+    enum { SAMPLES = 1024, BEYOND = 32 }; /* one in so many may be farther out, on either side */
+    float samples[3][SAMPLES + 1];
+    int32_t step = d->faces_count / SAMPLES + 1;
+    int count = 0;
+    for (int64_t face = 0; face < d->faces_count; face += step) {
+        const float *p = d->positions + 3 * (size_t)d->faces[3 * face];
+        if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]))
+            continue;
+        for (int k = 0; k < 3; k++)
+            samples[k][count] = p[k];
+        count++;
     }
+    for (int k = 0; k < 3 && count; k++) {
+        qsort(samples[k], (size_t)count, sizeof(float), compare_floats);
+        lo[k] = samples[k][count / BEYOND];
+        hi[k] = samples[k][count - 1 - count / BEYOND];
+    }
+}
+
+/* A box within the given one: it may leave out what lies far from most of the mesh. */
+static void leave_out_far(const e3d_mesh_desc *d, float lo[3], float hi[3])
+{
+    enum { FAR = 8 };
+    float inner_lo[3] = {0, 0, 0}, inner_hi[3] = {0, 0, 0};
+    find_middle(d, inner_lo, inner_hi);
+    float size = longest_side(inner_lo, inner_hi);
+    if (!(size > 0) || !(longest_side(lo, hi) > FAR * size))
+        return;
+    float margin = 0.25f * size;
+    for (int k = 0; k < 3; k++) {
+        lo[k] = inner_lo[k] - margin > lo[k] ? inner_lo[k] - margin : lo[k];
+        hi[k] = inner_hi[k] + margin < hi[k] ? inner_hi[k] + margin : hi[k];
+    }
+}
+
+static void set_grid(order *o, const float mesh_lo[3], const float mesh_hi[3])
+{
+    float lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        lo[k] = mesh_lo[k];
+        hi[k] = mesh_hi[k];
+    }
+    leave_out_far(o->desc, lo, hi);
+    memcpy(o->lo, lo, sizeof lo);
+    float size = longest_side(lo, hi);
     o->scale = size > 0 ? (1 << GRID_BITS) / size : 0;
     while (o->coarse < GRID_BITS && (int64_t)FACES_A_CELL << (2 * (o->coarse + 1)) <= o->desc->faces_count)
         o->coarse++; /* a surface meets about 4^n cells of 8^n */

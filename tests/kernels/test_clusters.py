@@ -35,6 +35,11 @@ def make(name):
         return bumpy_grid(180, rng)  # three chunks, several ranges and buckets
     if name == "split":
         return split(*bumpy_grid(100, rng))
+    if name == "outlier":
+        positions, faces = bumpy_grid(180, rng)
+        far = np.float32([(1e6, -3e5, 2e6), (1e6, -3e5, 3e6), (2e6, -3e5, 2e6)])
+        corners = np.arange(3, dtype=np.int32) + len(positions)
+        return np.concatenate([positions, far]), np.insert(faces, 777, corners, axis=0)
     if name == "soup":
         return soup(9000, rng)
     if name == "tiny":
@@ -57,7 +62,18 @@ def make(name):
     return positions, faces
 
 
-MESHES = ("grid", "split", "soup", "tiny", "huge", "one place", "one face", "no face", "hostile")
+MESHES = (
+    "grid",
+    "split",
+    "outlier",
+    "soup",
+    "tiny",
+    "huge",
+    "one place",
+    "one face",
+    "no face",
+    "hostile",
+)
 
 
 @pytest.fixture(scope="module", params=(*MESHES, "clip"))
@@ -159,12 +175,16 @@ def test_threads_change_nothing(built):
         assert repr(clusters_of(positions, faces, threads)) == repr(tuple(parts))
 
 
-def test_neighbours_come_together():
-    """Of a grid in random order, clusters are small: sorting has found who is whose neighbour."""
-    positions, faces = make("grid")
+@pytest.mark.parametrize("name", ["grid", "outlier"])
+def test_neighbours_come_together(name):
+    """Of a grid in random order, clusters are small: sorting has found who is whose neighbour.
+
+    So it does where one face lies a million times farther out than the others are apart.
+    """
+    positions, faces = make(name)
     boxes = np.array([cluster[5] for cluster in clusters_of(positions, faces, 2)[1]])
     sides = np.sort(boxes[:, 3:] - boxes[:, :3], axis=1)
-    assert np.median(sides[:, 2]) < 0.1 * np.ptp(positions, axis=0).max()
+    assert np.median(sides[:, 2]) < 0.1 * 180
 
 
 def test_negative_and_too_large_indices_are_refused():

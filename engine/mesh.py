@@ -16,7 +16,7 @@ import numpy as np
 
 from . import normals as _normals
 from . import topology as _topology
-from ._native.loaders import frozen, large_array
+from ._native.loaders import frozen
 from ._native.rasterizer import bound_points
 from .errors import InvalidArgumentError
 from .materials import Material
@@ -313,9 +313,8 @@ class Mesh:
         _check_length(self._arrays.get("edge_visible"), len(faces), "edge_visible", "faces")
         ids = self._arrays.get("material_ids")
         if ids is None or len(ids) != len(faces):
-            zeros = large_array((len(faces),), np.int32)
-            zeros.fill(0)
-            self._arrays["material_ids"] = check_indices(frozen(zeros), "")
+            # Pages of zeros that nobody reads never come.
+            self._arrays["material_ids"] = check_indices(frozen(np.zeros(len(faces), np.int32)), "")
 
 
 def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:

@@ -57,15 +57,16 @@ def read_faces(
         return PlyFaces(np.zeros((0, 3), np.int32))
     outlines = table.list(name)
     indices = _checked(table, outlines, len(positions))
-    short = np.flatnonzero(outlines.sizes < 3)
-    if len(short):
-        warnings.add(f"{len(short)} faces of fewer than three corners are left out")
+    are_triangles = outlines.length == 3
+    short = 0 if are_triangles else int((outlines.sizes < 3).sum())
+    if short:
+        warnings.add(f"{short} faces of fewer than three corners are left out")
     colors = read_colors(table)
     textures = None
     if table.has("texnumber"):
         textures = np.nan_to_num(table.column("texnumber").astype(np.float64))
     uvs = _corner_uvs(table, outlines.sizes, warnings)
-    if outlines.sizes.min() == 3 == outlines.sizes.max():
+    if are_triangles or outlines.sizes.min() == 3 == outlines.sizes.max():
         corners = indices.reshape(-1, 3)
         return PlyFaces(corners, None if uvs is None else uvs.reshape(-1, 3, 2), colors, textures)
     cut = triangulate(outlines.sizes, positions, budget, indices=indices)

@@ -35,10 +35,13 @@ class PlyList(NamedTuple):
         Items in each row.
     values : (M,) number
         All items, row after row.
+    length : int or None
+        How many items each row has, where that was found out.
     """
 
     sizes: np.ndarray
     values: np.ndarray
+    length: int | None = None
 
 
 class _Layout(NamedTuple):
@@ -140,11 +143,12 @@ class PlyTable:
         sizes = layout.rows.sizes[:, number]
         if layout.stride is None:
             return PlyList(sizes, native.frozen(self._store.lists(layout.rows, number, code)))
-        values = layout.items
+        values, length = layout.items, int(sizes[0])
         if values is None:
-            shape = (len(self), int(sizes[0]))
+            shape = (len(self), length)
             values = self._rows(int(layout.rows.starts[0, number]), shape, code)
-        return PlyList(np.broadcast_to(sizes, len(self)), native.frozen(values).reshape(-1))
+        values = native.frozen(values).reshape(-1)
+        return PlyList(np.broadcast_to(sizes, len(self)), values, length)
 
     def _rows(self, start: int, shape: tuple[int, int], code: str) -> np.ndarray:
         """Neighbouring numbers of all rows, of one shape; those of the first row at ``start``."""

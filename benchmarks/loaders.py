@@ -1,7 +1,7 @@
 """How fast model files load: megabytes a second, beside trimesh and tinyobjloader in one run.
 
 In:  the installed engine3d; files of --megabytes that are made here, in a temporary folder, or the
-     files named.
+     files named. PLY and STL are binary and text.
 Out: a table, or with --json one object: what was run where, and a row a file and loader.
 
 The surface is a wavy tube of triangles, with or without texture coordinates and normals. Every
@@ -70,6 +70,8 @@ READS = {
     ".obj": ("engine3d", "trimesh", "tinyobjloader"),
     ".ply": ("engine3d", "trimesh", "NumPy"),
     ".stl": ("engine3d", "trimesh", "NumPy"),
+    ".off": ("engine3d", "trimesh"),
+    ".asc": ("engine3d",),
 }
 
 
@@ -96,8 +98,30 @@ def write_tube(path, megabytes, full):
                 file.write(f"f {a} {b} {c}\nf {a} {c} {d}\n")
 
 
+def write_off(path, mesh):
+    points, faces = mesh.positions.tolist(), mesh.faces.tolist()
+    with open(path, "w") as file:
+        file.write(f"OFF\n{len(points)} {len(faces)} 0\n")
+        file.write("".join(f"{x:.6f} {y:.6f} {z:.6f}\n" for x, y, z in points))
+        file.write("".join(f"3 {a} {b} {c}\n" for a, b, c in faces))
+
+
+def write_asc(path, mesh):
+    """Write a 3D Studio file, with a material and a smoothing group for each face."""
+    points, faces = mesh.positions.tolist(), mesh.faces.tolist()
+    with open(path, "w") as file:
+        file.write(
+            f'Named object: "a"\nTri-mesh, Vertices: {len(points)}     Faces: {len(faces)}\n'
+        )
+        for k, (x, y, z) in enumerate(points):
+            file.write(f"Vertex {k}:  X:{x:.6f}     Y:{y:.6f}     Z:{z:.6f}\n")
+        for k, (a, b, c) in enumerate(faces):
+            file.write(f"Face {k}:    A:{a} B:{b} C:{c} AB:1 BC:1 CA:1\n")
+            file.write('Material:"r255g128b0a0"\nSmoothing: 1\n')
+
+
 def made_files(folder, sizes):
-    """The files to load: OBJ of each size, plain and full; PLY and STL of the smallest."""
+    """The files to load: OBJ of each size, plain and full; the other formats of the smallest."""
     files = []
     for size in sizes:
         for full in (False, True):
@@ -107,9 +131,22 @@ def made_files(folder, sizes):
     mesh = engine3d.load_mesh(files[0])
     for extension in (".ply", ".stl"):
         path = files[0].with_suffix(extension)
+        text = path.with_stem(path.stem + "-text")
         mesh.save(path)
-        files.append(path)
+        mesh.save(text, ascii=True)
+        files += [path, text]
+    for extension, write in ((".off", write_off), (".asc", write_asc)):
+        files.append(files[0].with_suffix(extension))
+        write(files[-1], mesh)
     return files
+
+
+def loaders_of(path):
+    """Who reads a file: NumPy has none for text."""
+    with open(path, "rb") as file:
+        head = file.read(80)
+    is_text = head.startswith((b"ply\nformat ascii", b"solid"))
+    return [name for name in READS[path.suffix.lower()] if not (is_text and name == "NumPy")]
 
 
 def measure(loader, small, path, repeat):
@@ -127,7 +164,9 @@ def row_of(loader, folder, path, repeat):
     size = os.path.getsize(path)
     small = Path(folder) / f"small{path.suffix.lower()}"
     if not small.exists():
-        engine3d.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]).save(small)
+        mesh = engine3d.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        write = {".off": write_off, ".asc": write_asc}.get(small.suffix)
+        write(small, mesh) if write else mesh.save(small)
     row = {"file": path.name, "megabytes": size / 1e6, "loader": loader}
     measured = measure(loader, small, path, repeat)
     if measured is None:
@@ -154,7 +193,9 @@ def line_of(row):
 
 def main():
     parser = argparse.ArgumentParser(description="Measure how fast model files load.")
-    parser.add_argument("files", nargs="*", type=Path, help="OBJ, PLY or STL; made if left out")
+    parser.add_argument(
+        "files", nargs="*", type=Path, help="OBJ, PLY, STL, OFF or ASC; made if left out"
+    )
     parser.add_argument("--megabytes", type=float, nargs="+", default=[20.0])
     parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument("--only", nargs="+", choices=LOADERS, default=list(LOADERS))
@@ -171,7 +212,7 @@ def main():
         print(f"{'file':24}{'MB':>9}  {'loader':14}{'ms':>10}{'MB/s':>10}{'memory':>10}")
     with tempfile.TemporaryDirectory() as folder:
         for path in arguments.files or made_files(folder, arguments.megabytes):
-            for loader in READS[path.suffix.lower()]:
+            for loader in loaders_of(path):
                 if loader not in arguments.only:
                     continue
                 report["rows"].append(row_of(loader, folder, path, arguments.repeat))

@@ -34,7 +34,8 @@ def test_loaders():
         "loaders.py", "--megabytes", "0.02", "--repeat", "1", "--only", "engine3d", "NumPy"
     )
     rows = rows["rows"]
-    assert [Path(row["file"]).suffix for row in rows] == [".obj"] * 2 + [".ply"] * 2 + [".stl"] * 2
+    suffixes = [Path(row["file"]).suffix for row in rows]
+    assert suffixes == [".obj"] * 2 + [".ply"] * 3 + [".stl"] * 3 + [".off", ".asc"]
     assert all(row["milliseconds"] > 0 for row in rows)
 
 

@@ -146,8 +146,10 @@ e3d_status e3d_navigation_add_ground(e3d_navigation *grid, const e3d_navigation_
     return has_room ? E3D_OK : E3D_OUT_OF_MEMORY;
 }
 
-/* Sorts one cell's samples from below upward, equal heights in their order: there are few. */
-static void sort_cell(sample *samples, int64_t count)
+enum { RUN = 16 };
+
+/* From below upward, equal heights in their order. */
+static void sort_run(sample *samples, int64_t count)
 {
     for (int64_t k = 1; k < count; k++) {
         sample s = samples[k];
@@ -158,11 +160,50 @@ static void sort_cell(sample *samples, int64_t count)
     }
 }
 
+/* Two sorted runs, one behind the other. */
+static void merge_runs(const sample *from, int64_t first, int64_t second, sample *to)
+{
+    int64_t a = 0, b = first, end = first + second;
+    while (a < first && b < end)
+        *to++ = from[b].height < from[a].height ? from[b++] : from[a++];
+    memcpy(to, from + a, (size_t)(first - a) * sizeof *to);
+    memcpy(to + (first - a), from + b, (size_t)(end - b) * sizeof *to);
+}
+
+/* Sorts one cell's samples, mostly few, with room for as many beside them; returns where they are then. */
+static sample *sort_cell(sample *samples, int64_t count, sample *beside)
+{
+    for (int64_t k = 0; k < count; k += RUN)
+        sort_run(samples + k, count - k < RUN ? count - k : RUN);
+    for (int64_t run = RUN; run < count; run *= 2) {
+        for (int64_t k = 0; k < count; k += 2 * run) {
+            int64_t first = count - k < run ? count - k : run, rest = count - k - first;
+            merge_runs(samples + k, first, rest < run ? rest : run, beside + k);
+        }
+        sample *sorted = beside;
+        beside = samples;
+        samples = sorted;
+    }
+    return samples;
+}
+
+/* How many samples each cell has, behind its place in `starts`; of the fullest, how many. */
+static int64_t count_samples(e3d_navigation *grid)
+{
+    int32_t most = 0;
+    for (int64_t k = 0; k < grid->count; k++) {
+        int32_t count = ++grid->starts[grid->samples[k].cell + 1];
+        most = count > most ? count : most;
+    }
+    return most;
+}
+
 /* Appends to the layers what can be stood on of one cell's sorted samples. */
 static void keep_layers(e3d_navigation *grid, const sample *samples, int64_t count)
 {
+    int64_t above = 0;
     for (int64_t k = 0; k < count; k++) {
-        int64_t above = k + 1;
+        above = above > k ? above : k + 1;
         while (above < count && samples[above].height - samples[k].height <= SAME_HEIGHT)
             above++;
         if (above < count && samples[above].height - samples[k].height < grid->desc.headroom)
@@ -187,18 +228,18 @@ e3d_status e3d_navigation_sort(e3d_navigation *grid)
     int64_t cells = (int64_t)grid->desc.columns * grid->desc.rows;
     size_t count = (size_t)grid->count;
     sample *sorted = malloc((count ? count : 1) * sizeof *sorted);
+    sample *beside = malloc(((size_t)count_samples(grid) + 1) * sizeof *beside);
     int32_t *next = malloc((size_t)cells * sizeof *next);
     grid->height = malloc((count ? count : 1) * sizeof(float));
     grid->slope_x = malloc((count ? count : 1) * sizeof(float));
     grid->slope_z = malloc((count ? count : 1) * sizeof(float));
     grid->walkable = malloc(count ? count : 1);
-    if (!sorted || !next || !grid->height || !grid->slope_x || !grid->slope_z || !grid->walkable) {
+    if (!sorted || !beside || !next || !grid->height || !grid->slope_x || !grid->slope_z || !grid->walkable) {
         free(sorted);
+        free(beside);
         free(next);
         return E3D_OUT_OF_MEMORY;
     }
-    for (size_t k = 0; k < count; k++)
-        grid->starts[grid->samples[k].cell + 1]++;
     for (int64_t cell = 0; cell < cells; cell++) {
         next[cell] = grid->starts[cell];
         grid->starts[cell + 1] += grid->starts[cell];
@@ -214,12 +255,13 @@ e3d_status e3d_navigation_sort(e3d_navigation *grid)
     int32_t start = 0;
     for (int64_t cell = 0; cell < cells; cell++) {
         int32_t end = grid->starts[cell + 1];
-        sort_cell(sorted + start, end - start);
+        const sample *upward = sort_cell(sorted + start, end - start, beside);
         grid->starts[cell] = grid->layers;
-        keep_layers(grid, sorted + start, end - start);
+        keep_layers(grid, upward, end - start);
         start = end;
     }
     grid->starts[cells] = grid->layers;
+    free(beside);
     free(sorted);
     return E3D_OK;
 }

@@ -292,6 +292,27 @@ def test_vertices_that_are_not_finite_count_for_nothing():
     assert grid.walkable.all() and set(grid.heights.tolist()) == {0.0}
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_very_many_heights_over_one_cell(seed):
+    """Layers are those of a sorted list: of what is nearer than a head the upper stays."""
+    rng = np.random.default_rng(seed)
+    count = (3, 17, 40, 1000, 5000, 20_000)[seed]
+    heights = rng.uniform(0, 40 * count**0.5, count).astype(np.float32)
+    heights[rng.random(count) < 0.3] = rng.choice(heights, 5)[rng.integers(0, 5)]
+    corners = np.array([(-9, 0, -9), (-9, 0, 9), (9, 0, 0)], np.float32)
+    positions = np.tile(corners, (count, 1, 1))
+    positions[:, :, 1] = heights[:, np.newaxis]
+    mesh = e3d.Mesh(positions.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
+    grid = e3d.NavigationGrid(mesh, bounds=((-0.5, -0.5), (0.5, 0.5)), cell=1.0, radius=0.0)
+    expected, levels = [], np.unique(heights)
+    for k, height in enumerate(levels):
+        above = levels[k + 1 :][levels[k + 1 :] - height > 1e-4][:1]
+        if len(above) == 0 or above[0] - height >= np.float32(grid.headroom):
+            if not expected or height - expected[-1] > 1e-4:
+                expected.append(height)
+    np.testing.assert_allclose(grid.heights, expected, rtol=1e-5)
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_hostile_triangles_do_no_harm(seed):
     rng = np.random.default_rng(seed)

@@ -81,10 +81,8 @@ static inline void visible_write(vmask inside, vf32 z, int at, const e3d_record 
     vf32 old = rows_loadf(depth);
     vmask pass = v_mand(inside, v_lt(z, old));
     uint32_t equal = v_bits(v_mand(inside, v_eq(z, old)));
-    if (v_any(pass)) {
-        rows_storef(depth, v_self(pass, z, old));
-        rows_storei(kept, v_seli(pass, v_seti(id), rows_loadi(kept)));
-    }
+    rows_storef(depth, v_self(pass, z, old)); /* whether any lane passes cannot be foreseen */
+    rows_storei(kept, v_seli(pass, v_seti(id), rows_loadi(kept)));
     if (equal)
         visible_ties(equal, z, depth, kept, r, id, table);
 }
@@ -279,10 +277,10 @@ static inline void visible_wide(const e3d_piece *p, const raster_constants *c, c
 /* The blocks that a box of samples meets. */
 static inline uint64_t visible_met(int x0, int y0, int x1, int y1)
 {
-    uint64_t columns = ((2u << x1 / RASTER_BLOCK) - (1u << x0 / RASTER_BLOCK)) & 0xFF, met = 0;
-    for (int row = y0 / RASTER_BLOCK; row <= y1 / RASTER_BLOCK; row++)
-        met |= columns << (row * VISIBLE_BLOCKS);
-    return met;
+    const uint64_t left_column = 0x0101010101010101;
+    uint64_t columns = (2u << x1 / RASTER_BLOCK) - (1u << x0 / RASTER_BLOCK);
+    int above = y0 / RASTER_BLOCK, below = VISIBLE_BLOCKS - 1 - y1 / RASTER_BLOCK;
+    return columns * (left_column >> (VISIBLE_BLOCKS * (above + below)) << (VISIBLE_BLOCKS * above));
 }
 
 /* Whether all samples of the blocks that a piece meets are nearer. */
@@ -295,16 +293,22 @@ static inline int visible_is_behind(const e3d_piece *p, uint64_t met, float near
     return !open;
 }
 
+/* Some samples of these blocks, at least one block, are written, no nearer than `near`. */
+static inline void visible_touch(uint64_t met, float near, e3d_visible_tile *tile)
+{
+    for (int first = __builtin_ctzll(met) & -V_LANES; first < E3D_TILE_BLOCKS && met >> first; first += V_LANES) {
+        vf32 zmin = v_loadf(tile->zmin + first);
+        v_storef(tile->zmin + first, v_self(visible_lanes((uint32_t)(met >> first)), v_min(v_setf(near), zmin), zmin));
+    }
+    tile->stale |= met;
+}
+
 /* Before samples of these blocks are written one by one, no nearer than `near`. */
 static inline void visible_open(uint64_t met, float near, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     for (uint64_t left = met & tile->noted; left; left &= left - 1)
         visible_unfold(tile, table, __builtin_ctzll(left));
-    for (uint64_t left = met; left; left &= left - 1) {
-        int block = __builtin_ctzll(left);
-        tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
-    }
-    tile->stale |= met;
+    visible_touch(met, near, tile);
 }
 
 static inline void visible_narrow(const e3d_piece *p, const raster_constants *c, uint64_t met, const e3d_record *r,
@@ -453,11 +457,8 @@ static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_tab
         near = z < near ? z : near;
         met |= 1ull << block;
     }
-    for (uint64_t left = met; left; left &= left - 1) {
-        int block = __builtin_ctzll(left);
-        tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
-    }
-    tile->stale |= met;
+    if (met)
+        visible_touch(met, near, tile);
 }
 
 static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table *table, int depths)

@@ -309,9 +309,9 @@ typedef struct e3d_kernels {
     void (*take_clip)(const float *positions, int stride, int count, const e3d_viewport *viewport,
                       e3d_vertices *out);
     /* indices: three planes of E3D_CLUSTER_TRIANGLES. cull: sign of the area (screen, Y down) to drop: -1, +1, 0 = neither.
-     * fragments: small triangles are to become some. */
-    void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull, int fragments,
-                  const e3d_viewport *viewport, e3d_survivors *out);
+     * fragments: small triangles are to become some. How many survive. */
+    int (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull, int fragments,
+                 const e3d_viewport *viewport, e3d_survivors *out);
     /* Records and their tiles; how many. Room for as many as are asked for. */
     int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
     /* The fragments of small triangles, which are consumed, to their tiles; tiles in a row of them. */

@@ -200,8 +200,8 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     int fragments = w->context->by_fragments && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
-    kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
-    worker->counters.triangles_rejected += cluster->triangles - __builtin_popcountll(s->draw | s->small | s->clip);
+    int count = kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
+    worker->counters.triangles_rejected += cluster->triangles - count;
     if (s->small)
         draw_small(w, cluster, indices);
     if (!w->context->sorted)

@@ -133,8 +133,8 @@ cdef extern from "kernels/kernels.h" nogil:
                           const e3d_viewport *viewport, int inside, e3d_vertices *out)
         void (*take_clip)(const float *positions, int stride, int count,
                           const e3d_viewport *viewport, e3d_vertices *out)
-        void (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
-                      int fragments, const e3d_viewport *viewport, e3d_survivors *out)
+        int (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
+                     int fragments, const e3d_viewport *viewport, e3d_survivors *out)
         int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans)
         void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x,
                           e3d_fragment_bins *out)

@@ -44,7 +44,7 @@ class Kernels:
         fragments: bool,
         viewport: _Bytes,
         out: _Bytes,
-    ) -> None: ...
+    ) -> int: ...
     def record(
         self,
         vertices: _Bytes,

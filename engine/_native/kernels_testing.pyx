@@ -138,12 +138,16 @@ cdef class Kernels:
 
     def setup(self, const uint8_t[::1] vertices, const uint8_t[::1] indices, int triangles, int cull,
               bint fragments, const uint8_t[::1] viewport, uint8_t[::1] out):
+        """Returns how many survive."""
+        cdef int count = 0
         check_size(vertices, sizeof(e3d_vertices))
         check_size(viewport, sizeof(e3d_viewport))
         check_size(out, sizeof(e3d_survivors))
         for _ in range(self.rounds):
-            self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull, fragments,
-                             <const e3d_viewport *>&viewport[0], <e3d_survivors *>&out[0])
+            count = self.table.setup(<const e3d_vertices *>&vertices[0], &indices[0], triangles, cull,
+                                     fragments, <const e3d_viewport *>&viewport[0],
+                                     <e3d_survivors *>&out[0])
+        return count
 
     def record(self, const uint8_t[::1] vertices, const uint8_t[::1] indices,
                const uint8_t[::1] triangles, int count, int cull, bint mirrored, uint32_t order,

@@ -95,7 +95,7 @@ def test_setup(kernels):
         fragments = rng.random(CALLS) < 0.7
 
         out = Records(SURVIVORS, CALLS)
-        for number, row in enumerate(out.rows):
+        survive = [
             kernels.setup(
                 vertices[number : number + 1].view(np.uint8),
                 indices[number].ravel(),
@@ -105,6 +105,8 @@ def test_setup(kernels):
                 viewport[number : number + 1].view(np.uint8),
                 row,
             )
+            for number, row in enumerate(out.rows)
+        ]
         fetched = [
             np.stack(
                 [np.take_along_axis(vertices[name], plane, 1) for plane in indices.swapaxes(0, 1)]
@@ -118,6 +120,7 @@ def test_setup(kernels):
         check_bits("draw", out.fields["draw"], draw & ~small & given)
         check_bits("small", out.fields["small"], small & given)
         check_bits("clip", out.fields["clip"], clip & given)
+        assert np.array_equal(survive, ((draw | small | clip) & given).sum(axis=1))
         out.check_gaps()
 
 

@@ -47,7 +47,7 @@ static inline void light_highlight(const e3d_light *light, const vf32 l[3], vf32
     }
 }
 
-static inline void light_one(const e3d_lighting *lighting, int n, float shininess, lit_lanes *lit)
+static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, float shininess, lit_lanes *lit)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 zero = v_setf(0.0f), l[3], attenuation = v_setf(1.0f);

@@ -1,31 +1,98 @@
-/* paint: a batch of samples to pixels at once (R19-R34): what interpolate, select_level, texture, tint, light, combine and
- * encode do one after the other over memory, here goes through registers.
+/* paint: a batch of samples to pixels (R19-R34), in stages: what one leaves for the next waits in the nearest cache.
+ *
+ * A stage is short. Processors look ahead some hundred operations: so they find several vectors to work on at a time.
  */
 
-/* One vector on its way: what texels and light need. */
+/* One vector on its way. */
 typedef struct paint_lanes {
-    vf32 b[3], position[3], normal[3];
+    vf32 b[3], r, position[3], normal[3], color[3];
 } paint_lanes;
 
-static inline void paint_interpolate(const e3d_surfaces *s, const element_lanes *lanes, int same, vi32 sample,
-                                     const e3d_paint *paint, texture_plan *plan, int i, paint_lanes *out)
+typedef struct paint_work {
+    const e3d_batch *batch;
+    const e3d_surfaces *surfaces;
+    const e3d_paint *paint;
+    texture_plan plan;
+    paint_lanes lanes[(E3D_BATCH + V_LANES - 1) / V_LANES];
+} paint_work;
+
+/* Of one vector: its first sample, the surfaces from that one's on, and whether all samples are of the same one. */
+typedef struct paint_vector {
+    int i, same;
+    element_lanes elements;
+    const e3d_surfaces *s;
+    paint_lanes *lanes;
+} paint_vector;
+
+/* A stage over all vectors. */
+static ALWAYS_INLINE void paint_each(paint_work *work, void (*stage)(paint_work *, const paint_vector *))
 {
-    vf32 r = interpolate_barycentric(s, lanes, same, sample, out->b);
-    for (int c = 0; c < 3 && paint->wanted & E3D_WANT_POSITION; c++)
-        out->position[c] = interpolate_one(s->position[c], lanes, same, out->b);
-    if (paint->wanted & E3D_WANT_NORMAL)
-        interpolate_normal(s, lanes, same, paint->wanted & E3D_WANT_FLAT, out->b, out->normal);
-    if (paint->texture) {
-        const vf32 uv[2] = {interpolate_one(s->uv[0], lanes, same, out->b), interpolate_one(s->uv[1], lanes, same, out->b)};
-        vi32 lod = v_seti(0);
-        if (paint->texture->filter == E3D_TRILINEAR)
-            lod = level_of(s, lanes, uv, r, paint->texture);
-        texture_find(plan, i, uv[0], uv[1], lod);
+    for (int i = 0; i < work->batch->count; i += V_LANES) {
+        paint_vector v = {.i = i, .elements = lanes_of(work->batch->surface + i), .lanes = &work->lanes[i / V_LANES]};
+        v.s = surfaces_from(work->surfaces, &v.elements);
+        v.same = v.elements.same;
+        if (v.same) {
+            v.same = 1; /* known when compiled */
+            stage(work, &v);
+        } else {
+            stage(work, &v);
+        }
     }
 }
 
+static ALWAYS_INLINE void paint_barycentric(paint_work *work, const paint_vector *v)
+{
+    vi32 sample = v_loadi(work->batch->sample + v->i);
+    v->lanes->r = interpolate_barycentric(v->s, &v->elements, v->same, sample, v->lanes->b);
+}
+
+static ALWAYS_INLINE void paint_coordinates(const paint_vector *v, vf32 uv[2])
+{
+    for (int k = 0; k < 2; k++)
+        uv[k] = interpolate_one(v->s->uv[k], &v->elements, v->same, v->lanes->b);
+}
+
+static ALWAYS_INLINE void paint_find_bilinear(paint_work *work, const paint_vector *v)
+{
+    vf32 uv[2];
+    paint_coordinates(v, uv);
+    texture_find(&work->plan, E3D_BILINEAR, v->i, uv[0], uv[1], v_seti(0));
+}
+
+static ALWAYS_INLINE void paint_find(paint_work *work, const paint_vector *v)
+{
+    const e3d_texture_view *texture = work->paint->texture;
+    vf32 uv[2];
+    vi32 lod = v_seti(0);
+    paint_coordinates(v, uv);
+    if (texture->filter == E3D_TRILINEAR)
+        lod = level_of(v->s, &v->elements, uv, v->lanes->r, texture);
+    texture_find(&work->plan, texture->filter, v->i, uv[0], uv[1], lod);
+}
+
+static ALWAYS_INLINE void paint_read(paint_work *work, int filter, int texel_bytes)
+{
+    for (int i = 0; i < work->batch->count; i += V_LANES) {
+        texel_lanes texel = texture_read(&work->plan, filter, texel_bytes, i);
+        texture_color(&texel, work->paint->base, work->lanes[i / V_LANES].color);
+    }
+}
+
+static ALWAYS_INLINE void paint_position(paint_work *work, const paint_vector *v)
+{
+    (void)work;
+    for (int c = 0; c < 3; c++)
+        v->lanes->position[c] = interpolate_one(v->s->position[c], &v->elements, v->same, v->lanes->b);
+}
+
+static ALWAYS_INLINE void paint_normal(paint_work *work, const paint_vector *v)
+{
+    int flat = work->paint->wanted & E3D_WANT_FLAT;
+    interpolate_normal(v->s, &v->elements, v->same, flat, v->lanes->b, v->lanes->normal);
+}
+
 /* R31 of all lights: there are few. */
-static inline void paint_light(const e3d_paint *paint, const paint_lanes *lanes, vf32 color[3])
+static ALWAYS_INLINE void paint_light(const e3d_paint *paint, float shininess, const paint_lanes *lanes, vf32 color[3])
 {
     const e3d_lighting *lighting = paint->lighting;
     lit_lanes lit;
@@ -36,10 +103,10 @@ static inline void paint_light(const e3d_paint *paint, const paint_lanes *lanes,
         lit.energy[k] = v_setf(lighting->ambient[k]);
         lit.shine[k] = v_setf(0.0f);
     }
-    if (paint->shininess > 0.0f)
+    if (shininess > 0.0f)
         light_view(lighting, &lit);
     for (int n = 0; n < lighting->light_count; n++)
-        light_one(lighting, n, paint->shininess, &lit);
+        light_one(lighting, n, shininess, &lit);
     for (int k = 0; k < 3; k++)
         lit.energy[k] = light_clamp(lighting, lit.energy[k]);
     combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, color);
@@ -59,43 +126,70 @@ static inline void paint_store(const int32_t *sample, vi32 pixels, uint32_t *rgb
         rgba[sample[lane]] = lanes[lane];
 }
 
-static inline void paint_finish(const e3d_batch *batch, const e3d_surfaces *s, const element_lanes *lanes,
-                                const e3d_paint *paint, const texture_plan *plan, int i, const paint_lanes *in,
-                                uint32_t *rgba)
+static ALWAYS_INLINE void paint_color(paint_work *work)
 {
-    vf32 color[3] = {v_setf(paint->base[0]), v_setf(paint->base[1]), v_setf(paint->base[2])};
-    if (paint->texture) {
-        texel_lanes texel = texture_read(plan, i);
-        texture_color(&texel, paint->base, color);
+    const float *base = work->paint->base;
+    for (int i = 0; i < work->batch->count; i += V_LANES)
+        for (int k = 0; k < 3; k++)
+            work->lanes[i / V_LANES].color[k] = v_setf(base[k]);
+}
+
+static ALWAYS_INLINE void paint_tint(paint_work *work, const paint_vector *v)
+{
+    const e3d_paint *paint = work->paint;
+    tint_vector(v->s, &v->elements, v->lanes->b, paint->by_vertex, paint->by_instance, v->lanes->color);
+}
+
+/* The last stage: light, where there is some, and the pixels. */
+static ALWAYS_INLINE void paint_pixels(paint_work *work, int lit, float shininess, uint32_t *rgba)
+{
+    const e3d_paint *paint = work->paint;
+    for (int i = 0; i < work->batch->count; i += V_LANES) {
+        paint_lanes *lanes = &work->lanes[i / V_LANES];
+        if (lit)
+            paint_light(paint, shininess, lanes, lanes->color);
+        paint_store(work->batch->sample + i, encode_vector(lanes->color, paint->srgb), rgba);
     }
-    if (paint->by_vertex || paint->by_instance)
-        tint_vector(s, lanes, in->b, paint->by_vertex, paint->by_instance, color);
-    if (paint->lighting)
-        paint_light(paint, in, color);
-    paint_store(batch->sample + i, encode_vector(color, paint->srgb), rgba);
+}
+
+static ALWAYS_INLINE void paint_texture(paint_work *work)
+{
+    const e3d_texture_view *view = work->paint->texture;
+    texture_begin(&work->plan, view);
+    if (view->filter == E3D_BILINEAR)
+        paint_each(work, paint_find_bilinear);
+    else
+        paint_each(work, paint_find);
+    texture_fetch(&work->plan, work->batch->count);
 }
 
 static void kernel_paint(const e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba)
 {
-    enum { VECTORS = (E3D_BATCH + V_LANES - 1) / V_LANES };
-    paint_lanes waiting[VECTORS]; /* for texels on their way to the cache */
-    texture_plan plan;
-    if (paint->texture)
-        texture_begin(&plan, paint->texture);
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        element_lanes lanes = lanes_of(batch->surface + i);
-        paint_lanes *out = &waiting[paint->texture ? i / V_LANES : 0];
-        const e3d_surfaces *s = surfaces_from(surfaces, &lanes);
-        vi32 sample = v_loadi(batch->sample + i);
-        if (lanes.same)
-            paint_interpolate(s, &lanes, 1, sample, paint, &plan, i, out);
-        else
-            paint_interpolate(s, &lanes, 0, sample, paint, &plan, i, out);
-        if (!paint->texture)
-            paint_finish(batch, s, &lanes, paint, &plan, i, out, rgba);
-    }
-    for (int i = 0; i < batch->count && paint->texture; i += V_LANES) {
-        element_lanes lanes = lanes_of(batch->surface + i);
-        paint_finish(batch, surfaces_from(surfaces, &lanes), &lanes, paint, &plan, i, &waiting[i / V_LANES], rgba);
-    }
+    const e3d_texture_view *texture = paint->texture;
+    paint_work work;
+    work.batch = batch;
+    work.surfaces = surfaces;
+    work.paint = paint;
+    if (paint->wanted & E3D_WANT_SURFACE)
+        paint_each(&work, paint_barycentric);
+    if (texture)
+        paint_texture(&work);
+    if (paint->wanted & E3D_WANT_POSITION)
+        paint_each(&work, paint_position);
+    if (paint->wanted & E3D_WANT_NORMAL)
+        paint_each(&work, paint_normal);
+    if (texture && texture->filter == E3D_BILINEAR && texture->texel_bytes == 4)
+        paint_read(&work, E3D_BILINEAR, 4);
+    else if (texture)
+        paint_read(&work, texture->filter, texture->texel_bytes);
+    else
+        paint_color(&work);
+    if (paint->by_vertex || paint->by_instance)
+        paint_each(&work, paint_tint);
+    if (paint->lighting && paint->shininess > 0.0f)
+        paint_pixels(&work, 1, paint->shininess, rgba);
+    else if (paint->lighting)
+        paint_pixels(&work, 1, 0.0f, rgba);
+    else
+        paint_pixels(&work, 0, 0.0f, rgba);
 }

@@ -44,16 +44,7 @@ typedef struct level_lanes {
     vf32 scale[2];
 } level_lanes;
 
-/* Of one vector. Neighbours mostly share a cache line: every fourth will do. (GCC leaves out calls of what only fetches,
- * unless it is inlined.) */
-static ALWAYS_INLINE void texture_fetch(const e3d_texture_view *view, const int32_t *at)
-{
-    for (int lane = 0; lane < V_LANES; lane += 4)
-        __builtin_prefetch((const char *)view->levels[0].texels + view->texel_bytes * (intptr_t)at[lane]);
-}
-
-static inline void texture_place(const e3d_texture_view *view, const level_lanes *level, vf32 s, vf32 t,
-                                 texture_places *places, int i)
+static ALWAYS_INLINE void texture_place(const level_lanes *level, vf32 s, vf32 t, texture_places *places, int i)
 {
     texture_taps x = texture_linear(s, level->scale[0]), y = texture_linear(t, level->scale[1]);
     vi32 top = v_addi(v_addi(level->start, x.first), v_muli(y.first, level->stride));
@@ -61,8 +52,6 @@ static inline void texture_place(const e3d_texture_view *view, const level_lanes
     v_storei(places->bottom + i, v_addi(top, level->stride));
     v_storei(places->across + i, x.weight);
     v_storei(places->down + i, y.weight);
-    texture_fetch(view, places->top + i);
-    texture_fetch(view, places->bottom + i);
 }
 
 /* Channels of one vector of texels, 16 bits each in 32. */
@@ -110,7 +99,7 @@ static inline vi32 texture_down8(vi32 pair, vi32 weights)
     return v_shr(v_addi(v_addi(v_shl(sum, 8), sum), v_seti((int32_t)bias)), 16);
 }
 
-static inline texel_lanes texture_mix8(const void *texels, const int32_t *top, const int32_t *bottom,
+static ALWAYS_INLINE texel_lanes texture_mix8(const void *texels, const int32_t *top, const int32_t *bottom,
                                        vi32 across, vi32 down)
 {
     vi32 left[2], right[2], red_blue[2], green[2], bytes = v_seti(0x00FF00FF), low = v_seti(0xFFFF);
@@ -131,11 +120,10 @@ static inline texel_lanes texture_mix8(const void *texels, const int32_t *top, c
         {texture_down8(red, weights), texture_down8(both, weights), texture_down8(blue, weights)}};
 }
 
-static inline texel_lanes texture_mix(const e3d_texture_view *view, const texture_places *places, int i)
+static ALWAYS_INLINE texel_lanes texture_mix(const void *texels, int texel_bytes, const texture_places *places, int i)
 {
-    const void *texels = view->levels[0].texels;
     vi32 across = v_loadi(places->across + i), down = v_loadi(places->down + i);
-    return view->texel_bytes == 4
+    return texel_bytes == 4
                ? texture_mix8(texels, places->top + i, places->bottom + i, across, down)
                : texture_mix16(texels, places->top + i, places->bottom + i, across, down);
 }
@@ -187,10 +175,9 @@ static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)
     return v_addi(v_addi(x, one), v_muli(v_addi(y, one), stride));
 }
 
-static inline texel_lanes texture_take(const e3d_texture_view *view, vi32 at)
+static inline texel_lanes texture_take(const void *texels, int texel_bytes, vi32 at)
 {
-    const void *texels = view->levels[0].texels;
-    if (view->texel_bytes == 4) {
+    if (texel_bytes == 4) {
         vi32 texel = v_gatheri(texels, at), byte = v_seti(255), scale = v_seti(257);
         return (texel_lanes){{v_muli(v_andi(texel, byte), scale), v_muli(v_andi(v_shr(texel, 8), byte), scale),
                               v_muli(v_andi(v_shr(texel, 16), byte), scale)}};
@@ -222,9 +209,9 @@ static inline void texture_store(e3d_batch *batch, int i, const float base[3], c
         v_storef(batch->color[k] + i, color[k]);
 }
 
-/* ---- every filter in two steps: find all places, then read all texels ---- */
+/* ---- every filter in three steps: find all places, fetch their texels, then read them ---- */
 
-/* What the second step needs. */
+/* What the later steps need. */
 typedef struct texture_plan {
     const e3d_texture_view *view;
     texture_levels levels;
@@ -238,19 +225,18 @@ static inline void texture_begin(texture_plan *plan, const e3d_texture_view *vie
     texture_tabulate(view, &plan->levels);
 }
 
-/* Of one vector; lod: trilinear only. */
-static inline void texture_find(texture_plan *plan, int i, vf32 u, vf32 v, vi32 lod)
+/* Of one vector; lod: trilinear only. `filter` is the view's, known when compiled where it matters. */
+static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int i, vf32 u, vf32 v, vi32 lod)
 {
     const e3d_texture_view *view = plan->view;
     vf32 s = texture_wrap(u, view->wrap), t = texture_wrap(v_sub(v_setf(1.0f), v), view->wrap);
-    if (view->filter == E3D_NEAREST) {
+    if (filter == E3D_NEAREST) {
         v_storei(plan->near.top + i, texture_nearest_at(&view->levels[0], s, t));
-        texture_fetch(view, plan->near.top + i);
         return;
     }
-    if (view->filter == E3D_BILINEAR) {
+    if (filter == E3D_BILINEAR) {
         level_lanes level = texture_one_level(&plan->levels, 0);
-        texture_place(view, &level, s, t, &plan->near, i);
+        texture_place(&level, s, t, &plan->near, i);
         return;
     }
     int last = view->level_count - 1;
@@ -258,25 +244,43 @@ static inline void texture_find(texture_plan *plan, int i, vf32 u, vf32 v, vi32 
     vi32 level = v_shr(lod, 8);
     int guess = plan->lod[i] >> 8;
     level_lanes near = texture_levels_of(&plan->levels, level, guess);
-    texture_place(view, &near, s, t, &plan->near, i);
+    texture_place(&near, s, t, &plan->near, i);
     if (v_any(v_gti(v_andi(lod, v_seti(255)), v_seti(0)))) {
         level = v_mini(v_addi(level, v_seti(1)), v_seti(last));
         level_lanes far = texture_levels_of(&plan->levels, level, guess < last ? guess + 1 : last);
-        texture_place(view, &far, s, t, &plan->far, i);
+        texture_place(&far, s, t, &plan->far, i);
     }
 }
 
-static inline texel_lanes texture_read(const texture_plan *plan, int i)
+/* Of a whole batch. Neighbours mostly share a line of the cache: every fourth will do. */
+static inline void texture_fetch(const texture_plan *plan, int count)
 {
-    const e3d_texture_view *view = plan->view;
-    if (view->filter == E3D_NEAREST)
-        return texture_take(view, v_loadi(plan->near.top + i));
-    texel_lanes a = texture_mix(view, &plan->near, i);
-    if (view->filter == E3D_BILINEAR)
+    const char *texels = plan->view->levels[0].texels;
+    intptr_t bytes = plan->view->texel_bytes;
+    int filter = plan->view->filter;
+    for (int i = 0; i < count; i += 4) {
+        __builtin_prefetch(texels + bytes * plan->near.top[i]);
+        if (filter != E3D_NEAREST)
+            __builtin_prefetch(texels + bytes * plan->near.bottom[i]);
+        if (filter == E3D_TRILINEAR && plan->lod[i] & 255) {
+            __builtin_prefetch(texels + bytes * plan->far.top[i]);
+            __builtin_prefetch(texels + bytes * plan->far.bottom[i]);
+        }
+    }
+}
+
+/* Of one vector. `filter` and `texel_bytes` are the view's, too. */
+static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filter, int texel_bytes, int i)
+{
+    const void *texels = plan->view->levels[0].texels;
+    if (filter == E3D_NEAREST)
+        return texture_take(texels, texel_bytes, v_loadi(plan->near.top + i));
+    texel_lanes a = texture_mix(texels, texel_bytes, &plan->near, i);
+    if (filter == E3D_BILINEAR)
         return a;
     vi32 weight = v_andi(v_loadi(plan->lod + i), v_seti(255));
     if (v_any(v_gti(weight, v_seti(0)))) {
-        texel_lanes b = texture_mix(view, &plan->far, i);
+        texel_lanes b = texture_mix(texels, texel_bytes, &plan->far, i);
         for (int k = 0; k < 3; k++)
             a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
     }
@@ -288,10 +292,11 @@ static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const
     texture_plan plan;
     texture_begin(&plan, view);
     for (int i = 0; i < batch->count; i += V_LANES)
-        texture_find(&plan, i, v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i),
+        texture_find(&plan, view->filter, i, v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i),
                      load_level(batch, i, view->level_count));
+    texture_fetch(&plan, batch->count);
     for (int i = 0; i < batch->count; i += V_LANES) {
-        texel_lanes texel = texture_read(&plan, i);
+        texel_lanes texel = texture_read(&plan, view->filter, view->texel_bytes, i);
         texture_store(batch, i, base, &texel);
     }
 }

@@ -76,7 +76,8 @@ static void prepare_instance(const e3d_frame *frame, const e3d_viewport *viewpor
     const e3d_mesh *mesh = draw->mesh;
     const float *cull = e3d_culling_matrix(frame, out);
     out->shows = mesh->desc.components == 4 || frame->culling == E3D_CULLING_NONE ||
-                 (mesh->any_finite && e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE);
+                 (mesh->any_finite && (mesh->group_count == 1 || /* whose box is tried soon */
+                                       e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
     if (!out->shows && !units) /* lines and points are wider than the box */
         return;
     for (int k = 0; k < 12; k++)

@@ -5,7 +5,8 @@
 
 /* One vector on its way. */
 typedef struct paint_lanes {
-    vf32 b[3], r, position[3], normal[3], color[3];
+    vf32 b[3], r, uv[2], position[3], normal[3], color[3];
+    vi32 lod;
 } paint_lanes;
 
 typedef struct paint_work {
@@ -46,28 +47,24 @@ static ALWAYS_INLINE void paint_barycentric(paint_work *work, const paint_vector
     v->lanes->r = interpolate_barycentric(v->s, &v->elements, v->same, sample, v->lanes->b);
 }
 
-static ALWAYS_INLINE void paint_coordinates(const paint_vector *v, vf32 uv[2])
+static ALWAYS_INLINE void paint_coordinates(paint_work *work, const paint_vector *v)
 {
+    (void)work;
     for (int k = 0; k < 2; k++)
-        uv[k] = interpolate_one(v->s->uv[k], &v->elements, v->same, v->lanes->b);
+        v->lanes->uv[k] = interpolate_one(v->s->uv[k], &v->elements, v->same, v->lanes->b);
 }
 
-static ALWAYS_INLINE void paint_find_bilinear(paint_work *work, const paint_vector *v)
+static ALWAYS_INLINE void paint_level(paint_work *work, const paint_vector *v)
 {
-    vf32 uv[2];
-    paint_coordinates(v, uv);
-    texture_find(&work->plan, E3D_BILINEAR, v->i, uv[0], uv[1], v_seti(0));
+    v->lanes->lod = level_of(v->s, &v->elements, v->lanes->uv, v->lanes->r, work->paint->texture);
 }
 
-static ALWAYS_INLINE void paint_find(paint_work *work, const paint_vector *v)
+static ALWAYS_INLINE void paint_find(paint_work *work, int filter)
 {
-    const e3d_texture_view *texture = work->paint->texture;
-    vf32 uv[2];
-    vi32 lod = v_seti(0);
-    paint_coordinates(v, uv);
-    if (texture->filter == E3D_TRILINEAR)
-        lod = level_of(v->s, &v->elements, uv, v->lanes->r, texture);
-    texture_find(&work->plan, texture->filter, v->i, uv[0], uv[1], lod);
+    for (int i = 0; i < work->batch->count; i += V_LANES) {
+        const paint_lanes *lanes = &work->lanes[i / V_LANES];
+        texture_find(&work->plan, filter, i, lanes->uv[0], lanes->uv[1], lanes->lod);
+    }
 }
 
 static ALWAYS_INLINE void paint_read(paint_work *work, int filter, int texel_bytes)
@@ -156,10 +153,13 @@ static ALWAYS_INLINE void paint_texture(paint_work *work)
 {
     const e3d_texture_view *view = work->paint->texture;
     texture_begin(&work->plan, view);
+    paint_each(work, paint_coordinates);
+    if (view->filter == E3D_TRILINEAR)
+        paint_each(work, paint_level);
     if (view->filter == E3D_BILINEAR)
-        paint_each(work, paint_find_bilinear);
+        paint_find(work, E3D_BILINEAR);
     else
-        paint_each(work, paint_find);
+        paint_find(work, view->filter);
     texture_fetch(&work->plan, work->batch->count);
 }
 

@@ -1,0 +1,208 @@
+# Part of rasterizer.pyx: what a frame draws, as arrays of the core's own structs.
+#
+# In:  handles of meshes and textures, colours and poses; then, for each frame, the rows of the nodes.
+# Out: the draws, materials and lights that NativeRenderer.render hands to the core.
+# Always: what the structs point to is held in `borrowed`.
+
+cdef int copy_vector(float *to, value, int count) except -1:
+    for k in range(count):
+        to[k] = value[k]
+    return 0
+
+
+cdef void *grown(void *items, int count, int *capacity, size_t size) except NULL:
+    """Room for one more item."""
+    if count < capacity[0]:
+        return items
+    cdef int wanted = capacity[0] * 2 if capacity[0] else 16
+    cdef void *moved = resized(items, wanted, size)
+    capacity[0] = wanted
+    return moved
+
+
+cdef void *resized(void *items, size_t count, size_t size) except NULL:
+    cdef void *moved = realloc(items, count * size)
+    if moved == NULL:
+        raise OutOfMemoryError("no memory for the list of what to draw")
+    return moved
+
+
+cdef class NativeDrawList:
+    """What a frame draws: objects, drawn wherever nodes place them, materials and lights."""
+
+    cdef e3d_placed *objects
+    cdef e3d_draw_list placed
+    cdef e3d_totals totals
+    cdef e3d_material *materials
+    cdef e3d_light *lights
+    cdef readonly int object_count, material_count, light_count
+    cdef int object_capacity, material_capacity, light_capacity
+    cdef list borrowed
+
+    def __cinit__(self):
+        self.borrowed = []
+
+    def __dealloc__(self):
+        free(self.objects)
+        e3d_draw_list_free(&self.placed)
+        free(self.materials)
+        free(self.lights)
+
+    def clear(self):
+        """Forget objects, draws, materials and lights, and let go of their arrays."""
+        self.object_count = self.material_count = self.light_count = 0
+        self.placed.count = self.placed.order_count = self.placed.nodes = 0
+        self.borrowed = []
+
+    def clear_lights(self):
+        self.light_count = 0
+
+    def add_object(self, NativeMesh mesh, int32_t material_base):
+        """Append what nodes refer to by its number, which is returned; None is never drawn."""
+        self.objects = <e3d_placed *>grown(
+            self.objects, self.object_count, &self.object_capacity, sizeof(e3d_placed)
+        )
+        cdef e3d_placed *entry = &self.objects[self.object_count]
+        memset(entry, 0, sizeof(e3d_placed))
+        if mesh is not None:
+            entry.draw.mesh = mesh.handle
+        entry.draw.instances = 1
+        entry.draw.material_base = material_base
+        self.borrowed.append(mesh)
+        self.object_count += 1
+        return self.object_count - 1
+
+    def place(
+        self,
+        int32_t count,
+        const uint8_t[::1] flags not None,
+        const int32_t[::1] object not None,
+        const int32_t[::1] id not None,
+        const double[:, ::1] world not None,
+        const uint64_t[::1] selection,
+        const double[:, ::1] clip_from_world,
+        double widen,
+        bint batch,
+        bint moved,
+    ):
+        """Draw the objects of the first nodes: those that show, or of these those whose bit is set.
+
+        With a matrix, instances outside of what it shows are left out as well. With ``batch``,
+        nodes of the same object are one draw. ``moved`` tells that something else is in the scene,
+        or elsewhere, since the last time.
+        """
+        cdef e3d_node_rows rows
+        cdef e3d_view_volume volume
+        cdef const e3d_view_volume *view = NULL
+        cdef const uint64_t *bits = NULL
+        require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0]),
+                "the arrays of nodes are too short")
+        require(world.shape[1] == 12, "world must be (nodes, 12)")
+        require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
+        memset(&rows, 0, sizeof(rows))
+        if count:
+            rows.count = count
+            rows.flags, rows.object, rows.id, rows.world = &flags[0], &object[0], &id[0], &world[0, 0]
+            if selection is not None:
+                bits = &selection[0]
+        if clip_from_world is not None:
+            require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+            memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+            volume.widen = widen
+            view = &volume
+        if moved:
+            self.totals = e3d_graph_totals(&rows, self.objects, self.object_count)
+        if not e3d_graph_draws(&self.placed, &rows, bits, view, self.objects, self.object_count,
+                               batch):
+            raise OutOfMemoryError("no memory for the list of what to draw")
+
+    def set_instance_tree(self, int index, tree):
+        """Let instances be left out by a NativeTree of their boxes, or by none."""
+        require(0 <= index < self.object_count, "no such object")
+        self.objects[index].instances = NULL if tree is None else <e3d_tree *><size_t>tree.address
+        self.borrowed.append(tree)
+
+    def set_instances(
+        self,
+        int index,
+        const float[:, ::1] poses not None,
+        const uint8_t[:, ::1] colors_u8=None,
+        const float[:, ::1] colors_f32=None,
+        const int32_t[::1] ids=None,
+    ):
+        """Draw the mesh once for each row of `poses`: (N, 16) matrices or (N, 4) offset and scale."""
+        require(0 <= index < self.object_count, "no such object")
+        cdef e3d_draw *draw = &self.objects[index].draw
+        require(poses.shape[1] in (4, 16), "poses must be (N, 16) or (N, 4)")
+        draw.pose_kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
+        draw.instances = <int32_t>poses.shape[0]
+        draw.poses = &poses[0, 0] if poses.shape[0] else NULL
+        draw.instance_ids = NULL
+        if ids is not None and poses.shape[0]:
+            require(ids.shape[0] == poses.shape[0], "ids: (N,)")
+            draw.instance_ids = &ids[0]
+        draw.instance_colors_u8 = NULL
+        draw.instance_colors_f32 = NULL
+        if colors_u8 is not None and poses.shape[0]:
+            require(colors_u8.shape[0] == poses.shape[0] and colors_u8.shape[1] == 4, "colors: (N, 4)")
+            draw.instance_colors_u8 = &colors_u8[0, 0]
+        elif colors_f32 is not None and poses.shape[0]:
+            require(colors_f32.shape[0] == poses.shape[0] and colors_f32.shape[1] == 4, "colors: (N, 4)")
+            draw.instance_colors_f32 = &colors_f32[0, 0]
+        self.borrowed.append((poses, colors_u8, colors_f32, ids))
+
+    def add_material(
+        self, color, specular, float shininess, emissive, NativeTexture texture, int32_t id,
+        bint two_sided, bint flat,
+    ):
+        self.materials = <e3d_material *>grown(
+            self.materials, self.material_count, &self.material_capacity, sizeof(e3d_material)
+        )
+        cdef e3d_material *material = &self.materials[self.material_count]
+        memset(material, 0, sizeof(e3d_material))
+        copy_vector(material.color, color, 3)
+        copy_vector(material.specular, specular, 3)
+        copy_vector(material.emissive, emissive, 3)
+        material.shininess = shininess
+        if texture is not None:
+            material.texture = texture.handle
+            self.borrowed.append(texture)
+        material.id = id
+        material.two_sided = two_sided
+        material.flat = flat
+        self.material_count += 1
+
+    def add_directional_light(self, color, to_light):
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_DIRECTIONAL, color)
+        copy_vector(light.to_light, to_light, 3)
+
+    def add_point_light(self, color, position, float range, int falloff):
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_POINT, color)
+        copy_vector(light.position, position, 3)
+        light.range = range
+        light.falloff = <e3d_falloff>falloff
+
+    cdef e3d_light *light_at(self, int number) except NULL:
+        if not 0 <= number < self.light_count:
+            raise InvalidArgumentError("no such light")
+        return &self.lights[number]
+
+    def turn_light(self, int number, to_light):
+        """Set where a directional light comes from."""
+        copy_vector(self.light_at(number).to_light, to_light, 3)
+
+    def move_light(self, int number, position):
+        """Set where a point light is."""
+        copy_vector(self.light_at(number).position, position, 3)
+
+    cdef e3d_light *new_light(self, e3d_light_kind kind, color) except NULL:
+        self.lights = <e3d_light *>grown(
+            self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light)
+        )
+        cdef e3d_light *light = &self.lights[self.light_count]
+        memset(light, 0, sizeof(e3d_light))
+        light.kind = kind
+        light.range = INFINITY
+        copy_vector(light.color, color, 3)
+        self.light_count += 1
+        return light

@@ -1,0 +1,110 @@
+# Part of rasterizer.pyx: the core's side of a mesh and of a texture.
+#
+# In:  C-contiguous arrays, which are checked here and held for as long as the core reads them.
+# Out: handles that a draw list borrows.
+
+cdef class NativeMesh:
+    """A mesh of the core. It borrows the arrays given, which must never change."""
+
+    cdef e3d_mesh *handle
+    cdef list borrowed
+    cdef readonly bint has_normals, has_face_normals, has_edges
+    cdef int32_t vertices, faces_count
+
+    def __cinit__(
+        self,
+        const float[:, ::1] positions not None,
+        const int32_t[:, ::1] faces not None,
+        *,
+        const float[:, ::1] uvs=None,
+        const uint8_t[:, ::1] colors_u8=None,
+        const float[:, ::1] colors_f32=None,
+        const int32_t[::1] material_ids=None,
+        const int32_t[:, ::1] lines=None,
+        const int32_t[::1] points=None,
+        int threads=0,
+    ):
+        cdef e3d_mesh_desc desc
+        memset(&desc, 0, sizeof(desc))
+        cdef int32_t count = <int32_t>positions.shape[0]
+        require(positions.shape[1] in (3, 4), "positions must have 3 or 4 columns")
+        require(faces.shape[1] == 3, "faces must have 3 columns")
+        self.borrowed = [positions, faces, uvs, colors_u8, colors_f32, material_ids, lines, points]
+        self.vertices = desc.vertices = count
+        desc.components = <int32_t>positions.shape[1]
+        self.faces_count = desc.faces_count = <int32_t>faces.shape[0]
+        if count:
+            desc.positions = &positions[0, 0]
+        if desc.faces_count:
+            desc.faces = &faces[0, 0]
+        if uvs is not None and count:
+            require(uvs.shape[0] == count and uvs.shape[1] == 2, "uvs must be (vertices, 2)")
+            desc.uvs = &uvs[0, 0]
+        if colors_u8 is not None and count:
+            require(colors_u8.shape[0] == count and colors_u8.shape[1] == 4, "colors: (vertices, 4)")
+            desc.colors_u8 = &colors_u8[0, 0]
+        elif colors_f32 is not None and count:
+            require(colors_f32.shape[0] == count and colors_f32.shape[1] == 4, "colors: (vertices, 4)")
+            desc.colors_f32 = &colors_f32[0, 0]
+        if material_ids is not None and desc.faces_count:
+            require(material_ids.shape[0] == desc.faces_count, "material_ids must be (faces,)")
+            desc.material_ids = &material_ids[0]
+        if lines is not None and lines.shape[0]:
+            require(lines.shape[1] == 2, "lines must have 2 columns")
+            desc.lines_count = <int32_t>lines.shape[0]
+            desc.lines = &lines[0, 0]
+        if points is not None and points.shape[0]:
+            desc.points_count = <int32_t>points.shape[0]
+            desc.points = &points[0]
+        cdef e3d_status status
+        with nogil:
+            status = e3d_mesh_create(&desc, threads, &self.handle)
+        check(status)
+
+    def __dealloc__(self):
+        if self.handle != NULL:
+            e3d_mesh_destroy(self.handle)
+
+    def set_normals(self, const float[:, ::1] normals not None):
+        require(normals.shape[0] == self.vertices and normals.shape[1] == 3, "normals: (vertices, 3)")
+        if self.vertices:
+            e3d_mesh_set_normals(self.handle, &normals[0, 0])
+        self.borrowed.append(normals)
+        self.has_normals = True
+
+    def set_face_normals(self, const float[:, ::1] normals not None):
+        require(
+            normals.shape[0] == self.faces_count and normals.shape[1] == 3, "face_normals: (faces, 3)"
+        )
+        if self.faces_count:
+            e3d_mesh_set_face_normals(self.handle, &normals[0, 0])
+        self.borrowed.append(normals)
+        self.has_face_normals = True
+
+    def set_edges(self, const int32_t[:, ::1] edges not None):
+        require(edges.shape[1] == 2, "edges must have 2 columns")
+        if edges.shape[0]:
+            check(e3d_mesh_set_edges(self.handle, &edges[0, 0], <int32_t>edges.shape[0]))
+        self.borrowed.append(edges)
+        self.has_edges = True
+
+
+cdef class NativeTexture:
+    """A texture of the core, with its mip levels; the pixels are copied."""
+
+    cdef e3d_texture *handle
+
+    def __cinit__(self, const uint8_t[:, :, ::1] pixels not None, bint decode_srgb, int filter, int wrap):
+        require(pixels.shape[2] == 4, "pixels must have 4 channels")
+        require(0 < pixels.shape[0] <= 32768 and 0 < pixels.shape[1] <= 32768, "pixels: wrong size")
+        cdef e3d_status status
+        with nogil:
+            status = e3d_texture_create(
+                &pixels[0, 0, 0], <int32_t>pixels.shape[1], <int32_t>pixels.shape[0], decode_srgb,
+                <e3d_filter>filter, <e3d_wrap>wrap, &self.handle,
+            )
+        check(status)
+
+    def __dealloc__(self):
+        if self.handle != NULL:
+            e3d_texture_destroy(self.handle)

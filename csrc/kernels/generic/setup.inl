@@ -132,6 +132,7 @@ static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int 
                              uint64_t *small)
 {
     int32_t packed[E3D_CLUSTER_VERTICES + E3D_PAD];
+    uint64_t shown = 0, narrow = 0;
     if (!setup_pack_vertices(v, packed))
         return 0;
     vtable table;
@@ -141,9 +142,11 @@ static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int 
         for (int k = 0; k < 3; k++)
             p[k] = v_lookup(&table, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i));
         setup_boxes boxes = setup_boxes_near(p, cull);
-        *draw |= (uint64_t)v_bits(v_mnot(boxes.miss)) << i;
-        *small |= (uint64_t)v_bits(boxes.small) << i;
+        shown |= (uint64_t)v_bits(v_mnot(boxes.miss)) << i;
+        narrow |= (uint64_t)v_bits(boxes.small) << i;
     }
+    *draw = shown;
+    *small = narrow;
     return 1;
 }
 

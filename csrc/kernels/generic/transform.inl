@@ -71,7 +71,7 @@ static inline void transform_end(vi32 codes, int count, e3d_vertices *out)
 
 /* In the frustum: no outcodes, and no coordinates for clipping. 0: a vertex isn't finite, or too near. */
 static inline int transform_inside(const float *positions, int stride, int count, const float matrix[16],
-                                   const e3d_viewport *viewport, e3d_vertices *out)
+                                   const e3d_viewport *viewport, e3d_vertices *restrict out)
 {
     vf32 scale_x = v_setf(viewport->scale_x), scale_y = v_setf(viewport->scale_y), none = v_setf(0.0f);
     vmask good = v_eq(none, none);

@@ -209,7 +209,8 @@ struct e3d_renderer {
     e3d_visible_tile *kept;     /* over the rounds of a frame */
     size_t kept_room;
     uint32_t trials;                /* of what was seen; grows with each frame that remembers */
-    int32_t frames_without_rounds; /* still to come: lately rounds did not pay */
+    int32_t frames_without_rounds; /* still to come: lately rounds did not pay, */
+    int64_t covered_at_trial;      /* with so many blocks covered; where many more are, they may */
     int (*poll)(void *);
     void *poll_user;
 };

@@ -62,12 +62,15 @@ int e3d_occlusion_pays(const e3d_context *context)
         return context->item_count > 1;
     if (context->item_count < 64 || frame->culling != E3D_CULLING_ALL)
         return 0;
-    if (context->renderer->frames_without_rounds > 0) {
-        context->renderer->frames_without_rounds--;
+    e3d_renderer *renderer = context->renderer;
+    for (int32_t w = 0; w < renderer->threads; w++)
+        covered += renderer->workers[w]->counters.blocks;
+    if (renderer->frames_without_rounds > 0 && 2 * covered <= 3 * renderer->covered_at_trial) {
+        renderer->frames_without_rounds--;
+        renderer->rows.count = 0; /* what was seen is of another view when the next trial comes */
         return 0;
     }
-    for (int32_t w = 0; w < context->renderer->threads; w++)
-        covered += context->renderer->workers[w]->counters.blocks;
+    renderer->covered_at_trial = covered;
     return covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 

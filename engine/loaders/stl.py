@@ -28,7 +28,7 @@ _HEADER = 84
 # A facet is a normal, three corners, and two bytes of attributes.
 _FACET_SIZE, _CORNERS_AT = 50, 12
 _SKIPPED = (b"facet", b"outer", b"endfacet", b"endsolid")
-_TEXT = re.compile(rb"\s*solid\b", re.IGNORECASE)
+_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?\s*solid\b", re.IGNORECASE)
 _MAX_OBJECTS = 1000
 _MOST = 2**31 - 1
 _FORMS = (

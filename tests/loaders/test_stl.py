@@ -86,6 +86,12 @@ def test_bytes_behind_the_last_triangle(load):
         assert len(load(binary(SQUARE, b"solid x") + bytes(7)).faces) == 2
 
 
+@pytest.mark.parametrize("start", [b"\xef\xbb\xbf", b"\xef\xbb\xbf\n ", b"\n\t"])
+def test_text_may_begin_with_a_mark_and_blanks(load, start):
+    mesh = load(start + TEXT.encode())
+    assert (mesh.faces == load(TEXT).faces).all()
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [

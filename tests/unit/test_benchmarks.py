@@ -177,7 +177,7 @@ def test_a_round_is_other_over_better(compare):
 
 @pytest.mark.parametrize(("stored", "status"), [(1e-6, 0), (1e6, 1)])
 def test_the_exit_status_tells_of_a_regression(tmp_path, stored, status):
-    name = "fill-back: deferred over forward"
+    name = "textured: default picture over plain"
     baseline = tmp_path / "baseline.json"
     baseline.write_text(json.dumps({"ratios": {name: {"ratio": stored, "margin": 0.4}}}))
     arguments = ["--baseline", str(baseline), "--only", name, "--seconds", "0.01", "--json"]

@@ -108,11 +108,12 @@ static void claim_stl(const reading *r, const uint8_t *bytes, size_t size)
         char *const line = room_for(length + 1, 1), *rest = line;
         memcpy(line, bytes + at, length);
         line[length] = '\0';
+        for (char *zero; (zero = memchr(line, '\0', length));)
+            *zero = '?'; /* as little of a word as that is */
         char *words[5];
         size_t count = 0;
-        if (strlen(line) == length)
-            for (char *word; count < 5 && (word = strtok_r(rest, " \t\v\f", &rest));)
-                words[count++] = word;
+        for (char *word; count < 5 && (word = strtok_r(rest, " \t\v\f", &rest));)
+            words[count++] = word;
         bool is_known = false;
         for (size_t k = 0; count && k < 4; k++)
             is_known |= strcasecmp(words[0], skipped[k]) == 0;
@@ -138,7 +139,7 @@ static void claim_stl(const reading *r, const uint8_t *bytes, size_t size)
             bool is_stop = false;
             for (size_t k = 0; k < r->stop_count; k++)
                 is_stop |= r->stops[k] == at;
-            CLAIM(is_stop || strlen(line) != length);
+            CLAIM(is_stop);
         }
         free(line);
         if (r->stop_count == 64)

@@ -231,11 +231,9 @@ enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 typedef float e3d_surface_floats[E3D_BATCH_SURFACES + E3D_PAD];
 typedef int32_t e3d_surface_words[E3D_BATCH_SURFACES + E3D_PAD];
 
-/* What visible pieces bring to their samples, one an element. */
+/* What visible pieces bring to their samples, one an element. (All arrays of this and of e3d_batch are whole lines of the
+ * cache, where the structs are aligned to one: vectors that lie across two take twice as long.) */
 typedef struct e3d_surfaces {
-    int32_t count, matrices;
-    int32_t irregular;             /* how many are clipped, or not of a face of three-component vertices */
-    int32_t projected;             /* how many have no record */
     e3d_surface_words project;     /* 0: from a record; else `project` finds x, y, iw, swapped and back; 1, or 3 in a mirrored instance */
     e3d_surface_words x[3], y[3];  /* corners after R9 */
     e3d_surface_floats iw[3];
@@ -252,6 +250,9 @@ typedef struct e3d_surfaces {
     e3d_surface_floats base_x, base_y;     /* relative to the tile's first sample */
     e3d_surface_floats step[2][3]; /* [axis]: sx, ux, vx of R25 */
     e3d_surface_words piece, instance; /* whose they are; the kernels don't read it */
+    int32_t count, matrices;
+    int32_t irregular;             /* how many are clipped, or not of a face of three-component vertices */
+    int32_t projected;             /* how many have no record */
 } e3d_surfaces;
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
@@ -259,13 +260,13 @@ typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 /* Samples of one material on their way to a colour. Each but the first is of the same surface as the one before it or of
  * the next. `sample` and `surface` repeat the last for E3D_PAD elements more: whole vectors read them. */
 typedef struct e3d_batch {
-    int count;
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */
     int32_t surface[E3D_BATCH + E3D_PAD]; /* its element of e3d_surfaces */
     e3d_lane_array b[3], r;
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3];
+    int count;
 } e3d_batch;
 
 /* What interpolation fills beyond the barycentrics. */
@@ -349,8 +350,8 @@ typedef struct e3d_kernels {
     /* Planes of colours, which are clamped to [0, 1], to RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);
-    /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. */
-    void (*paint)(const e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
+    /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. There are few lights. */
+    void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
 } e3d_kernels;
 
 /* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */

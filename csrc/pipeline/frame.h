@@ -160,8 +160,8 @@ typedef struct e3d_tile_memory {
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
     e3d_run spare[E3D_TILE_SAMPLES];      /* while runs are sorted */
-    e3d_batch batch;
-    e3d_surfaces surfaces;       /* of the batch and its neighbours */
+    _Alignas(64) e3d_batch batch;
+    _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */
     e3d_run batch_runs[E3D_BATCH]; /* the batch's samples, as runs */
     int32_t batch_run_count;
     uint32_t encoded[E3D_BATCH + E3D_PAD];

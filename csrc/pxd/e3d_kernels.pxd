@@ -161,7 +161,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
-        void (*paint)(const e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint,
+        void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint,
                       uint32_t *rgba)
 
     const e3d_kernels *e3d_kernels_for(e3d_backend backend)

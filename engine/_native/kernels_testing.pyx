@@ -326,7 +326,7 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.encode(&red[0], &green[0], &blue[0], count, srgb, &rgba[0])
 
-    def paint(self, const uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
+    def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
               const float[::1] specular, const float[::1] emissive, bint srgb, uint32_t[::1] rgba):
         """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
@@ -355,7 +355,7 @@ cdef class Kernels:
         paint.emissive = &emissive[0]
         paint.srgb = srgb
         for _ in range(self.rounds):
-            self.table.paint(<const e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
+            self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
                              &paint, &rgba[0])
 
 

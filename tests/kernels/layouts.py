@@ -77,8 +77,7 @@ VISIBLE_TILE = np.dtype(
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
 _ELEMENTS = BATCH_SURFACES + PAD
 SURFACES = np.dtype(
-    [(name, "i4") for name in ("count", "matrices", "irregular", "projected")]
-    + [("project", "i4", _ELEMENTS)]
+    [("project", "i4", _ELEMENTS)]
     + [("x", "i4", (3, _ELEMENTS)), ("y", "i4", (3, _ELEMENTS)), ("iw", "f4", (3, _ELEMENTS))]
     + [("swapped", "i4", _ELEMENTS), ("matrix", "i4", _ELEMENTS)]
     + [("clip", "f4", (16, _ELEMENTS)), ("world", "f4", (12, _ELEMENTS))]
@@ -90,11 +89,11 @@ SURFACES = np.dtype(
     + [("base_x", "f4", _ELEMENTS), ("base_y", "f4", _ELEMENTS)]
     + [("step", "f4", (2, 3, _ELEMENTS))]
     + [("not_read", "i4", (2, _ELEMENTS))]  # identities
+    + [(name, "i4") for name in ("count", "matrices", "irregular", "projected")]
 )
 _LANES = BATCH + PAD
 BATCH_RECORD = np.dtype(
     [
-        ("count", "i4"),
         ("sample", "i4", _LANES),
         ("surface", "i4", _LANES),
         ("b", "f4", (3, _LANES)),
@@ -106,6 +105,7 @@ BATCH_RECORD = np.dtype(
         ("lod", "i4", _LANES),
         ("energy", "f4", (3, _LANES)),
         ("shine", "f4", (3, _LANES)),
+        ("count", "i4"),
     ]
 )
 LIGHT = np.dtype(

@@ -45,69 +45,124 @@ static inline vf32 interpolate_one(const e3d_surface_floats rows[3], const eleme
     return dot_three(b, corner);
 }
 
-/* R22 */
-static inline void interpolate_normal(const e3d_surfaces *s, const element_lanes *lanes, int same, int flat,
-                                      const vf32 b[3], vf32 n[3])
+/* ---- stages: short ones, each over all vectors of a batch ----
+ *
+ * Processors look ahead some hundred operations: so they find several vectors to work on at a time.
+ */
+
+/* Of one vector: its first sample, the surfaces from that one's on, and whether all samples are of the same one. */
+typedef struct sample_vector {
+    int i, same;
+    element_lanes elements;
+    const e3d_surfaces *s;
+} sample_vector;
+
+static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surfaces,
+                                      void (*stage)(e3d_batch *, const sample_vector *))
 {
-    vf32 zero = v_setf(0.0f);
-    vmask front = v_eqi(v_asi(take((const float *)s->back, lanes, same)), v_seti(0));
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        sample_vector v = {.i = i, .elements = lanes_of(batch->surface + i)};
+        v.s = surfaces_from(surfaces, &v.elements);
+        v.same = v.elements.same;
+        if (v.same) {
+            v.same = 1; /* known when compiled */
+            stage(batch, &v);
+        } else {
+            stage(batch, &v);
+        }
+    }
+}
+
+static ALWAYS_INLINE void load_barycentric(const e3d_batch *batch, int i, vf32 b[3])
+{
+    for (int k = 0; k < 3; k++)
+        b[k] = v_loadf(batch->b[k] + i);
+}
+
+static ALWAYS_INLINE void interpolate_into(e3d_lane_array *out, int count, const e3d_surface_floats rows[][3],
+                                           const e3d_batch *batch, const sample_vector *v)
+{
+    vf32 b[3];
+    load_barycentric(batch, v->i, b);
+    for (int c = 0; c < count; c++)
+        v_storef(out[c] + v->i, interpolate_one(rows[c], &v->elements, v->same, b));
+}
+
+static ALWAYS_INLINE void stage_barycentric(e3d_batch *batch, const sample_vector *v)
+{
+    vf32 b[3], r = interpolate_barycentric(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), b);
+    v_storef(batch->r + v->i, r);
+    for (int k = 0; k < 3; k++)
+        v_storef(batch->b[k] + v->i, b[k]);
+}
+
+static ALWAYS_INLINE void stage_position(e3d_batch *batch, const sample_vector *v)
+{
+    interpolate_into(batch->position, 3, v->s->position, batch, v);
+}
+
+static ALWAYS_INLINE void stage_uv(e3d_batch *batch, const sample_vector *v)
+{
+    interpolate_into(batch->uv, 2, v->s->uv, batch, v);
+}
+
+/* R22 */
+static ALWAYS_INLINE void stage_normal(e3d_batch *batch, const sample_vector *v, int flat)
+{
+    vf32 b[3], n[3], zero = v_setf(0.0f);
+    vmask front = v_eqi(v_asi(take((const float *)v->s->back, &v->elements, v->same)), v_seti(0));
+    load_barycentric(batch, v->i, b);
     for (int c = 0; c < 3; c++) {
-        n[c] = flat ? take(s->normal[c][0], lanes, same) : interpolate_one(s->normal[c], lanes, same, b);
+        n[c] = flat ? take(v->s->normal[c][0], &v->elements, v->same)
+                    : interpolate_one(v->s->normal[c], &v->elements, v->same, b);
         n[c] = v_self(front, n[c], v_sub(zero, n[c]));
     }
     unit_length(&n[0], &n[1], &n[2]);
+    for (int c = 0; c < 3; c++)
+        v_storef(batch->normal[c] + v->i, n[c]);
 }
 
-static inline void interpolate_vector(e3d_batch *batch, int i, const e3d_surfaces *s, const element_lanes *lanes,
-                                      int same, int wanted)
-{
-    vf32 b[3], n[3], r = interpolate_barycentric(s, lanes, same, v_loadi(batch->sample + i), b);
-    v_storef(batch->r + i, r);
-    for (int k = 0; k < 3; k++)
-        v_storef(batch->b[k] + i, b[k]);
-    for (int c = 0; c < 3 && wanted & E3D_WANT_POSITION; c++)
-        v_storef(batch->position[c] + i, interpolate_one(s->position[c], lanes, same, b));
-    if (wanted & E3D_WANT_NORMAL) {
-        interpolate_normal(s, lanes, same, wanted & E3D_WANT_FLAT, b, n);
-        for (int c = 0; c < 3; c++)
-            v_storef(batch->normal[c] + i, n[c]);
-    }
-    for (int c = 0; c < 2 && wanted & E3D_WANT_UV; c++)
-        v_storef(batch->uv[c] + i, interpolate_one(s->uv[c], lanes, same, b));
-}
+static ALWAYS_INLINE void stage_smooth_normal(e3d_batch *batch, const sample_vector *v) { stage_normal(batch, v, 0); }
+static ALWAYS_INLINE void stage_flat_normal(e3d_batch *batch, const sample_vector *v) { stage_normal(batch, v, 1); }
 
 static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
 {
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        element_lanes lanes = lanes_of(batch->surface + i);
-        const e3d_surfaces *s = surfaces_from(surfaces, &lanes);
-        if (lanes.same)
-            interpolate_vector(batch, i, s, &lanes, 1, wanted);
-        else
-            interpolate_vector(batch, i, s, &lanes, 0, wanted);
+    each_vector(batch, surfaces, stage_barycentric);
+    if (wanted & E3D_WANT_POSITION)
+        each_vector(batch, surfaces, stage_position);
+    if (wanted & E3D_WANT_NORMAL && wanted & E3D_WANT_FLAT)
+        each_vector(batch, surfaces, stage_flat_normal);
+    else if (wanted & E3D_WANT_NORMAL)
+        each_vector(batch, surfaces, stage_smooth_normal);
+    if (wanted & E3D_WANT_UV)
+        each_vector(batch, surfaces, stage_uv);
+}
+
+/* R24: color *= tint */
+static ALWAYS_INLINE void stage_vertex_color(e3d_batch *batch, const sample_vector *v)
+{
+    vf32 b[3];
+    load_barycentric(batch, v->i, b);
+    for (int c = 0; c < 3; c++) {
+        vf32 tint = interpolate_one(v->s->color[c], &v->elements, v->same, b);
+        v_storef(batch->color[c] + v->i, v_mul(v_loadf(batch->color[c] + v->i), tint));
     }
 }
 
-/* R24 */
-static inline void tint_vector(const e3d_surfaces *s, const element_lanes *lanes, const vf32 b[3], int by_vertex,
-                               int by_instance, vf32 color[3])
+static ALWAYS_INLINE void stage_instance_color(e3d_batch *batch, const sample_vector *v)
 {
-    for (int c = 0; c < 3 && by_vertex; c++)
-        color[c] = v_mul(color[c], interpolate_one(s->color[c], lanes, lanes->same, b));
-    for (int c = 0; c < 3 && by_instance; c++)
-        color[c] = v_mul(color[c], take(s->instance_color[c], lanes, lanes->same));
+    for (int c = 0; c < 3; c++) {
+        vf32 tint = take(v->s->instance_color[c], &v->elements, v->same);
+        v_storef(batch->color[c] + v->i, v_mul(v_loadf(batch->color[c] + v->i), tint));
+    }
 }
 
 static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
 {
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        element_lanes lanes = lanes_of(batch->surface + i);
-        const vf32 b[3] = {v_loadf(batch->b[0] + i), v_loadf(batch->b[1] + i), v_loadf(batch->b[2] + i)};
-        vf32 color[3] = {v_loadf(batch->color[0] + i), v_loadf(batch->color[1] + i), v_loadf(batch->color[2] + i)};
-        tint_vector(surfaces_from(surfaces, &lanes), &lanes, b, by_vertex, by_instance, color);
-        for (int c = 0; c < 3; c++)
-            v_storef(batch->color[c] + i, color[c]);
-    }
+    if (by_vertex)
+        each_vector(batch, surfaces, stage_vertex_color);
+    if (by_instance)
+        each_vector(batch, surfaces, stage_instance_color);
 }
 
 /* R27 */

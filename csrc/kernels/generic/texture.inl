@@ -252,8 +252,9 @@ static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int i, vf
     }
 }
 
-/* Of a whole batch. Neighbours mostly share a line of the cache: every fourth will do. */
-static inline void texture_fetch(const texture_plan *plan, int count)
+/* Of a whole batch. Neighbours mostly share a line of the cache: every fourth will do. (GCC leaves out calls of what only
+ * fetches, unless it is inlined.) */
+static ALWAYS_INLINE void texture_fetch(const texture_plan *plan, int count)
 {
     const char *texels = plan->view->levels[0].texels;
     intptr_t bytes = plan->view->texel_bytes;
@@ -287,16 +288,33 @@ static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filt
     return a;
 }
 
+static ALWAYS_INLINE void texture_find_all(texture_plan *plan, int filter, const e3d_batch *batch)
+{
+    for (int i = 0; i < batch->count; i += V_LANES)
+        texture_find(plan, filter, i, v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i),
+                     filter == E3D_BILINEAR ? v_seti(0) : load_level(batch, i, plan->view->level_count));
+}
+
+static ALWAYS_INLINE void texture_read_all(const texture_plan *plan, int filter, int texel_bytes, const float base[3],
+                                           e3d_batch *batch)
+{
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        texel_lanes texel = texture_read(plan, filter, texel_bytes, i);
+        texture_store(batch, i, base, &texel);
+    }
+}
+
 static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
 {
     texture_plan plan;
     texture_begin(&plan, view);
-    for (int i = 0; i < batch->count; i += V_LANES)
-        texture_find(&plan, view->filter, i, v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i),
-                     load_level(batch, i, view->level_count));
+    if (view->filter == E3D_BILINEAR)
+        texture_find_all(&plan, E3D_BILINEAR, batch);
+    else
+        texture_find_all(&plan, view->filter, batch);
     texture_fetch(&plan, batch->count);
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        texel_lanes texel = texture_read(&plan, view->filter, view->texel_bytes, i);
-        texture_store(batch, i, base, &texel);
-    }
+    if (view->filter == E3D_BILINEAR && view->texel_bytes == 4)
+        texture_read_all(&plan, E3D_BILINEAR, 4, base, batch);
+    else
+        texture_read_all(&plan, view->filter, view->texel_bytes, base, batch);
 }

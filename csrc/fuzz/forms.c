@@ -58,7 +58,7 @@ static size_t line_end(const uint8_t *bytes, size_t at)
     return at;
 }
 
-/* Reads all, passing over lines of no form. With `in_pieces`, each piece is memory of its own. */
+/* Reads all, passing over lines of no form. */
 static void read_all(reading *r, const uint8_t *bytes, size_t size)
 {
     size_t place = 0;

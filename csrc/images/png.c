@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/always_inline.h"
 #include "deflate.h"
 #include "e3d_images.h"
 
@@ -34,8 +35,7 @@ static inline uint8_t paeth(int16_t left, int16_t up, int16_t corner)
     return (uint8_t)(from_left <= least ? left : other);
 }
 
-static inline __attribute__((always_inline)) uint8_t difference(const uint8_t *row,
-                                                                const uint8_t *above, filter type)
+static ALWAYS_INLINE uint8_t difference(const uint8_t *row, const uint8_t *above, filter type)
 {
     const uint8_t left = row[-PIXEL];
     switch (type) {
@@ -51,9 +51,7 @@ static inline __attribute__((always_inline)) uint8_t difference(const uint8_t *r
 }
 
 /* The sum of the differences' sizes, each as a signed byte. */
-static inline __attribute__((always_inline)) uint32_t cost_of(const uint8_t *row,
-                                                              const uint8_t *above, size_t count,
-                                                              filter type)
+static ALWAYS_INLINE uint32_t cost_of(const uint8_t *row, const uint8_t *above, size_t count, filter type)
 {
     uint32_t sum = 0;
     for (size_t k = 0; k < count; k++) {
@@ -81,9 +79,7 @@ static filter cheapest_filter(const uint8_t *row, const uint8_t *above, size_t c
     return best;
 }
 
-static inline __attribute__((always_inline)) void store(uint8_t *restrict to, const uint8_t *row,
-                                                        const uint8_t *above, size_t count,
-                                                        filter type)
+static ALWAYS_INLINE void store(uint8_t *restrict to, const uint8_t *row, const uint8_t *above, size_t count, filter type)
 {
     for (size_t k = 0; k < count; k++) {
         to[k] = difference(row + k, above + k, type);

@@ -7,14 +7,13 @@
 #ifndef E3D_LOADERS_ROWS_H
 #define E3D_LOADERS_ROWS_H
 
+#include "core/always_inline.h"
 #include "e3d_loaders.h"
 
 #include <string.h>
 
 #define MINUS_ZERO UINT32_C(0x80000000)
 #define WORD sizeof(uint32_t)
-/* Into each function that knows the width of its rows. */
-#define ALWAYS_INLINE inline __attribute__((always_inline))
 
 typedef uint32_t e3d_words __attribute__((vector_size(16)));
 typedef uint64_t e3d_pairs __attribute__((vector_size(16)));

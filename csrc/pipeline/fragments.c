@@ -3,6 +3,7 @@
  * A triangle of a few samples is cheaper as these than as a record: 10 bytes a sample, written and read one after the other. What
  * shading needs of the triangle it finds again by its ID.
  */
+#include "core/always_inline.h"
 #include "pipeline/frame.h"
 
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
@@ -84,7 +85,7 @@ void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker)
 /* ---- to the visible surface ---- */
 
 /* Blocks are in no cache when they are read first. */
-static inline __attribute__((always_inline)) void fetch_block(const e3d_fragment_block *block)
+static ALWAYS_INLINE void fetch_block(const e3d_fragment_block *block)
 {
     enum { LINE = 64 };
     for (size_t at = 0; at < sizeof *block; at += LINE)

@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "core/always_inline.h"
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
@@ -285,7 +286,7 @@ static void mark(walker *w, const e3d_item *item, e3d_fate fate)
 }
 
 /* What a cluster is made of lies in memory cluster by cluster: the next one's, ahead of its use. */
-static inline __attribute__((always_inline)) void fetch_cluster(const e3d_cluster *c, int32_t components)
+static ALWAYS_INLINE void fetch_cluster(const e3d_cluster *c, int32_t components)
 {
     enum { LINE = 64 };
     const char *from = (const char *)c->positions, *end = (const char *)e3d_cluster_indices(c, components) + 3 * E3D_CLUSTER_TRIANGLES;

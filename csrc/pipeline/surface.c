@@ -1,9 +1,8 @@
 /* shade, first half: the pieces that show in a tile, and what each brings to its samples (R3, R18, R20-R24). */
 #include <string.h>
 
+#include "core/always_inline.h"
 #include "pipeline/frame.h"
-
-#define ALWAYS_INLINE inline __attribute__((always_inline))
 
 /* ---- which primitive a piece is of ---- */
 
@@ -314,8 +313,7 @@ static void add_surface(const e3d_context *context, const e3d_visible_piece *pie
         add_colors(context, piece, group, vertex, count, s, n);
 }
 
-/* Ahead of their use: faces and vertices are anywhere in memory. Only of a piece of this draw. (GCC leaves out calls of what
- * only fetches, unless it is inlined.) */
+/* Ahead of their use: faces and vertices are anywhere in memory. Only of a piece of this draw. */
 static ALWAYS_INLINE void fetch_face(const e3d_visible_piece *piece, const e3d_draw_state *draw)
 {
     if (piece->draw == draw)

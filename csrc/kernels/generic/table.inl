@@ -3,12 +3,11 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "core/always_inline.h"
 #include "core/fpenv.h"
 #include "core/encode_tables.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
-
-#define ALWAYS_INLINE inline __attribute__((always_inline))
 
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"

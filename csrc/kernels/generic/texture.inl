@@ -252,8 +252,7 @@ static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int i, vf
     }
 }
 
-/* Of a whole batch. Neighbours mostly share a line of the cache: every fourth will do. (GCC leaves out calls of what only
- * fetches, unless it is inlined.) */
+/* Of a whole batch. Neighbours mostly share a line of the cache: every fourth will do. */
 static ALWAYS_INLINE void texture_fetch(const texture_plan *plan, int count)
 {
     const char *texels = plan->view->levels[0].texels;

@@ -26,9 +26,6 @@ static inline void v_storei(void *p, vi32 a) { _mm256_storeu_si256((__m256i *)p,
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)p));
 }
-static inline vi32 v_loadu16(const uint16_t *p) {
-    return _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)p));
-}
 static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm256_i32gather_ps(base, i, 4); }
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm256_i32gather_epi32((const int *)base, i, 4);

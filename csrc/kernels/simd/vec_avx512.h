@@ -36,9 +36,6 @@ static inline void v_store_halves(void *low, void *high, vi32 a) {
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)p));
 }
-static inline vi32 v_loadu16(const uint16_t *p) {
-    return _mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)p));
-}
 static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm512_i32gather_ps(i, base, 4); }
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm512_i32gather_epi32(i, base, 4);

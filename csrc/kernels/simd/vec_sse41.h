@@ -28,9 +28,6 @@ static inline vi32 v_loadu8(const uint8_t *p) {
     memcpy(&v, p, 4);
     return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(v));
 }
-static inline vi32 v_loadu16(const uint16_t *p) {
-    return _mm_cvtepu16_epi32(_mm_loadl_epi64((const __m128i *)p));
-}
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     const int32_t *b = (const int32_t *)base;
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],

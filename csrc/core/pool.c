@@ -1,7 +1,7 @@
 /* The process's one thread pool: made at the first frame, remade after a fork.
  *
- * Threads sleep on a condition between jobs. A second caller does not wait: it works alone, which
- * cannot deadlock and gives the same picture.
+ * Threads sleep on a condition between jobs, but only once they have watched for the next one as long as waking takes: a
+ * frame is several jobs. A second caller does not wait: it works alone, which cannot deadlock and gives the same picture.
  */
 #include "core/pool.h"
 
@@ -10,8 +10,17 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
+#include "core/clock.h"
 #include "core/fpenv.h"
 #include "core/limits.h"
+#include "e3d.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+static inline void pause_briefly(void) { _mm_pause(); }
+#else
+static inline void pause_briefly(void) {}
+#endif
 
 static struct {
     pthread_mutex_t owner; /* held by the caller whose job runs */
@@ -22,6 +31,9 @@ static struct {
     unsigned long job;
     void (*work)(void *, int);
     void *argument;
+    atomic_int watches;    /* there is a CPU for each thread */
+    atomic_ulong posted;   /* the last job, once nobody holds the lock for it */
+    atomic_ulong finished; /* the last one whose helpers have returned, likewise */
 } pool = {.owner = PTHREAD_MUTEX_INITIALIZER,
           .lock = PTHREAD_MUTEX_INITIALIZER,
           .start = PTHREAD_COND_INITIALIZER,
@@ -52,6 +64,16 @@ static void in_child(void) /* no thread came along */
 
 static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
 
+/* Until the number is this job's, or for about as long as a thread takes to wake up. */
+static void watch(const atomic_ulong *number, unsigned long job)
+{
+    enum { WAKING_NS = 30000 };
+    if (!atomic_load(&pool.watches))
+        return;
+    for (int64_t end = e3d_now_ns() + WAKING_NS; atomic_load(number) < job && e3d_now_ns() < end;)
+        pause_briefly();
+}
+
 static void *helper(void *number)
 {
     int worker = (int)(intptr_t)number;
@@ -71,8 +93,14 @@ static void *helper(void *number)
         work(argument, worker);
         e3d_fpenv_leave(saved);
         pthread_mutex_lock(&pool.lock);
-        if (--pool.running == 0)
+        int last = --pool.running == 0;
+        if (last)
             pthread_cond_signal(&pool.done);
+        pthread_mutex_unlock(&pool.lock);
+        if (last)
+            atomic_store(&pool.finished, seen);
+        watch(&pool.posted, seen + 1);
+        pthread_mutex_lock(&pool.lock);
     }
     return NULL;
 }
@@ -80,7 +108,10 @@ static void *helper(void *number)
 /* Helpers take no signals: those stay with the program's own threads. */
 static void make_helpers(int wanted)
 {
+    if (pool.threads >= wanted)
+        return;
     sigset_t all, saved;
+    atomic_store(&pool.watches, wanted < e3d_thread_count());
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &saved);
     while (pool.threads < wanted) {
@@ -119,9 +150,12 @@ void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
     pool.argument = argument;
     pthread_cond_broadcast(&pool.start);
     pthread_mutex_unlock(&pool.lock);
+    atomic_store(&pool.posted, pool.job);
 
     work(argument, 0);
 
+    if (pool.wanted)
+        watch(&pool.finished, pool.job);
     pthread_mutex_lock(&pool.lock);
     while (pool.running)
         pthread_cond_wait(&pool.done, &pool.lock);

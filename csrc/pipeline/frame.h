@@ -6,22 +6,14 @@
 #define E3D_FRAME_H
 
 #include <stdatomic.h>
-#include <time.h>
 
+#include "core/clock.h"
 #include "core/grow.h"
 #include "core/mesh.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
 
 enum { E3D_LINES_A_UNIT = 256 }; /* lines, points or edges in one unit of work */
-
-/* Nanoseconds since some fixed moment. */
-static inline int64_t e3d_now_ns(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
-}
 
 /* ---- prepared once a frame ---- */
 

@@ -9,7 +9,8 @@
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
-enum { ITEMS_A_TASK = 4, UNITS_A_TASK = 8 };
+enum { ITEMS_A_TASK = 4, FEW_ITEMS = 64, UNITS_A_TASK = 8 };
+enum { LEAST_WORK = 4 }; /* items or tasks of units, that are worth a second thread */
 
 /* Where a thread stands: one instance of one draw. */
 typedef struct walker {
@@ -377,16 +378,19 @@ static void fetch_item(const e3d_context *context, const e3d_item *item)
         e3d_fetch_kept(context, &item->view);
 }
 
+static int64_t items_of(const e3d_round *round) { return round->end - round->first; }
+
 static void walk_items(walker *w)
 {
     enum { AHEAD = 6 };
     e3d_context *context = w->context;
     const e3d_round *round = &context->round;
+    int64_t task = items_of(round) < FEW_ITEMS ? 1 : ITEMS_A_TASK;
     while (!w->worker->failed) {
-        int64_t first = round->first + atomic_fetch_add(&context->next, ITEMS_A_TASK);
+        int64_t first = round->first + atomic_fetch_add(&context->next, task);
         if (first >= round->end)
             return;
-        for (int64_t i = first; i < first + ITEMS_A_TASK && i < round->end; i++) {
+        for (int64_t i = first; i < first + task && i < round->end; i++) {
             if (i + AHEAD < round->end)
                 fetch_item(context, &context->items[i + AHEAD]);
             run_item(w, &context->items[i]);
@@ -420,8 +424,8 @@ static void geometry_work(void *argument, int number)
 
 void e3d_geometry(e3d_context *context)
 {
-    int64_t work = context->round.end - context->round.first + context->units / UNITS_A_TASK;
+    int64_t work = items_of(&context->round) + context->units / UNITS_A_TASK;
     atomic_store(&context->next, 0);
     atomic_store(&context->next_unit, 0);
-    e3d_pool_run(work > 2 * ITEMS_A_TASK ? context->renderer->threads : 1, geometry_work, context);
+    e3d_pool_run(work > LEAST_WORK ? context->renderer->threads : 1, geometry_work, context);
 }

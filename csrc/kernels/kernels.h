@@ -324,7 +324,7 @@ typedef struct e3d_kernels {
     /* Draws records into the tile. */
     void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count);
     void (*raster_fragments)(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *block);
-    /* Writes the samples of all noted blocks: the IDs, and the depths where these are needed. */
+    /* Writes the samples of all noted blocks: the IDs, and the depths where these are needed, else they stay noted. */
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Finds the zmax of all stale blocks. */
     void (*raster_measure)(e3d_visible_tile *tile);

@@ -5,12 +5,28 @@
  */
 #include "pipeline/frame.h"
 
-void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles)
+static void empty_bins(e3d_array *bins, int32_t tiles)
 {
     e3d_bin *bin = bins->data;
-    blocks->count = 0;
     for (int32_t t = 0; t < tiles; t++)
         bin[t].first = bin[t].last = E3D_NO_BLOCK;
+}
+
+void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles)
+{
+    blocks->count = 0;
+    empty_bins(bins, tiles);
+}
+
+int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles)
+{
+    e3d_array kept = *bins;
+    *bins = *earlier;
+    *earlier = kept;
+    if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
+        return 0;
+    empty_bins(bins, tiles);
+    return 1;
 }
 
 int e3d_records_reset(e3d_record_set *set, int32_t tiles)

@@ -92,10 +92,11 @@ static ALWAYS_INLINE void fetch_block(const e3d_fragment_block *block)
         __builtin_prefetch((const char *)block + at);
 }
 
-void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number)
+void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
+                        int earlier)
 {
-    const e3d_fragment_block *blocks = worker->fragments.blocks.data;
-    uint32_t next = ((const e3d_bin *)worker->fragments.bins.data)[tile_number].first;
+    const e3d_fragment_block *blocks = set->blocks.data;
+    uint32_t next = ((const e3d_bin *)(earlier ? set->earlier : set->bins).data)[tile_number].first;
     for (; next != E3D_NO_BLOCK; next = blocks[next].next) {
         if (blocks[next].next != E3D_NO_BLOCK)
             fetch_block(&blocks[blocks[next].next]);

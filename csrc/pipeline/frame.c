@@ -31,12 +31,13 @@ static void destroy_worker(e3d_worker *worker)
         return;
     for (int p = 0; p < E3D_PASSES; p++) {
         e3d_record_set *set = &worker->pass[p];
-        e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins};
+        e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins, &set->earlier};
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
             e3d_array_free(arrays[i]);
     }
     e3d_array_free(&worker->fragments.blocks);
     e3d_array_free(&worker->fragments.bins);
+    e3d_array_free(&worker->fragments.earlier);
     e3d_array_free(&worker->fragments.drawn);
     e3d_array_free(&worker->slots);
     e3d_array_free(&worker->orders);
@@ -154,12 +155,24 @@ static int any_failed(const e3d_renderer *renderer)
 /* Draws some of the items, and keeps what they cover for the rounds to come. */
 static int draw_round(e3d_context *context, e3d_stats *stats, e3d_round round)
 {
+    int64_t start = e3d_now_ns();
     context->round = round;
     e3d_geometry(context);
+    stats->ms_geometry += (double)(e3d_now_ns() - start) * 1e-6;
     stats->rounds++;
-    if (!round.last)
-        e3d_draw_kept_tiles(context);
-    return !any_failed(context->renderer);
+    return (round.last || e3d_draw_kept_tiles(context)) && !any_failed(context->renderer);
+}
+
+/* What the last frames showed, then what came into view since. */
+static int draw_remembered(e3d_context *context, e3d_stats *stats)
+{
+    int64_t end = context->item_count;
+    e3d_round seen = {.choice = E3D_SEEN_ITEMS, .end = end, .finished = e3d_finishes_early(context)};
+    e3d_round unseen = {.choice = E3D_UNSEEN_ITEMS, .end = end, .tested = 1, .last = 1};
+    if (!draw_round(context, stats, seen) || !draw_round(context, stats, unseen))
+        return 0;
+    e3d_count_changed_tiles(context);
+    return 1;
 }
 
 /* Geometry, in as many rounds as pay; the bins of the last are drawn with the tiles. */
@@ -172,9 +185,7 @@ static int draw_rounds(e3d_context *context, e3d_stats *stats)
     if (remembered < 0)
         return 0;
     if (remembered)
-        return draw_round(context, stats, (e3d_round){.choice = E3D_SEEN_ITEMS, .end = count}) &&
-               draw_round(context, stats,
-                          (e3d_round){.choice = E3D_UNSEEN_ITEMS, .end = count, .tested = 1, .last = 1});
+        return draw_remembered(context, stats);
     for (int64_t end = count / 32 + 1; 2 * end < count; end *= 2) {
         if (!draw_round(context, stats, (e3d_round){.first = done, .end = end, .tested = done > 0}))
             return 0;
@@ -191,17 +202,17 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
         return status;
     if (!reset_workers(context))
         return E3D_OUT_OF_MEMORY;
-    if (!e3d_find_items(context) || !draw_rounds(context, stats) ||
-        (context->sorted && !e3d_sort_records(context)))
+    if (!e3d_find_items(context))
         return E3D_OUT_OF_MEMORY;
-    int64_t binned = e3d_now_ns();
+    stats->ms_geometry = (double)(e3d_now_ns() - start) * 1e-6;
+    if (!draw_rounds(context, stats) || (context->sorted && !e3d_sort_records(context)))
+        return E3D_OUT_OF_MEMORY;
     e3d_tiles(context);
     if (any_failed(context->renderer))
         return E3D_OUT_OF_MEMORY;
     e3d_count(context, stats);
     if (stats->rounds > 1)
         e3d_occlusion_judge(context, stats);
-    stats->ms_geometry = (double)(binned - start) * 1e-6;
     stats->ms_total = (double)(e3d_now_ns() - start) * 1e-6;
     return context->cancelled ? E3D_CANCELLED : E3D_OK;
 }

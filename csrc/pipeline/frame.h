@@ -70,6 +70,7 @@ typedef struct e3d_record_set {
     e3d_array keys;    /* float: painter's algorithm only */
     e3d_array blocks;  /* e3d_bin_block */
     e3d_array bins;    /* e3d_bin, one a tile */
+    e3d_array earlier; /* the same, of the round that finished the tiles */
 } e3d_record_set;
 
 enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
@@ -78,6 +79,7 @@ enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
 typedef struct e3d_fragment_set {
     e3d_array blocks; /* e3d_fragment_block */
     e3d_array bins;   /* e3d_bin, one a tile */
+    e3d_array earlier; /* the same, of the round that finished the tiles */
     e3d_array drawn;  /* e3d_drawn_cluster: of the whole frame, since IDs tell of them */
     e3d_small_triangles triangles; /* that are fragments soon */
 } e3d_fragment_set;
@@ -105,6 +107,7 @@ typedef struct e3d_item {
 /* The farthest depths of a kept tile's blocks, and the farthest of them. */
 typedef struct e3d_tile_depths {
     float most, zmax[E3D_TILE_BLOCKS];
+    int32_t shaded; /* samples, when the tile was finished */
 } e3d_tile_depths;
 #define E3D_NOTHING_KEPT 4.0f /* greater than any depth: nothing was drawn there */
 
@@ -203,6 +206,7 @@ struct e3d_renderer {
     uint32_t trials;                /* of what was seen; grows with each frame that remembers */
     int32_t frames_without_rounds; /* still to come: lately rounds did not pay, */
     int64_t covered_at_trial;      /* with so many blocks covered; where many more are, they may */
+    int64_t tiles_changed;         /* by what the frame before had not shown */
     int (*poll)(void *);
     void *poll_user;
 };
@@ -218,6 +222,7 @@ typedef struct e3d_round {
     e3d_choice choice;
     int64_t first, end; /* items */
     int tested;         /* against the kept tiles' depths */
+    int finished;       /* its tiles are shaded and resolved; the last round's only where more has come */
     int last;           /* lines, points and edges are drawn, too */
 } e3d_round;
 
@@ -236,6 +241,7 @@ typedef struct e3d_context {
     const e3d_item *items;
     int64_t item_count;
     uint8_t *seen;           /* by e3d_item.unit */
+    int finished;            /* all tiles are, but those that the last round's bins change */
     e3d_visible_tile *kept;  /* NULL: one round */
     e3d_tile_depths *depths; /* of the tiles */
     e3d_round round;
@@ -301,7 +307,14 @@ int e3d_remember(e3d_context *context);
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
 /* Asks for what that reads first. */
 void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
-void e3d_draw_kept_tiles(e3d_context *context);
+/* Keeps the depths of a tile, which may be drawn elsewhere. */
+void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile);
+/* Draws a round's tiles, and keeps what the next one needs of them; 0 when memory is out. */
+int e3d_draw_kept_tiles(e3d_context *context);
+/* Whether most tiles can be finished with what the last frames showed. */
+int e3d_finishes_early(const e3d_context *context);
+/* After the last round's geometry. */
+void e3d_count_changed_tiles(e3d_context *context);
 
 /* lines.c: units of 256 lines, then points, then edges of an instance */
 void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
@@ -338,6 +351,8 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
 int e3d_records_reset(e3d_record_set *set, int32_t tiles);
 /* Of records or of fragments. */
 void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles);
+/* Puts what they hold aside; 0 when memory is out. */
+int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles);
 int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
                    e3d_tile_span span);
 static inline e3d_tile_span e3d_span_of(const e3d_box *box)
@@ -356,7 +371,9 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
                        uint64_t triangles);
 /* All that were taken become fragments. */
 void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
-void e3d_fragments_draw(const e3d_context *context, const e3d_worker *worker, e3d_visible_tile *visible, int64_t tile_number);
+/* Draws a tile's fragments, or those of the round that finished it. */
+void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
+                        int earlier);
 
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
 /* After the records have their places: the tables that tell a record by its ID. */

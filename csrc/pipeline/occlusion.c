@@ -163,13 +163,27 @@ int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
 
 /* ---- a round's tiles ---- */
 
-static void note_depths(const e3d_visible_tile *visible, e3d_tile_depths *depths)
+/* Of blocks that are only noted, the farthest depth is enough. */
+static void keep_depths(e3d_visible_tile *kept, const e3d_visible_tile *visible)
 {
+    enum { ROW = E3D_BLOCK * E3D_TILE };
+    kept->noted = visible->noted;
+    for (int row = 0; row < BLOCKS; row++)
+        if ((~visible->noted >> row * BLOCKS & 0xFF) != 0)
+            memcpy(kept->z + row * ROW, visible->z + row * ROW, ROW * sizeof(float));
+}
+
+void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile)
+{
+    e3d_tile_depths *depths = &context->depths[tile];
+    context->kernels->raster_measure(visible);
     float most = visible->zmax[0];
     for (int b = 0; b < E3D_TILE_BLOCKS; b++)
         most = most > visible->zmax[b] ? most : visible->zmax[b];
     memcpy(depths->zmax, visible->zmax, sizeof depths->zmax);
     depths->most = most;
+    if (visible != &context->kept[tile])
+        keep_depths(&context->kept[tile], visible);
 }
 
 static void draw_kept(e3d_context *context, e3d_worker *worker, int64_t number)
@@ -182,8 +196,7 @@ static void draw_kept(e3d_context *context, e3d_worker *worker, int64_t number)
         e3d_visible_clear(visible, &tile);
     }
     e3d_visible_draw(context, visible, number);
-    context->kernels->raster_measure(visible);
-    note_depths(visible, depths);
+    e3d_note_depths(context, visible, number);
     worker->counters.ns_raster += e3d_now_ns() - start;
 }
 
@@ -199,9 +212,27 @@ static void kept_work(void *argument, int number)
     }
 }
 
-void e3d_draw_kept_tiles(e3d_context *context)
+/* The tiles are done, but those to which the next round adds something are drawn anew. */
+static int finish_tiles(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
+    int32_t tiles = (int32_t)e3d_tile_count(context);
+    e3d_tiles(context);
+    context->finished = 1;
+    for (int32_t w = 0; w < renderer->threads; w++) {
+        e3d_record_set *records = &renderer->workers[w]->pass[E3D_PASS_SCENE];
+        e3d_fragment_set *fragments = &renderer->workers[w]->fragments;
+        if (!e3d_bins_keep(&records->bins, &records->earlier, tiles) || !e3d_bins_keep(&fragments->bins, &fragments->earlier, tiles))
+            return 0;
+    }
+    return 1;
+}
+
+int e3d_draw_kept_tiles(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    if (context->round.finished)
+        return finish_tiles(context);
     e3d_tables_set(context);
     atomic_store(&context->next, 0);
     e3d_pool_run(renderer->threads, kept_work, context);
@@ -212,6 +243,21 @@ void e3d_draw_kept_tiles(e3d_context *context)
         e3d_bins_clear(&records->bins, &records->blocks, tiles);
         e3d_bins_clear(&fragments->bins, &fragments->blocks, tiles);
     }
+    return 1;
+}
+
+/* Shading a tile while it lies in the caches pays where few are drawn twice. */
+int e3d_finishes_early(const e3d_context *context)
+{
+    return context->frame->wireframe == E3D_WIRE_NONE && 8 * context->renderer->tiles_changed <= e3d_tile_count(context);
+}
+
+void e3d_count_changed_tiles(e3d_context *context)
+{
+    int64_t changed = 0;
+    for (int64_t tile = 0; tile < e3d_tile_count(context); tile++)
+        changed += e3d_has_bin(context, E3D_PASS_SCENE, tile);
+    context->renderer->tiles_changed = changed;
 }
 
 /* ---- what the last frame showed ---- */

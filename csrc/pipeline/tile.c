@@ -247,6 +247,8 @@ static int draw_visible(tile_job *job)
     if (!job->kept)
         e3d_visible_clear(worker->visible, &job->tile);
     e3d_visible_draw(context, worker->visible, job->number);
+    if (context->round.finished)
+        e3d_note_depths(context, worker->visible, job->number);
     int depths = context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
     context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], depths);
     int64_t rastered = e3d_now_ns();
@@ -305,22 +307,39 @@ e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
     return tile;
 }
 
+static int draw_job(tile_job *job)
+{
+    e3d_context *context = job->context;
+    e3d_worker *worker = job->worker;
+    e3d_resolve_begin(context, worker, &job->tile);
+    if (!draw_scene(job) || !draw_marks(job))
+        return 0;
+    int64_t start = e3d_now_ns();
+    e3d_resolve(context, worker, &job->tile);
+    worker->counters.ns_resolve += e3d_now_ns() - start;
+    return 1;
+}
+
 static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
 {
-    tile_job job = {.context = context, .worker = worker, .number = number};
-    job.tile = e3d_tile_at(context, number);
-    job.kept = context->kept && context->depths[number].most != E3D_NOTHING_KEPT;
+    e3d_tile_depths *depths = context->kept ? &context->depths[number] : NULL;
+    tile_job job = {.context = context, .worker = worker, .number = number, .tile = e3d_tile_at(context, number)};
+    job.kept = depths && depths->most != E3D_NOTHING_KEPT && !context->finished;
     worker->visible = job.kept ? &context->kept[number] : &worker->tile->visible;
+    if (context->finished && is_empty(&job))
+        return 1;
     if (context->frame->samples_axis == 1 && !job.kept && is_empty(&job)) {
         e3d_resolve_empty(context, &job.tile);
         return 1;
     }
-    e3d_resolve_begin(context, worker, &job.tile);
-    if (!draw_scene(&job) || !draw_marks(&job))
+    int64_t before = worker->counters.shaded;
+    if (!draw_job(&job))
         return 0;
-    int64_t start = e3d_now_ns();
-    e3d_resolve(context, worker, &job.tile);
-    worker->counters.ns_resolve += e3d_now_ns() - start;
+    if (depths) { /* of a tile that is drawn twice, the second time counts */
+        int64_t shaded = worker->counters.shaded - before;
+        worker->counters.shaded -= depths->shaded;
+        depths->shaded = (int32_t)shaded;
+    }
     return 1;
 }
 

@@ -14,13 +14,15 @@ void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
 }
 
 /* The next block of each thread in turn: all of them list records from near to far. */
-static void draw_records(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number)
+static void draw_records(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number, int earlier)
 {
     const e3d_renderer *renderer = context->renderer;
     uint32_t next[E3D_MAX_THREADS];
     int32_t left = renderer->threads;
-    for (int32_t w = 0; w < renderer->threads; w++)
-        next[w] = ((const e3d_bin *)renderer->workers[w]->pass[E3D_PASS_SCENE].bins.data)[tile_number].first;
+    for (int32_t w = 0; w < renderer->threads; w++) {
+        const e3d_record_set *set = &renderer->workers[w]->pass[E3D_PASS_SCENE];
+        next[w] = ((const e3d_bin *)(earlier ? set->earlier : set->bins).data)[tile_number].first;
+    }
     while (left) {
         left = 0;
         for (int32_t w = 0; w < renderer->threads; w++) {
@@ -36,7 +38,9 @@ static void draw_records(const e3d_context *context, e3d_visible_tile *visible, 
 
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number)
 {
-    draw_records(context, visible, tile_number);
-    for (int32_t w = 0; w < context->renderer->threads; w++)
-        e3d_fragments_draw(context, context->renderer->workers[w], visible, tile_number);
+    for (int earlier = context->finished; earlier >= 0; earlier--) {
+        draw_records(context, visible, tile_number, earlier);
+        for (int32_t w = 0; w < context->renderer->threads; w++)
+            e3d_fragments_draw(context, &context->renderer->workers[w]->fragments, visible, tile_number, earlier);
+    }
 }

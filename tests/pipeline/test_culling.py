@@ -56,6 +56,25 @@ def test_a_turning_camera_loses_nothing():
             assert pictures(renderer, scene, eye, culling="always")[1] == expected
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+def test_tiles_that_are_drawn_twice(threads):
+    """Most tiles are finished with what the last frame showed; where more comes they are drawn anew, and count once."""
+    scene = e3d.Scene(background=(10, 20, 30))
+    axis = np.arange(-4.0, 4.5)
+    places = np.stack(np.meshgrid(axis, axis, axis), -1).reshape(-1, 3)
+    scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.3, (24, 16)), np.c_[places, np.ones(len(places))]))
+    door = scene.add(e3d.quad(), translation=(1, 0, 6), scale=2)
+    eyes = [(0.5, 0.5, 9)] * 4 + [(0.52, 0.5, 8.9), (0.54, 0.51, 8.8), (9, 0.5, 0.5), (9, 0.5, 0.6)]
+    with e3d.Renderer(520, 390, threads=threads) as renderer:
+        for number, eye in enumerate(eyes):
+            door.visible = number % 3 != 2  # it hides much, and then no more
+            stats, got = pictures(renderer, scene, eye, culling="always")
+            everything, expected = pictures(renderer, scene, eye, culling="none")
+            assert got == expected, number
+            assert stats["pixels_shaded"] == everything["pixels_shaded"] > 0
+            assert stats["rounds"] == (2 if number else 5)
+
+
 def test_what_is_hidden_is_left_out():
     """Behind a wall that fills the view almost nothing is set up."""
     scene = crowd()

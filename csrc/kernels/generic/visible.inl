@@ -470,7 +470,6 @@ static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table 
         else
             visible_unfold_ids(tile, block);
     }
-    tile->noted = 0;
 }
 
 static void kernel_raster_measure(e3d_visible_tile *tile)

@@ -103,13 +103,25 @@ class Frame:
     def __init__(self, width: int, height: int, outputs: dict[str, np.ndarray]) -> None:
         self.width = width
         self.height = height
-        self.stats: dict = {}
+        self._stats: dict = {}
+        self._drawn: tuple | None = None  # nodes and a NativeStats, till they are read
         self._seen: tuple | None = None  # the view and the side culled: what picking needs
         self._outputs = outputs
 
     @property
     def outputs(self) -> tuple[str, ...]:
         return tuple(self._outputs)
+
+    @property
+    def stats(self) -> dict:
+        if self._drawn is not None:
+            nodes, drawn = self._drawn
+            self._stats, self._drawn = {"nodes": nodes, **drawn.as_dict()}, None
+        return self._stats
+
+    def __getstate__(self) -> dict:
+        self._stats = self.stats  # what is left of a frame elsewhere
+        return self.__dict__
 
     def __array__(self, dtype=None, copy=None) -> np.ndarray:
         if copy is False and dtype is not None and np.dtype(dtype) != np.uint8:

@@ -36,17 +36,30 @@ class LightList:
 
     def forget(self) -> None:
         """List all lights anew at the next update."""
+        self._state: tuple | None = None
         self._listed: tuple | None = None
         self._placed = np.empty(0, np.uint32)
 
     def update(self, scene: Scene, headlight) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
         self._find_slots(scene)
+        versions = [light.version for light in self._lights]
+        headlight = None if self._lights else headlight
+        color, towards = headlight or (None, None)
+        changes = scene._arrays.changes if self._lights else 0
+        state = self._slots_of, changes, versions, color
+        same, self._state = self._state == state, None  # for if anything below raises
+        if not same:
+            self._renew(scene, versions, headlight)
+        elif towards is not None:
+            self._native.turn_light(0, towards)
+        self._state = state
+
+    def _renew(self, scene: Scene, versions: list[int], headlight) -> None:
+        """List lights that changed, and place those that moved."""
         columns = scene._arrays.columns
         shown = columns["flags"][self._slots] & SHOWN != 0
         slots = self._slots[shown]
-        versions = [light.version for light in self._lights]
-        headlight = None if self._lights else headlight
         listed = self._slots_of, versions, shown.tobytes(), headlight
         placed = columns["world_version"][slots]
         same, self._listed = self._listed == listed, None  # for if anything below raises

@@ -281,7 +281,7 @@ class Renderer:
                 bool(batching),
             )
             near, far = view.depth_range(scene.bounds) if options.mode == "depth" else (0.0, 1.0)
-            frame.stats = self._native.render(
+            drawn = self._native.render(
                 self._draw_list.native,
                 frame._outputs,
                 options.native,
@@ -296,8 +296,7 @@ class Renderer:
                 chosen,
             )
             frame._seen = view, cull
-            nodes = scene._arrays.count - scene._removed
-            frame.stats = {"nodes": nodes, **frame.stats}
+            frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame
 
     def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:

@@ -214,6 +214,9 @@ typedef struct e3d_camera {
     double eye[4];            /* position and 1; without perspective towards_viewer and 0 */
 } e3d_camera;
 
+/* The inverse of a 4x4 matrix; 0 if it has none. */
+int e3d_invert(const double m[16], double out[16]);
+
 /* 0 if the pose has no inverse. */
 int e3d_camera_view(const double clip_from_view[16], const double world_from_view[16], e3d_camera *out);
 

@@ -151,6 +151,7 @@ cdef extern from "e3d_scene.h" nogil:
         double towards_viewer[3]
         double eye[4]
 
+    bint e3d_invert(const double *m, double *out)
     bint e3d_camera_view(
         const double *clip_from_view, const double *world_from_view, e3d_camera *out
     )

@@ -67,6 +67,14 @@ static void normalize(const double v[3], double out[3])
         out[k] = out[k] / norm;
 }
 
+int e3d_invert(const double m[16], double out[16])
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    int good = invert(m, out);
+    e3d_fpenv_leave(saved);
+    return good;
+}
+
 int e3d_camera_view(const double clip_from_view[16], const double world_from_view[16], e3d_camera *out)
 {
     e3d_fpenv saved = e3d_fpenv_enter();

@@ -189,6 +189,54 @@ cdef class NativeOptions:
         copy_vector(frame.light_clamp, light_clamp, 2)
 
 
+cdef class NativeStats:
+    """What a frame drew: numbers, which few callers read."""
+
+    cdef e3d_stats stats
+    cdef e3d_totals totals
+    cdef int64_t draws_unbatched, nodes_in_frustum
+    cdef int materials, lights
+
+    def as_dict(self):
+        cdef e3d_stats *stats = &self.stats
+        cdef e3d_totals *totals = &self.totals
+        return {
+            "draws": stats.draws,
+            "draws_unbatched": self.draws_unbatched,
+            "materials": self.materials,
+            "lights": self.lights,
+            "instances": stats.instances,
+            "nodes_in_frustum": self.nodes_in_frustum,
+            "nodes_unoccluded": stats.nodes_unoccluded,
+            "nodes_drawn": stats.nodes_drawn,
+            "clusters": totals.clusters,
+            "clusters_in_frustum": stats.clusters_in_frustum,
+            "clusters_unoccluded": stats.clusters_unoccluded,
+            "clusters_drawn": stats.clusters_drawn,
+            "clusters_culled": stats.clusters_culled + totals.clusters - stats.clusters,
+            "clusters_occluded": stats.clusters_occluded,
+            "triangles": totals.triangles,
+            "triangles_in_frustum": stats.triangles_in_frustum,
+            "triangles_unoccluded": stats.triangles_unoccluded,
+            "triangles_drawn": stats.triangles_drawn,
+            "triangles_culled": stats.triangles_culled + totals.triangles - stats.triangles,
+            "triangles_occluded": stats.triangles_occluded,
+            "triangles_clipped": stats.triangles_clipped,
+            "triangles_setup": stats.triangles_setup,
+            "bin_entries": stats.bin_entries,
+            "pixels_shaded": stats.pixels_shaded,
+            "rounds": stats.rounds,
+            "ms_geometry": stats.ms_geometry,
+            "ms_raster": stats.ms_raster,
+            "ms_shade": stats.ms_shade,
+            "ms_resolve": stats.ms_resolve,
+            "ms_total": stats.ms_total,
+            "threads": stats.threads,
+            "tiles": stats.tiles,
+            "backend": e3d_backend_name(stats.backend).decode(),
+        }
+
+
 cdef class NativeRenderer:
     """A renderer of the core: one backend, a number of threads. One thread's at a time."""
 
@@ -220,18 +268,17 @@ cdef class NativeRenderer:
         float depth_far,
         const double[:, ::1] frozen_clip_from_world=None,
     ):
-        """Draw one frame into the arrays of `targets`; return its statistics.
+        """Draw one frame into the arrays of `targets`; return its NativeStats.
 
         If a signal handler raises meanwhile, its exception is raised here and the targets are
         partly written.
         """
         cdef e3d_frame frame
         cdef e3d_targets outputs
-        cdef e3d_stats stats
+        cdef NativeStats drawn = NativeStats.__new__(NativeStats)
         cdef e3d_status status
         require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
         require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
-        memset(&stats, 0, sizeof(stats))
         frame = options.frame
         frame.width = width
         frame.height = height
@@ -257,12 +304,17 @@ cdef class NativeRenderer:
         self.interruption = None
         self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL
         with nogil:
-            status = e3d_render(self.handle, &frame, &outputs, &stats)
+            status = e3d_render(self.handle, &frame, &outputs, &drawn.stats)
         if self.interruption is not None:
             error, self.interruption = self.interruption, None
             raise error
         check(status)
-        return stats_as_dict(&stats, draw_list)
+        drawn.totals = draw_list.totals
+        drawn.draws_unbatched = draw_list.placed.order_count
+        drawn.nodes_in_frustum = draw_list.placed.nodes
+        drawn.materials = draw_list.material_count
+        drawn.lights = draw_list.light_count
+        return drawn
 
 
 cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height) except -1:
@@ -322,45 +374,6 @@ cdef float *vectors_of(float[:, :, ::1] array, int width, int height, int channe
     require(array.shape[0] == height and array.shape[1] == width and array.shape[2] == channels,
             "an output must be (height, width, channels)")
     return &array[0, 0, 0]
-
-
-cdef dict stats_as_dict(const e3d_stats *stats, NativeDrawList draw_list):
-    cdef e3d_totals *totals = &draw_list.totals
-    return {
-        "draws": stats.draws,
-        "draws_unbatched": draw_list.placed.order_count,
-        "materials": draw_list.material_count,
-        "lights": draw_list.light_count,
-        "instances": stats.instances,
-        "nodes_in_frustum": draw_list.placed.nodes,
-        "nodes_unoccluded": stats.nodes_unoccluded,
-        "nodes_drawn": stats.nodes_drawn,
-        "clusters": totals.clusters,
-        "clusters_in_frustum": stats.clusters_in_frustum,
-        "clusters_unoccluded": stats.clusters_unoccluded,
-        "clusters_drawn": stats.clusters_drawn,
-        "clusters_culled": stats.clusters_culled + totals.clusters - stats.clusters,
-        "clusters_occluded": stats.clusters_occluded,
-        "triangles": totals.triangles,
-        "triangles_in_frustum": stats.triangles_in_frustum,
-        "triangles_unoccluded": stats.triangles_unoccluded,
-        "triangles_drawn": stats.triangles_drawn,
-        "triangles_culled": stats.triangles_culled + totals.triangles - stats.triangles,
-        "triangles_occluded": stats.triangles_occluded,
-        "triangles_clipped": stats.triangles_clipped,
-        "triangles_setup": stats.triangles_setup,
-        "bin_entries": stats.bin_entries,
-        "pixels_shaded": stats.pixels_shaded,
-        "rounds": stats.rounds,
-        "ms_geometry": stats.ms_geometry,
-        "ms_raster": stats.ms_raster,
-        "ms_shade": stats.ms_shade,
-        "ms_resolve": stats.ms_resolve,
-        "ms_total": stats.ms_total,
-        "threads": stats.threads,
-        "tiles": stats.tiles,
-        "backend": e3d_backend_name(stats.backend).decode(),
-    }
 
 
 def rasterize(

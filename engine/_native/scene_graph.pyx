@@ -539,6 +539,13 @@ cdef int copy_affine(const double *pose, double[:, ::1] out) except -1:
     return 0
 
 
+def invert(const double[:, ::1] m not None, double[:, ::1] out not None):
+    """Fill the inverse of a 4x4 matrix; return whether it has one."""
+    if m.shape[0] != 4 or m.shape[1] != 4 or out.shape[0] != 4 or out.shape[1] != 4:
+        raise InvalidArgumentError("a matrix is 4x4")
+    return bool(e3d_invert(&m[0, 0], &out[0, 0]))
+
+
 def camera_view(
     const double[:, ::1] clip_from_view not None,
     const double[:, ::1] world_from_view not None,

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from .._native.scene_graph import invert
 from ..errors import InvalidArgumentError
 from . import single
 from .quaternions import matrix_to_quaternion, quaternion_from_axis_angle, quaternion_to_matrix
@@ -157,10 +158,10 @@ def inverse(m: npt.ArrayLike) -> FloatArray:
     """
     m = as_matrices("m", m)
     if m.ndim == 2:
-        rows = single.inverse(m.tolist())
-        if rows is None:
+        result = np.empty((4, 4))
+        if not invert(np.ascontiguousarray(m), result):
             raise InvalidArgumentError(_SINGULAR)
-        return np.array(rows)
+        return result
     with np.errstate(all="ignore"):  # what overflows is reported below
         top, bottom = _pair_determinants(m, 0), _pair_determinants(m, 2)
         adjugate = np.empty_like(m)

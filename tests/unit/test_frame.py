@@ -1,6 +1,8 @@
 """Frames: missing outputs, arrays, and files that appear whole or not at all."""
 
+import copy
 import io
+import pickle
 
 import numpy as np
 import pytest
@@ -46,6 +48,14 @@ def test_image_is_a_copy_the_right_way_up(frame):
     assert image.getpixel((0, 0)) == (255, 0, 0, 255)
     frame.color[0, 0] = 9
     assert image.getpixel((0, 0)) == (255, 0, 0, 255)
+
+
+def test_what_is_left_of_a_frame_elsewhere():
+    frame = e3d.render(e3d.Scene(), size=(5, 3))
+    for other in (pickle.loads(pickle.dumps(frame)), copy.deepcopy(frame)):
+        np.testing.assert_array_equal(other.color, frame.color)
+        assert other.stats == frame.stats
+        assert other.stats["tiles"] == 1
 
 
 @pytest.mark.parametrize("suffix", ["png", "tga", "webp", "PNG"])

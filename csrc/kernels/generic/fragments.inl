@@ -1,7 +1,10 @@
-/* fragments: the samples that small triangles cover, with their depths (R9, R10, R12-R14), a vector of triangles at a time.
+/* fragments: the samples that small triangles cover, with their depths (R9, R10, R12-R14), a vector of triangles at a time, then a
+ * vector of samples, then tile by tile.
  *
- * Those with boxes of at most 2 x 2 samples are tried first: most of them cover nothing.
+ * Stages are short loops over a batch: one that goes all the way from corners to tiles is longer than processors look ahead.
  */
+
+/* ---- which triangles cover samples ---- */
 
 /* The lanes of `bits` of one vector, to the end of a list, which may be the same: it then is not longer than what was read. */
 static inline void fragment_move(const e3d_small_triangles *from, int first, uint32_t bits, e3d_small_triangles *to)
@@ -35,34 +38,135 @@ static inline void fragment_sort(e3d_small_triangles *triangles, int first, int 
     fragment_move(triangles, first, tinies, triangles);
 }
 
-/* One vector of triangles, as their fragments need them. */
+/* ---- vectors of triangles, and which samples they cover ---- */
+
+/* A place is a byte: the triangle's lane, the column in its box, the row. */
+enum { FRAGMENT_COLUMN = 4, FRAGMENT_ROW = 6 };
 typedef struct fragment_vector {
-    setup_span across, down;
+    vi32 x, y, id; /* first sample of the box */
     record_plane plane;
-    vi32 id;
-    uint32_t lanes; /* those whose plane is finite */
+    int places;
+    uint8_t place[V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD];
 } fragment_vector;
 
-static inline fragment_vector fragment_begin(const e3d_small_triangles *triangles, int first,
-                                             const e3d_viewport *viewport, record_corners *c)
+/* Corners that turn the right way, and boxes. */
+typedef struct fragment_corners {
+    record_corners at;
+    setup_span across, down;
+} fragment_corners;
+
+/* The lanes whose plane is finite. */
+static inline uint32_t fragment_begin(const e3d_small_triangles *triangles, int first, const e3d_viewport *viewport,
+                                      fragment_corners *c, fragment_vector *v)
 {
-    fragment_vector v;
     vmask finite;
     for (int k = 0; k < 3; k++) {
-        c->x[k] = v_loadi(triangles->x[k] + first);
-        c->y[k] = v_loadi(triangles->y[k] + first);
-        c->zn[k] = c->iw[k] = v_loadf(triangles->zn[k] + first);
+        c->at.x[k] = v_loadi(triangles->x[k] + first);
+        c->at.y[k] = v_loadi(triangles->y[k] + first);
+        c->at.zn[k] = c->at.iw[k] = v_loadf(triangles->zn[k] + first);
     }
-    record_swap(c, v_negi(setup_area(c->x, c->y)));
-    v.across = setup_samples(setup_min3(c->x[0], c->x[1], c->x[2]), setup_max3(c->x[0], c->x[1], c->x[2]),
-                             viewport->width);
-    v.down = setup_samples(setup_min3(c->y[0], c->y[1], c->y[2]), setup_max3(c->y[0], c->y[1], c->y[2]),
-                           viewport->height);
-    v.plane = record_plane_of(c, v.across, v.down, &finite);
-    v.id = v_loadi(triangles->id + first);
-    v.lanes = v_bits(finite) & setup_tail(triangles->count - first);
-    return v;
+    record_swap(&c->at, v_negi(setup_area(c->at.x, c->at.y)));
+    c->across = setup_samples(setup_min3(c->at.x[0], c->at.x[1], c->at.x[2]), setup_max3(c->at.x[0], c->at.x[1], c->at.x[2]),
+                              viewport->width);
+    c->down = setup_samples(setup_min3(c->at.y[0], c->at.y[1], c->at.y[2]), setup_max3(c->at.y[0], c->at.y[1], c->at.y[2]),
+                            viewport->height);
+    v->plane = record_plane_of(&c->at, c->across, c->down, &finite);
+    v->x = c->across.first;
+    v->y = c->down.first;
+    v->id = v_loadi(triangles->id + first);
+    v->places = 0;
+    return v_bits(finite) & setup_tail(triangles->count - first);
 }
+
+/* These lanes' triangles cover this sample of their boxes. */
+static inline void fragment_list(fragment_vector *v, int column, int row, uint32_t lanes)
+{
+    vi32 place = v_ori(v_iota(), v_seti(column << FRAGMENT_COLUMN | row << FRAGMENT_ROW));
+    v->places += v_pack8(v->place + v->places, place, lanes);
+}
+
+/* How many triangles cover samples. */
+static inline int fragment_tiny(const e3d_small_triangles *triangles, const uint8_t *covers, const e3d_viewport *viewport,
+                                fragment_vector *vectors)
+{
+    int some = 0;
+    for (int first = 0; first < triangles->count; first += V_LANES, vectors++) {
+        fragment_corners c;
+        uint32_t lanes = fragment_begin(triangles, first, viewport, &c, vectors);
+        vi32 cover = v_loadu8(covers + first), zero = v_seti(0);
+        some += __builtin_popcount(lanes);
+        for (int sample = 0; sample < 4; sample++)
+            fragment_list(vectors, sample & 1, sample >> 1, lanes & ~v_bits(v_eqi(v_andi(cover, v_seti(1 << sample)), zero)));
+    }
+    return some;
+}
+
+/* The lanes that cover samples. */
+static inline uint32_t fragment_list_wide(const fragment_corners *c, uint32_t lanes, fragment_vector *v)
+{
+    record_edge e[3];
+    vi32 half = v_seti(128), zero = v_seti(0), wide = v_subi(c->across.last, c->across.first);
+    vi32 high = v_subi(c->down.last, c->down.first), x0 = v_addi(v_shl(c->across.first, 8), half);
+    vi32 y0 = v_addi(v_shl(c->down.first, 8), half);
+    uint32_t any = 0;
+    for (int k = 0; k < 3; k++)
+        e[k] = record_edge_of(c->at.x, c->at.y, k, zero, x0, y0);
+    for (int row = 0; row < E3D_SMALL; row++) {
+        uint32_t rows = lanes & ~v_bits(v_gti(v_seti(row), high));
+        vi32 at[3] = {e[0].c, e[1].c, e[2].c};
+        for (int column = 0; column < E3D_SMALL; column++) {
+            uint32_t covered = rows & ~v_bits(v_mor(v_gti(v_seti(column), wide), v_negi(v_ori(v_ori(at[0], at[1]), at[2]))));
+            any |= covered;
+            fragment_list(v, column, row, covered);
+            for (int k = 0; k < 3; k++)
+                at[k] = v_addi(at[k], v_shl(e[k].a, 8));
+        }
+        for (int k = 0; k < 3; k++)
+            e[k].c = v_addi(e[k].c, v_shl(e[k].b, 8));
+    }
+    return any;
+}
+
+static inline int fragment_wide(const e3d_small_triangles *triangles, const e3d_viewport *viewport, fragment_vector *vectors)
+{
+    int some = 0;
+    for (int first = 0; first < triangles->count; first += V_LANES, vectors++) {
+        fragment_corners c;
+        uint32_t lanes = fragment_begin(triangles, first, viewport, &c, vectors);
+        some += __builtin_popcount(fragment_list_wide(&c, lanes, vectors));
+    }
+    return some;
+}
+
+/* ---- fragments, of whichever tile ---- */
+
+enum { FRAGMENT_MANY = 512, FRAGMENT_ROOM = FRAGMENT_MANY + V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD };
+typedef struct fragment_buffer {
+    int count;
+    float z[FRAGMENT_ROOM];
+    int32_t id[FRAGMENT_ROOM], at[FRAGMENT_ROOM]; /* the number of a tile, and in E3D_TILE_SAMPLES of one that of a sample */
+} fragment_buffer;
+
+/* A vector of places, of which `count` are of fragments. */
+static inline void fragment_make(const fragment_vector *v, vi32 place, int count, int32_t tiles_x, fragment_buffer *out)
+{
+    const record_plane *p = &v->plane;
+    vi32 low = v_seti(E3D_TILE - 1), column = v_andi(v_shr(place, FRAGMENT_COLUMN), v_seti(E3D_SMALL - 1));
+    vi32 row = v_shr(place, FRAGMENT_ROW);
+    vpick lane = v_picker(v_andi(place, v_seti(V_LANES - 1)));
+    vf32 z = v_add(v_pick(&p->z0, lane), v_mul(v_float(column), v_pick(&p->gx, lane)));
+    z = v_add(z, v_mul(v_float(row), v_pick(&p->gy, lane)));
+    z = v_min(v_max(z, v_pick(&p->zmin, lane)), v_pick(&p->zmax, lane));
+    vi32 x = v_addi(v_asi(v_pick(&v->x, lane)), column), y = v_addi(v_asi(v_pick(&v->y, lane)), row);
+    vi32 tile = v_addi(v_muli(v_sra(y, E3D_TILE_SHIFT), v_seti(tiles_x)), v_sra(x, E3D_TILE_SHIFT));
+    vi32 sample = v_ori(v_shl(v_andi(y, low), E3D_TILE_SHIFT), v_andi(x, low));
+    v_storef(out->z + out->count, z);
+    v_storei(out->id + out->count, v_asi(v_pick(&v->id, lane)));
+    v_storei(out->at + out->count, v_ori(v_shl(tile, 2 * E3D_TILE_SHIFT), sample));
+    out->count += count;
+}
+
+/* ---- to their tiles ---- */
 
 /* The tile's last block, with room for a vector. */
 static inline e3d_fragment_block *fragment_block(e3d_fragment_bins *out, int32_t tile)
@@ -80,97 +184,71 @@ static inline e3d_fragment_block *fragment_block(e3d_fragment_bins *out, int32_t
     return block;
 }
 
-/* The fragments in the lanes of `bits` to the tiles that they lie in, which mostly is one. */
-static inline void fragment_bin(vf32 z, vi32 id, vi32 tile, vi32 sample, uint32_t bits, e3d_fragment_bins *out)
+/* Those of one tile, in the vectors from `first` on; they are taken out of `left`. */
+static inline void fragment_bin(const fragment_buffer *from, int first, int32_t tile, uint32_t *left, e3d_fragment_bins *out)
 {
-    int32_t tiles[V_LANES];
-    v_storei(tiles, tile);
-    out->fragments += __builtin_popcount(bits);
-    while (bits) {
-        int32_t one = tiles[__builtin_ctz(bits)];
-        uint32_t here = bits & v_bits(v_eqi(tile, v_seti(one)));
-        e3d_fragment_block *block = fragment_block(out, one);
-        uint32_t count = block->count;
-        v_pack(block->z + count, v_asi(z), here);
-        v_pack(block->id + count, id, here);
-        block->count = count + (uint32_t)v_pack16(block->sample + count, sample, here);
-        bits &= ~here;
-    }
-}
-
-/* The fragments in the lanes of `bits`, at one sample of their boxes. */
-static inline void fragment_add(const fragment_vector *v, int column, int row, uint32_t bits, int32_t tiles_x,
-                                e3d_fragment_bins *out)
-{
-    const record_plane *p = &v->plane;
-    vf32 z = v_add(v_add(p->z0, v_mul(v_setf((float)column), p->gx)), v_mul(v_setf((float)row), p->gy));
-    z = v_min(v_max(z, p->zmin), p->zmax);
-    vi32 x = v_addi(v->across.first, v_seti(column)), y = v_addi(v->down.first, v_seti(row)), low = v_seti(E3D_TILE - 1);
-    vi32 tile = v_addi(v_muli(v_sra(y, E3D_TILE_SHIFT), v_seti(tiles_x)), v_sra(x, E3D_TILE_SHIFT));
-    vi32 sample = v_ori(v_shl(v_andi(y, low), E3D_TILE_SHIFT), v_andi(x, low));
-    fragment_bin(z, v->id, tile, sample, bits, out);
-}
-
-static inline void fragment_tiny(const e3d_small_triangles *triangles, int first, const uint8_t *covers,
-                                 const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out)
-{
-    record_corners c;
-    fragment_vector v = fragment_begin(triangles, first, viewport, &c);
-    vi32 cover = v_loadu8(covers + first);
-    out->triangles += __builtin_popcount(v.lanes);
-    for (int sample = 0; sample < 4; sample++) {
-        vi32 chosen = v_andi(cover, v_seti(1 << sample));
-        uint32_t bits = v.lanes & ~v_bits(v_eqi(chosen, v_seti(0)));
-        if (bits)
-            fragment_add(&v, sample & 1, sample >> 1, bits, tiles_x, out);
-    }
-}
-
-static inline void fragment_wide(const e3d_small_triangles *triangles, int first, const e3d_viewport *viewport, int tiles_x,
-                                 e3d_fragment_bins *out)
-{
-    record_corners c;
-    record_edge e[3];
-    fragment_vector v = fragment_begin(triangles, first, viewport, &c);
-    vi32 half = v_seti(128), zero = v_seti(0), wide = v_subi(v.across.last, v.across.first);
-    vi32 high = v_subi(v.down.last, v.down.first), x0 = v_addi(v_shl(v.across.first, 8), half);
-    vi32 y0 = v_addi(v_shl(v.down.first, 8), half);
-    uint32_t any = 0;
-    for (int k = 0; k < 3; k++)
-        e[k] = record_edge_of(c.x, c.y, k, zero, x0, y0);
-    for (int row = 0; row < E3D_SMALL; row++) {
-        uint32_t rows = v.lanes & ~v_bits(v_gti(v_seti(row), high));
-        if (!rows)
-            break; /* all boxes are lower */
-        vi32 at[3] = {e[0].c, e[1].c, e[2].c};
-        for (int column = 0; column < E3D_SMALL; column++) {
-            uint32_t columns = rows & ~v_bits(v_gti(v_seti(column), wide));
-            if (!columns)
-                break;
-            uint32_t bits = columns & ~v_bits(v_negi(v_ori(v_ori(at[0], at[1]), at[2])));
-            any |= bits;
-            if (bits)
-                fragment_add(&v, column, row, bits, tiles_x, out);
-            for (int k = 0; k < 3; k++)
-                at[k] = v_addi(at[k], v_shl(e[k].a, 8));
+    e3d_fragment_block *block = fragment_block(out, tile);
+    uint32_t count = block->count;
+    for (int i = first; i * V_LANES < from->count; i++) {
+        vi32 at = v_loadi(from->at + i * V_LANES);
+        uint32_t here = left[i] & v_bits(v_eqi(v_shr(at, 2 * E3D_TILE_SHIFT), v_seti(tile)));
+        if (!here)
+            continue;
+        if (count > E3D_BLOCK_FRAGMENTS - V_LANES) {
+            block->count = count;
+            block = fragment_block(out, tile);
+            count = 0;
         }
-        for (int k = 0; k < 3; k++)
-            e[k].c = v_addi(e[k].c, v_shl(e[k].b, 8));
+        v_pack(block->z + count, v_asi(v_loadf(from->z + i * V_LANES)), here);
+        v_pack(block->id + count, v_loadi(from->id + i * V_LANES), here);
+        count += (uint32_t)v_pack16(block->sample + count, v_andi(at, v_seti(E3D_TILE_SAMPLES - 1)), here);
+        left[i] &= ~here;
     }
-    out->triangles += __builtin_popcount(any);
+    block->count = count;
+}
+
+static inline void fragment_bin_all(fragment_buffer *from, e3d_fragment_bins *out)
+{
+    uint32_t left[FRAGMENT_ROOM / V_LANES];
+    for (int i = 0; i * V_LANES < from->count; i++)
+        left[i] = setup_tail(from->count - i * V_LANES);
+    for (int i = 0; i * V_LANES < from->count; i++)
+        while (left[i]) {
+            uint32_t at = (uint32_t)from->at[i * V_LANES + __builtin_ctz(left[i])];
+            fragment_bin(from, i, (int32_t)(at >> (2 * E3D_TILE_SHIFT)), left, out);
+        }
+    out->fragments += from->count;
+    from->count = 0;
+}
+
+/* ---- all ---- */
+
+/* From vectors of triangles on. */
+static inline void fragment_finish(const fragment_vector *vectors, int triangles, int32_t tiles_x, fragment_buffer *buffer,
+                                   e3d_fragment_bins *out)
+{
+    for (int first = 0; first < triangles; first += V_LANES, vectors++) {
+        for (int i = 0, left = vectors->places; left > 0; i += V_LANES, left -= V_LANES)
+            fragment_make(vectors, v_loadu8(vectors->place + i), left < V_LANES ? left : V_LANES, tiles_x, buffer);
+        if (buffer->count >= FRAGMENT_MANY)
+            fragment_bin_all(buffer, out);
+    }
 }
 
 static void kernel_fragments(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out)
 {
     e3d_small_triangles wide;
+    fragment_vector vectors[E3D_SMALLS / V_LANES];
+    fragment_buffer buffer;
     uint8_t covers[E3D_SMALLS + E3D_PAD];
     int count = triangles->count;
-    wide.count = triangles->count = out->fragments = out->triangles = 0;
+    wide.count = triangles->count = buffer.count = out->fragments = 0;
     for (int i = 0; i < count; i += V_LANES)
         fragment_sort(triangles, i, count - i, viewport, covers, &wide);
-    for (int i = 0; i < triangles->count; i += V_LANES)
-        fragment_tiny(triangles, i, covers, viewport, tiles_x, out);
-    for (int i = 0; i < wide.count; i += V_LANES)
-        fragment_wide(&wide, i, viewport, tiles_x, out);
+    out->triangles = fragment_tiny(triangles, covers, viewport, vectors);
+    fragment_finish(vectors, triangles->count, tiles_x, &buffer, out);
+    out->triangles += fragment_wide(&wide, viewport, vectors);
+    fragment_finish(vectors, wide.count, tiles_x, &buffer, out);
+    fragment_bin_all(&buffer, out);
     triangles->count = 0;
 }

@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from .changes import tell
 from .errors import InvalidArgumentError
 
 
@@ -44,6 +45,7 @@ class CheckedAttribute:
     def __set__(self, owner, value) -> None:
         owner.__dict__[self._name] = self._check(value, self._name)
         owner.__dict__["version"] = owner.__dict__.get("version", 0) + 1
+        tell(owner)
 
 
 def one_of(allowed) -> Callable:

@@ -2,7 +2,7 @@
 
 In: a `Scene` and what the picture needs of its meshes. Out: a `NativeDrawList` that is up to date.
 Between frames it keeps the objects' part of the list and the versions it was made from; nodes are
-placed by C, from the scene's arrays. Python looks at every object, never at every node.
+placed by C, from the scene's arrays. Python looks at the objects that changed, never at every node.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import weakref
 import numpy as np
 
 from ._native.rasterizer import NativeDrawList
+from .changes import Watch
 from .display_colors import shading_color
 from .instances import InstancedMesh
 from .light_list import LightList
@@ -51,8 +52,11 @@ class DrawList:
         self._objects_version = -1
         self._needs: MeshNeeds | None = None
         self._normals = ""
-        self._watched: list[tuple[object, int]] = []
-        self._material_lists: list[tuple[Mesh, list[Material]]] = []
+        self._watch = Watch()
+        self._changed: list = []  # of what is watched, since the list was made
+        self._materials: dict[Material, tuple[bool, list[tuple[int, int]]]] = {}
+        self._material_lists: list[list[Material]] = []  # the meshes' own, and as they were:
+        self._lists_then: list[list[Material]] = []
         self._marks = False
         self._many: list[tuple[int, InstancedMesh]] = []  # with their index in the native list
         self._trees, self._frames = False, 0
@@ -93,7 +97,7 @@ class DrawList:
         """
         scene._update(self._threads)
         if self._needs != needs or self._normals != normals or not self._lists(scene):
-            self._rebuild(scene, needs, normals)
+            self._renew(scene, needs, normals)
         if self._many and not self._trees:
             self._settle()
         widen = 1.0 + marks if self._marks or needs.edges else 1.0
@@ -115,19 +119,39 @@ class DrawList:
 
     def _lists(self, scene: Scene) -> bool:
         """Whether the objects are those of the scene, as they are now."""
+        return self._has_objects_of(scene) and not self._changed
+
+    def _has_objects_of(self, scene: Scene) -> bool:
+        """Whether the objects are the scene's, and have the materials that they had."""
+        self._changed += self._watch.changed()
         return (
             self._scene() is scene
             and self._objects_version == scene._objects.version
-            and all(thing.version == version for thing, version in self._watched)
-            and all(mesh.materials == materials for mesh, materials in self._material_lists)
+            and self._material_lists == self._lists_then
         )
+
+    def _renew(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
+        """Make the list of objects anew, or only those materials that changed."""
+        same = self._needs == needs and self._normals == normals and self._has_objects_of(scene)
+        if not same or not all(map(self._is_material, self._changed)):
+            self._rebuild(scene, needs, normals)
+            return
+        for material in self._changed:
+            for index, number in self._materials[material][1]:
+                self._set_material(index, material, number)
+        self._changed = []
+
+    def _is_material(self, thing) -> bool:
+        """Whether it is a material that asks for the same normals as before."""
+        return isinstance(thing, Material) and self._materials[thing][0] == thing.flat_shading
 
     def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
         self._scene = lambda: None  # if anything below raises, the list is not current
         self._placed = None
         self.native.clear()
         self._lights.forget()
-        self._watched, self._material_lists = [], []
+        self._watch, self._changed, self._materials = Watch(), [], {}
+        self._material_lists, self._lists_then = [], []
         self._marks = self._trees = False
         self._many, self._frames = [], 0
         bases: dict[tuple[int, ...], int] = {}
@@ -148,11 +172,13 @@ class DrawList:
         if surfaces not in bases:
             bases[surfaces] = self.native.material_count
             for number, material in enumerate(mesh.materials):
-                self._add_material(material, number)
+                self._materials.setdefault(material, (material.flat_shading, []))
+                self._materials[material][1].append((self.native.material_count, number))
+                self._set_material(self.native.material_count, material, number)
         native = native_mesh(mesh, _needs_of(mesh, needs, normals), self._threads)
         index = self.native.add_object(native, bases[surfaces])
         if obj is not mesh:
-            self._watched.append((obj, obj.version))
+            self._watch.add(obj)
             if len(obj) >= _MANY:
                 self._many.append((index, obj))
             colors = obj.colors
@@ -200,18 +226,20 @@ class DrawList:
         self._frustum, self._how = frustum, how
 
     def _watch_mesh(self, mesh: Mesh) -> None:
-        """Remember what would make a mesh, or the list of its materials, out of date."""
+        """Remember what would make a mesh, or its list of materials, out of date."""
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
-        self._watched.append((mesh, mesh.version))
-        self._material_lists.append((mesh, list(mesh.materials)))
+        self._watch.add(mesh)
+        self._material_lists.append(mesh.materials)
+        self._lists_then.append(list(mesh.materials))
 
-    def _add_material(self, material: Material, number: int) -> None:
-        self._watched.append((material, material.version))
+    def _set_material(self, index: int, material: Material, number: int) -> None:
+        self._watch.add(material)
         texture = material.texture
         if texture is not None:
-            self._watched.append((texture, texture.version))
+            self._watch.add(texture)
             texture = native_texture(texture, self._color_space)
-        self.native.add_material(
+        self.native.set_material(
+            index,
             shading_color(material.color, self._color_space),
             shading_color(material.specular, self._color_space),
             max(material.shininess, _SMALLEST_SHININESS),

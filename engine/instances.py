@@ -12,6 +12,7 @@ import numpy as np
 
 from ._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
 from .attributes import CheckedAttribute
+from .changes import tell
 from .errors import InvalidArgumentError
 from .mesh import Mesh
 
@@ -68,6 +69,7 @@ class InstancedMesh:
             )
         self._poses = poses
         self.version += 1
+        tell(self)
 
     @property
     def colors(self) -> np.ndarray | None:
@@ -78,6 +80,7 @@ class InstancedMesh:
     def colors(self, value) -> None:
         self._colors = _check_colors(value, len(self._poses))
         self.version += 1
+        tell(self)
 
     def replace(self, poses, colors=None) -> None:
         """Set poses and colours together; their number may change."""
@@ -86,6 +89,7 @@ class InstancedMesh:
         self._colors = _check_colors(colors, len(checked))
         self._poses = checked
         self.version += 1
+        tell(self)
 
     def _replace_by_rows(self, rows: np.ndarray, poses, colors) -> None:
         """Draw some rows of others' poses and colours, under the numbers that they have there."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import numbers
 
+from .changes import tell
 from .colors import check_color
 from .errors import InvalidArgumentError
 from .textures import Texture
@@ -75,6 +76,7 @@ class Material:
     def __setattr__(self, attribute: str, value) -> None:
         if attribute == "version":
             object.__setattr__(self, attribute, value)
+            tell(self)
             return
         check = _CHECKS.get(attribute)
         if check is None:

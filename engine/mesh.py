@@ -18,6 +18,7 @@ from . import normals as _normals
 from . import topology as _topology
 from ._native.loaders import frozen
 from ._native.rasterizer import bound_points
+from .changes import tell
 from .errors import InvalidArgumentError
 from .materials import Material
 from .mesh_arrays import (
@@ -195,6 +196,7 @@ class Mesh:
             require_range(self.material_ids, len(materials), "material_ids", "materials")
         self._materials = materials
         self.version += 1
+        tell(self)
 
     @classmethod
     def concatenate(cls, meshes: Sequence[Mesh], name: str = "") -> Mesh:
@@ -287,6 +289,7 @@ class Mesh:
         self._arrays[what] = array
         self._derived.clear()
         self.version += 1
+        tell(self)
 
     def _become(self, other: Mesh) -> None:
         """Take over everything of another mesh but its name."""
@@ -294,6 +297,7 @@ class Mesh:
         self._materials, self.groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
         self.version += 1
+        tell(self)
 
     def _check_new_positions(self, positions: np.ndarray) -> None:
         count = len(positions)

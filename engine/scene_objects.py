@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ._native.scene_graph import OBJECT_BOX, NativeShapes
+from .changes import Watch
 from .instances import InstancedMesh, mesh_box
 from .mesh import Mesh
 
@@ -37,7 +38,8 @@ class ObjectTable:
         self._numbers: dict = {}
         self._uses: list[int] = []
         self._free: list[int] = []
-        self._watched: list[tuple[object, int]] | None = []
+        self._watch: Watch | None = Watch()  # None: objects came or went
+        self._drawn: dict = {}  # numbers of what each mesh or set of instances is drawn by
 
     @property
     def shapes(self) -> NativeShapes:
@@ -76,25 +78,45 @@ class ObjectTable:
 
     def refresh(self) -> np.ndarray | None:
         """Renew the boxes; return (N,) uint8 that tells which changed, or None."""
-        watched = self._watched
-        if watched is not None and all(thing.version == version for thing, version in watched):
+        if self._watch is None:
+            self._look_at_all()
+            numbers = list(range(len(self.objects)))
+        else:
+            numbers = self._numbers_that_changed()
+        if not numbers:
             return None
         self._shapes = None
-        boxes = np.array([_box(obj) for obj in self.objects]).reshape(-1, OBJECT_BOX)
-        changed = np.ones(len(boxes), np.uint8)
-        known = min(len(self.boxes), len(boxes))
-        changed[:known] = (boxes[:known] != self.boxes[:known]).any(axis=1)
-        self.boxes = boxes
-        self._watched = [
-            (thing, thing.version)
-            for obj in self._numbers
-            for thing in ((obj, obj.mesh) if isinstance(obj, InstancedMesh) else (obj,))
-        ]
+        if len(self.boxes) < len(self.objects):
+            more = np.full((len(self.objects) - len(self.boxes), OBJECT_BOX), np.nan)
+            self.boxes = np.concatenate([self.boxes, more])
+        boxes = np.array([_box(self.objects[number]) for number in numbers])
+        changed = np.zeros(len(self.boxes), np.uint8)
+        changed[numbers] = (boxes != self.boxes[numbers]).any(axis=1)
+        self.boxes[numbers] = boxes
         return changed if changed.any() else None
+
+    def _numbers_that_changed(self) -> list[int]:
+        numbers = set()
+        for thing in self._watch.changed():
+            numbers |= self._drawn[thing]
+            if isinstance(thing, InstancedMesh):
+                self._look_at(thing.mesh, self._numbers[thing])
+        return sorted(numbers)
+
+    def _look_at_all(self) -> None:
+        self._watch, self._drawn = Watch(), {}
+        for obj, number in self._numbers.items():
+            self._look_at(obj, number)
+            if isinstance(obj, InstancedMesh):
+                self._look_at(obj.mesh, number)
+
+    def _look_at(self, thing, number: int) -> None:
+        self._watch.add(thing)
+        self._drawn.setdefault(thing, set()).add(number)
 
     def _changed(self) -> None:
         self.version += 1
-        self._watched = None
+        self._watch = None
 
 
 def _box(obj) -> np.ndarray:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from .attributes import choose
+from .changes import tell
 from .colors import COLOR_SPACES
 from .errors import InvalidArgumentError
 
@@ -69,6 +70,7 @@ class Texture:
     def pixels(self, value) -> None:
         self._pixels = as_rgba(value)
         self.version += 1
+        tell(self)
 
     @property
     def color_space(self) -> str:
@@ -78,6 +80,7 @@ class Texture:
     def color_space(self, value: str) -> None:
         self._color_space = choose(value, COLOR_SPACES, "color_space")
         self.version += 1
+        tell(self)
 
     @property
     def filter(self) -> str:
@@ -87,6 +90,7 @@ class Texture:
     def filter(self, value: str) -> None:
         self._filter = choose(value, FILTERS, "filter")
         self.version += 1
+        tell(self)
 
     @property
     def wrap(self) -> str:
@@ -96,6 +100,7 @@ class Texture:
     def wrap(self, value: str) -> None:
         self._wrap = choose(value, WRAPS, "wrap")
         self.version += 1
+        tell(self)
 
     @property
     def width(self) -> int:

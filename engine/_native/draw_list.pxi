@@ -2,7 +2,7 @@
 #
 # In:  handles of meshes and textures, colours and poses; then, for each frame, the rows of the nodes.
 # Out: the draws, materials and lights that NativeRenderer.render hands to the core.
-# Always: what the structs point to is held in `borrowed`.
+# Always: what the structs point to is held in `borrowed` and `textures`.
 
 cdef int copy_vector(float *to, value, int count) except -1:
     for k in range(count):
@@ -38,9 +38,11 @@ cdef class NativeDrawList:
     cdef readonly int object_count, material_count, light_count
     cdef int object_capacity, material_capacity, light_capacity
     cdef list borrowed
+    cdef dict textures  # by the number of the material
 
     def __cinit__(self):
         self.borrowed = []
+        self.textures = {}
 
     def __dealloc__(self):
         free(self.objects)
@@ -53,6 +55,7 @@ cdef class NativeDrawList:
         self.object_count = self.material_count = self.light_count = 0
         self.placed.count = self.placed.order_count = self.placed.nodes = 0
         self.borrowed = []
+        self.textures = {}
 
     def clear_lights(self):
         self.light_count = 0
@@ -151,14 +154,16 @@ cdef class NativeDrawList:
             draw.instance_colors_f32 = &colors_f32[0, 0]
         self.borrowed.append((poses, colors_u8, colors_f32, ids))
 
-    def add_material(
-        self, color, specular, float shininess, emissive, NativeTexture texture, int32_t id,
+    def set_material(
+        self, int index, color, specular, float shininess, emissive, NativeTexture texture, int32_t id,
         bint two_sided, bint flat,
     ):
+        """Say what a material is, or the next one."""
+        require(0 <= index <= self.material_count, "no such material")
         self.materials = <e3d_material *>grown(
             self.materials, self.material_count, &self.material_capacity, sizeof(e3d_material)
         )
-        cdef e3d_material *material = &self.materials[self.material_count]
+        cdef e3d_material *material = &self.materials[index]
         memset(material, 0, sizeof(e3d_material))
         copy_vector(material.color, color, 3)
         copy_vector(material.specular, specular, 3)
@@ -166,11 +171,11 @@ cdef class NativeDrawList:
         material.shininess = shininess
         if texture is not None:
             material.texture = texture.handle
-            self.borrowed.append(texture)
+        self.textures[index] = texture
         material.id = id
         material.two_sided = two_sided
         material.flat = flat
-        self.material_count += 1
+        self.material_count = max(self.material_count, index + 1)
 
     def add_directional_light(self, color, to_light):
         cdef e3d_light *light = self.new_light(E3D_LIGHT_DIRECTIONAL, color)

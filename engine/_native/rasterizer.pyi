@@ -84,8 +84,9 @@ class NativeDrawList:
         colors_f32: _Floats | None = None,
         ids: _Integers | None = None,
     ) -> None: ...
-    def add_material(
+    def set_material(
         self,
+        index: int,
         color: Sequence[float] | _Floats,
         specular: Sequence[float] | _Floats,
         shininess: float,

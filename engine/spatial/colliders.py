@@ -16,6 +16,7 @@ import numpy as np
 from .. import linalg
 from .._native.scene_graph import BOX, SHOWN, NativeTree
 from ..attributes import positive, vector3
+from ..changes import Watch
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
 from ..nodes import Node
@@ -109,7 +110,7 @@ class _Placed:
         count = len(self.nodes)
         self._middles, self._halves = np.zeros((count, 3)), np.zeros((count, 3))
         self._radii = np.full(count, -1.0)  # of spheres
-        self._versions: dict[Mesh, int] = {}
+        self._watch, self._old = Watch(), False
         self.meshes: dict[int, Mesh] = {}
         for row, node in enumerate(self.nodes):
             self._describe(row, node)
@@ -124,15 +125,14 @@ class _Placed:
         if isinstance(collider, MeshCollider):
             self.meshes[row] = mesh
         if mesh is not None:
-            self._versions[mesh] = mesh.version
+            self._watch.add(mesh)
         low, high = collider.box if mesh is None else mesh.bounds
         self._middles[row], self._halves[row] = (low + high) * 0.5, (high - low) * 0.5
 
     def is_of(self, scene) -> bool:
         """Whether these are the scene's colliders still."""
-        return self._removals == scene._removals and all(
-            mesh.version == version for mesh, version in self._versions.items()
-        )
+        self._old = self._old or bool(self._watch.changed())
+        return self._removals == scene._removals and not self._old
 
     def follow(self, scene) -> None:
         """Find where the colliders are, if anything moved."""

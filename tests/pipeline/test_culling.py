@@ -58,7 +58,7 @@ def test_a_turning_camera_loses_nothing():
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_tiles_that_are_drawn_twice(threads):
-    """Most tiles are finished with what the last frame showed; where more comes they are drawn anew, and count once."""
+    """Most tiles are finished with what the last frame showed; to which more comes count once."""
     scene = e3d.Scene(background=(10, 20, 30))
     axis = np.arange(-4.0, 4.5)
     places = np.stack(np.meshgrid(axis, axis, axis), -1).reshape(-1, 3)

@@ -10,7 +10,7 @@
 
 #include "e3d_canvas.h"
 
-enum { MAX_SIDE = 80, STRIDE = 4 * (MAX_SIDE + 3), CALLS = 40, SHAPES = 4, UNTOUCHED = 0x5A };
+enum { BESIDE = 3, CANVAS_BYTES = 4 * CANVAS_SIDE * (CANVAS_SIDE + BESIDE), SHAPES = 4, UNTOUCHED = 0x5A };
 
 static const double HOSTILE[] = {0.0, -1e-300, 0.5, 1e9, -3e9, 1e300, INFINITY, -INFINITY, NAN};
 
@@ -19,7 +19,7 @@ static void random_positions(random_stream *r, double *values, int count)
 {
     float extent = random_once_in(r, 3) ? 1e5f : 30.0f;
     for (int i = 0; i < count; i++) {
-        values[i] = random_float(r, -extent, MAX_SIDE + extent);
+        values[i] = random_float(r, -extent, CANVAS_SIDE + extent);
         if (random_once_in(r, 3))
             values[i] = (double)(int64_t)values[i];
         if (random_once_in(r, 20))
@@ -57,33 +57,36 @@ static void draw_shape(const e3d_canvas *canvas, random_stream *r, e3d_triangle_
     }
 }
 
-static void draw_all(const e3d_canvas *canvas, random_stream r, e3d_triangle_algorithm fill)
+static void draw_all(const e3d_canvas *canvas, random_stream r, int calls, e3d_triangle_algorithm fill)
 {
     e3d_canvas_clear(canvas, (e3d_rgba){10, 20, 30, 255});
-    for (int i = 0; i < CALLS; i++)
+    for (int i = 0; i < calls; i++)
         draw_shape(canvas, &r, fill);
 }
 
-static int margin_untouched(const uint8_t *pixels, int32_t width)
+static int margin_untouched(const e3d_canvas *canvas, int32_t rows)
 {
-    for (int row = 0; row < MAX_SIDE; row++)
-        for (int k = 4 * width; k < STRIDE; k++)
-            if (pixels[row * STRIDE + k] != UNTOUCHED)
+    for (int32_t row = 0; row < rows; row++)
+        for (ptrdiff_t k = 4 * (ptrdiff_t)canvas->width; k < canvas->stride; k++)
+            if (canvas->pixels[row * canvas->stride + k] != UNTOUCHED)
                 return 0;
     return 1;
 }
 
-outcome compare_canvas(random_stream r, const char *title)
+outcome compare_canvas(random_stream r, int32_t most_side, int calls, const char *title)
 {
-    static uint8_t edge[MAX_SIDE * STRIDE], scanline[MAX_SIDE * STRIDE];
-    memset(edge, UNTOUCHED, sizeof edge);
-    memset(scanline, UNTOUCHED, sizeof scanline);
-    int32_t width = random_below(&r, MAX_SIDE + 1);
-    int32_t height = random_below(&r, MAX_SIDE + 1);
-    draw_all(&(e3d_canvas){edge, width, height, STRIDE}, r, E3D_TRIANGLE_EDGE);
-    draw_all(&(e3d_canvas){scanline, width, height, STRIDE}, r, E3D_TRIANGLE_SCANLINE);
-    outcome result = {.hash = hash_bytes(HASH_START, edge, sizeof edge)};
-    result.agrees = memcmp(edge, scanline, sizeof edge) == 0 && margin_untouched(edge, width);
+    static uint8_t edge[CANVAS_BYTES], scanline[CANVAS_BYTES];
+    const ptrdiff_t stride = 4 * (ptrdiff_t)(most_side + BESIDE);
+    const size_t size = (size_t)most_side * (size_t)stride;
+    memset(edge, UNTOUCHED, size);
+    memset(scanline, UNTOUCHED, size);
+    int32_t width = random_below(&r, most_side + 1);
+    int32_t height = random_below(&r, most_side + 1);
+    const e3d_canvas first = {edge, width, height, stride}, second = {scanline, width, height, stride};
+    draw_all(&first, r, calls, E3D_TRIANGLE_EDGE);
+    draw_all(&second, r, calls, E3D_TRIANGLE_SCANLINE);
+    outcome result = {.hash = hash_bytes(HASH_START, edge, size)};
+    result.agrees = memcmp(edge, scanline, size) == 0 && margin_untouched(&first, most_side);
     if (!result.agrees && title != NULL)
         fprintf(stderr, "%s: triangle fills differ, or a byte beside a row was touched\n", title);
     return result;

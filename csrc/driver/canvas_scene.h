@@ -9,6 +9,9 @@
 
 #include "driver/compare.h"
 
-outcome compare_canvas(random_stream r, const char *title);
+enum { CANVAS_SIDE = 80, CANVAS_CALLS = 40 };
+
+/* Up to so many pixels wide and high, with so many calls. */
+outcome compare_canvas(random_stream r, int32_t most_side, int calls, const char *title);
 
 #endif

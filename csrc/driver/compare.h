@@ -30,6 +30,7 @@ typedef struct run_plan {
     int backends[E3D_BACKEND_COUNT];
     int32_t threads[8];
     int32_t thread_counts;
+    int32_t most_side; /* pictures are no wider and no higher; 0: as large as the scene says */
 } run_plan;
 
 /* `title` (or NULL for silence) begins the lines that tell standard error what differs. */

@@ -80,7 +80,7 @@ int main(int count, char **arguments)
         snprintf(title, sizeof title, "rasterize %04ld", i);
         failures += report("rasterize", i, compare_rasterize(r, &o.plan, title));
         snprintf(title, sizeof title, "canvas %04ld", i);
-        failures += report("canvas", i, compare_canvas(r, title));
+        failures += report("canvas", i, compare_canvas(r, CANVAS_SIDE, CANVAS_CALLS, title));
         snprintf(title, sizeof title, "graph %04ld", i);
         failures += report("graph", i, compare_graph(r, &o.plan, title));
     }

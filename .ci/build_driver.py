@@ -26,7 +26,7 @@ FUZZ_FLAGS += ["-DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"]
 TRACED = ("csrc/loaders/", "csrc/fuzz/decimal", "csrc/images/tga")
 UNTRACED_FLAGS = ["-fno-sanitize-coverage=trace-cmp"]
 # What a target that lets memory run out calls in their place.
-WRAPPED = ("malloc", "calloc", "realloc", "aligned_alloc")
+WRAPPED = ("malloc", "calloc", "realloc", "posix_memalign")
 
 
 def rules_for(compiler):

@@ -13,7 +13,7 @@
 
 typedef struct random_stream {
     uint64_t state;
-    const uint8_t *bytes; /* taken first, eight at a time; NULL or empty: the state alone */
+    const uint8_t *bytes; /* taken first, two at a time; NULL or empty: the state alone */
     size_t byte_count;
 } random_stream;
 
@@ -21,7 +21,7 @@ static inline uint64_t random_bits(random_stream *r)
 {
     uint64_t taken = 0;
     if (r->byte_count > 0) {
-        size_t count = r->byte_count < 8 ? r->byte_count : 8;
+        size_t count = r->byte_count < 2 ? r->byte_count : 2;
         memcpy(&taken, r->bytes, count);
         r->bytes += count;
         r->byte_count -= count;

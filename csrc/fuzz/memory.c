@@ -9,14 +9,16 @@
 #include "e3d_scene.h"
 #include "fuzz/input.h"
 
+#include <errno.h>
+
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *old, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
+int __real_posix_memalign(void **room, size_t alignment, size_t size);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *old, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
+int __wrap_posix_memalign(void **room, size_t alignment, size_t size);
 
 static int until_failure = -1, failures, then_all;
 
@@ -31,7 +33,10 @@ static int fails(void)
 void *__wrap_malloc(size_t size) { return fails() ? NULL : __real_malloc(size); }
 void *__wrap_calloc(size_t count, size_t size) { return fails() ? NULL : __real_calloc(count, size); }
 void *__wrap_realloc(void *old, size_t size) { return fails() ? NULL : __real_realloc(old, size); }
-void *__wrap_aligned_alloc(size_t a, size_t size) { return fails() ? NULL : __real_aligned_alloc(a, size); }
+int __wrap_posix_memalign(void **room, size_t alignment, size_t size)
+{
+    return fails() ? ENOMEM : __real_posix_memalign(room, alignment, size);
+}
 
 /* Each returns whether it went well. */
 

@@ -4,6 +4,7 @@
  * Each row marks a bit of a map that its hash chooses. Rows that share their bit with another are few, and only
  * they are numbered.
  */
+#include "core/large_pages.h"
 #include "loaders/rows.h"
 
 #include <stdlib.h>
@@ -89,7 +90,7 @@ int e3d_rows_repeat(const e3d_rows *rows)
 {
     map m = {.count = rows->count * BITS / 64 + 1};
     const size_t size = m.count * sizeof *m.words;
-    m.words = e3d_large_room(size + rows->count * sizeof *m.hashes);
+    m.words = e3d_large_memory(size + rows->count * sizeof *m.hashes);
     if (!m.words)
         return -1;
     memset(m.words, 0, size);

@@ -3,57 +3,33 @@
  * In:  rows of words. Out: the number of each row, in the order of their first appearance, and the rows
  *      that differ.
  * Rows are taken in blocks: all of a block are hashed, and their places fetched, before the first is looked for.
- * A place is eight bytes: a number, and the upper half of its row's hash, whose first bits choose the place. So other
- * rows are hardly ever read for nothing, and a table grows without a look at its rows.
  * Always: the numbers do not depend on the hash, which numbers drawn at random start: nobody can write a
  *      file whose rows all fall into one place.
  */
-#include "loaders/rows.h"
+#include "core/large_pages.h"
+#include "loaders/row_table.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/random.h>
 #include <time.h>
 
-#define BLOCK 192
+#define BLOCK E3D_ROW_BLOCK
 /* Places for each number: in the beginning at least, and always. */
 #define PLENTY 3
 #define LEAST 2
 #define FEWEST_BITS 10
 #define MOST_BITS 32
-#define LARGE_PAGE ((size_t)2 << 20)
+/* Blocks after which numbers are guessed again. */
+#define TRY_EVERY 32
 
-/* A place is half a hash, never 0, and above it the number; 0 if it is empty. */
-typedef struct e3d_row_numbers {
-    uint64_t *places;
-    size_t size;   /* places, a power of two */
-    int shift;     /* of half a hash, to the first place for it */
-    uint8_t *rows; /* [count * width] words of those that differ */
-    size_t room;   /* rows */
-    size_t width;  /* words of a row */
-    size_t count;  /* numbers */
-    size_t taken;  /* rows that were numbered */
-    uint32_t zero;
-    e3d_row_seeds seeds;
-} table;
+typedef e3d_row_numbers table;
 
-void *e3d_large_room(size_t size)
-{
-    if (size < LARGE_PAGE / 2)
-        return malloc(size ? size : 1);
-    const size_t pages = (size + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
-    void *const room = aligned_alloc(LARGE_PAGE, pages);
-    if (room)
-        madvise(room, pages, MADV_HUGEPAGE);
-    return room;
-}
-
-void *e3d_large_zeros(size_t size)
-{
-    void *const room = e3d_large_room(size);
-    return room ? memset(room, 0, size) : NULL;
-}
+/* Whether half the guesses came true in the last block, and which did not in its last two facets. */
+typedef struct guesses {
+    bool come_true;
+    unsigned missed;
+} guesses;
 
 e3d_row_seeds e3d_random_seeds(void)
 {
@@ -65,11 +41,11 @@ e3d_row_seeds e3d_random_seeds(void)
     return seeds;
 }
 
-static inline uint32_t half_of(uint64_t hash) { return (uint32_t)(hash >> 32) | 1; }
-
-static inline size_t place_of(const table *t, uint32_t half) { return (size_t)half >> t->shift; }
-
-static inline size_t next_place(const table *t, size_t place) { return (place + 1) & (t->size - 1); }
+static void *large_zeros(size_t size)
+{
+    void *const room = e3d_large_memory(size);
+    return room ? memset(room, 0, size) : NULL;
+}
 
 /* Makes room so that `wanted` numbers leave enough places empty. */
 static bool reserve_places(table *t, size_t wanted)
@@ -82,15 +58,15 @@ static bool reserve_places(table *t, size_t wanted)
         bits++;
     grown.size = (size_t)1 << bits;
     grown.shift = 32 - bits;
-    grown.places = e3d_large_zeros(grown.size * sizeof *grown.places);
+    grown.places = large_zeros(grown.size * sizeof *grown.places);
     if (!grown.places)
         return false;
     for (size_t i = 0; t->places && i < t->size; i++) {
         if (!t->places[i])
             continue;
-        size_t place = place_of(&grown, (uint32_t)t->places[i]);
+        size_t place = e3d_place_of(&grown, (uint32_t)t->places[i]);
         while (grown.places[place])
-            place = next_place(&grown, place);
+            place = e3d_next_place(&grown, place);
         grown.places[place] = t->places[i];
     }
     free(t->places);
@@ -103,7 +79,7 @@ static bool reserve_rows(table *t, size_t wanted)
     if (wanted <= t->room)
         return true;
     const size_t room = wanted + t->room / 2;
-    uint8_t *const rows = e3d_large_room(room * t->width * WORD);
+    uint8_t *const rows = e3d_large_memory(room * t->width * WORD);
     if (!rows)
         return false;
     if (t->count)
@@ -114,46 +90,34 @@ static bool reserve_rows(table *t, size_t wanted)
     return true;
 }
 
-/* The number of a row, which may be new. */
-static ALWAYS_INLINE uint32_t number_row(table *t, const uint8_t *row, size_t width, uint32_t half)
-{
-    for (size_t place = place_of(t, half);; place = next_place(t, place)) {
-        const uint64_t entry = t->places[place];
-        const uint32_t number = (uint32_t)(entry >> 32);
-        if ((uint32_t)entry == half && e3d_same_rows(t->rows + number * width * WORD, row, width, t->zero))
-            return number;
-        if (!entry) {
-            memcpy(t->rows + t->count * width * WORD, row, width * WORD);
-            t->places[place] = (uint64_t)t->count << 32 | half;
-            return (uint32_t)t->count++;
-        }
-    }
-}
-
 /* Numbers the next rows, up to BLOCK; inlined for each width. */
-static ALWAYS_INLINE void number_block(table *t, e3d_row_reader *in, size_t count, size_t width, int32_t *numbers)
+static ALWAYS_INLINE void number_block(table *t, e3d_row_reader in, size_t count, size_t width, int32_t *numbers)
 {
     uint32_t halves[BLOCK];
-    e3d_row_reader again = *in;
+    e3d_row_reader again = in;
     for (size_t k = 0; k < count; k++) {
-        halves[k] = half_of(e3d_hash_row(e3d_next_row(in, width), width, t->zero, t->seeds));
-        __builtin_prefetch(&t->places[place_of(t, halves[k])], 1);
+        halves[k] = e3d_half_of(e3d_hash_row(e3d_next_row(&in, width), width, t->zero, t->seeds));
+        __builtin_prefetch(&t->places[e3d_place_of(t, halves[k])], 1);
     }
     for (size_t k = 0; k < count; k++)
-        numbers[k] = (int32_t)number_row(t, e3d_next_row(&again, width), width, halves[k]);
+        numbers[k] = (int32_t)e3d_number_row(t, e3d_next_row(&again, width), width, halves[k]);
 }
 
-/* Numbers the next rows, up to BLOCK; false if memory is out. */
-static bool number_next(table *t, e3d_row_reader *in, size_t count, int32_t *numbers)
+/* Numbers rows from one on, up to BLOCK, for which there is room. */
+static void number_next(table *t, const e3d_rows *rows, size_t row, size_t count, int32_t *numbers)
 {
-    if (!reserve_places(t, t->count + count) || !reserve_rows(t, t->count + count))
-        return false;
+    const e3d_row_reader in = e3d_read_rows_from(rows, row);
     switch (t->width) {
     case 1: number_block(t, in, count, 1, numbers); break;
     case 3: number_block(t, in, count, 3, numbers); break;
     default: number_block(t, in, count, t->width, numbers);
     }
-    return true;
+}
+
+/* Makes room for so many more; false if memory is out. */
+static bool reserve(table *t, size_t more)
+{
+    return reserve_places(t, t->count + more) && reserve_rows(t, t->count + more);
 }
 
 /* A table for so many numbers, which grows; false if memory is out. */
@@ -185,13 +149,29 @@ e3d_row_numbers *e3d_row_numbers_begin(size_t width, bool are_floats, size_t exp
     return NULL;
 }
 
+/* Numbers the next block, by guesses if half of them came true in the last one, or if it is time to try. */
+static bool number_regularly(table *t, const e3d_rows *rows, size_t row, size_t count, int32_t *numbers, guesses *g)
+{
+    if (row / BLOCK % TRY_EVERY == 1)
+        g->come_true = true;
+    if (!g->come_true || row == 0 || rows->width != 3 || rows->in_record != 3)
+        return false;
+    const uint8_t *const corners = rows->bytes + row / 3 * rows->stride;
+    const size_t right = e3d_number_regular(t, corners, rows->stride, count, numbers + row, &g->missed);
+    g->come_true = right >= count / 2;
+    return true;
+}
+
 bool e3d_row_numbers_add(e3d_row_numbers *taken, const e3d_rows *rows, int32_t *numbers, int32_t *first)
 {
-    e3d_row_reader in = e3d_read_rows(rows);
+    guesses g = {false, 0};
     bool done = true;
     for (size_t row = 0; done && row < rows->count; row += BLOCK) {
+        const size_t count = block_at(rows, row);
         size_t next = taken->count;
-        done = number_next(taken, &in, block_at(rows, row), numbers + row);
+        done = reserve(taken, count);
+        if (done && !number_regularly(taken, rows, row, count, numbers, &g))
+            number_next(taken, rows, row, count, numbers + row);
         for (size_t k = 0; first && next < taken->count; k++)
             if ((size_t)numbers[row + k] == next)
                 first[next++] = (int32_t)(taken->taken + row + k);
@@ -231,11 +211,12 @@ size_t e3d_number_rows(const e3d_rows *rows, int32_t *numbers, int32_t *first, u
 int e3d_few_rows_repeat(const e3d_rows *rows)
 {
     table t;
-    e3d_row_reader in = e3d_read_rows(rows);
     int32_t numbers[BLOCK];
     bool done = begin_table(&t, rows->width, rows->are_floats, rows->count), repeat = false;
     for (size_t row = 0; done && !repeat && row < rows->count; row += BLOCK) {
-        done = number_next(&t, &in, block_at(rows, row), numbers);
+        done = reserve(&t, block_at(rows, row));
+        if (done)
+            number_next(&t, rows, row, block_at(rows, row), numbers);
         repeat = t.count < row + block_at(rows, row);
     }
     free_table(&t);

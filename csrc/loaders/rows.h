@@ -27,11 +27,6 @@ e3d_row_seeds e3d_random_seeds(void);
 /* Whether two rows are equal, of rows that are few: each that differs takes memory. As e3d_rows_repeat(). */
 int e3d_few_rows_repeat(const e3d_rows *rows);
 
-/* Memory, or zeros, in large pages where it is much: many small ones take longer to come than to be filled. To be
- * freed with free(); NULL if memory is out. */
-void *e3d_large_room(size_t size);
-void *e3d_large_zeros(size_t size);
-
 /* The rows that are still to be read. */
 typedef struct e3d_row_reader {
     const uint8_t *row;
@@ -40,6 +35,12 @@ typedef struct e3d_row_reader {
 } e3d_row_reader;
 
 static inline e3d_row_reader e3d_read_rows(const e3d_rows *rows) { return (e3d_row_reader){rows->bytes, 0, rows}; }
+
+static inline e3d_row_reader e3d_read_rows_from(const e3d_rows *rows, size_t row)
+{
+    const size_t record = row / rows->in_record, in_record = row % rows->in_record;
+    return (e3d_row_reader){rows->bytes + record * rows->stride + in_record * rows->width * WORD, in_record, rows};
+}
 
 static inline const uint8_t *e3d_next_row(e3d_row_reader *in, size_t width)
 {

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from engine3d._native import loaders as native
 from engine3d.loaders import welding
 
 
@@ -55,3 +56,53 @@ def test_nothing():
     assert not welding.rows_repeat(np.zeros((0, 3), np.float32))
     numbers, first = welding.number_rows(np.zeros((0, 4), np.uint8))
     assert len(numbers) == len(first) == 0
+
+
+def facets_of_a_grid(rows, columns):
+    """Corners (F, 3, 3) of the two halves of each quad, strip by strip: numbers go on regularly."""
+    y, x = np.mgrid[: rows - 1, : columns - 1].reshape(2, -1, 1)
+    corners = np.array([[0, 0], [0, 1], [1, 1], [0, 0], [1, 1], [1, 0]])
+    flat = np.stack([x + corners[:, 1], y + corners[:, 0], x * 0 + corners[:, 1] * 0], axis=-1)
+    return flat.reshape(-1, 3, 3).astype(np.float32) - 5
+
+
+def weld(corners, facets_a_piece):
+    records = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", 9), ("a", "<u2")])
+    records["normal"], records["a"] = 7, 9
+    records["corners"] = corners.reshape(-1, 9)
+    data, step = records.tobytes(), 50 * facets_a_piece
+    pieces = [(k // 50, data[k : k + step]) for k in range(0, len(data), step)]
+    return native.weld_facets(pieces, 12, 50, len(corners))
+
+
+def holes(corners):
+    return corners[np.random.default_rng(4).random(len(corners)) > 0.1]
+
+
+def other_zeros(corners):
+    corners[np.random.default_rng(5).random(corners.shape) > 0.5] *= -1
+    return np.where(np.abs(corners) == 5, np.float32(-0.0), corners)
+
+
+def not_finite(corners):
+    corners[np.random.default_rng(6).random(corners.shape) > 0.9] = np.nan
+    return corners
+
+
+def half_shuffled(corners):
+    half = len(corners) // 2
+    return np.concatenate([corners[:half], np.random.default_rng(7).permutation(corners[half:])])
+
+
+@pytest.mark.parametrize("change", [np.copy, holes, other_zeros, not_finite, half_shuffled])
+@pytest.mark.parametrize("facets_a_piece", [5242, 333, 3])
+def test_facets_weld_as_rows(change, facets_a_piece):
+    """Guessing the numbers of regular facets, and failing at it, gives what a dictionary gives."""
+    corners = change(facets_of_a_grid(40, 90))
+    faces, positions = weld(corners, facets_a_piece)
+    bits = np.where(corners == 0, np.float32(0), corners).view(np.uint32).reshape(-1, 3)
+    seen = {}
+    numbers = [seen.setdefault(tuple(row), len(seen)) for row in bits.tolist()]
+    assert faces.ravel().tolist() == numbers
+    first = np.unique(numbers, return_index=True)[1]
+    assert positions.tobytes() == corners.reshape(-1, 3)[first].tobytes()

@@ -72,7 +72,8 @@ static inline vf32 visible_z(const raster_constants *c, vf32 column, int32_t dy)
     return v_min(v_max(z, c->zmin), c->zmax);
 }
 
-/* One vector of samples: `inside` of them are covered. */
+/* One vector of samples: `inside` of them are covered. Whether there are any, and whether one passes, could not be foreseen:
+ * neither is asked. */
 static inline void visible_write(vmask inside, vf32 z, int at, const e3d_record *r, int32_t id,
                                  e3d_visible_tile *tile, const e3d_record_table *table)
 {
@@ -81,7 +82,7 @@ static inline void visible_write(vmask inside, vf32 z, int at, const e3d_record 
     vf32 old = rows_loadf(depth);
     vmask pass = v_mand(inside, v_lt(z, old));
     uint32_t equal = v_bits(v_mand(inside, v_eq(z, old)));
-    rows_storef(depth, v_self(pass, z, old)); /* whether any lane passes cannot be foreseen */
+    rows_storef(depth, v_self(pass, z, old));
     rows_storei(kept, v_seli(pass, v_seti(id), rows_loadi(kept)));
     if (equal)
         visible_ties(equal, z, depth, kept, r, id, table);
@@ -164,9 +165,7 @@ static inline void visible_block(const e3d_piece *p, const raster_constants *c, 
             e[k] = v_addi(v_seti(p->e[k] + p->a[k] * i + p->b[k] * y0), rows_step(p->a[k], p->b[k]));
         for (int y = y0; y <= y1; y += ROWS) {
             vmask inside = full ? all : v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
-            if (full || v_any(inside))
-                visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + i, r,
-                              (int32_t)p->slot, tile, table);
+            visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + i, r, (int32_t)p->slot, tile, table);
             for (int k = 0; k < 3 && !full; k++)
                 e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));
         }
@@ -283,20 +282,20 @@ static inline uint64_t visible_met(int x0, int y0, int x1, int y1)
     return columns * (left_column >> (VISIBLE_BLOCKS * (above + below)) << (VISIBLE_BLOCKS * above));
 }
 
-/* Whether all samples of the blocks that a piece meets are nearer. */
-static inline int visible_is_behind(const e3d_piece *p, uint64_t met, float near, const e3d_visible_tile *tile)
+/* Whether all samples of the blocks that a piece meets are nearer. All blocks are looked at: how many vectors the met ones lie in
+ * could not be foreseen. */
+static inline int visible_is_behind(uint64_t met, float near, const e3d_visible_tile *tile)
 {
-    uint64_t open = met;
-    int first = p->y0 / RASTER_BLOCK * VISIBLE_BLOCKS & -V_LANES, end = (p->y1 / RASTER_BLOCK + 1) * VISIBLE_BLOCKS;
-    for (; first < end; first += V_LANES)
-        open &= ~((uint64_t)v_bits(v_gt(v_setf(near), v_loadf(tile->zmax + first))) << first);
-    return !open;
+    uint64_t behind = 0;
+    for (int first = 0; first < E3D_TILE_BLOCKS; first += V_LANES)
+        behind |= (uint64_t)v_bits(v_gt(v_setf(near), v_loadf(tile->zmax + first))) << first;
+    return !(met & ~behind);
 }
 
 /* Some samples of these blocks, at least one block, are written, no nearer than `near`. */
 static inline void visible_touch(uint64_t met, float near, e3d_visible_tile *tile)
 {
-    for (int first = __builtin_ctzll(met) & -V_LANES; first < E3D_TILE_BLOCKS && met >> first; first += V_LANES) {
+    for (int first = 0; first < E3D_TILE_BLOCKS; first += V_LANES) {
         vf32 zmin = v_loadf(tile->zmin + first);
         v_storef(tile->zmin + first, v_self(visible_lanes((uint32_t)(met >> first)), v_min(v_setf(near), zmin), zmin));
     }
@@ -325,9 +324,8 @@ static inline void visible_narrow(const e3d_piece *p, const raster_constants *c,
         vf32 column = visible_column(c, x - p->base_x);
         for (int y = y0; y <= p->y1; y += ROWS) {
             vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
-            if (v_any(inside))
-                visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + x, r,
-                              (int32_t)p->slot, tile, table);
+            visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + x, r,
+                          (int32_t)p->slot, tile, table);
             for (int k = 0; k < 3; k++)
                 e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));
         }
@@ -393,7 +391,7 @@ static inline void visible_piece(const e3d_record *r, int32_t id, e3d_visible_ti
     p.x1 = e3d_in_tile(((right - 128) >> 8) - tile->x);
     p.y1 = e3d_in_tile(((bottom - 128) >> 8) - tile->y);
     uint64_t met = visible_met(p.x0, p.y0, p.x1, p.y1);
-    if (visible_is_behind(&p, met, r->zmin, tile))
+    if (visible_is_behind(met, r->zmin, tile))
         return;
     if (right - visible_min3(r->x) <= E3D_TILE * 256 && bottom - visible_min3(r->y) <= E3D_TILE * 256)
         visible_small_edges(r, &p, tile);

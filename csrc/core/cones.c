@@ -1,7 +1,7 @@
 /* The cone that holds the normals of all of a cluster's triangles.
  *
  * In:  a cluster of a 3-component mesh, with its positions, indices and box.
- * Out: its axis, cosine and altitude; none (an altitude of 0) where a triangle's facing isn't sure.
+ * Out: its axis, cosine, altitude and radius; none (an altitude of 0) where a triangle's facing isn't sure.
  * Always: in float32, of positions scaled by a power of two to a box of about 1, so that nothing overflows. A normal is off by
  *      up to 6 * 2^-24 * longest edge^2, which is at least 2.5 times allowed for (ALLOWED).
  */
@@ -36,6 +36,14 @@ static float scale_of(const e3d_cluster *c)
         return 0;
     frexpf(size, &exponent);
     return ldexpf(1, -exponent);
+}
+
+static float radius_of(const e3d_cluster *c)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++)
+        square += 0.25 * ((double)c->hi[k] - c->lo[k]) * ((double)c->hi[k] - c->lo[k]);
+    return 1.0001f * (float)sqrt(square);
 }
 
 static inline float4 root_of(float4 v) { return (float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
@@ -77,5 +85,6 @@ void e3d_find_cone(e3d_cluster *c)
         cosine = along < cosine ? along : cosine;
     }
     c->cosine = cosine - 1e-5f;
+    c->radius = radius_of(c);
     c->altitude = c->cosine > 0 ? 0.999f * sqrtf(least) / scale : 0;
 }

@@ -17,7 +17,7 @@ typedef struct e3d_cluster {
     float axis[3];        /* of a cone that holds the unit normals of all its triangles, object space */
     float cosine;         /* of half the cone's opening */
     float altitude;       /* the least one of a triangle; 0: there is no cone */
-    int32_t padding;
+    float radius;         /* of a sphere around the box, where there is a cone */
 } e3d_cluster;
 
 _Static_assert(sizeof(e3d_cluster) == 64, "a cluster is a line of the cache");

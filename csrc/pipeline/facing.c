@@ -3,7 +3,8 @@
  * Facing is the sign of the area between snapped corners (R9), so a cluster goes only where snapping cannot turn any of its
  * triangles. With M the linear part of the clip matrix's rows x, y, w and e the eye (where all three vanish),
  *     twice the area on the screen = 256 half_w * 256 half_h * det(M) * 2 area * n.(p - e) / (w0 w1 w2),
- * while corners that move by up to d on each axis change it by at most 4 d (|edge_x| + |edge_y|) + 8 d^2 for the longest edge.
+ * while corners that move by up to d on each axis change it by at most 2 d (width + height) + 4 d^2, for a triangle's width and
+ * height on the screen: each corner moves along the edge between the two others.
  * Cones after Shirmun and Abi-Ezzi (1993).
  */
 #include <math.h>
@@ -53,7 +54,7 @@ void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_
 }
 
 /* How far from the cluster's faces' planes the eye surely is, on the side `sign`; negative if that isn't sure. */
-static float distance_of(const e3d_cluster *c, const float centre[3], float radius, const float eye[3], float sign)
+static float distance_of(const e3d_cluster *c, const float centre[3], const float eye[3], float sign)
 {
     float v[3], along = 0, square = 0, places = 0;
     for (int k = 0; k < 3; k++) {
@@ -62,47 +63,56 @@ static float distance_of(const e3d_cluster *c, const float centre[3], float radi
         square += v[k] * v[k];
         places += fabsf(centre[k]) + fabsf(eye[k]);
     }
-    if (!(along * c->cosine > 0)) /* all that follows makes it less */
+    if (!(along * c->cosine > c->radius)) /* all that follows makes it less */
         return -1;
     float across = square - along * along, sine = sqrtf(1 - c->cosine * c->cosine);
-    return along * c->cosine - (across > 0 ? sqrtf(across) : 0) * sine - radius -
+    return along * c->cosine - (across > 0 ? sqrtf(across) : 0) * sine - c->radius -
            (1e-5f * sqrtf(square) + 1e-6f * places);
 }
 
 /* Clip coordinates of at most so many w are within the guard band, and within twice the picture. */
 static float within(float guard) { return guard > 2 ? 2 : 0.999f * guard; }
 
+/* One clip coordinate of a cluster's vertices: that of the box's centre, how far others are from it, and of that what rounding
+ * may come to; `reach` is farther from the origin than any vertex. */
+typedef struct coordinate {
+    float middle, spread, slack;
+} coordinate;
+
+static coordinate coordinate_of(const float *row, float length, const float centre[3], float radius, float reach)
+{
+    float slack = 0x1p-20f * (length * reach + fabsf(row[3]));
+    return (coordinate){row_at(row, centre), 1.001f * length * radius + slack, slack};
+}
+
 int e3d_faces_away(const e3d_viewport *viewport, const e3d_facing *f, const float clip[16], const e3d_cluster *c,
                    int drop)
 {
-    float centre[3], half[3];
+    float centre[3], reach = 1.001f * c->radius;
     if (!f->sign || !drop || !(c->altitude > 0))
         return 0;
     for (int k = 0; k < 3; k++) {
         centre[k] = 0.5f * (c->lo[k] + c->hi[k]);
-        half[k] = 0.5f * (c->hi[k] - c->lo[k]);
+        reach += fabsf(centre[k]);
     }
-    float radius = 1.0001f * length_of(half);
-    float distance = distance_of(c, centre, radius, f->eye, (float)(f->sign * drop));
+    float distance = distance_of(c, centre, f->eye, (float)(f->sign * drop));
     if (!(distance > 0))
         return 0;
-    float terms = c->altitude, longest = f->length[0] + f->length[1] + 3 * f->length[2] + f->length[3];
-    for (int k = 0; k < 3; k++)
-        terms += fabsf(centre[k]) + half[k];
-    float offset = fabsf(clip[3]) + fabsf(clip[7]) + fabsf(clip[11]) + 3 * fabsf(clip[15]);
-    float slack = 0x1p-20f * (terms * longest + offset); /* what rounding of clip coordinates may come to */
-    float w = row_at(clip + 12, centre), spread = 1.001f * f->length[2] * radius + slack;
-    float least = w - spread, most = w + spread, x = fabsf(row_at(clip, centre)) + f->length[0] * radius + slack;
-    float y = fabsf(row_at(clip + 4, centre)) + f->length[1] * radius + slack;
-    float z = row_at(clip + 8, centre) - f->length[3] * radius - slack;
+    coordinate x = coordinate_of(clip, f->length[0], centre, c->radius, reach);
+    coordinate y = coordinate_of(clip + 4, f->length[1], centre, c->radius, reach);
+    coordinate z = coordinate_of(clip + 8, f->length[3], centre, c->radius, reach);
+    coordinate w = coordinate_of(clip + 12, f->length[2], centre, c->radius, reach);
+    float least = w.middle - w.spread, most = w.middle + w.spread;
+    float right = (fabsf(x.middle) + x.spread) / least, up = (fabsf(y.middle) + y.spread) / least; /* in NDC, or left and down */
     /* Nothing is clipped (R7), and all is within twice the picture. */
-    if (!(least > E3D_W_MIN) || !(least > 0x1p-10f * most) || !(x < within(viewport->guard_x) * least) ||
-        !(y < within(viewport->guard_y) * least) || !(z > -0.999f * least))
+    if (!(least > E3D_W_MIN) || !(least > 0x1p-10f * most) || !(right < within(viewport->guard_x)) ||
+        !(up < within(viewport->guard_y)) || !(z.middle - z.spread > -0.999f * least))
         return 0;
-    float larger = viewport->scale_x > viewport->scale_y ? viewport->scale_x : viewport->scale_y;
-    float moved = 0.6f + larger * (0x1p-19f + slack / least);
-    float edges = viewport->scale_x * (f->length[0] + 2 * f->length[2]) +
-                  viewport->scale_y * (f->length[1] + 2 * f->length[2]);
+    /* Snapping, the roundings of NDC to the screen (9 * 2^-24 of the scale), and of the clip coordinates. */
+    float across = viewport->scale_x * (0x1p-20f + (x.slack + right * w.slack) / least);
+    float down = viewport->scale_y * (0x1p-20f + (y.slack + up * w.slack) / least), moved = 0.51f + (across > down ? across : down);
+    float edges = viewport->scale_x * (f->length[0] + right * f->length[2]) +
+                  viewport->scale_y * (f->length[1] + up * f->length[2]);
     double area = c->altitude * (double)distance * f->scale / ((double)most * most * most); /* float may overflow */
-    return area > 1.01f * (4 * moved * edges / least + 8 * moved * moved / c->altitude);
+    return area > 1.01f * (2 * moved * edges / least + 4 * moved * moved / c->altitude);
 }

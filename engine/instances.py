@@ -155,6 +155,8 @@ def _check_poses(value) -> np.ndarray:
         poses = np.array(value, np.float32, order="C")
     except (TypeError, ValueError) as error:
         raise InvalidArgumentError(f"poses must be numbers: {error}") from None
+    if poses.shape == (0,):
+        poses = poses.reshape(0, 4)
     if poses.shape[1:] not in ((4, 4), (4,)) or poses.ndim < 2:
         raise InvalidArgumentError(f"poses must be (N, 4, 4) or (N, 4), not {poses.shape}")
     if poses.ndim == 3 and not (poses[:, 3] == (0, 0, 0, 1)).all():

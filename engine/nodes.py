@@ -24,17 +24,13 @@ class Node:
     ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
     w), ``euler`` and ``scale`` are the same pose in parts. Assign any of them at any time; what is
     read is read-only. Setting a part of a pose that is sheared drops the shear.
-
-    Attributes
-    ----------
-    id : int
-        What ``frame.object_id`` shows; counts up from 0 in the order of adding, never used twice.
     """
 
     __slots__ = (
         "__weakref__",
         "_arrays",
         "_collider",
+        "_id",
         "_name",
         "_object",
         "_pose",
@@ -43,7 +39,6 @@ class Node:
         "_slot",
         "_world_pose",
         "_world_version",
-        "id",
     )
 
     def __init__(self, scene, obj, name: str, number: int) -> None:
@@ -52,7 +47,12 @@ class Node:
         self._name = name
         self._collider = None
         self._pose_version = self._world_version = -1
-        self.id = number
+        self._id = number
+
+    @property
+    def id(self) -> int:
+        """What frames show as ``object_id``; counts up from 0 in the order of adding."""
+        return self._id
 
     @property
     def object(self):

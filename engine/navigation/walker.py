@@ -76,10 +76,10 @@ class Walker:
 
     def move(self, dx: float, dz: float) -> bool:
         """Go by (dx, dz), or along what blocks the way; returns whether that was anywhere."""
-        length = math.hypot(dx, dz)
-        if not math.isfinite(length) or length == 0.0:
+        strides = math.hypot(dx, dz) / (_STRIDE * self.grid.cell)
+        if not math.isfinite(strides) or strides == 0.0:
             return False
-        count = math.ceil(length / (_STRIDE * self.grid.cell))
+        count = math.ceil(strides)
         x, z = dx / count, dz / count
         before = self.x, self.z
         for _ in range(min(count, _MOST_STEPS)):

@@ -7,6 +7,7 @@ trees of nodes, instances and triangles, in float64: the same bits on every mach
 from __future__ import annotations
 
 import math
+import numbers
 from typing import NamedTuple
 
 import numpy as np
@@ -134,6 +135,9 @@ def _vectors(value, what: str) -> np.ndarray:
 
 def pick(scene, frame, x: int, y: int) -> RayHit | None:
     """See `Scene.pick`."""
+    for value in (x, y):
+        if not isinstance(value, numbers.Real):
+            raise InvalidArgumentError(f"a pixel is two numbers, not {value!r}")
     if not (0 <= x < frame.width and 0 <= y < frame.height):
         raise InvalidArgumentError(
             f"pixel ({x}, {y}) is outside of the frame, {frame.width}x{frame.height}"
@@ -157,6 +161,8 @@ def pick(scene, frame, x: int, y: int) -> RayHit | None:
             else _from(eye, hit._replace(node=node, instance=instance, face=face))
         )
     if hit is None or (hit.node, hit.instance, hit.face) != (node, instance, face):
+        if not _has_face(node.object, instance, face):
+            return None
         hit = _hit_of_face(node, instance, face, near, direction)
     return _from(eye, hit)
 
@@ -203,6 +209,12 @@ def _is_drawn(hit: RayHit, direction: np.ndarray, cull: str) -> bool:
 def _mesh_of(node: Node):
     obj = node.object
     return obj.mesh if isinstance(obj, InstancedMesh) else obj
+
+
+def _has_face(obj, instance: int, face: int) -> bool:
+    """Whether what a frame showed is there still."""
+    many = isinstance(obj, InstancedMesh)
+    return instance < (len(obj) if many else 1) and face < len((obj.mesh if many else obj).faces)
 
 
 def _hit_of_face(node: Node, instance: int, face: int, origin, direction) -> RayHit:

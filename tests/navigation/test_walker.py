@@ -126,7 +126,7 @@ def test_nobody_leaves_the_grid():
     assert 4.5 <= walker.x < 5.0 and walker.z > 2.5
     walker.move(-100.0, -100.0)
     assert 0.0 <= walker.x < 0.5 and 0.0 <= walker.z < 0.5
-    for bad in ((math.nan, 0.0), (math.inf, 0.0), (0.0, 0.0)):
+    for bad in ((math.nan, 0.0), (math.inf, 0.0), (1e308, 1e308), (0.0, 0.0)):
         assert not walker.move(*bad)
 
 

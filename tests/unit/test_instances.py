@@ -43,7 +43,8 @@ def test_number_changes_by_replace(box):
 
 
 def test_no_instances(box):
-    assert e3d.InstancedMesh(box, np.zeros((0, 4))).bounds_in_node() is None
+    for none in (np.zeros((0, 4)), np.zeros((0, 4, 4)), []):
+        assert e3d.InstancedMesh(box, none).bounds_in_node() is None
 
 
 def test_bounds(box):

@@ -215,3 +215,29 @@ def test_picking_lines_and_removed_nodes():
         scene.pick(frame, 8, 0)
     scene.remove(node)
     assert scene.pick(frame, 4, 4) is None
+
+
+def test_picking_what_is_not_there_any_more():
+    """A mesh with fewer faces, fewer instances than the frame shows."""
+    camera = e3d.PerspectiveCamera(yfov=1.0), e3d.look_at((0, 0, 5), (0, 0, 0))
+    outputs = ("object_id", "instance_id", "triangle_id")
+    mesh = e3d.icosphere(1.0, 1)
+    crowd = e3d.InstancedMesh(mesh, [(9, 0, 0, 1), (0, 0, 0, 1)])
+    scene = e3d.Scene()
+    node = scene.add(crowd)
+    frame = e3d.render(scene, camera, size=(9, 9), outputs=outputs)
+    assert scene.pick(frame, 4, 4)[:2] == (node, 1)
+    for poses in ([(9, 0, 0, 1)], []):
+        crowd.replace(poses)
+        assert scene.pick(frame, 4, 4) is None
+    crowd.replace([(9, 0, 0, 1), (0, 5, 0, 1)])  # there, but elsewhere
+    assert scene.pick(frame, 4, 4)[:2] == (node, 1)
+    mesh.faces = mesh.faces[:0]
+    assert scene.pick(frame, 4, 4) is None
+
+
+@pytest.mark.parametrize("pixel", [("a", 1), (1, None), ((1, 2), 3)])
+def test_a_pixel_is_two_numbers(pixel):
+    frame = e3d.render(e3d.Scene(), size=(8, 8))
+    with pytest.raises(e3d.InvalidArgumentError, match="a pixel is two numbers"):
+        e3d.Scene().pick(frame, *pixel)

@@ -20,6 +20,14 @@ def test_ids_count_up_and_are_never_used_twice(scene):
     assert scene.nodes == (first, third)
 
 
+def test_an_id_is_read_only(scene):
+    """Colliders, rays and frames go by it."""
+    node = scene.add(e3d.box())
+    with pytest.raises(AttributeError):
+        node.id = 7
+    assert node.id == 0
+
+
 def test_a_failed_add_uses_no_id(scene):
     with pytest.raises(e3d.InvalidArgumentError):
         scene.add(pose=np.eye(3))

@@ -131,6 +131,9 @@ class NativeOptions:
         light_clamp: Sequence[float],
     ) -> None: ...
 
+class NativeStats:
+    def as_dict(self) -> dict[str, int | float | str]: ...
+
 class NativeRenderer:
     def __init__(self, backend: int, threads: int) -> None: ...
     def render(
@@ -147,7 +150,7 @@ class NativeRenderer:
         depth_near: float,
         depth_far: float,
         frozen_clip_from_world: _Doubles | None = None,
-    ) -> dict[str, int | float | str]: ...
+    ) -> NativeStats: ...
 
 def rasterize(
     clip: _Floats,

@@ -1,7 +1,13 @@
 /* shade: runs sorted by what they are of, so that each piece is met once, and pieces of a cluster one after the other. */
+#include <string.h>
+
 #include "pipeline/frame.h"
 
-enum { FEW = 24, DIGIT = 8, DIGITS = 1 << DIGIT, PARTS = 4 };
+enum { FEW = 24, MOST_BITS = 8, PARTS = 4 };
+
+typedef struct digit {
+    int shift, bits;
+} digit;
 
 static uint32_t bits_that_differ(const e3d_run *runs, int32_t count)
 {
@@ -22,30 +28,40 @@ static void sort_few(e3d_run *runs, int32_t count)
     }
 }
 
-static inline uint32_t digit_of(const e3d_run *run, int shift) { return (uint32_t)run->owner >> shift & (DIGITS - 1); }
+/* The lowest digit of those, as few and then as short as will do, that the bits are cut into. */
+static digit next_digit(uint32_t differ)
+{
+    int shift = __builtin_ctz(differ), span = 32 - __builtin_clz(differ) - shift;
+    int digits = (span + MOST_BITS - 1) / MOST_BITS;
+    return (digit){shift, (span + digits - 1) / digits};
+}
+
+static inline uint32_t digit_of(const e3d_run *run, digit d) { return (uint32_t)run->owner >> d.shift & ((1u << d.bits) - 1); }
 
 /* Neighbours often have the same digit, whose counter then is waited for: so parts of the runs take turns, each with
  * counters of its own. */
-static void sort_by_digit(const e3d_run *from, e3d_run *to, int32_t count, int shift)
+static void sort_by_digit(const e3d_run *from, e3d_run *to, int32_t count, digit d)
 {
-    uint16_t next[PARTS][DIGITS] = {{0}};
+    uint16_t next[1 << MOST_BITS][PARTS];
+    uint32_t first = 0, values = 1u << d.bits;
     int32_t part = count / PARTS;
+    memset(next, 0, values * sizeof *next);
     for (int32_t i = 0; i < part; i++)
         for (int p = 0; p < PARTS; p++)
-            next[p][digit_of(&from[p * part + i], shift)]++;
+            next[digit_of(&from[p * part + i], d)][p]++;
     for (int32_t i = PARTS * part; i < count; i++)
-        next[PARTS - 1][digit_of(&from[i], shift)]++;
-    for (uint32_t d = 0, first = 0; d < DIGITS; d++)
+        next[digit_of(&from[i], d)][PARTS - 1]++;
+    for (uint32_t v = 0; v < values; v++)
         for (int p = 0; p < PARTS; p++) {
-            uint32_t here = next[p][d];
-            next[p][d] = (uint16_t)first;
+            uint32_t here = next[v][p];
+            next[v][p] = (uint16_t)first;
             first += here;
         }
     for (int32_t i = 0; i < part; i++)
         for (int p = 0; p < PARTS; p++)
-            to[next[p][digit_of(&from[p * part + i], shift)]++] = from[p * part + i];
+            to[next[digit_of(&from[p * part + i], d)][p]++] = from[p * part + i];
     for (int32_t i = PARTS * part; i < count; i++)
-        to[next[PARTS - 1][digit_of(&from[i], shift)]++] = from[i];
+        to[next[digit_of(&from[i], d)][PARTS - 1]++] = from[i];
 }
 
 const e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
@@ -56,12 +72,12 @@ const e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
         return runs;
     }
     while (differ) {
-        int shift = __builtin_ctz(differ);
-        sort_by_digit(runs, spare, count, shift);
+        digit d = next_digit(differ);
+        sort_by_digit(runs, spare, count, d);
         e3d_run *sorted = spare;
         spare = runs;
         runs = sorted;
-        differ &= ~((uint32_t)(DIGITS - 1) << shift);
+        differ &= ~(((1u << d.bits) - 1) << d.shift);
     }
     return runs;
 }

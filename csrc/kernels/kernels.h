@@ -330,8 +330,9 @@ typedef struct e3d_kernels {
     void (*raster_measure)(e3d_visible_tile *tile);
     /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
     int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
-    /* The samples of runs, at least one, that are owned by surfaces: what is known of a batch at first. */
-    void (*spread_runs)(const e3d_run *runs, int count, e3d_batch *batch);
+    /* Adds the samples of as many runs as the batch has room for, which are owned by surfaces; how many runs. A batch of none
+     * takes one at least. */
+    int (*take_runs)(const e3d_run *runs, int count, e3d_batch *batch);
     /* The corners on the screen (R3, R8, R9) of pieces that have no record. */
     void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport);
     /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */
@@ -350,6 +351,8 @@ typedef struct e3d_kernels {
     /* Planes of colours, which are clamped to [0, 1], to RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);
+    /* The colours of a batch, likewise, each to its sample's place in rgba. */
+    void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba);
     /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. There are few lights. */
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
 } e3d_kernels;

@@ -131,7 +131,7 @@ typedef struct e3d_counters {
 typedef struct e3d_group {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance;
-    int32_t first, last; /* of its visible pieces */
+    int32_t first, last, count; /* of its visible pieces */
 } e3d_group;
 
 /* A piece that shows in a tile, and its runs. */
@@ -157,9 +157,6 @@ typedef struct e3d_tile_memory {
     e3d_run spare[E3D_TILE_SAMPLES];      /* while runs are sorted */
     _Alignas(64) e3d_batch batch;
     _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */
-    e3d_run batch_runs[E3D_BATCH]; /* the batch's samples, as runs */
-    int32_t batch_run_count;
-    uint32_t encoded[E3D_BATCH + E3D_PAD];
 } e3d_tile_memory;
 
 typedef struct e3d_worker {
@@ -398,10 +395,11 @@ void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
 /* runs.c */
 /* Sorts runs by owner, and those of one owner as they are; where they are afterwards. */
-const e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
+e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
 /* surface.c */
-/* The pieces of runs that are sorted by their owners, record IDs, chained by group; 0 when memory is out. */
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_run *runs, int32_t count);
+/* The pieces of runs that are sorted by their owners, record IDs, chained by group; 0 when memory is out. Then the runs are owned
+ * by the numbers that the pieces' surfaces get. */
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count);
 /* The surfaces of pieces of a group from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted);
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);

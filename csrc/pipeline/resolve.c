@@ -48,18 +48,7 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
     e3d_tile_memory *memory = worker->tile;
     const e3d_batch *batch = &memory->batch;
     if (context->frame->samples_axis == 1) {
-        context->kernels->encode(batch->color[0], batch->color[1], batch->color[2], batch->count,
-                                 context->srgb, memory->encoded);
-        const uint32_t *from = memory->encoded;
-        for (int32_t i = 0; i < memory->batch_run_count; i++) {
-            const e3d_run *run = &memory->batch_runs[i];
-            if (run->length < 8)
-                for (int k = 0; k < run->length; k++)
-                    memory->rgba[run->sample + k] = from[k];
-            else
-                memcpy(memory->rgba + run->sample, from, 4 * (size_t)run->length);
-            from += run->length;
-        }
+        context->kernels->put(batch, context->srgb, memory->rgba);
         return;
     }
     for (int i = 0; i < batch->count; i++) {
@@ -134,6 +123,7 @@ static void resolve_samples(const e3d_context *context, e3d_worker *worker, cons
     int axis = context->frame->samples_axis;
     for (int y = 0; y < tile->height / axis; y++) {
         float alpha[E3D_TILE];
+        uint32_t encoded[E3D_TILE + E3D_PAD];
         int count = tile->width / axis;
         for (int x = 0; x < count; x++) {
             float mean[3];
@@ -142,10 +132,10 @@ static void resolve_samples(const e3d_context *context, e3d_worker *worker, cons
                 batch->color[k][x] = mean[k];
         }
         context->kernels->encode(batch->color[0], batch->color[1], batch->color[2], count,
-                                 context->srgb, memory->encoded);
+                                 context->srgb, encoded);
         uint8_t *row = context->targets->color +
                        4 * ((size_t)(tile->y / axis + y) * context->frame->width + tile->x / axis);
-        memcpy(row, memory->encoded, 4 * (size_t)count);
+        memcpy(row, encoded, 4 * (size_t)count);
         for (int x = 0; x < count; x++)
             row[4 * x + 3] = (uint8_t)(255.0f * alpha[x] + 0.5f);
     }

@@ -64,7 +64,7 @@ static void sort_by_digit(const e3d_run *from, e3d_run *to, int32_t count, digit
         to[next[digit_of(&from[i], d)][PARTS - 1]++] = from[i];
 }
 
-const e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
+e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
 {
     uint32_t differ = bits_that_differ(runs, count);
     if (differ && count <= FEW) {

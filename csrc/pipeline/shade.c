@@ -158,14 +158,11 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
 }
 
-/* The batch's samples are those of its first `runs` runs. */
 static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                        const e3d_group *group, int32_t runs, int wanted)
+                        const e3d_group *group, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
     const e3d_surfaces *surfaces = &worker->tile->surfaces;
-    context->kernels->spread_runs(worker->tile->batch_runs, runs, batch);
-    worker->tile->batch_run_count = runs;
     worker->counters.shaded += batch->count;
     if (is_painted(context, group)) {
         paint_batch(context, worker, group, wanted);
@@ -188,23 +185,33 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
-/* The samples of pieces whose surfaces, 0 and so on, are known. */
+/* The runs of pieces from `p` on that stand side by side, as those of a tile of one material all do; the first piece that is left. */
+static int32_t find_stretch(const e3d_visible_piece *pieces, int32_t p, int32_t end, int32_t *first_run, int32_t *end_run)
+{
+    *first_run = *end_run = pieces[p].first_run;
+    for (; p != end && pieces[p].first_run == *end_run; p = pieces[p].next)
+        *end_run = pieces[p].end_run;
+    return p;
+}
+
+/* The samples of pieces whose surfaces are known. */
 static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
                          const e3d_group *group, int32_t first, int32_t end, const e3d_run *runs, int wanted)
 {
-    const e3d_visible_piece *pieces = worker->pieces.data;
-    e3d_tile_memory *memory = worker->tile;
-    int32_t surface = 0, samples = 0, count = 0;
-    for (int32_t p = first; p != end; p = pieces[p].next, surface++)
-        for (int32_t r = pieces[p].first_run; r < pieces[p].end_run; r++) {
-            if (samples + runs[r].length > E3D_BATCH) {
-                shade_batch(context, worker, tile, group, count, wanted);
-                samples = count = 0;
-            }
-            memory->batch_runs[count++] = (e3d_run){surface, runs[r].sample, runs[r].length};
-            samples += runs[r].length;
+    e3d_batch *batch = &worker->tile->batch;
+    batch->count = 0;
+    for (int32_t p = first; p != end;) {
+        int32_t run, end_run;
+        p = find_stretch(worker->pieces.data, p, end, &run, &end_run);
+        for (;;) {
+            run += context->kernels->take_runs(runs + run, end_run - run, batch);
+            if (run == end_run)
+                break;
+            shade_batch(context, worker, tile, group, wanted);
+            batch->count = 0;
         }
-    shade_batch(context, worker, tile, group, count, wanted);
+    }
+    shade_batch(context, worker, tile, group, wanted);
 }
 
 static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
@@ -222,7 +229,7 @@ static void shade_group(const e3d_context *context, e3d_worker *worker, const e3
 static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs,
                      int32_t count)
 {
-    const e3d_run *sorted = e3d_sort_runs(runs, worker->tile->spare, count);
+    e3d_run *sorted = e3d_sort_runs(runs, worker->tile->spare, count);
     if (!e3d_find_pieces(context, worker, sorted, count))
         return 0;
     const e3d_group *groups = worker->groups.data;

@@ -175,7 +175,7 @@ static ALWAYS_INLINE void fetch_material(const e3d_record_table *table, uint32_t
     }
 }
 
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_run *runs, int32_t count)
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count)
 {
     enum { AHEAD = 8 };
     const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
@@ -204,6 +204,9 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, const e3d_ru
         pieces[n].group = join_group(context, worker, n, &finder);
         if (pieces[n].group < 0)
             return 0;
+        int32_t number = ((e3d_group *)worker->groups.data)[pieces[n].group].count++;
+        for (int32_t r = i; r < end; r++)
+            runs[r].owner = number % E3D_BATCH_SURFACES;
     }
     worker->pieces.count = (size_t)n;
     return 1;

@@ -256,11 +256,14 @@ cdef class Kernels:
             count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
         return count
 
-    def spread_runs(self, const uint8_t[::1] runs, uint8_t[::1] batch):
+    def take_runs(self, const uint8_t[::1] runs, uint8_t[::1] batch):
+        """Returns how many; with several rounds, the batch is filled further."""
+        cdef int taken = 0
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
-            self.table.spread_runs(<const e3d_run *>&runs[0],
-                                   <int>(runs.shape[0] // sizeof(e3d_run)), <e3d_batch *>&batch[0])
+            taken = self.table.take_runs(<const e3d_run *>&runs[0],
+                                         <int>(runs.shape[0] // sizeof(e3d_run)), <e3d_batch *>&batch[0])
+        return taken
 
     def project(self, uint8_t[::1] surfaces, const uint8_t[::1] viewport):
         check_size(surfaces, sizeof(e3d_surfaces))
@@ -325,6 +328,12 @@ cdef class Kernels:
                bint srgb, uint32_t[::1] rgba):
         for _ in range(self.rounds):
             self.table.encode(&red[0], &green[0], &blue[0], count, srgb, &rgba[0])
+
+    def put(self, const uint8_t[::1] batch, bint srgb, uint32_t[::1] rgba):
+        """``rgba`` has E3D_TILE * E3D_TILE + PAD elements."""
+        check_size(batch, sizeof(e3d_batch))
+        for _ in range(self.rounds):
+            self.table.put(<const e3d_batch *>&batch[0], srgb, &rgba[0])
 
     def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,

@@ -1,4 +1,4 @@
-"""paint gives the pixels that the kernels of each step give one after the other."""
+"""paint: the pixels of what each step's kernel gives after the other; put: those of colours."""
 
 import itertools
 
@@ -17,6 +17,7 @@ from kernels.layouts import (
     WANT_UV,
 )
 from kernels.surfaces import bytes_of, random_batches, random_surfaces
+from kernels.test_encode import expected_bytes
 from kernels.test_light import random_lights, reach_of
 from kernels.test_texture import bordered, chain_sizes
 
@@ -123,3 +124,19 @@ def test_paint(kernels, filter_name, lit):
         differing.update(tile[fields["sample"][: fields["count"]]])
     assert len(differing) > 1000  # colours, not the one value of a broken test
     batches.check_gaps()
+
+
+@all_backends
+@pytest.mark.parametrize("srgb", [False, True])
+def test_put(kernels, srgb):
+    """Each colour where its sample is, whatever stands behind the batch's end."""
+    rng = np.random.default_rng(8)
+    batches = random_batches(rng)
+    random_samples(rng, batches)
+    batches.fields["color"] = rng.random(batches.fields["color"].shape, np.float32)
+    for row, fields in zip(batches.rows, batches.fields, strict=True):
+        count, tile = int(fields["count"]), np.full(SAMPLES + PAD, UNTOUCHED, np.uint32)
+        kernels.put(row, srgb, tile)
+        expected = np.full_like(tile, UNTOUCHED)
+        expected[fields["sample"][:count]] = expected_bytes(fields["color"][:, :count], srgb)
+        assert np.array_equal(tile, expected), f"{count} samples"

@@ -1,4 +1,4 @@
-"""find_runs: neighbouring samples of a row that show the same slot; spread_runs: their samples."""
+"""find_runs: neighbouring samples of a row that show the same slot; take_runs: their samples."""
 
 import itertools
 
@@ -61,9 +61,9 @@ def test_every_width(kernels):
 
 
 def random_runs(rng):
-    """Runs of at most a batch's samples in all, and at least one."""
-    lengths = rng.choice([1, 2, 3, 7, 8, 9, 15, 16, 17, 63, 64], BATCH)
-    lengths = lengths[np.cumsum(lengths) <= rng.integers(64, BATCH + 1)]
+    """Runs of about twice as many samples as a batch holds."""
+    lengths = rng.choice([1, 2, 3, 7, 8, 9, 15, 16, 17, 63, 64], 2 * BATCH)
+    lengths = lengths[np.cumsum(lengths) <= 2 * BATCH]
     runs = np.zeros(len(lengths), RUN)
     runs["owner"], runs["length"] = np.arange(len(runs)) // 2, lengths
     runs["sample"] = rng.integers(0, TILE * TILE - 64, len(runs))
@@ -71,12 +71,20 @@ def random_runs(rng):
 
 
 @all_backends
-def test_spread_runs(kernels):
+def test_take_runs(kernels):
+    """Some at a time: those that fit, in order, and the last sample again behind them."""
     rng = np.random.default_rng(1)
     batches = Records(BATCH_RECORD, 500)
     for row, fields in zip(batches.rows, batches.fields, strict=True):
-        runs = random_runs(rng)
-        kernels.spread_runs(runs.view(np.uint8), row)
+        runs, taken, fields["count"] = random_runs(rng), 0, 0
+        fitting = int(np.searchsorted(np.cumsum(runs["length"]), BATCH, "right"))
+        while taken < fitting:
+            some = runs[taken : taken + rng.integers(1, len(runs))]
+            more = kernels.take_runs(some.view(np.uint8), row)
+            assert more == min(len(some), fitting - taken)
+            taken += more
+        assert kernels.take_runs(runs[taken:].view(np.uint8), row) == 0
+        runs = runs[:taken]
         count = int(runs["length"].sum())
         samples = np.concatenate([run["sample"] + np.arange(run["length"]) for run in runs])
         expected = {"sample": samples, "surface": np.repeat(runs["owner"], runs["length"])}

@@ -23,18 +23,18 @@ static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_p
     combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, color);
 }
 
-/* Lanes past the batch's end are the last sample again. */
-static inline void paint_store(const int32_t *sample, vi32 pixels, uint32_t *rgba)
+/* The first lanes of a vector: all, where those past the batch's end are the last sample again. */
+static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int lanes, uint32_t *rgba)
 {
     vi32 row = v_addi(v_seti(sample[0]), v_iota());
     if (!v_any(v_mnot(v_eqi(v_loadi(sample), row)))) {
         v_storei(rgba + sample[0], pixels);
         return;
     }
-    uint32_t lanes[V_LANES];
-    v_storei(lanes, pixels);
-    for (int lane = 0; lane < V_LANES; lane++)
-        rgba[sample[lane]] = lanes[lane];
+    uint32_t pixel[V_LANES];
+    v_storei(pixel, pixels);
+    for (int lane = 0; lane < lanes; lane++)
+        rgba[sample[lane]] = pixel[lane];
 }
 
 static inline void paint_base(e3d_batch *batch, const float base[3])
@@ -56,13 +56,29 @@ static inline void paint_albedo(e3d_batch *batch, const e3d_surfaces *surfaces, 
     kernel_tint(batch, surfaces, paint->by_vertex, paint->by_instance);
 }
 
-static ALWAYS_INLINE void paint_pixels(const e3d_batch *batch, const e3d_paint *paint, int lit, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_load(const e3d_batch *batch, int i, vf32 color[3])
+{
+    for (int k = 0; k < 3; k++)
+        color[k] = v_loadf(batch->color[k] + i);
+}
+
+static ALWAYS_INLINE void paint_pixels(const e3d_batch *batch, const e3d_paint *paint, float shininess, uint32_t *rgba)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
-        vf32 color[3] = {v_loadf(batch->color[0] + i), v_loadf(batch->color[1] + i), v_loadf(batch->color[2] + i)};
-        if (lit)
-            paint_light(batch, i, paint, shininess, color);
-        paint_store(batch->sample + i, encode_vector(color, paint->srgb), rgba);
+        vf32 color[3];
+        paint_load(batch, i, color);
+        paint_light(batch, i, paint, shininess, color);
+        paint_store(batch->sample + i, encode_vector(color, paint->srgb), V_LANES, rgba);
+    }
+}
+
+static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)
+{
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vf32 color[3];
+        paint_load(batch, i, color);
+        int lanes = batch->count - i < V_LANES ? batch->count - i : V_LANES;
+        paint_store(batch->sample + i, encode_vector(color, srgb), lanes, rgba);
     }
 }
 
@@ -72,9 +88,9 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         kernel_interpolate(batch, surfaces, paint->wanted);
     paint_albedo(batch, surfaces, paint);
     if (paint->lighting && paint->shininess > 0.0f)
-        paint_pixels(batch, paint, 1, paint->shininess, rgba);
+        paint_pixels(batch, paint, paint->shininess, rgba);
     else if (paint->lighting)
-        paint_pixels(batch, paint, 1, 0.0f, rgba);
+        paint_pixels(batch, paint, 0.0f, rgba);
     else
-        paint_pixels(batch, paint, 0, 0.0f, rgba);
+        kernel_put(batch, paint->srgb, rgba);
 }

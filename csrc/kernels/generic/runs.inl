@@ -30,10 +30,10 @@ static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run 
 }
 
 /* Whole vectors are written past a run's end: the next run, or the pad, is written there afterwards. */
-static void kernel_spread_runs(const e3d_run *runs, int count, e3d_batch *batch)
+static int kernel_take_runs(const e3d_run *runs, int count, e3d_batch *batch)
 {
-    int n = 0, pad = 0;
-    for (int r = 0; r < count; r++) {
+    int n = batch->count, r = 0;
+    for (; r < count && n + runs[r].length <= E3D_BATCH; r++) {
         vi32 sample = v_addi(v_seti(runs[r].sample), v_iota()), surface = v_seti(runs[r].owner);
         for (int i = 0; i < runs[r].length; i += V_LANES) {
             v_storei(batch->sample + n + i, sample);
@@ -42,8 +42,10 @@ static void kernel_spread_runs(const e3d_run *runs, int count, e3d_batch *batch)
         }
         n += runs[r].length;
     }
-    for (batch->count = n; pad < E3D_PAD; pad += V_LANES) {
+    for (int pad = 0; pad < E3D_PAD; pad += V_LANES) {
         v_storei(batch->sample + n + pad, v_seti(batch->sample[n - 1]));
         v_storei(batch->surface + n + pad, v_seti(batch->surface[n - 1]));
     }
+    batch->count = n;
+    return r;
 }

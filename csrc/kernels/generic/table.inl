@@ -40,7 +40,7 @@ const e3d_kernels E3D_TABLE = {
     .raster_settle = kernel_raster_settle,
     .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
-    .spread_runs = kernel_spread_runs,
+    .take_runs = kernel_take_runs,
     .project = kernel_project,
     .surface = kernel_surface,
     .interpolate = kernel_interpolate,
@@ -50,5 +50,6 @@ const e3d_kernels E3D_TABLE = {
     .light = kernel_light,
     .combine = kernel_combine,
     .encode = kernel_encode,
+    .put = kernel_put,
     .paint = kernel_paint,
 };

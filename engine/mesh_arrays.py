@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ._native.loaders import is_frozen
 from .errors import InvalidArgumentError
 
 _INT32_MAX = 2**31 - 1
@@ -132,14 +133,7 @@ def _integers(value, what: str, row: tuple[int, ...]) -> np.ndarray:
 
 def _frozen(array: np.ndarray, dtype) -> np.ndarray:
     """Return a read-only array of the type; a copy unless nobody can write to this one."""
-    owner = array if array.base is None else array.base
-    private = (
-        not array.flags.writeable
-        and isinstance(owner, np.ndarray)
-        and owner.base is None
-        and not owner.flags.writeable
-    )
-    if not (private and array.dtype == dtype and array.flags.c_contiguous):
+    if not (is_frozen(array) and array.dtype == dtype and array.flags.c_contiguous):
         with np.errstate(over="ignore", invalid="ignore"):
             array = np.array(array, dtype, order="C")
         array.setflags(write=False)

@@ -116,6 +116,26 @@ static void claim_rows(const element *e)
     free(items);
 }
 
+/* The bytes as rows of one list: as long as the first says, up to ten. */
+static void claim_even_lists(const element *e)
+{
+    const size_t count_size = 1 + e->lists[0].skip % 8, size = 1 + e->lists[1].skip % 8;
+    const size_t held = e->body.end - e->body.start;
+    if (held < count_size)
+        return;
+    const uint64_t length = integer_at(e, count_size, e->body.start) % 11;
+    const size_t stride = count_size + (size_t)length * size, rows = held / stride < e->rows ? held / stride : e->rows;
+    uint8_t *items = room_for(rows * (size_t)length, size);
+    const uint8_t *copied = items;
+    bool are_even = true;
+    for (size_t row = 0; row < rows; row++)
+        are_even &= integer_at(e, count_size, e->body.start + row * stride) == length;
+    CLAIM(e3d_ply_copy_even_lists(&e->body, rows, count_size, length, size, items) == are_even);
+    for (size_t row = 0; row < rows; row++)
+        copied = claim_items(e, e->body.bytes + e->body.start + row * stride + count_size, (size_t)length, size, copied);
+    free(items);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     input in = {bytes, size};
@@ -138,6 +158,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     for (size_t k = 0; problem == E3D_PLY_DONE && k < e.list_count; k++)
         claim_lists(&e, k, &found);
     claim_rows(&e);
+    claim_even_lists(&e);
     free(found.places);
     free(found.starts);
     free(found.sizes);

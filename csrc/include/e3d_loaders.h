@@ -151,7 +151,8 @@ bool e3d_row_numbers_add(e3d_row_numbers *taken, const e3d_rows *rows, int32_t *
 size_t e3d_row_numbers_take(e3d_row_numbers *taken, uint32_t **found);
 void e3d_row_numbers_free(e3d_row_numbers *taken);
 
-/* Whether any two rows are equal: 1 or 0; -1 if memory is out. Faster than numbering where none are. */
+/* Whether any two rows are equal, of one in each record: 1 or 0; -1 if memory is out. Faster than numbering where none
+ * are. */
 int e3d_rows_repeat(const e3d_rows *rows);
 
 typedef enum e3d_sums_problem {
@@ -252,6 +253,10 @@ bool e3d_ply_lengths_are(const e3d_ply_body *body, size_t stride, size_t rows, s
  * start and size to the next one's are `step`. */
 void e3d_ply_copy_lists(const e3d_ply_body *body, const int64_t *starts, const int64_t *sizes,
                         size_t step, size_t rows, size_t item_size, void *items);
+/* The same where rows are nothing but a list, of `length` items in each row, from body->start on and all inside the
+ * bytes; false if one says another length: then the items mean nothing. */
+bool e3d_ply_copy_even_lists(const e3d_ply_body *body, size_t rows, size_t count_size, uint64_t length,
+                             size_t item_size, void *items);
 /* Copies `width` items of each row, from body->start on and `stride` bytes apart. */
 void e3d_ply_copy_rows(const e3d_ply_body *body, size_t stride, size_t rows, size_t width,
                        size_t item_size, void *items);

@@ -5,6 +5,7 @@
  * Always: e3d_ply_walk() reads nothing outside the bytes, whatever the lengths of lists say; what copies
  *      believes the places that it found.
  */
+#include "core/always_inline.h"
 #include "e3d_loaders.h"
 
 #include <string.h>
@@ -116,4 +117,29 @@ void e3d_ply_copy_rows(const e3d_ply_body *body, size_t stride, size_t rows, siz
         from += stride;
         to += width * item_size;
     }
+}
+
+/* Inlined for sizes that are constants. */
+static ALWAYS_INLINE bool copy_even(const uint8_t *from, size_t rows, size_t count_size, uint64_t length,
+                                    size_t item_size, bool is_big_endian, uint8_t *to)
+{
+    const size_t bytes = (size_t)length * item_size;
+    const bool swap = is_big_endian != IS_BIG_ENDIAN_HERE;
+    uint64_t differs = 0;
+    for (size_t row = 0; row < rows; row++, from += count_size + bytes, to += bytes) {
+        differs |= read_integer(from, count_size, is_big_endian) ^ length;
+        copy_items(from + count_size, (size_t)length, item_size, swap, to);
+    }
+    return !differs;
+}
+
+bool e3d_ply_copy_even_lists(const e3d_ply_body *body, size_t rows, size_t count_size, uint64_t length,
+                             size_t item_size, void *items)
+{
+    const uint8_t *const from = body->bytes + body->start;
+    const bool is_big_endian = body->is_big_endian;
+    if (count_size == 1 && length == 3 && item_size == 4)
+        return is_swapped(body) ? copy_even(from, rows, 1, 3, 4, is_big_endian, items)
+                                : copy_even(from, rows, 1, 3, 4, IS_BIG_ENDIAN_HERE, items);
+    return copy_even(from, rows, count_size, length, item_size, is_big_endian, items);
 }

@@ -1,8 +1,8 @@
 /* Whether any two rows of a table are equal; faster than numbering them where none are.
  *
  * In:  rows of words. Out: yes or no.
- * Each row marks a bit of a map that its hash chooses. Rows that share their bit with another are few, and only
- * they are numbered.
+ * Each row marks two bits of a map that its hash chooses. Rows that share both with others are few, and only they are
+ * numbered.
  */
 #include "core/large_pages.h"
 #include "loaders/rows.h"
@@ -10,11 +10,11 @@
 #include <stdlib.h>
 
 #define BLOCK 256
-/* Of the map for each row: about one row of nine shares its bit with an unequal one. */
+/* Of the map for each row: about one row of thirty shares its bits with unequal ones. */
 #define BITS 8
 
 typedef struct word {
-    uint64_t seen, again; /* whether any row has the bit, and whether several have */
+    uint64_t seen, again; /* which bits any row has, and which rows that found all of theirs */
 } word;
 
 typedef struct map {
@@ -23,37 +23,38 @@ typedef struct map {
     uint32_t *hashes; /* [rows] */
 } map;
 
-/* The upper bits of a hash choose the word, the lower ones the bit. */
+/* The upper bits of a hash choose the word, the lower ones the two bits. */
 static inline word *word_of(const map *m, uint32_t hash) { return &m->words[(uint64_t)hash * m->count >> 32]; }
 
-static inline uint64_t bit_of(uint32_t hash) { return UINT64_C(1) << hash % 64; }
+static inline uint64_t bits_of(uint32_t hash) { return UINT64_C(1) << hash % 64 | UINT64_C(1) << hash / 64 % 64; }
 
-/* Hashes the next rows, and marks them; inlined for each width. */
-static ALWAYS_INLINE void mark_block(map *m, e3d_row_reader *in, size_t count, size_t width,
-                                     e3d_row_seeds seeds, uint32_t *hashes)
+/* Hashes rows, one behind another, and marks them; inlined for each width. */
+static ALWAYS_INLINE void mark_block(map *m, const uint8_t *row, size_t stride, size_t count, size_t width,
+                                     uint32_t zero, e3d_row_seeds seeds, uint32_t *hashes)
 {
-    const uint32_t zero = e3d_zero_of(in->rows->are_floats);
     for (size_t k = 0; k < count; k++) {
-        hashes[k] = (uint32_t)(e3d_hash_row(e3d_next_row(in, width), width, zero, seeds) >> 16);
+        hashes[k] = (uint32_t)(e3d_hash_row(row + k * stride, width, zero, seeds) >> 16);
         __builtin_prefetch(word_of(m, hashes[k]), 1);
     }
     for (size_t k = 0; k < count; k++) {
         word *const w = word_of(m, hashes[k]);
-        w->again |= w->seen & bit_of(hashes[k]);
-        w->seen |= bit_of(hashes[k]);
+        const uint64_t bits = bits_of(hashes[k]);
+        w->again |= (~w->seen & bits) == 0 ? bits : 0;
+        w->seen |= bits;
     }
 }
 
 static void mark_rows(map *m, const e3d_rows *rows)
 {
     const e3d_row_seeds seeds = e3d_random_seeds();
-    e3d_row_reader in = e3d_read_rows(rows);
+    const uint32_t zero = e3d_zero_of(rows->are_floats);
     for (size_t row = 0; row < rows->count; row += BLOCK) {
         const size_t left = rows->count - row, count = left < BLOCK ? left : BLOCK;
+        const uint8_t *const at = rows->bytes + row * rows->stride;
         if (rows->width == 3)
-            mark_block(m, &in, count, 3, seeds, m->hashes + row);
+            mark_block(m, at, rows->stride, count, 3, zero, seeds, m->hashes + row);
         else
-            mark_block(m, &in, count, rows->width, seeds, m->hashes + row);
+            mark_block(m, at, rows->stride, count, rows->width, zero, seeds, m->hashes + row);
     }
 }
 
@@ -64,7 +65,7 @@ static size_t find_suspects(const map *m, size_t rows)
     for (size_t i = 0; i < rows; i++) {
         const uint32_t hash = m->hashes[i];
         m->hashes[count] = (uint32_t)i;
-        count += (word_of(m, hash)->again & bit_of(hash)) != 0;
+        count += (~word_of(m, hash)->again & bits_of(hash)) == 0;
     }
     return count;
 }
@@ -77,9 +78,7 @@ static int suspects_repeat(const e3d_rows *rows, const uint32_t *suspects, size_
     if (!copies)
         return -1;
     for (size_t i = 0; i < count; i++)
-        memcpy(copies + i * size,
-               rows->bytes + suspects[i] / rows->in_record * rows->stride + suspects[i] % rows->in_record * size,
-               size);
+        memcpy(copies + i * size, rows->bytes + suspects[i] * rows->stride, size);
     const e3d_rows few = {copies, count, rows->width, 1, size, rows->are_floats};
     const int repeat = e3d_few_rows_repeat(&few);
     free(copies);

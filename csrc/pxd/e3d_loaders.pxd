@@ -172,6 +172,9 @@ cdef extern from "e3d_loaders.h" nogil:
     void e3d_ply_copy_lists(
         const e3d_ply_body *body, const int64_t *starts, const int64_t *sizes, size_t step,
         size_t rows, size_t item_size, void *items)
+    bint e3d_ply_copy_even_lists(
+        const e3d_ply_body *body, size_t rows, size_t count_size, uint64_t length, size_t item_size,
+        void *items)
     void e3d_ply_copy_rows(
         const e3d_ply_body *body, size_t stride, size_t rows, size_t width, size_t item_size,
         void *items)

@@ -8,6 +8,7 @@ that `ply_tables` reads both in one way.
 from __future__ import annotations
 
 import re
+import sys
 from contextlib import suppress
 from itertools import islice
 from typing import NamedTuple
@@ -23,6 +24,7 @@ from .text import shown
 
 _COMMENT = re.compile(rb"(?:^|(?<=[\r\n]))[ \t]*(?:comment|obj_info)\b[^\r\n]*")
 _WORD = re.compile(rb"\S+")
+_ORDER_HERE = "<" if sys.byteorder == "little" else ">"
 # The bytes that most first rows are shorter than.
 _NEAR = 1 << 12
 
@@ -137,13 +139,9 @@ class BinaryStore:
         items = native.large_array((rows, length), code)
         for first, data in self._source.pieces(place, stride, rows):
             count = len(data) // stride
-            if not native.ply_lengths_are(
-                data, self._is_big_endian, 0, stride, count, before, length
-            ):
+            block = items[first : first + count]
+            if not native.copy_even_ply_lists(data, self._is_big_endian, before, block):
                 return None
-            native.copy_ply_rows(
-                data, self._is_big_endian, before, stride, items[first : first + count]
-            )
         return items
 
     def lists(self, walked: WalkedRows, number: int, code: str) -> np.ndarray:
@@ -161,6 +159,9 @@ class BinaryStore:
         The first row stands at ``place``, its numbers ``offset`` behind it.
         """
         items = native.large_array(shape, code)
+        if items.nbytes == stride * shape[0] and self._order == _ORDER_HERE:
+            self._source.read_into(items, place)
+            return items
         for first, data in self._source.pieces(place, stride, shape[0]):
             block = items[first : first + len(data) // stride]
             native.copy_ply_rows(data, self._is_big_endian, offset, stride, block)

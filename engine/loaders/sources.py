@@ -12,6 +12,8 @@ import stat
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
+import numpy as np
+
 from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
 from .open_files import OpenFile, unreadable
 
@@ -71,6 +73,14 @@ class Source(NamedTuple):
         if isinstance(self.content, OpenFile):
             return self.content.head(count)
         return self.content[:count]
+
+    def read_into(self, array: np.ndarray, start: int) -> None:
+        """Fill an array with the bytes from ``start`` on, all of which are inside."""
+        view = memoryview(array.reshape(-1).view(np.uint8))
+        if isinstance(self.content, OpenFile) and not self.content.is_whole:
+            self.content.read_into(view, start)
+        else:
+            view[:] = memoryview(self.data)[start : start + len(view)]
 
     def pieces(self, start: int, stride: int, rows: int) -> Iterator[tuple[int, memoryview]]:
         """Go along rows of ``stride`` bytes from ``start`` on, all of which are inside.

@@ -1,0 +1,103 @@
+# Part of loaders.pyx: memory that C allocated, or the bytes of a file, as Python's.
+#
+# In:  sizes, or what C hands over.
+# Out: arrays over memory in large pages; once frozen, nobody can write to it any more.
+
+cdef extern from *:
+    """
+    #include <sys/mman.h>
+    #ifndef MADV_POPULATE_WRITE
+    #define MADV_POPULATE_WRITE 23
+    #endif
+    """
+    int madvise(void *start, size_t size, int advice) nogil
+    int MADV_HUGEPAGE, MADV_POPULATE_WRITE
+
+cdef extern from "core/large_pages.h":
+    void *e3d_large_memory(size_t bytes) nogil
+    size_t E3D_LARGE_ROOM
+
+cdef size_t PAGE = 1 << 12, LARGE_PAGE = 1 << 21
+
+
+def read_bytes(readinto, Py_ssize_t size):
+    """Read at most ``size`` bytes by ``readinto(view) -> count`` until it says 0.
+
+    As `io.FileIO.read` does, but into large pages: many small ones take longer to come than the
+    bytes of a file.
+    """
+    data = PyBytes_FromStringAndSize(NULL, size)
+    cdef char *start = PyBytes_AS_STRING(data)
+    cdef size_t skip = -<size_t>start % LARGE_PAGE
+    if <size_t>size >= E3D_LARGE_ROOM:
+        madvise(start + skip, (<size_t>size - skip) // LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE)
+    cdef Py_ssize_t done = 0, count
+    while done < size:
+        count = readinto(PyMemoryView_FromMemory(start + done, size - done, PyBUF_WRITE))
+        if count == 0:
+            return data[:done]
+        done += count
+    return data
+
+
+cdef class OwnedMemory:
+    """Memory that free() takes back; read-only once it is frozen."""
+
+    cdef void *data
+    cdef Py_ssize_t size
+    cdef readonly bint is_frozen
+
+    def __dealloc__(self):
+        free(self.data)
+
+    def __getbuffer__(self, Py_buffer *buffer, int flags):
+        PyBuffer_FillInfo(buffer, self, self.data, self.size, self.is_frozen, flags)
+
+
+cdef object owned(void **data, size_t count, object dtype):
+    """An array over what C allocated, which it frees; `data` is taken over."""
+    if data[0] == NULL or count == 0:
+        return np.empty(0, dtype)
+    cdef OwnedMemory memory = OwnedMemory.__new__(OwnedMemory)
+    memory.data, memory.size = data[0], count * <size_t>dtype.itemsize
+    data[0] = NULL
+    return np.ndarray((count,), dtype, memory)
+
+
+def large_array(shape, dtype):
+    """Return an array of any content, in large pages where it is large."""
+    dtype = np.dtype(dtype)
+    cdef size_t size = dtype.itemsize * int(np.prod(shape, dtype=object)), large
+    if size < LARGE_PAGE:
+        return np.empty(shape, dtype)
+    cdef void *data = e3d_large_memory(size)
+    if data == NULL:
+        raise MemoryError
+    # Small pages come faster all at once; where the system cannot, they come one by one.
+    large = size // LARGE_PAGE * LARGE_PAGE if size >= E3D_LARGE_ROOM else PAGE
+    if size > large:
+        madvise(<char *>data + large - (<size_t>data + large) % PAGE, size - large, MADV_POPULATE_WRITE)
+    return owned(&data, size, np.dtype(np.uint8)).view(dtype).reshape(shape)
+
+
+def frozen(array):
+    """Make an array read-only, and what owns its memory; return it."""
+    array.setflags(write=False)
+    owner = array
+    while isinstance(owner.base, np.ndarray):
+        owner = owner.base
+        owner.setflags(write=False)
+    if isinstance(owner.base, OwnedMemory):
+        (<OwnedMemory>owner.base).is_frozen = True
+    return array
+
+
+def is_frozen(array):
+    """Tell whether nobody can write to an array's memory."""
+    if array.flags.writeable:
+        return False
+    while isinstance(array.base, np.ndarray):
+        array = array.base
+    if isinstance(array.base, OwnedMemory):
+        return bool((<OwnedMemory>array.base).is_frozen)
+    return array.base is None and not array.flags.writeable

@@ -1,0 +1,121 @@
+# Part of loaders.pyx: what is derived from faces: normals, edges, triangles of polygons.
+#
+# In:  positions and indices.
+# Out: arrays; indices that are out of range raise.
+
+def smooth_sums(positions, const int32_t[:, ::1] faces not None,
+                const int32_t[:, ::1] groups not None, size_t count, size_t block):
+    """Add up the angle-weighted normals of corners (F, 3) by group: (count, 3) float64.
+
+    ``positions`` (V, 3) are float64 or float32; ``block`` triangles are added up at a time.
+    """
+    cdef const double[:, ::1] doubles
+    cdef const float[:, ::1] floats
+    cdef e3d_surface surface
+    sums = np.zeros((count, 3), np.float64)
+    if faces.shape[0] == 0 or count == 0:
+        return sums
+    if len(positions) == 0 or faces.shape[1] != 3 or groups.shape[1] != 3 or (
+            groups.shape[0] != faces.shape[0]) or positions.shape[1] != 3 or block == 0:
+        raise InvalidArgumentError("the triangles have no positions or no groups")
+    surface.are_doubles = positions.dtype == np.float64
+    if surface.are_doubles:
+        doubles = positions
+        surface.positions = &doubles[0, 0]
+    else:
+        floats = positions
+        surface.positions = &floats[0, 0]
+    surface.faces, surface.groups = &faces[0, 0], &groups[0, 0]
+    surface.position_count, surface.face_count = len(positions), faces.shape[0]
+    surface.group_count = count
+    cdef double[:, ::1] view = sums
+    cdef e3d_sums_problem problem
+    with nogil:
+        problem = e3d_smooth_sums(&surface, block, &view[0, 0])
+    if problem == E3D_SUMS_NO_MEMORY:
+        raise OutOfMemoryError("no memory for the normals of a mesh")
+    if problem != E3D_SUMS_DONE:
+        raise InvalidArgumentError("a face holds an index that is out of range")
+    return sums
+
+
+def find_edges(const int32_t[:, ::1] faces not None, const int32_t[::1] points,
+               const uint8_t[::1] wanted, size_t count):
+    """Mark the first of all sides between two points: (3 F,) uint8.
+
+    ``points`` (V,) are the vertices' points, below ``count``, or None if each vertex is its own;
+    ``wanted`` (3 F,) leaves out sides where it is 0.
+    """
+    cdef e3d_sides sides = e3d_sides(NULL, NULL, NULL, faces.shape[0], count)
+    first = np.zeros(3 * faces.shape[0], np.uint8)
+    cdef uint8_t[::1] view = first
+    cdef bint done = True
+    if faces.shape[0] == 0:
+        return first
+    if faces.shape[1] != 3 or (wanted is not None and wanted.shape[0] != view.shape[0]):
+        raise InvalidArgumentError("faces must be (F, 3), wanted (3 F,)")
+    vertices = count if points is None else points.shape[0]
+    low, high = np.min(faces), np.max(faces)
+    if low < 0 or high >= vertices:
+        raise InvalidArgumentError("a face holds an index that is out of range")
+    if points is not None and (np.min(points) < 0 or np.max(points) >= count):
+        raise InvalidArgumentError("a vertex is a point that is out of range")
+    sides.faces = &faces[0, 0]
+    if points is not None:
+        sides.points = &points[0]
+    if wanted is not None:
+        sides.wanted = &wanted[0]
+    with nogil:
+        done = e3d_find_edges(&sides, &view[0])
+    if not done:
+        raise OutOfMemoryError("no memory for the edges of a mesh")
+    return first
+
+
+def cut_polygons(const int32_t[::1] sizes not None, positions, const int32_t[::1] indices,
+                 size_t corners, size_t triangles, int64_t tests):
+    """Cut polygons (P,) of so many corners each into so many triangles.
+
+    ``indices`` (C,) are the corners' positions; None if they are the first of ``positions`` (V, 3),
+    float64 or float32. Returns corner numbers (T, 3) int32, the polygon of each triangle (T,)
+    int32, which edges are the polygons' (T, 3) bool or None, whether no concave polygon was cut as
+    a fan, and how many tests are left.
+    """
+    cdef e3d_polygons given = e3d_polygons(NULL, NULL, NULL, False, sizes.shape[0], corners, 0)
+    cdef const double[:, ::1] doubles
+    cdef const float[:, ::1] floats
+    cdef e3d_cut made
+    cdef e3d_cut_problem problem
+    cut = large_array((triangles, 3), np.int32)
+    polygons = large_array((triangles,), np.int32)
+    visible = large_array((triangles, 3), np.bool_)
+    if triangles == 0:
+        return cut, polygons, None, True, tests
+    given.position_count = len(positions)
+    if given.position_count == 0 or positions.shape[1] != 3 or (
+            (np.maximum(sizes, 2) - 2).sum() != triangles) or (
+            indices is not None and <size_t>indices.shape[0] != corners):
+        raise InvalidArgumentError("the corners of polygons do not match")
+    given.are_doubles = positions.dtype == np.float64
+    if given.are_doubles:
+        doubles = positions
+        given.positions = &doubles[0, 0]
+    else:
+        floats = positions
+        given.positions = &floats[0, 0]
+    given.sizes = &sizes[0]
+    if indices is not None:
+        given.indices = &indices[0]
+    cdef int32_t[:, ::1] cut_view = cut
+    cdef int32_t[::1] polygon_view = polygons
+    cdef uint8_t[:, ::1] visible_view = visible.view(np.uint8)
+    made.corners, made.polygons = &cut_view[0, 0], &polygon_view[0]
+    made.visible = &visible_view[0, 0]
+    with nogil:
+        problem = e3d_cut_polygons(&given, &tests, &made)
+    if problem == E3D_CUT_NO_MEMORY:
+        raise OutOfMemoryError("no memory to cut the polygons of a mesh")
+    if problem != E3D_CUT_DONE:
+        raise InvalidArgumentError("a polygon has an index that is out of range")
+    edges = None if made.all_visible else frozen(visible)
+    return cut, polygons, edges, bool(made.is_complete), tests

@@ -104,5 +104,13 @@ def located(message: str, path: str | None, line: int | None = None) -> str:
     """Return ``message`` with the place it speaks of in front: ``FILE:LINE: message``."""
     if path is None:
         return message
+    path = printable(path)
     place = path if line is None else f"{path}:{line}"
     return f"{place}: {message}"
+
+
+def printable(text: str) -> str:
+    """Return a name from outside on one line: what would steer a terminal as Python writes it."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -7,7 +7,7 @@ import json
 import sys
 import warnings
 
-from ..errors import Engine3DWarning
+from ..errors import Engine3DWarning, printable
 from ..linalg import transform_points
 from ..loaders import load_document
 from ..mesh import Mesh
@@ -21,7 +21,8 @@ def info(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps(report, indent=2))
     else:
-        print("\n".join(report_lines(report)))
+        # Names from the file must neither steer the terminal nor look like other lines.
+        print("\n".join(map(printable, report_lines(report))))
     return 0
 
 

@@ -163,7 +163,11 @@ def _read_text(source: Source, warnings: WarningList) -> _Facets:
     count = len(ends) - 1
     _require_facets(count, source)
     budget = WorkBudget.for_file(source.size)
-    cut = triangulate(np.diff(ends), corners, budget)
+    sizes = np.diff(ends)
+    short = int((sizes < 3).sum())
+    if short:
+        warnings.add(f"{short} facets of fewer than three corners are left out")
+    cut = triangulate(sizes, corners, budget)
     if not cut.is_complete:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     place, first = number_rows(corners)

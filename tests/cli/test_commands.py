@@ -288,6 +288,16 @@ def test_info(model, capsys):
     assert [item["faces"] for item in report["objects"]] == [2]
 
 
+def test_info_shows_names_that_would_steer_the_terminal(tmp_path, capsys):
+    path = tmp_path / "a\nb.obj"
+    path.write_text("o \x1b[31mred\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert main(["info", str(path)]) == 0
+    printed = capsys.readouterr().out
+    assert "a\\nb.obj: obj\n" in printed
+    assert "object \\x1b[31mred: 3 vertices" in printed
+    assert "\x1b" not in printed
+
+
 def test_info_of_a_file_that_is_no_model(tmp_path, capsys):
     (tmp_path / "a.obj").write_text("v 1 2\n")
     assert main(["info", "a.obj"]) == 1

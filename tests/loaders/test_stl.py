@@ -5,7 +5,7 @@ import struct
 import numpy as np
 import pytest
 
-from engine3d.errors import FileFormatError
+from engine3d.errors import Engine3DWarning, FileFormatError
 from engine3d.loaders import load_document, load_mesh
 
 TRIANGLE = """  facet normal 0 0 1
@@ -70,6 +70,13 @@ def test_polygons_keep_their_diagonals_hidden(load):
     mesh = load(TEXT.replace("vertex 1 0 0\n", "vertex 1 0 0\nvertex 1 1 0\n"))
     assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
     assert mesh.edge_visible.sum() == 4
+
+
+def test_facets_of_fewer_corners_are_left_out_and_told_of(load):
+    line = "      vertex 1 0 0\n"
+    text = f"solid part\n{TRIANGLE.format(x=1)}{TRIANGLE.format(x=1).replace(line, '')}endsolid\n"
+    with pytest.warns(Engine3DWarning, match="1 facets of fewer than three corners are left out"):
+        assert len(load(text).faces) == 1
 
 
 def test_solids_are_objects(write):

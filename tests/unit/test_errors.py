@@ -40,3 +40,17 @@ def test_errors_survive_pickling():
     assert str(error) == "a.obj:3: wrong"
     error = pickle.loads(pickle.dumps(errors.FileAccessError("no such file", "a.obj")))
     assert str(error) == "a.obj: no such file"
+
+
+@pytest.mark.parametrize(
+    "path, shown",
+    [
+        ("a\nb.obj", "a\\nb.obj"),
+        ("\x1b[31mred.obj", "\\x1b[31mred.obj"),
+        ("not\udcffutf8.obj", "not\\udcffutf8.obj"),
+        ("b\u00fccher ok.obj", "b\u00fccher ok.obj"),
+    ],
+)
+def test_a_message_is_one_line_whatever_the_file_is_called(path, shown):
+    assert str(errors.FileFormatError("wrong", path, 2)) == f"{shown}:2: wrong"
+    assert str(errors.FileAccessError("wrong", path)) == f"{shown}: wrong"

@@ -330,9 +330,9 @@ typedef struct e3d_kernels {
     void (*raster_measure)(e3d_visible_tile *tile);
     /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
     int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
-    /* Adds the samples of as many runs as the batch has room for, which are owned by surfaces; how many runs. A batch of none
-     * takes one at least. */
-    int (*take_runs)(const e3d_run *runs, int count, e3d_batch *batch);
+    /* Adds the samples of as many runs as the batch has room for; how many runs. A batch of none takes one at least. The run of
+     * owner `first` is of surface 0, the others follow. */
+    int (*take_runs)(const e3d_run *runs, int count, int32_t first, e3d_batch *batch);
     /* The corners on the screen (R3, R8, R9) of pieces that have no record. */
     void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport);
     /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */

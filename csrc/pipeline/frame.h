@@ -131,7 +131,7 @@ typedef struct e3d_counters {
 typedef struct e3d_group {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance;
-    int32_t first, last, count; /* of its visible pieces */
+    int32_t first, last; /* of its visible pieces */
 } e3d_group;
 
 /* A piece that shows in a tile, and its runs. */
@@ -397,8 +397,8 @@ int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_til
 /* Sorts runs by owner, and those of one owner as they are; where they are afterwards. */
 e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
 /* surface.c */
-/* The pieces of runs that are sorted by their owners, record IDs, chained by group; 0 when memory is out. Then the runs are owned
- * by the numbers that the pieces' surfaces get. */
+/* The pieces of runs that are sorted by their owners, record IDs, chained by group; 0 when memory is out. Then the pieces own
+ * the runs. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count);
 /* The surfaces of pieces of a group from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted);

@@ -185,31 +185,42 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
-/* The runs of pieces from `p` on that stand side by side, as those of a tile of one material all do; the first piece that is left. */
-static int32_t find_stretch(const e3d_visible_piece *pieces, int32_t p, int32_t end, int32_t *first_run, int32_t *end_run)
+/* Pieces of a chain that stand side by side, and so do their runs, as in a tile of one material all do. */
+typedef struct stretch {
+    int32_t first, end; /* pieces */
+    int32_t run, end_run;
+} stretch;
+
+/* The one that begins with piece `first`; the piece behind it in the chain. */
+static int32_t find_stretch(const e3d_visible_piece *pieces, int32_t first, int32_t end, stretch *out)
 {
-    *first_run = *end_run = pieces[p].first_run;
-    for (; p != end && pieces[p].first_run == *end_run; p = pieces[p].next)
-        *end_run = pieces[p].end_run;
+    int32_t p = first;
+    *out = (stretch){first, first, pieces[first].first_run, pieces[first].first_run};
+    for (; p != end && p == out->end; p = pieces[p].next) {
+        out->end_run = pieces[p].end_run;
+        out->end++;
+    }
     return p;
 }
 
-/* The samples of pieces whose surfaces are known. */
+/* The samples of pieces whose surfaces, 0 and so on, are known. */
 static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
                          const e3d_group *group, int32_t first, int32_t end, const e3d_run *runs, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
+    int32_t surface = 0;
     batch->count = 0;
     for (int32_t p = first; p != end;) {
-        int32_t run, end_run;
-        p = find_stretch(worker->pieces.data, p, end, &run, &end_run);
+        stretch s;
+        p = find_stretch(worker->pieces.data, p, end, &s);
         for (;;) {
-            run += context->kernels->take_runs(runs + run, end_run - run, batch);
-            if (run == end_run)
+            s.run += context->kernels->take_runs(runs + s.run, s.end_run - s.run, s.first - surface, batch);
+            if (s.run == s.end_run)
                 break;
             shade_batch(context, worker, tile, group, wanted);
             batch->count = 0;
         }
+        surface += s.end - s.first;
     }
     shade_batch(context, worker, tile, group, wanted);
 }

@@ -186,9 +186,10 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *run
         return 0;
     e3d_visible_piece *pieces = worker->pieces.data;
     for (int32_t i = 0, end; i < count; i = end, n++) {
-        uint32_t id = (uint32_t)runs[i].owner;
-        for (end = i + 1; end < count && runs[end].owner == runs[i].owner;)
-            end++;
+        int32_t owner = runs[i].owner;
+        uint32_t id = (uint32_t)owner;
+        for (end = i; end < count && runs[end].owner == owner; end++)
+            runs[end].owner = n;
         if (end + 2 * AHEAD < count) {
             fetch_named(table, (uint32_t)runs[end + 2 * AHEAD].owner);
             fetch_number(table, (uint32_t)runs[end + AHEAD].owner);
@@ -204,9 +205,6 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *run
         pieces[n].group = join_group(context, worker, n, &finder);
         if (pieces[n].group < 0)
             return 0;
-        int32_t number = ((e3d_group *)worker->groups.data)[pieces[n].group].count++;
-        for (int32_t r = i; r < end; r++)
-            runs[r].owner = number % E3D_BATCH_SURFACES;
     }
     worker->pieces.count = (size_t)n;
     return 1;

@@ -149,7 +149,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
         void (*raster_measure)(e3d_visible_tile *tile)
         int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
-        int (*take_runs)(const e3d_run *runs, int count, e3d_batch *batch)
+        int (*take_runs)(const e3d_run *runs, int count, int32_t first, e3d_batch *batch)
         void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport)
         void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)
         void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)

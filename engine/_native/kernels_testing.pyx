@@ -256,13 +256,14 @@ cdef class Kernels:
             count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
         return count
 
-    def take_runs(self, const uint8_t[::1] runs, uint8_t[::1] batch):
+    def take_runs(self, const uint8_t[::1] runs, int32_t first, uint8_t[::1] batch):
         """Returns how many; with several rounds, the batch is filled further."""
         cdef int taken = 0
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
             taken = self.table.take_runs(<const e3d_run *>&runs[0],
-                                         <int>(runs.shape[0] // sizeof(e3d_run)), <e3d_batch *>&batch[0])
+                                         <int>(runs.shape[0] // sizeof(e3d_run)), first,
+                                         <e3d_batch *>&batch[0])
         return taken
 
     def project(self, uint8_t[::1] surfaces, const uint8_t[::1] viewport):

@@ -77,17 +77,19 @@ def test_take_runs(kernels):
     batches = Records(BATCH_RECORD, 500)
     for row, fields in zip(batches.rows, batches.fields, strict=True):
         runs, taken, fields["count"] = random_runs(rng), 0, 0
+        first = int(rng.integers(-5, 6))
         fitting = int(np.searchsorted(np.cumsum(runs["length"]), BATCH, "right"))
         while taken < fitting:
             some = runs[taken : taken + rng.integers(1, len(runs))]
-            more = kernels.take_runs(some.view(np.uint8), row)
+            more = kernels.take_runs(some.view(np.uint8), first, row)
             assert more == min(len(some), fitting - taken)
             taken += more
-        assert kernels.take_runs(runs[taken:].view(np.uint8), row) == 0
+        assert kernels.take_runs(runs[taken:].view(np.uint8), first, row) == 0
         runs = runs[:taken]
         count = int(runs["length"].sum())
         samples = np.concatenate([run["sample"] + np.arange(run["length"]) for run in runs])
-        expected = {"sample": samples, "surface": np.repeat(runs["owner"], runs["length"])}
+        surfaces = np.repeat(runs["owner"] - first, runs["length"])
+        expected = {"sample": samples, "surface": surfaces}
         assert fields["count"] == count
         for name, values in expected.items():
             got = fields[name][: count + PAD]

@@ -30,11 +30,11 @@ static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run 
 }
 
 /* Whole vectors are written past a run's end: the next run, or the pad, is written there afterwards. */
-static int kernel_take_runs(const e3d_run *runs, int count, e3d_batch *batch)
+static int kernel_take_runs(const e3d_run *runs, int count, int32_t first, e3d_batch *batch)
 {
     int n = batch->count, r = 0;
     for (; r < count && n + runs[r].length <= E3D_BATCH; r++) {
-        vi32 sample = v_addi(v_seti(runs[r].sample), v_iota()), surface = v_seti(runs[r].owner);
+        vi32 sample = v_addi(v_seti(runs[r].sample), v_iota()), surface = v_seti(runs[r].owner - first);
         for (int i = 0; i < runs[r].length; i += V_LANES) {
             v_storei(batch->sample + n + i, sample);
             v_storei(batch->surface + n + i, surface);

@@ -42,8 +42,8 @@ static void add_triangle(e3d_small_triangles *to, const e3d_vertices *v, const u
     to->id[n] = id;
 }
 
-void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices,
-                       uint64_t triangles)
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const e3d_vertices *vertices,
+                       const uint8_t *indices, uint64_t triangles)
 {
     e3d_fragment_set *set = &worker->fragments;
     int bits = context->tables[E3D_PASS_SCENE].bits;
@@ -57,7 +57,7 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
         e3d_fragments_flush(context, worker);
     for (uint64_t left = triangles; left; left &= left - 1) {
         int triangle = __builtin_ctzll(left);
-        add_triangle(&set->triangles, &worker->vertices, indices, triangle, first + (triangle << bits));
+        add_triangle(&set->triangles, vertices, indices, triangle, first + (triangle << bits));
     }
 }
 

@@ -162,7 +162,7 @@ typedef struct e3d_tile_memory {
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
     e3d_fragment_set fragments;
-    e3d_vertices vertices;
+    e3d_vertices vertices[2]; /* of the cluster that is drawn, and of the next */
     e3d_survivors survivors;
     e3d_tile_memory *tile;
     e3d_visible_tile *visible; /* of the tile that is being drawn */
@@ -364,8 +364,8 @@ int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
 /* Whether a cluster more can have IDs. */
 int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker);
 /* Takes small triangles of a cluster, a bit each, which become fragments now or later. */
-void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const uint8_t *indices,
-                       uint64_t triangles);
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const e3d_vertices *vertices,
+                       const uint8_t *indices, uint64_t triangles);
 /* All that were taken become fragments. */
 void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 /* Draws a tile's fragments, or those of the round that finished it. */

@@ -19,6 +19,7 @@ typedef struct walker {
     const e3d_draw_state *draw;
     const e3d_instance *instance;
     uint32_t order; /* of the instance's first primitive */
+    const e3d_vertices *vertices; /* of the cluster that is drawn */
 } walker;
 
 /* ---- triangles ---- */
@@ -56,7 +57,7 @@ static e3d_primitive face_primitive(const walker *w, int32_t face)
 /* With the key that painter's algorithm sorts by. */
 static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
-    const e3d_vertices *v = &w->worker->vertices;
+    const e3d_vertices *v = w->vertices;
     e3d_corner corner[3];
     for (int k = 0; k < 3; k++) {
         int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
@@ -70,7 +71,7 @@ static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *
 
 static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
-    const e3d_vertices *v = &w->worker->vertices;
+    const e3d_vertices *v = w->vertices;
     const e3d_viewport *viewport = &w->context->viewport;
     float corner[3][4];
     e3d_clip_vertex polygon[E3D_CLIP_MAX];
@@ -130,7 +131,7 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
     for (uint64_t left = triangles; left; left &= left - 1)
         list[count++] = (uint8_t)__builtin_ctzll(left);
     memset(list + count, 0, E3D_PAD);
-    const e3d_record_request request = {.vertices = &w->worker->vertices, .indices = indices, .triangles = list,
+    const e3d_record_request request = {.vertices = w->vertices, .indices = indices, .triangles = list,
                                         .count = count, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
                                         .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->viewport};
     draw_records(w, &request);
@@ -156,7 +157,7 @@ static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t 
 /* The small triangles that are culled, where some materials are two-sided. */
 static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t one_sided)
 {
-    const e3d_vertices *v = &w->worker->vertices;
+    const e3d_vertices *v = w->vertices;
     uint64_t found = 0;
     for (uint64_t left = one_sided; left; left &= left - 1) {
         int32_t x[3], y[3], triangle = __builtin_ctzll(left);
@@ -178,18 +179,18 @@ static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *ind
     if (w->draw->any_two_sided)
         small &= ~find_culled(w, indices, small & ~find_two_sided(w, cluster, small));
     if (small)
-        e3d_fragments_add(w->context, w->worker, &drawn, indices, small);
+        e3d_fragments_add(w->context, w->worker, &drawn, w->vertices, indices, small);
 }
 
-static void transform_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster)
+static void transform_cluster(const walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_vertices *out)
 {
     const e3d_context *context = w->context;
     if (w->draw->mesh->desc.components == 4)
-        context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->viewport, &w->worker->vertices);
+        context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->viewport, out);
     else
         context->kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &context->viewport,
                                     item->view.state == E3D_BOX_INSIDE && !context->frame->frozen_clip_from_world,
-                                    &w->worker->vertices);
+                                    out);
 }
 
 /* A cluster that is transformed. */
@@ -202,7 +203,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     int fragments = w->context->by_fragments && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
-    int count = kernels->setup(&worker->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
+    int count = kernels->setup(w->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
     worker->counters.triangles_rejected += cluster->triangles - count;
     if (s->small)
         draw_small(w, cluster, indices);
@@ -265,7 +266,7 @@ static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_grou
 static int vertices_are_hidden(const walker *w)
 {
     e3d_box_view view;
-    return e3d_view_vertices(&w->context->viewport, &w->worker->vertices, &view) && e3d_is_hidden(w->context, &view);
+    return e3d_view_vertices(&w->context->viewport, w->vertices, &view) && e3d_is_hidden(w->context, &view);
 }
 
 /* Of a smaller group, clusters are drawn in the time that a closer look takes. */
@@ -318,11 +319,19 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
         shown = find_fates(w, item, group, asked, fates);
     }
     int closely = w->context->round.tested && is_wide(&item->view.samples);
-    for (unsigned left = closely ? shown : shown & wanted; left; left &= left - 1) {
+    unsigned left = closely ? shown : shown & wanted;
+    if (left & (left - 1))
+        fetch_cluster(&clusters[__builtin_ctz(left & (left - 1))], mesh->desc.components);
+    if (left)
+        transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->vertices[0]);
+    for (int turn = 0; left; left &= left - 1, turn ^= 1) {
         int k = __builtin_ctz(left);
-        if (left & (left - 1))
-            fetch_cluster(&clusters[__builtin_ctz(left & (left - 1))], mesh->desc.components);
-        transform_cluster(w, item, &clusters[k]);
+        unsigned after = left & (left - 1);
+        if (after & (after - 1))
+            fetch_cluster(&clusters[__builtin_ctz(after & (after - 1))], mesh->desc.components);
+        if (after) /* before this one is drawn: neither waits for the other */
+            transform_cluster(w, item, &clusters[__builtin_ctz(after)], &w->worker->vertices[!turn]);
+        w->vertices = &w->worker->vertices[turn];
         if (closely && vertices_are_hidden(w)) {
             fates[k] = E3D_FATE_OCCLUDED;
             shown &= ~(1u << k);

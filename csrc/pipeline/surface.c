@@ -177,7 +177,7 @@ static ALWAYS_INLINE void fetch_material(const e3d_record_table *table, uint32_t
 
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count)
 {
-    enum { AHEAD = 8 };
+    enum { AHEAD = 16 };
     const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
     instance_finder finder = {.group = -1};
     int32_t n = 0;
@@ -340,7 +340,7 @@ static ALWAYS_INLINE void fetch_vertices(const e3d_visible_piece *piece, const e
 
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted)
 {
-    enum { AHEAD = 12 };
+    enum { AHEAD = 24 };
     const e3d_visible_piece *pieces = worker->pieces.data;
     e3d_surfaces *s = &worker->tile->surfaces;
     int32_t p = first, last = (int32_t)worker->pieces.count - 1 - 2 * AHEAD;

@@ -201,6 +201,8 @@ struct e3d_renderer {
     e3d_visible_tile *kept;     /* over the rounds of a frame */
     size_t kept_room;
     uint32_t trials;                /* of what was seen; grows with each frame that remembers */
+    int remembers;                  /* this frame */
+    int doubts;                     /* that what the last frame saw still shows: it drew it before it knew what hides it */
     int32_t frames_without_rounds; /* still to come: lately rounds did not pay, */
     int64_t covered_at_trial;      /* with so many blocks covered; where many more are, they may */
     int64_t tiles_changed;         /* by what the frame before had not shown */

@@ -367,7 +367,8 @@ static void run_item(walker *w, const e3d_item *item)
             draw_group(w, item, group, seen, seen);
         return;
     }
-    unsigned trusted = (item->unit + context->renderer->trials) % FRAMES_A_TRIAL ? seen : 0;
+    int tried = context->renderer->doubts || (item->unit + context->renderer->trials) % FRAMES_A_TRIAL == 0;
+    unsigned trusted = tried ? 0 : seen;
     if (trusted != all)
         context->seen[item->unit] = (uint8_t)(trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));
 }

@@ -329,5 +329,7 @@ int e3d_remember(e3d_context *context)
     memset(renderer->seen.data, 0, groups);
     renderer->rows.count = count;
     context->seen = renderer->seen.data;
-    return 2 * match_rows(renderer, old_count, rows, count) > context->groups;
+    renderer->doubts = !renderer->remembers;
+    renderer->remembers = 2 * match_rows(renderer, old_count, rows, count) > context->groups;
+    return renderer->remembers;
 }

@@ -240,6 +240,19 @@ def test_slivers_that_snapping_turns(size):
     assert culled > 0
 
 
+def test_what_is_hidden_is_known_after_two_frames():
+    """The first draws much that it does not know to be hidden, so the second tries all of it."""
+    axis = np.arange(12) - 5.5
+    places = 2.5 * np.stack(np.meshgrid(axis, axis, axis), -1).reshape(-1, 3)
+    scene = e3d.Scene()
+    scene.add(e3d.InstancedMesh(e3d.uv_sphere(1.0, (20, 11)), np.c_[places, np.ones(len(places))]))
+    view = e3d.PerspectiveCamera(1.0, znear=0.05), e3d.look_at((0, 0, 0), (9, 4, -20))
+    with e3d.Renderer(640, 360, threads=2) as renderer:
+        drawn = [renderer.render(scene, view).stats["clusters_drawn"] for _ in range(9)]
+    assert drawn[2:] == drawn[-1:] * 7
+    assert drawn[-1] < drawn[0]
+
+
 def test_occlusion_is_tried_again_in_another_view():
     """A crowd from above hides nothing of itself; from its edge most of it."""
     x, z = np.meshgrid(np.arange(40) - 19.5, np.arange(40) - 19.5)

@@ -48,7 +48,7 @@ static ALWAYS_INLINE int32_t guess(const uint8_t *rows, size_t known, const uint
     return next < known && same_bits(rows + (size_t)next * WIDTH * WORD, corner) ? (int32_t)next : -1;
 }
 
-__attribute__((noinline)) static int32_t find(e3d_row_numbers *t, const uint8_t *corner, const uint32_t *half)
+static ALWAYS_INLINE int32_t find(e3d_row_numbers *t, const uint8_t *corner, const uint32_t *half)
 {
     return (int32_t)e3d_number_row(t, corner, WIDTH, half ? *half : half_hash(t, corner));
 }

@@ -125,7 +125,7 @@ static void claim_even_lists(const element *e)
         return;
     const uint64_t length = integer_at(e, count_size, e->body.start) % 11;
     const size_t stride = count_size + (size_t)length * size, rows = held / stride < e->rows ? held / stride : e->rows;
-    uint8_t *items = room_for(rows * (size_t)length, size);
+    uint8_t *items = length ? room_for(rows * (size_t)length, size) : NULL;
     const uint8_t *copied = items;
     bool are_even = true;
     for (size_t row = 0; row < rows; row++)

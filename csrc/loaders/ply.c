@@ -128,7 +128,8 @@ static ALWAYS_INLINE bool copy_even(const uint8_t *from, size_t rows, size_t cou
     uint64_t differs = 0;
     for (size_t row = 0; row < rows; row++, from += count_size + bytes, to += bytes) {
         differs |= read_integer(from, count_size, is_big_endian) ^ length;
-        copy_items(from + count_size, (size_t)length, item_size, swap, to);
+        if (length) /* else there may be nothing to copy to */
+            copy_items(from + count_size, (size_t)length, item_size, swap, to);
     }
     return !differs;
 }

@@ -421,6 +421,9 @@ class Scene:
         around = union(self._arrays.columns["bounds"][: self._arrays.count], box)
         return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")
+
     def __repr__(self) -> str:
         return f"Scene({self._arrays.count - self._removed} nodes)"
 

@@ -1,5 +1,8 @@
 """The scene's tree: poses and their parts, world poses, visibility, ids, bounds, arguments."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -18,6 +21,12 @@ def test_ids_count_up_and_are_never_used_twice(scene):
     third = scene.add()
     assert [first.id, second.id, third.id] == [0, 1, 2]
     assert scene.nodes == (first, third)
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_a_scene_says_that_it_cannot_be_copied(scene, copied):
+    with pytest.raises(TypeError, match="add its objects to another Scene"):
+        copied(scene)
 
 
 def test_an_id_is_read_only(scene):

@@ -215,8 +215,8 @@ static inline void texture_store(e3d_batch *batch, int i, const float base[3], c
 typedef struct texture_plan {
     const e3d_texture_view *view;
     texture_levels levels;
-    texture_places near, far;    /* far only where its weight isn't 0: (256 a + 128) >> 8 = a */
-    int32_t lod[E3D_BATCH + E3D_PAD]; /* trilinear */
+    _Alignas(64) texture_places near, far; /* far only where its weight isn't 0: (256 a + 128) >> 8 = a */
+    _Alignas(64) int32_t lod[E3D_BATCH + E3D_PAD]; /* trilinear */
 } texture_plan;
 
 static inline void texture_begin(texture_plan *plan, const e3d_texture_view *view)

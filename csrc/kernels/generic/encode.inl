@@ -1,12 +1,9 @@
 /* encode: colours, clamped to [0, 1] (R33), to 8 bits (R34). */
 
 /* The number of thresholds <= v, which is in [0, 1], as encode_tables.h finds it. */
-static inline vi32 encode_srgb(vf32 v)
-{
-    vi32 bucket = v_maxi(v_subi(v_shr(v_asi(v), 16), v_seti(ENCODE_FIRST)), v_seti(0));
-    vi32 low = v_andi(v_asi(v), v_seti(0xFFFF));
-    return v_shr(v_addi(v_gatheri(ENCODE_SUMS, bucket), low), 17);
-}
+static inline vi32 encode_bucket(vf32 v) { return v_maxi(v_subi(v_shr(v_asi(v), 16), v_seti(ENCODE_FIRST)), v_seti(0)); }
+static inline vi32 encode_code(vf32 v, vi32 sum) { return v_shr(v_addi(sum, v_andi(v_asi(v), v_seti(0xFFFF))), 17); }
+static inline vi32 encode_srgb(vf32 v) { return encode_code(v, v_gatheri(ENCODE_SUMS, encode_bucket(v))); }
 
 static inline vi32 encode_linear(vf32 v)
 {
@@ -20,17 +17,24 @@ static inline int encode_is_grey(const vf32 color[3])
     return !v_any(v_mnot(v_eqi(differ, v_seti(0))));
 }
 
+static inline vf32 encode_clamp(vf32 v) { return v_min(v_max(v, v_setf(0.0f)), v_setf(1.0f)); }
+
+static inline vi32 encode_pack(const vi32 code[3])
+{
+    vi32 low = v_ori(code[0], v_shl(code[1], 8)), high = v_ori(v_shl(code[2], 16), v_seti((int32_t)0xFF000000));
+    return v_ori(low, high);
+}
+
 /* One vector of colours. Looking up takes long, and white in white light is common. */
 static inline vi32 encode_vector(const vf32 color[3], int srgb)
 {
     vi32 code[3];
     int grey = srgb && encode_is_grey(color);
     for (int k = 0; k < 3; k++) {
-        vf32 v = v_min(v_max(color[k], v_setf(0.0f)), v_setf(1.0f));
+        vf32 v = encode_clamp(color[k]);
         code[k] = k > 0 && grey ? code[0] : srgb ? encode_srgb(v) : encode_linear(v);
     }
-    vi32 low = v_ori(code[0], v_shl(code[1], 8)), high = v_ori(v_shl(code[2], 16), v_seti((int32_t)0xFF000000));
-    return v_ori(low, high);
+    return encode_pack(code);
 }
 
 static void kernel_encode(const float *red, const float *green, const float *blue, int count, int srgb,

@@ -62,14 +62,65 @@ static ALWAYS_INLINE void paint_load(const e3d_batch *batch, int i, vf32 color[3
         color[k] = v_loadf(batch->color[k] + i);
 }
 
-static ALWAYS_INLINE void paint_pixels(const e3d_batch *batch, const e3d_paint *paint, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_linear(const e3d_batch *batch, const e3d_paint *paint, float shininess, uint32_t *rgba)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_load(batch, i, color);
         paint_light(batch, i, paint, shininess, color);
-        paint_store(batch->sample + i, encode_vector(color, paint->srgb), V_LANES, rgba);
+        paint_store(batch->sample + i, encode_vector(color, 0), V_LANES, rgba);
     }
+}
+
+/* What a batch looks up in the table of R34. */
+typedef struct paint_sums {
+    _Alignas(64) int32_t of[3][E3D_BATCH + E3D_PAD]; /* the places, then what is there */
+    int grey; /* of one channel, for all three */
+} paint_sums;
+
+static ALWAYS_INLINE void paint_find(e3d_batch *batch, const e3d_paint *paint, float shininess, paint_sums *sums)
+{
+    sums->grey = 1;
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vf32 color[3];
+        paint_load(batch, i, color);
+        paint_light(batch, i, paint, shininess, color);
+        sums->grey &= encode_is_grey(color);
+        for (int k = 0; k < 3; k++) {
+            color[k] = encode_clamp(color[k]);
+            v_storef(batch->color[k] + i, color[k]);
+            v_storei(sums->of[k] + i, encode_bucket(color[k]));
+        }
+    }
+}
+
+/* One after the other: loads and stores alone take less than gathering. */
+static inline void paint_look_up(int count, paint_sums *sums)
+{
+    for (int k = 0; k < (sums->grey ? 1 : 3); k++)
+        for (int i = 0; i < count; i++)
+            sums->of[k][i] = ENCODE_SUMS[sums->of[k][i]];
+}
+
+static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const e3d_paint *paint, float shininess, uint32_t *rgba)
+{
+    paint_sums sums;
+    paint_find(batch, paint, shininess, &sums);
+    paint_look_up((batch->count + V_LANES - 1) / V_LANES * V_LANES, &sums);
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vi32 code[3];
+        for (int k = 0; k < 3; k++)
+            code[k] = encode_code(v_loadf(batch->color[k] + i), v_loadi(sums.of[sums.grey ? 0 : k] + i));
+        paint_store(batch->sample + i, encode_pack(code), V_LANES, rgba);
+    }
+}
+
+static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint, float shininess, uint32_t *rgba)
+{
+    if (paint->srgb)
+        paint_srgb(batch, paint, shininess, rgba);
+    else
+        paint_linear(batch, paint, shininess, rgba);
 }
 
 static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)

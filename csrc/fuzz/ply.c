@@ -131,7 +131,7 @@ static void claim_even_lists(const element *e)
     for (size_t row = 0; row < rows; row++)
         are_even &= integer_at(e, count_size, e->body.start + row * stride) == length;
     CLAIM(e3d_ply_copy_even_lists(&e->body, rows, count_size, length, size, items) == are_even);
-    for (size_t row = 0; row < rows; row++)
+    for (size_t row = 0; row < rows && length; row++)
         copied = claim_items(e, e->body.bytes + e->body.start + row * stride + count_size, (size_t)length, size, copied);
     free(items);
 }

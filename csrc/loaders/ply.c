@@ -126,10 +126,12 @@ static ALWAYS_INLINE bool copy_even(const uint8_t *from, size_t rows, size_t cou
     const size_t bytes = (size_t)length * item_size;
     const bool swap = is_big_endian != IS_BIG_ENDIAN_HERE;
     uint64_t differs = 0;
-    for (size_t row = 0; row < rows; row++, from += count_size + bytes, to += bytes) {
+    for (size_t row = 0; row < rows; row++, from += count_size + bytes) {
         differs |= read_integer(from, count_size, is_big_endian) ^ length;
-        if (length) /* else there may be nothing to copy to */
-            copy_items(from + count_size, (size_t)length, item_size, swap, to);
+        if (!length) /* there may be nothing to copy to */
+            continue;
+        copy_items(from + count_size, (size_t)length, item_size, swap, to);
+        to += bytes;
     }
     return !differs;
 }

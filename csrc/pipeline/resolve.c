@@ -141,15 +141,21 @@ static void resolve_samples(const e3d_context *context, e3d_worker *worker, cons
     }
 }
 
-/* Rows of pixels, `step` apart, to the picture: large ones don't stay in the caches anyway. */
+/* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
+static int is_far(const e3d_context *context, size_t bytes)
+{
+    enum { LARGE = 1 << 21, SHARED = 1 << 18 };
+    return bytes >= (context->renderer->threads > 1 ? SHARED : LARGE);
+}
+
+/* Rows of pixels, `step` apart, to the picture. */
 static void write_rows(const e3d_context *context, const e3d_tile *tile, const uint32_t *rgba, int step)
 {
-    enum { LARGE = 1 << 21 };
     size_t pitch = 4 * (size_t)context->frame->width, bytes = 4 * (size_t)tile->width;
     uint8_t *row = context->targets->color + (size_t)tile->y * pitch + 4 * (size_t)tile->x;
-    int large = pitch * (size_t)context->frame->height >= LARGE;
+    int far = is_far(context, pitch * (size_t)context->frame->height);
     for (int y = 0; y < tile->height; y++, row += pitch, rgba += step)
-        if (large)
+        if (far)
             e3d_stream(row, rgba, bytes);
         else
             memcpy(row, rgba, bytes);

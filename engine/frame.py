@@ -17,21 +17,21 @@ from .atomic_write import atomic_write
 from .errors import InvalidArgumentError, MissingOutputError
 
 # Every output: dtype and number of channels (0: no third axis).
-OUTPUTS: dict[str, tuple[type, int]] = {
-    "color": (np.uint8, 4),
-    "depth": (np.float32, 0),
-    "ndc_depth": (np.float32, 0),
-    "triangle_id": (np.int32, 0),
-    "object_id": (np.int32, 0),
-    "instance_id": (np.int32, 0),
-    "material_id": (np.int32, 0),
-    "albedo": (np.float32, 3),
-    "normal": (np.float32, 3),
-    "position": (np.float32, 3),
-    "world_normal": (np.float32, 3),
-    "world_position": (np.float32, 3),
-    "uv": (np.float32, 2),
-    "barycentric": (np.float32, 3),
+OUTPUTS: dict[str, tuple[np.dtype, int]] = {
+    "color": (np.dtype(np.uint8), 4),
+    "depth": (np.dtype(np.float32), 0),
+    "ndc_depth": (np.dtype(np.float32), 0),
+    "triangle_id": (np.dtype(np.int32), 0),
+    "object_id": (np.dtype(np.int32), 0),
+    "instance_id": (np.dtype(np.int32), 0),
+    "material_id": (np.dtype(np.int32), 0),
+    "albedo": (np.dtype(np.float32), 3),
+    "normal": (np.dtype(np.float32), 3),
+    "position": (np.dtype(np.float32), 3),
+    "world_normal": (np.dtype(np.float32), 3),
+    "world_position": (np.dtype(np.float32), 3),
+    "uv": (np.dtype(np.float32), 2),
+    "barycentric": (np.dtype(np.float32), 3),
 }
 
 # File name suffix -> (Pillow's format, what it is saved with).

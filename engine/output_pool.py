@@ -13,7 +13,7 @@ import weakref
 import numpy as np
 
 _LINE = 64
-_MAX_FREE = 4  # blocks kept for each size: a steady loop needs one or two for each output
+_MAX_FREE = 2  # frames' worth of blocks that are kept: a steady loop needs one or two
 
 
 def _aligned(size: int) -> np.ndarray:
@@ -28,11 +28,18 @@ class OutputPool:
 
     def __init__(self) -> None:
         self._free: dict[int, list[np.ndarray]] = {}
+        self._a_frame: dict[int, int] = {}  # of each size, how many the last frame has
         self._lent: dict[int, tuple[weakref.ref, np.ndarray]] = {}
 
-    def take(self, shape: tuple[int, ...], dtype) -> np.ndarray:
-        """Return an array with arbitrary contents."""
-        dtype = np.dtype(dtype)
+    def take(self, outputs: dict[str, tuple[tuple[int, ...], np.dtype]]) -> dict[str, np.ndarray]:
+        """Return an array with arbitrary contents for each of a frame's shapes and dtypes."""
+        arrays, self._a_frame = {}, {}
+        for name, (shape, dtype) in outputs.items():
+            arrays[name] = array = self._lend(shape, dtype)
+            self._a_frame[array.nbytes] = self._a_frame.get(array.nbytes, 0) + 1
+        return arrays
+
+    def _lend(self, shape: tuple[int, ...], dtype: np.dtype) -> np.ndarray:
         size = dtype.itemsize
         for side in shape:
             size *= side
@@ -55,5 +62,5 @@ class OutputPool:
         # Runs in whatever thread dropped the last array; each step is one atomic operation.
         _, block = self._lent.pop(id(reference))
         blocks = self._free.setdefault(block.nbytes, [])
-        if len(blocks) < _MAX_FREE:
+        if len(blocks) < _MAX_FREE * self._a_frame.get(block.nbytes, 1):
             blocks.append(block)

@@ -306,14 +306,14 @@ class Renderer:
     def _new_frame(self, outputs: Iterable[str]) -> Frame:
         if isinstance(outputs, str):
             raise InvalidArgumentError(f"outputs must be a tuple of names: ({outputs!r},)")
-        arrays = {}
+        wanted = {}
         for name in outputs:
             dtype, channels = OUTPUTS[choose(name, OUTPUTS, "outputs")]
             shape = (self._height, self._width, channels)
-            arrays[name] = self._pool.take(shape if channels else shape[:2], dtype)
-        if not arrays:
+            wanted[name] = (shape if channels else shape[:2], dtype)
+        if not wanted:
             raise InvalidArgumentError('outputs must name at least one output, such as "color"')
-        return Frame(self._width, self._height, arrays)
+        return Frame(self._width, self._height, self._pool.take(wanted))
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):

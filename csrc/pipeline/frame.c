@@ -44,6 +44,7 @@ static void destroy_worker(e3d_worker *worker)
     e3d_array_free(&worker->items);
     e3d_array_free(&worker->pieces);
     e3d_array_free(&worker->groups);
+    e3d_array_free(&worker->outputs);
     free(worker->tile);
     free(worker);
 }
@@ -200,7 +201,7 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
     e3d_status status = e3d_prepare(context);
     if (status != E3D_OK)
         return status;
-    if (!reset_workers(context))
+    if (!reset_workers(context) || !e3d_outputs_prepare(context))
         return E3D_OUT_OF_MEMORY;
     if (!e3d_find_items(context))
         return E3D_OUT_OF_MEMORY;

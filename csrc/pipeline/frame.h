@@ -171,6 +171,7 @@ typedef struct e3d_worker {
     e3d_array items;        /* e3d_item, as the groups come */
     e3d_array pieces;       /* e3d_visible_piece of the tile */
     e3d_array groups;       /* e3d_group of the tile */
+    e3d_array outputs;      /* int32_t or float: the tile's, one output after the other */
     e3d_counters counters;
     int failed;             /* out of memory */
     char padding[128];      /* no false sharing between workers */
@@ -225,6 +226,28 @@ typedef struct e3d_round {
     int last;           /* lines, points and edges are drawn, too */
 } e3d_round;
 
+/* What is asked for beside colour. */
+typedef enum e3d_output_kind {
+    E3D_OUTPUT_NDC_DEPTH = 0,
+    E3D_OUTPUT_DEPTH,
+    E3D_OUTPUT_TRIANGLE_ID,
+    E3D_OUTPUT_OBJECT_ID,
+    E3D_OUTPUT_INSTANCE_ID,
+    E3D_OUTPUT_MATERIAL_ID,
+    E3D_OUTPUT_ALBEDO,
+    E3D_OUTPUT_NORMAL,
+    E3D_OUTPUT_POSITION,
+    E3D_OUTPUT_WORLD_NORMAL,
+    E3D_OUTPUT_WORLD_POSITION,
+    E3D_OUTPUT_UV,
+    E3D_OUTPUT_BARYCENTRIC,
+    E3D_OUTPUTS
+} e3d_output_kind;
+typedef struct e3d_output {
+    void *target; /* or NULL */
+    size_t first; /* word in e3d_worker.outputs */
+} e3d_output;
+
 typedef struct e3d_context {
     e3d_renderer *renderer;
     const e3d_kernels *kernels;
@@ -250,6 +273,7 @@ typedef struct e3d_context {
     float view[12]; /* rows of view_from_world, f32 */
     float unorm8[256]; /* values of 8-bit vertex and instance colours (R23) */
     e3d_lighting lighting;
+    e3d_output outputs[E3D_OUTPUTS]; /* by kind */
     int32_t tiles_x, tiles_y;
     int by_fragments;  /* small triangles become fragments at once */
     int sorted;        /* painter or none: bins are made after sorting */
@@ -406,7 +430,7 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *run
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted);
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
 int32_t e3d_face_of(const e3d_visible_piece *piece);
-void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker);
 /* batch->color is that of its samples. */
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
 /* The batch's samples show the background again: forward shading may have drawn there before. */
@@ -416,12 +440,15 @@ void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_
 /* The whole tile is background, without supersampling. */
 void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* picture.c: `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */
+void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
 /* outputs.c: the G-buffer */
-void e3d_outputs_begin(const e3d_context *context, const e3d_tile *tile);
-void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
-/* ndc_depth of a tile without anything in it. */
-void e3d_outputs_no_depth(const e3d_context *context, const e3d_tile *tile);
-void e3d_outputs_depth(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile);
+int e3d_outputs_prepare(e3d_context *context); /* 0 when memory is out */
+void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker);
+void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker);
+void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile);
+/* The whole tile is background. */
+void e3d_outputs_empty(const e3d_context *context, const e3d_tile *tile);
 
 static inline int e3d_is_shiny(const e3d_material *m)
 {

@@ -1,162 +1,219 @@
-/* resolve: the outputs beside colour, from the visible sample of each pixel (R21, R22, R35). */
+/* resolve: the outputs beside colour, from the visible sample of each pixel (R21, R22, R35).
+ *
+ * Samples come in the order of their surfaces: a tile's outputs are gathered in the worker's memory, then go to the pictures
+ * row by row.
+ */
+#include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "pipeline/frame.h"
 
-/* The tile's pixels in the picture. */
-typedef struct pixel_box {
-    int32_t x, y, width, height;
-} pixel_box;
+enum { FLOAT_INFINITY = 0x7F800000 };
 
-static pixel_box pixels_of(const e3d_context *context, const e3d_tile *tile)
+/* Of each output: words a pixel, and the background's, all alike. */
+static const struct {
+    int channels;
+    int32_t background;
+} KINDS[E3D_OUTPUTS] = {
+    [E3D_OUTPUT_NDC_DEPTH] = {1, FLOAT_INFINITY},
+    [E3D_OUTPUT_DEPTH] = {1, 0},
+    [E3D_OUTPUT_TRIANGLE_ID] = {1, -1},
+    [E3D_OUTPUT_OBJECT_ID] = {1, -1},
+    [E3D_OUTPUT_INSTANCE_ID] = {1, -1},
+    [E3D_OUTPUT_MATERIAL_ID] = {1, -1},
+    [E3D_OUTPUT_ALBEDO] = {3, 0},
+    [E3D_OUTPUT_NORMAL] = {3, 0},
+    [E3D_OUTPUT_POSITION] = {3, 0},
+    [E3D_OUTPUT_WORLD_NORMAL] = {3, 0},
+    [E3D_OUTPUT_WORLD_POSITION] = {3, 0},
+    [E3D_OUTPUT_UV] = {2, 0},
+    [E3D_OUTPUT_BARYCENTRIC] = {3, 0},
+};
+
+/* A tile's pixels are E3D_TILE apart from row to row; the last place is of samples that stand for none. */
+enum { NO_PIXEL = E3D_TILE_SAMPLES, PLACES = E3D_TILE_SAMPLES + E3D_PAD };
+
+int e3d_outputs_prepare(e3d_context *context)
 {
-    int axis = context->frame->samples_axis;
-    return (pixel_box){tile->x / axis, tile->y / axis, tile->width / axis, tile->height / axis};
+    const e3d_targets *t = context->targets;
+    void *const targets[E3D_OUTPUTS] = {
+        t->ndc_depth, t->depth,    t->triangle_id,  t->object_id,      t->instance_id, t->material_id, t->albedo,
+        t->normal,    t->position, t->world_normal, t->world_position, t->uv,          t->barycentric,
+    };
+    size_t words = 0;
+    for (int k = 0; k < E3D_OUTPUTS; k++) {
+        context->outputs[k] = (e3d_output){targets[k], words};
+        words += targets[k] ? (size_t)KINDS[k].channels * PLACES : 0;
+    }
+    for (int32_t w = 0; w < context->renderer->threads; w++)
+        if (!e3d_array_reserve(&context->renderer->workers[w]->outputs, words, sizeof(int32_t)))
+            return 0;
+    return 1;
 }
 
-static void fill(void *target, const e3d_context *context, const pixel_box *box, int channels, int byte)
+/* Where a worker gathers an output; NULL: nobody asked for it. */
+static void *gathered(const e3d_context *context, const e3d_worker *worker, e3d_output_kind kind)
 {
-    if (!target)
-        return;
-    for (int32_t y = 0; y < box->height; y++) {
-        size_t first = (size_t)(box->y + y) * context->frame->width + box->x;
-        memset((char *)target + first * channels * 4, byte, (size_t)box->width * channels * 4);
+    const e3d_output *output = &context->outputs[kind];
+    return output->target ? (int32_t *)worker->outputs.data + output->first : NULL;
+}
+
+void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker)
+{
+    for (int k = 0; k < E3D_OUTPUTS; k++) {
+        int32_t *words = gathered(context, worker, k), background = KINDS[k].background;
+        for (int i = 0; words && i < KINDS[k].channels * E3D_TILE_SAMPLES; i++)
+            words[i] = background;
     }
 }
 
-void e3d_outputs_begin(const e3d_context *context, const e3d_tile *tile)
-{
-    const e3d_targets *t = context->targets;
-    pixel_box box = pixels_of(context, tile);
-    void *const ids[] = {t->triangle_id, t->object_id, t->instance_id, t->material_id};
-    void *const vectors[] = {t->albedo, t->normal, t->position, t->world_normal, t->world_position,
-                             t->barycentric};
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
-        fill(ids[i], context, &box, 1, 0xFF);
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-        fill(vectors[i], context, &box, 3, 0);
-    fill(t->depth, context, &box, 1, 0);
-    fill(t->uv, context, &box, 2, 0);
-}
+/* ---- a batch ---- */
 
-enum { NOT_CHOSEN = -1 };
-
-/* Where each sample of the batch goes in the picture: samples that stand for no pixel go nowhere. */
-static void choose(const e3d_context *context, const e3d_batch *batch, const e3d_tile *tile, int64_t *at)
+/* The pixel that each of the batch's samples stands for. */
+static const int32_t *pixels_of(const e3d_context *context, const e3d_batch *batch, int32_t *room)
 {
     int32_t axis = context->frame->samples_axis, middle = axis / 2;
+    if (axis == 1)
+        return batch->sample;
     for (int i = 0; i < batch->count; i++) {
-        int32_t x = tile->x + (batch->sample[i] & (E3D_TILE - 1));
-        int32_t y = tile->y + batch->sample[i] / E3D_TILE;
-        int chosen = x % axis == middle && y % axis == middle;
-        at[i] = chosen ? (int64_t)(y / axis) * context->frame->width + x / axis : NOT_CHOSEN;
+        int32_t x = batch->sample[i] % E3D_TILE, y = batch->sample[i] / E3D_TILE;
+        int stands = x % axis == middle && y % axis == middle;
+        room[i] = stands ? y / axis * E3D_TILE + x / axis : NO_PIXEL;
+    }
+    return room;
+}
+
+static void make_finite(const float *values, int count, float *out)
+{
+    for (int i = 0; i < count; i++)
+        out[i] = fabsf(values[i]) <= FLT_MAX ? values[i] : 0.0f;
+}
+
+/* The values of one output, by channels, each to its pixel. */
+static void put(const e3d_context *context, const e3d_worker *worker, e3d_output_kind kind, const int32_t *at,
+                const e3d_lane_array *values)
+{
+    float *pixels = gathered(context, worker, kind);
+    int count = worker->tile->batch.count, channels = KINDS[kind].channels;
+    e3d_lane_array finite[3];
+    if (!pixels)
+        return;
+    for (int k = 0; k < channels; k++)
+        make_finite(values[k], count, finite[k]);
+    for (int i = 0; i < count && channels == 1; i++)
+        pixels[at[i]] = finite[0][i];
+    for (int k = 0; k < 2 && channels == 2; k++)
+        for (int i = 0; i < count; i++)
+            pixels[2 * at[i] + k] = finite[k][i];
+    for (int i = 0; i < count && channels == 3; i++)
+        for (int k = 0; k < 3; k++)
+            pixels[3 * at[i] + k] = finite[k][i];
+}
+
+/* Rows of view_from_world applied to positions (w = 1) or directions (w = 0). */
+static void to_view(const e3d_context *context, const e3d_batch *batch, const e3d_lane_array *v, int w, e3d_lane_array out[3])
+{
+    for (int row = 0; row < 3; row++) {
+        const float *m = context->view + 4 * row;
+        for (int i = 0; i < batch->count; i++) {
+            float sum = (m[0] * v[0][i] + m[1] * v[1][i]) + m[2] * v[2][i];
+            out[row][i] = w ? sum + m[3] : sum;
+        }
     }
 }
 
-static void scatter(float *target, const e3d_batch *batch, const int64_t *at, int channels, int channel,
-                    const float *values)
+static void put_view(const e3d_context *context, const e3d_worker *worker, const int32_t *at)
 {
-    for (int i = 0; i < batch->count; i++)
-        if (at[i] != NOT_CHOSEN)
-            target[at[i] * channels + channel] = isfinite(values[i]) ? values[i] : 0.0f;
-}
-
-static void scatter_all(float *target, const e3d_batch *batch, const int64_t *at, int channels,
-                        const e3d_lane_array *values)
-{
-    for (int k = 0; target && k < channels; k++)
-        scatter(target, batch, at, channels, k, values[k]);
-}
-
-/* Row r of view_from_world applied to a position (w = 1) or a direction (w = 0). */
-static void to_view(const e3d_context *context, const e3d_batch *batch, const e3d_lane_array *v, int row,
-                    int w, float *out)
-{
-    const float *m = context->view + 4 * row;
-    for (int i = 0; i < batch->count; i++) {
-        float sum = (m[0] * v[0][i] + m[1] * v[1][i]) + m[2] * v[2][i];
-        out[i] = w ? sum + m[3] : sum;
-    }
-}
-
-static void scatter_view(const e3d_context *context, const e3d_batch *batch, const int64_t *at)
-{
+    const e3d_batch *batch = &worker->tile->batch;
     const e3d_targets *t = context->targets;
-    e3d_lane_array values;
-    for (int k = 0; t->position && k < 3; k++) {
-        to_view(context, batch, batch->position, k, 1, values);
-        scatter(t->position, batch, at, 3, k, values);
+    e3d_lane_array v[3];
+    if (t->normal) {
+        to_view(context, batch, batch->normal, 0, v);
+        put(context, worker, E3D_OUTPUT_NORMAL, at, v);
     }
-    for (int k = 0; t->normal && k < 3; k++) {
-        to_view(context, batch, batch->normal, k, 0, values);
-        scatter(t->normal, batch, at, 3, k, values);
-    }
-    if (t->depth) {
-        to_view(context, batch, batch->position, 2, 1, values);
+    if (t->position || t->depth) {
+        to_view(context, batch, batch->position, 1, v);
+        put(context, worker, E3D_OUTPUT_POSITION, at, v);
         for (int i = 0; i < batch->count; i++)
-            values[i] = 0.0f - values[i];
-        scatter(t->depth, batch, at, 1, 0, values);
+            v[2][i] = 0.0f - v[2][i];
+        put(context, worker, E3D_OUTPUT_DEPTH, at, v + 2);
     }
 }
 
-static void scatter_ids(const e3d_context *context, const e3d_worker *worker, const int64_t *at)
+/* One ID to pixels. */
+static void put_id(const e3d_context *context, const e3d_worker *worker, e3d_output_kind kind, const int32_t *at, int count,
+                   int32_t id)
 {
-    const e3d_targets *t = context->targets;
+    int32_t *pixels = gathered(context, worker, kind);
+    for (int i = 0; pixels && i < count; i++)
+        pixels[at[i]] = id;
+}
+
+/* Samples of one surface are neighbours. */
+static void put_ids(const e3d_context *context, const e3d_worker *worker, const int32_t *at)
+{
     const e3d_batch *batch = &worker->tile->batch;
     const e3d_visible_piece *pieces = worker->pieces.data;
     const e3d_group *groups = worker->groups.data;
-    for (int i = 0; i < batch->count; i++) {
+    for (int i = 0, end = 0; i < batch->count; i = end) {
+        while (end < batch->count && batch->surface[end] == batch->surface[i])
+            end++;
         const e3d_visible_piece *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
-        if (at[i] == NOT_CHOSEN)
-            continue;
-        if (t->triangle_id)
-            t->triangle_id[at[i]] = e3d_face_of(piece);
-        if (t->object_id)
-            t->object_id[at[i]] = e3d_object_id(piece->draw->draw, piece->instance);
-        if (t->instance_id)
-            t->instance_id[at[i]] = e3d_instance_id(piece->draw->draw, piece->instance);
-        if (t->material_id)
-            t->material_id[at[i]] = groups[piece->group].material->id;
+        const e3d_draw *draw = piece->draw->draw;
+        put_id(context, worker, E3D_OUTPUT_TRIANGLE_ID, at + i, end - i, e3d_face_of(piece));
+        put_id(context, worker, E3D_OUTPUT_OBJECT_ID, at + i, end - i, e3d_object_id(draw, piece->instance));
+        put_id(context, worker, E3D_OUTPUT_INSTANCE_ID, at + i, end - i, e3d_instance_id(draw, piece->instance));
+        put_id(context, worker, E3D_OUTPUT_MATERIAL_ID, at + i, end - i, groups[piece->group].material->id);
     }
 }
 
-void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker)
 {
-    const e3d_targets *t = context->targets;
     const e3d_batch *batch = &worker->tile->batch;
-    int64_t at[E3D_BATCH];
-    choose(context, batch, tile, at);
-    scatter_ids(context, worker, at);
-    scatter_view(context, batch, at);
-    scatter_all(t->albedo, batch, at, 3, batch->color);
-    scatter_all(t->world_normal, batch, at, 3, batch->normal);
-    scatter_all(t->world_position, batch, at, 3, batch->position);
-    scatter_all(t->uv, batch, at, 2, batch->uv);
-    scatter_all(t->barycentric, batch, at, 3, batch->b);
+    int32_t room[E3D_BATCH];
+    const int32_t *at = pixels_of(context, batch, room);
+    put_ids(context, worker, at);
+    put_view(context, worker, at);
+    put(context, worker, E3D_OUTPUT_ALBEDO, at, batch->color);
+    put(context, worker, E3D_OUTPUT_WORLD_NORMAL, at, batch->normal);
+    put(context, worker, E3D_OUTPUT_WORLD_POSITION, at, batch->position);
+    put(context, worker, E3D_OUTPUT_UV, at, batch->uv);
+    put(context, worker, E3D_OUTPUT_BARYCENTRIC, at, batch->b);
 }
 
-void e3d_outputs_no_depth(const e3d_context *context, const e3d_tile *tile)
-{
-    float *target = context->targets->ndc_depth;
-    pixel_box box = pixels_of(context, tile);
-    for (int32_t y = 0; target && y < box.height; y++)
-        for (int32_t x = 0; x < box.width; x++)
-            target[(size_t)(box.y + y) * context->frame->width + box.x + x] = INFINITY;
-}
+/* ---- a tile ---- */
 
-void e3d_outputs_depth(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile)
+static void put_ndc_depth(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile)
 {
-    float *target = context->targets->ndc_depth;
-    if (!target)
-        return;
+    float *pixels = gathered(context, worker, E3D_OUTPUT_NDC_DEPTH);
+    const e3d_visible_tile *visible = worker->visible;
     int axis = context->frame->samples_axis, middle = axis / 2;
-    pixel_box box = pixels_of(context, tile);
-    for (int32_t y = 0; y < box.height; y++) {
-        float *row = target + (size_t)(box.y + y) * context->frame->width + box.x;
-        for (int32_t x = 0; x < box.width; x++) {
+    for (int y = 0; pixels && y < tile->height / axis; y++)
+        for (int x = 0; x < tile->width / axis; x++) {
             int at = (y * axis + middle) * E3D_TILE + x * axis + middle;
-            row[x] = worker->visible->id[at] >= 0 ? worker->visible->z[at] : INFINITY;
+            pixels[y * E3D_TILE + x] = visible->id[at] >= 0 ? visible->z[at] : INFINITY;
         }
+}
+
+void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile)
+{
+    put_ndc_depth(context, worker, tile);
+    for (int k = 0; k < E3D_OUTPUTS; k++) {
+        const void *pixels = gathered(context, worker, k);
+        size_t bytes = sizeof(int32_t) * (size_t)KINDS[k].channels;
+        if (pixels)
+            e3d_write_rows(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
+    }
+}
+
+void e3d_outputs_empty(const e3d_context *context, const e3d_tile *tile)
+{
+    for (int k = 0; k < E3D_OUTPUTS; k++) {
+        int32_t row[3 * E3D_TILE];
+        if (!context->outputs[k].target)
+            continue;
+        for (int i = 0; i < KINDS[k].channels * E3D_TILE; i++)
+            row[i] = KINDS[k].background;
+        e3d_write_rows(context, tile, context->outputs[k].target, sizeof(int32_t) * (size_t)KINDS[k].channels, row, 0);
     }
 }

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "core/srgb_tables.h"
-#include "core/stream.h"
 #include "pipeline/frame.h"
 
 static float unit(float v)
@@ -11,10 +10,10 @@ static float unit(float v)
     return v < 1.0f ? v : 1.0f;
 }
 
-void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker)
 {
     e3d_tile_memory *memory = worker->tile;
-    e3d_outputs_begin(context, tile);
+    e3d_outputs_begin(context, worker);
     if (!context->targets->color)
         return;
     int single = context->frame->samples_axis == 1;
@@ -141,42 +140,20 @@ static void resolve_samples(const e3d_context *context, e3d_worker *worker, cons
     }
 }
 
-/* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
-static int is_far(const e3d_context *context, size_t bytes)
-{
-    enum { LARGE = 1 << 21, SHARED = 1 << 18 };
-    return bytes >= (context->renderer->threads > 1 ? SHARED : LARGE);
-}
-
-/* Rows of pixels, `step` apart, to the picture. */
-static void write_rows(const e3d_context *context, const e3d_tile *tile, const uint32_t *rgba, int step)
-{
-    size_t pitch = 4 * (size_t)context->frame->width, bytes = 4 * (size_t)tile->width;
-    uint8_t *row = context->targets->color + (size_t)tile->y * pitch + 4 * (size_t)tile->x;
-    int far = is_far(context, pitch * (size_t)context->frame->height);
-    for (int y = 0; y < tile->height; y++, row += pitch, rgba += step)
-        if (far)
-            e3d_stream(row, rgba, bytes);
-        else
-            memcpy(row, rgba, bytes);
-}
-
 void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile)
 {
-    e3d_outputs_begin(context, tile);
-    e3d_outputs_no_depth(context, tile);
+    e3d_outputs_empty(context, tile);
     if (context->targets->color)
-        write_rows(context, tile, context->background_row, 0);
+        e3d_write_rows(context, tile, context->targets->color, sizeof(uint32_t), context->background_row, 0);
 }
 
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
-    e3d_outputs_depth(context, worker, tile);
+    e3d_outputs_end(context, worker, tile);
     if (!context->targets->color)
         return;
-    if (context->frame->samples_axis > 1) {
+    if (context->frame->samples_axis > 1)
         resolve_samples(context, worker, tile);
-        return;
-    }
-    write_rows(context, tile, worker->tile->rgba, E3D_TILE);
+    else
+        e3d_write_rows(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
 }

@@ -158,8 +158,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
 }
 
-static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                        const e3d_group *group, int wanted)
+static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
     const e3d_surfaces *surfaces = &worker->tile->surfaces;
@@ -173,7 +172,7 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     if (context->wants & E3D_NEED_ALBEDO)
         find_albedo(context, group, batch, surfaces);
     if (context->wants & E3D_NEED_OUTPUTS)
-        e3d_outputs_batch(context, worker, tile);
+        e3d_outputs_batch(context, worker);
     int hidden = group->face && context->frame->wireframe == E3D_WIRE_ONLY;
     if (!(context->wants & E3D_NEED_COLOR))
         return;
@@ -204,8 +203,8 @@ static int32_t find_stretch(const e3d_visible_piece *pieces, int32_t first, int3
 }
 
 /* The samples of pieces whose surfaces, 0 and so on, are known. */
-static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                         const e3d_group *group, int32_t first, int32_t end, const e3d_run *runs, int wanted)
+static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int32_t end,
+                         const e3d_run *runs, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
     int32_t surface = 0;
@@ -217,12 +216,12 @@ static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e
             s.run += context->kernels->take_runs(runs + s.run, s.end_run - s.run, s.first - surface, batch);
             if (s.run == s.end_run)
                 break;
-            shade_batch(context, worker, tile, group, wanted);
+            shade_batch(context, worker, group, wanted);
             batch->count = 0;
         }
         surface += s.end - s.first;
     }
-    shade_batch(context, worker, tile, group, wanted);
+    shade_batch(context, worker, group, wanted);
 }
 
 static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
@@ -233,7 +232,7 @@ static void shade_group(const e3d_context *context, e3d_worker *worker, const e3
         end = e3d_add_surfaces(context, worker, group, first, wanted);
         if (wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(context, worker, tile, wanted);
-        shade_pieces(context, worker, tile, group, first, end, runs, wanted);
+        shade_pieces(context, worker, group, first, end, runs, wanted);
     }
 }
 

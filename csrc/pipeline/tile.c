@@ -311,7 +311,7 @@ static int draw_job(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
-    e3d_resolve_begin(context, worker, &job->tile);
+    e3d_resolve_begin(context, worker);
     if (!draw_scene(job) || !draw_marks(job))
         return 0;
     int64_t start = e3d_now_ns();

@@ -140,12 +140,9 @@ static void put_view(const e3d_context *context, const e3d_worker *worker, const
     }
 }
 
-/* One ID to pixels. */
-static void put_id(const e3d_context *context, const e3d_worker *worker, e3d_output_kind kind, const int32_t *at, int count,
-                   int32_t id)
+static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
 {
-    int32_t *pixels = gathered(context, worker, kind);
-    for (int i = 0; pixels && i < count; i++)
+    for (int i = 0; i < count; i++)
         pixels[at[i]] = id;
 }
 
@@ -155,15 +152,25 @@ static void put_ids(const e3d_context *context, const e3d_worker *worker, const 
     const e3d_batch *batch = &worker->tile->batch;
     const e3d_visible_piece *pieces = worker->pieces.data;
     const e3d_group *groups = worker->groups.data;
+    int32_t *triangles = gathered(context, worker, E3D_OUTPUT_TRIANGLE_ID);
+    int32_t *objects = gathered(context, worker, E3D_OUTPUT_OBJECT_ID);
+    int32_t *instances = gathered(context, worker, E3D_OUTPUT_INSTANCE_ID);
+    int32_t *materials = gathered(context, worker, E3D_OUTPUT_MATERIAL_ID);
+    if (!triangles && !objects && !instances && !materials)
+        return;
     for (int i = 0, end = 0; i < batch->count; i = end) {
         while (end < batch->count && batch->surface[end] == batch->surface[i])
             end++;
         const e3d_visible_piece *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
         const e3d_draw *draw = piece->draw->draw;
-        put_id(context, worker, E3D_OUTPUT_TRIANGLE_ID, at + i, end - i, e3d_face_of(piece));
-        put_id(context, worker, E3D_OUTPUT_OBJECT_ID, at + i, end - i, e3d_object_id(draw, piece->instance));
-        put_id(context, worker, E3D_OUTPUT_INSTANCE_ID, at + i, end - i, e3d_instance_id(draw, piece->instance));
-        put_id(context, worker, E3D_OUTPUT_MATERIAL_ID, at + i, end - i, groups[piece->group].material->id);
+        if (triangles)
+            put_id(triangles, at + i, end - i, e3d_face_of(piece));
+        if (objects)
+            put_id(objects, at + i, end - i, e3d_object_id(draw, piece->instance));
+        if (instances)
+            put_id(instances, at + i, end - i, e3d_instance_id(draw, piece->instance));
+        if (materials)
+            put_id(materials, at + i, end - i, groups[piece->group].material->id);
     }
 }
 

@@ -289,6 +289,12 @@ typedef struct e3d_lighting {
 } e3d_lighting;
 
 /* How the samples of a batch become pixels. */
+/* A tile's samples, where there are several a pixel. */
+typedef struct e3d_samples {
+    float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* clamped, or 0 where one doesn't count */
+    float counts[E3D_TILE_SAMPLES + E3D_PAD];   /* 1, or 0 where a transparent background shows */
+} e3d_samples;
+
 typedef struct e3d_paint {
     int wanted;                      /* E3D_WANT_* */
     const e3d_texture_view *texture; /* may be NULL */
@@ -298,6 +304,7 @@ typedef struct e3d_paint {
     float shininess;
     const float *specular, *emissive; /* of lit samples; specular may be NULL */
     int srgb;
+    e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
 } e3d_paint;
 
 /* ---- the table ---- */
@@ -353,6 +360,11 @@ typedef struct e3d_kernels {
                    uint32_t *rgba);
     /* The colours of a batch, likewise, each to its sample's place in rgba. */
     void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba);
+    /* Keeps a batch's colours, clamped: its samples count. */
+    void (*keep)(const e3d_batch *batch, e3d_samples *samples);
+    /* `width` pixels of axis x axis samples each, the first in that row of samples: their mean colours, encoded, and alpha; the
+     * background's colour, which is clamped, where none counts. */
+    void (*average)(const e3d_samples *samples, int axis, int row, int width, const float background[3], int srgb, uint32_t *rgba);
     /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. There are few lights. */
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
 } e3d_kernels;

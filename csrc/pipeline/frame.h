@@ -150,8 +150,8 @@ typedef struct e3d_tile_memory {
     float bound[E3D_TILE_SAMPLES + E3D_PAD]; /* E3D_BEYOND_FAR everywhere */
     float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* wireframe: what an edge's depth must be less than */
     int32_t mark[E3D_TILE_SAMPLES + E3D_PAD];  /* overdraw counts, then wireframe marks */
-    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling: 1 where a sample has its own colour */
-    float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* supersampling only */
+    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
+    e3d_samples samples;                       /* of several */
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
     e3d_run spare[E3D_TILE_SAMPLES];      /* while runs are sorted */
@@ -282,7 +282,9 @@ typedef struct e3d_context {
     int draw_faces;    /* faces are needed at all */
     int wants;         /* E3D_WANT_* and E3D_NEED_* of the visible samples; 0: no shading */
     int32_t line_half, point_half; /* 1/256 sample */
-    uint32_t background_rgba, line_rgba;
+    float background[3];                        /* clamped */
+    float background_sample[4], line_sample[4]; /* colour, and whether it counts (e3d_samples) */
+    uint32_t background_rgba, line_rgba;        /* of a pixel of nothing else */
     uint32_t background_row[E3D_TILE];
     atomic_llong next; /* instance, task, item or tile */
     atomic_llong next_unit;
@@ -437,7 +439,7 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
-/* The whole tile is background, without supersampling. */
+/* The whole tile is background. */
 void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* picture.c: `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */

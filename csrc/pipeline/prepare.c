@@ -250,6 +250,40 @@ static uint32_t encode_one(const e3d_context *context, const float color[3], flo
     return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
 }
 
+/* R33 of a pixel whose samples are alike. */
+static float mean_of(float value, int count)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < count; i++)
+        sum = sum + value;
+    return sum * (1.0f / (float)count);
+}
+
+static float unit(float v)
+{
+    v = v > 0.0f ? v : 0.0f;
+    return v < 1.0f ? v : 1.0f;
+}
+
+static void prepare_background(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    int opaque = frame->background[3] > 0.5f;
+    float pixel[3];
+    for (int k = 0; k < 3; k++) {
+        context->background[k] = unit(frame->background[k]);
+        context->background_sample[k] = opaque ? context->background[k] : 0.0f;
+        context->line_sample[k] = unit(frame->line_color[k]);
+        pixel[k] = opaque ? mean_of(context->background[k], frame->samples_axis * frame->samples_axis) : context->background[k];
+    }
+    context->background_sample[3] = opaque;
+    context->line_sample[3] = 1.0f;
+    context->background_rgba = encode_one(context, pixel, frame->background[3]);
+    context->line_rgba = encode_one(context, frame->line_color, 1.0f);
+    for (int x = 0; x < E3D_TILE; x++)
+        context->background_row[x] = context->background_rgba;
+}
+
 /* Whether lighting depends on where a sample is. */
 static int lights_by_position(const e3d_frame *frame)
 {
@@ -340,10 +374,7 @@ static void prepare_constants(e3d_context *context)
         context->tables[pass] = (e3d_record_table){context->records[pass], context->drawn, bits};
     context->sorted = frame->hidden != E3D_HIDDEN_ZBUFFER;
     context->by_fragments = !e3d_keeps_slots(context) && frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE;
-    context->background_rgba = encode_one(context, frame->background, frame->background[3]);
-    for (int x = 0; x < E3D_TILE; x++)
-        context->background_row[x] = context->background_rgba;
-    context->line_rgba = encode_one(context, frame->line_color, 1.0f);
+    prepare_background(context);
 }
 
 /* Whether any output needs faces: not a plain wireframe. */

@@ -129,12 +129,12 @@ static int wanted_of(const e3d_context *context, const e3d_group *group)
     return group->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 
-/* Whether samples go straight to pixels: no other output, one sample a pixel, few lights. */
+/* Whether samples go straight to where colours are kept: no other output, few lights. */
 static int is_painted(const e3d_context *context, const e3d_group *group)
 {
     const e3d_frame *frame = context->frame;
     int lit = frame->mode == E3D_MODE_LIT;
-    return !(context->wants & E3D_NEED_OUTPUTS) && frame->samples_axis == 1 && (lit || frame->mode == E3D_MODE_UNLIT) &&
+    return !(context->wants & E3D_NEED_OUTPUTS) && (lit || frame->mode == E3D_MODE_UNLIT) &&
            !(group->face && frame->wireframe == E3D_WIRE_ONLY) &&
            (!lit || context->lighting.light_count <= E3D_FEW_LIGHTS);
 }
@@ -154,6 +154,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .specular = shiny ? m->specular : NULL,
         .emissive = m->emissive,
         .srgb = context->srgb,
+        .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
     };
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
 }

@@ -328,7 +328,7 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     worker->visible = job.kept ? &context->kept[number] : &worker->tile->visible;
     if (context->finished && is_empty(&job))
         return 1;
-    if (context->frame->samples_axis == 1 && !job.kept && is_empty(&job)) {
+    if (!job.kept && is_empty(&job)) {
         e3d_resolve_empty(context, &job.tile);
         return 1;
     }

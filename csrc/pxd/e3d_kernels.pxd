@@ -116,6 +116,9 @@ cdef extern from "kernels/kernels.h" nogil:
         float clamp[2]
         float eye[4]
 
+    ctypedef struct e3d_samples:
+        pass
+
     ctypedef struct e3d_paint:
         int wanted
         const e3d_texture_view *texture
@@ -127,6 +130,7 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *specular
         const float *emissive
         int srgb
+        e3d_samples *samples
 
     ctypedef struct e3d_kernels:
         void (*transform)(const float *positions, int stride, int count, const float *matrix,
@@ -162,6 +166,9 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)
+        void (*keep)(const e3d_batch *batch, e3d_samples *samples)
+        void (*average)(const e3d_samples *samples, int axis, int row, int width,
+                        const float *background, int srgb, uint32_t *rgba)
         void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint,
                       uint32_t *rgba)
 

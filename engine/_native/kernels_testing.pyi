@@ -128,6 +128,17 @@ class Kernels:
         rgba: _Words,
     ) -> None: ...
     def put(self, batch: _Bytes, srgb: bool, rgba: _Words) -> None: ...
+    def keep(self, batch: _Bytes, samples: _Floats) -> None: ...
+    def average(
+        self,
+        samples: _Floats,
+        axis: int,
+        row: int,
+        width: int,
+        background: _Floats,
+        srgb: bool,
+        rgba: _Words,
+    ) -> None: ...
     def paint(
         self,
         batch: _Bytes,
@@ -143,4 +154,5 @@ class Kernels:
         emissive: _Floats,
         srgb: bool,
         rgba: _Words,
+        samples: _Floats | None = ...,
     ) -> None: ...

@@ -336,12 +336,26 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.put(<const e3d_batch *>&batch[0], srgb, &rgba[0])
 
+    def keep(self, const uint8_t[::1] batch, float[:, ::1] samples):
+        """``samples``: (4, E3D_TILE * E3D_TILE + PAD)."""
+        check_size(batch, sizeof(e3d_batch))
+        for _ in range(self.rounds):
+            self.table.keep(<const e3d_batch *>&batch[0], samples_of(samples))
+
+    def average(self, float[:, ::1] samples, int axis, int row, int width,
+                const float[::1] background, bint srgb, uint32_t[::1] rgba):
+        """``samples``: as for `keep`; ``rgba`` has width + PAD elements."""
+        for _ in range(self.rounds):
+            self.table.average(samples_of(samples), axis, row, width, &background[0], srgb, &rgba[0])
+
     def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
-              const float[::1] specular, const float[::1] emissive, bint srgb, uint32_t[::1] rgba):
+              const float[::1] specular, const float[::1] emissive, bint srgb, uint32_t[::1] rgba,
+              float[:, ::1] samples=None):
         """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
 
-        ``specular`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements.
+        ``specular`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements. ``samples``,
+        as for `keep`: these are written instead.
         """
         cdef e3d_paint paint
         cdef e3d_texture_view view
@@ -364,9 +378,16 @@ cdef class Kernels:
         paint.specular = NULL if specular is None else &specular[0]
         paint.emissive = &emissive[0]
         paint.srgb = srgb
+        paint.samples = NULL if samples is None else samples_of(samples)
         for _ in range(self.rounds):
             self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
                              &paint, &rgba[0])
+
+
+cdef e3d_samples *samples_of(float[:, ::1] planes) except NULL:
+    if planes.nbytes != sizeof(e3d_samples):
+        raise ValueError(f"{planes.nbytes} bytes, not {sizeof(e3d_samples)}")
+    return <e3d_samples *>&planes[0, 0]
 
 
 cdef enum:

@@ -1,10 +1,11 @@
-"""paint: the pixels of what each step's kernel gives after the other; put: those of colours."""
+"""paint: the pixels, or samples, of what each step's kernel gives; put: those of colours."""
 
 import itertools
 
 import numpy as np
 import pytest
-from kernels.harness import all_backends, every_count, hostile
+from kernels.arithmetic import clamp
+from kernels.harness import all_backends, bits, every_count, hostile
 from kernels.layouts import (
     BATCH,
     BATCH_RECORD,
@@ -77,8 +78,21 @@ def random_material(rng, texture, lit):
     }
 
 
+def untouched():
+    """The planes of a tile's samples: three of colours, and whether they count."""
+    return np.full((4, SAMPLES + PAD), UNTOUCHED, np.uint32).view(np.float32)
+
+
+def kept(colors, samples):
+    """What the planes hold after samples of these colours, (3, n)."""
+    planes = untouched()
+    planes[:3, samples] = clamp(colors, np.float32(0), np.float32(1))
+    planes[3, samples] = 1
+    return planes
+
+
 def step_by_step(kernels, row, batch, surfaces, m):
-    """The tile after every kernel in turn."""
+    """The tile, and the planes of samples, after every kernel in turn."""
     kernels.interpolate(row, surfaces, m["wanted"])
     batch["color"] = m["base"][:, None]
     if m["texture"]:
@@ -95,7 +109,7 @@ def step_by_step(kernels, row, batch, surfaces, m):
     count = int(batch["count"])
     kernels.encode(*(np.ascontiguousarray(c) for c in batch["color"]), count, m["srgb"], pixels)
     tile[batch["sample"][:count]] = pixels[:count]
-    return tile
+    return tile, kept(batch["color"][:, :count], batch["sample"][:count])
 
 
 @all_backends
@@ -112,15 +126,21 @@ def test_paint(kernels, filter_name, lit):
     ):
         texture = random_texture(rng, filter_name, texel_bytes) if filter_name else None
         material = random_material(rng, texture, lit)
-        tile = np.full(SAMPLES + PAD, UNTOUCHED, np.uint32)
+        tile, planes = np.full(SAMPLES + PAD, UNTOUCHED, np.uint32), untouched()
         before = row.copy()
+        kernels.paint(row, surfaces, *material.values(), tile, planes)
+        assert (tile == UNTOUCHED).all()  # where samples are kept, there are no pixels yet
+        row[:] = before
         kernels.paint(row, surfaces, *material.values(), tile)
         for name in ("count", "sample", "surface"):
             given = before.view(BATCH_RECORD)[name]
             assert np.array_equal(row.view(BATCH_RECORD)[name], given), f"{name} was written"
         row[:] = before
         expected = step_by_step(kernels, row, fields, surfaces, material)
-        assert np.array_equal(tile, expected), f"{fields['count']} samples, {material}"
+        assert np.array_equal(tile, expected[0]), f"{fields['count']} samples, {material}"
+        assert np.array_equal(bits(planes), bits(expected[1])), (
+            f"{fields['count']} samples, {material}"
+        )
         differing.update(tile[fields["sample"][: fields["count"]]])
     assert len(differing) > 1000  # colours, not the one value of a broken test
     batches.check_gaps()

@@ -26,8 +26,7 @@ static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_p
 /* The first lanes of a vector: all, where those past the batch's end are the last sample again. */
 static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int lanes, uint32_t *rgba)
 {
-    vi32 row = v_addi(v_seti(sample[0]), v_iota());
-    if (!v_any(v_mnot(v_eqi(v_loadi(sample), row)))) {
+    if (samples_are_neighbours(sample)) {
         v_storei(rgba + sample[0], pixels);
         return;
     }
@@ -115,9 +114,21 @@ static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const e3d_paint *paint, f
     }
 }
 
+static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const e3d_paint *paint, float shininess)
+{
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vf32 color[3];
+        paint_load(batch, i, color);
+        paint_light(batch, i, paint, shininess, color);
+        samples_keep(batch->sample + i, color, V_LANES, paint->samples);
+    }
+}
+
 static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint, float shininess, uint32_t *rgba)
 {
-    if (paint->srgb)
+    if (paint->samples)
+        paint_samples(batch, paint, shininess);
+    else if (paint->srgb)
         paint_srgb(batch, paint, shininess, rgba);
     else
         paint_linear(batch, paint, shininess, rgba);
@@ -142,6 +153,8 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         paint_pixels(batch, paint, paint->shininess, rgba);
     else if (paint->lighting)
         paint_pixels(batch, paint, 0.0f, rgba);
+    else if (paint->samples)
+        kernel_keep(batch, paint->samples);
     else
         kernel_put(batch, paint->srgb, rgba);
 }

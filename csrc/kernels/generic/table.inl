@@ -23,6 +23,7 @@
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
+#include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
 
 const e3d_kernels E3D_TABLE = {
@@ -51,5 +52,7 @@ const e3d_kernels E3D_TABLE = {
     .combine = kernel_combine,
     .encode = kernel_encode,
     .put = kernel_put,
+    .keep = kernel_keep,
+    .average = kernel_average,
     .paint = kernel_paint,
 };

@@ -127,6 +127,9 @@ typedef int32_t vpick;
 static inline vpick v_picker(vi32 index) { return index; }
 static inline vf32 v_pick(const void *base, vpick p) { float v; memcpy(&v, (const char *)base + 4 * p, 4); return v; }
 
+/* Of the lanes of a, then b: the first, third and so on; the others. */
+static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) { *even = a; *odd = b; }
+
 /* The texels at[lane] and at[lane] + 1 of each lane. Of 8-bit channels: whole. Of 16-bit ones: red, green and blue, of
  * the left texel in the low half, of the right one in the high half. */
 static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {

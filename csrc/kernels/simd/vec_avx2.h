@@ -136,6 +136,13 @@ static inline vf32 v_pick(const void *base, vpick p) {
 }
 
 /* Lanes 0 .. 3 in the low half, 4 .. 7 in the high one: unpacking works within halves. */
+static inline vf32 quarters_in_order(__m256 a) {
+    return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(a), _MM_SHUFFLE(3, 1, 2, 0)));
+}
+static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
+    *even = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
+    *odd = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_ODD));
+}
 static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
     __m256 a = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));
     __m256 b = _mm256_set_m128(pairs_two(texels, at + 6), pairs_two(texels, at + 2));

@@ -169,6 +169,12 @@ static inline vf32 v_pick(const void *base, vpick p) {
     return _mm512_permutexvar_ps(p, _mm512_loadu_ps(base));
 }
 
+static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
+    __m512i first = _mm512_slli_epi32(v_iota(), 1);
+    *even = _mm512_permutex2var_ps(a, first, b);
+    *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
+}
+
 /* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
 static inline vf32 pairs_eight(const void *texels, const int32_t *at) {
     __m256 low = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));

@@ -133,6 +133,10 @@ static inline vf32 v_pick(const void *base, vpick p) {
     return _mm_castsi128_ps(_mm_shuffle_epi8(_mm_loadu_si128((const __m128i *)base), p));
 }
 
+static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
+    *even = _mm_shuffle_ps(a, b, PAIRS_EVEN);
+    *odd = _mm_shuffle_ps(a, b, PAIRS_ODD);
+}
 static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
     __m128 a = pairs_two(texels, at), b = pairs_two(texels, at + 2);
     *left = _mm_castps_si128(_mm_shuffle_ps(a, b, PAIRS_EVEN));

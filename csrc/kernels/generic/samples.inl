@@ -1,0 +1,86 @@
+/* samples: several a pixel, whose colours are kept until the tile is drawn, and averaged then (R33, R34). */
+
+/* Whether a vector's samples are neighbours in a row, one after the other. */
+static ALWAYS_INLINE int samples_are_neighbours(const int32_t *sample)
+{
+    vi32 row = v_addi(v_seti(sample[0]), v_iota());
+    return !v_any(v_mnot(v_eqi(v_loadi(sample), row)));
+}
+
+/* The first lanes of a vector: all, where those past the batch's end are the last sample again. */
+static ALWAYS_INLINE void samples_keep(const int32_t *sample, const vf32 color[3], int lanes, e3d_samples *samples)
+{
+    float kept[3][V_LANES];
+    int neighbours = samples_are_neighbours(sample) && lanes == V_LANES;
+    for (int k = 0; k < 3; k++)
+        v_storef(neighbours ? samples->color[k] + sample[0] : kept[k], encode_clamp(color[k]));
+    if (neighbours) {
+        v_storef(samples->counts + sample[0], v_setf(1.0f));
+        return;
+    }
+    for (int lane = 0; lane < lanes; lane++) {
+        for (int k = 0; k < 3; k++)
+            samples->color[k][sample[lane]] = kept[k][lane];
+        samples->counts[sample[lane]] = 1.0f;
+    }
+}
+
+static void kernel_keep(const e3d_batch *batch, e3d_samples *samples)
+{
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        const vf32 color[3] = {v_loadf(batch->color[0] + i), v_loadf(batch->color[1] + i), v_loadf(batch->color[2] + i)};
+        int lanes = batch->count - i < V_LANES ? batch->count - i : V_LANES;
+        samples_keep(batch->sample + i, color, lanes, samples);
+    }
+}
+
+/* Of a row of samples: the first of each pixel, the second and so on. */
+static ALWAYS_INLINE void samples_columns(const float *row, int axis, vf32 column[4])
+{
+    vf32 even[2], odd[2];
+    for (int i = 0; i < axis / 2; i++)
+        v_split(v_loadf(row + 2 * i * V_LANES), v_loadf(row + (2 * i + 1) * V_LANES), &even[i], &odd[i]);
+    if (axis == 2) {
+        column[0] = even[0];
+        column[1] = odd[0];
+        return;
+    }
+    v_split(even[0], even[1], &column[0], &column[2]);
+    v_split(odd[0], odd[1], &column[1], &column[3]);
+}
+
+static ALWAYS_INLINE vf32 samples_sum(const float *first, int axis)
+{
+    vf32 sum = v_setf(0.0f), column[4];
+    for (int y = 0; y < axis; y++) {
+        samples_columns(first + y * E3D_TILE, axis, column);
+        for (int x = 0; x < axis; x++)
+            sum = v_add(sum, column[x]);
+    }
+    return sum;
+}
+
+static ALWAYS_INLINE void samples_average(const e3d_samples *samples, int axis, int row, int width, const float background[3],
+                                          int srgb, uint32_t *rgba)
+{
+    float all = (float)(axis * axis);
+    for (int x = 0; x < width; x += V_LANES) {
+        int first = row * E3D_TILE + x * axis;
+        vf32 color[3], one = v_setf(1.0f), count = samples_sum(samples->counts + first, axis);
+        vmask some = v_gt(count, v_setf(0.0f));
+        vf32 scale = v_div(one, v_max(count, one));
+        for (int k = 0; k < 3; k++)
+            color[k] = v_self(some, v_mul(samples_sum(samples->color[k] + first, axis), scale), v_setf(background[k]));
+        vi32 alpha = encode_linear(v_mul(count, v_setf(1.0f / all)));
+        v_storei(rgba + x, v_ori(v_andi(encode_vector(color, srgb), v_seti(0xFFFFFF)), v_shl(alpha, 24)));
+    }
+}
+
+static void kernel_average(const e3d_samples *samples, int axis, int row, int width, const float background[3], int srgb,
+                           uint32_t *rgba)
+{
+    if (axis == 2)
+        samples_average(samples, 2, row, width, background, srgb, rgba);
+    else
+        samples_average(samples, 4, row, width, background, srgb, rgba);
+}

@@ -44,12 +44,12 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
     from ..trimesh_conversion import posed_mesh, scene_parts
 
     kind = "glb" if source.data.startswith(_GLB) else source.extension.removeprefix(".") or "glb"
+    _check_beginning(source, kind)
     if kind not in trimesh.available_formats():
         raise FileFormatError(
             f"trimesh needs further packages for {kind} files: pip install trimesh[easy]",
             source.path,
         )
-    _check_beginning(source, kind)
     warnings = WarningList(source.path)
     try:
         loaded = trimesh.load(

@@ -171,3 +171,10 @@ def test_what_is_no_such_file_at_all_is_told(tmp_path, name, content, message):
     with pytest.raises(FileFormatError, match=rf"{name}: {message}") as caught:
         load_mesh(tmp_path / name)
     assert "\n" not in str(caught.value)
+
+
+def test_packages_that_trimesh_lacks_are_told(write, monkeypatch):
+    path = write("a.dae", b"<COLLADA/>")
+    monkeypatch.setattr(trimesh, "available_formats", lambda: {"glb"})
+    with pytest.raises(FileFormatError, match=r"a.dae: trimesh needs further packages for dae"):
+        load_mesh(path)

@@ -27,7 +27,7 @@ static ALWAYS_INLINE void hash_missed(const e3d_row_numbers *t, const uint8_t *c
         const uint8_t *corner = corner_at(corners, stride, j);
         for (size_t k = j; (missed >> j & 1) && k < count; k += PERIOD, corner += 2 * stride) {
             halves[k] = half_hash(t, corner);
-            __builtin_prefetch(&t->places[e3d_place_of(t, halves[k])], 1);
+            __builtin_prefetch(e3d_place_of(t, halves[k]), 1);
         }
     }
 }
@@ -53,10 +53,11 @@ static ALWAYS_INLINE int32_t find(e3d_row_numbers *t, const uint8_t *corner, con
     return (int32_t)e3d_number_row(t, corner, WIDTH, half ? *half : half_hash(t, corner));
 }
 
-size_t e3d_number_regular(e3d_row_numbers *t, const uint8_t *corners, size_t stride, size_t count, int32_t *numbers,
-                          unsigned *missed)
+size_t e3d_number_regular(e3d_row_numbers *numbered, const uint8_t *corners, size_t stride, size_t count,
+                          int32_t *numbers, unsigned *missed)
 {
     uint32_t halves[E3D_ROW_BLOCK];
+    e3d_row_numbers here = *numbered, *const t = &here;
     const uint8_t *const rows = t->rows; /* stay where they are: there is room */
     const unsigned hashed = *missed;
     size_t known = t->count, misses = 0, k = 0;
@@ -78,5 +79,6 @@ size_t e3d_number_regular(e3d_row_numbers *t, const uint8_t *corners, size_t str
     }
     for (unsigned j = 0; k + j < count; j++)
         numbers[k + j] = find(t, corner_at(corners, stride, j), NULL);
+    numbered->count = t->count;
     return count - misses;
 }

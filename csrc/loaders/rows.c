@@ -15,11 +15,17 @@
 #include <time.h>
 
 #define BLOCK E3D_ROW_BLOCK
-/* Places for each number: in the beginning at least, and always. */
-#define PLENTY 3
-#define LEAST 2
-#define FEWEST_BITS 10
-#define MOST_BITS 32
+/* Places for each number: where a table begins or grows, and always (but in tables of MOST_PLACES). */
+#define PLENTY 8
+#define LEAST 4
+#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+#define FEWEST_PLACES ((size_t)1024)
+#define MOST_TAG_BITS 31
+#else /* a few hundred bytes make it grow, and rows share their tags */
+#define FEWEST_PLACES ((size_t)64)
+#define MOST_TAG_BITS 2
+#endif
+#define MOST_PLACES ((size_t)1 << 32)
 /* Blocks after which numbers are guessed again. */
 #define TRY_EVERY 32
 
@@ -41,36 +47,41 @@ e3d_row_seeds e3d_random_seeds(void)
     return seeds;
 }
 
-static void *large_zeros(size_t size)
+/* Bits that no number has of which so many places have room. */
+static int tag_bits_of(size_t places)
 {
-    void *const room = e3d_large_memory(size);
-    return room ? memset(room, 0, size) : NULL;
+    const int bits = places < MOST_PLACES ? __builtin_clz((uint32_t)(places / LEAST)) : 0;
+    return bits < MOST_TAG_BITS ? bits : MOST_TAG_BITS;
+}
+
+/* So many empty places; false if memory is out. */
+static bool empty_places(table *t, size_t size)
+{
+    free(t->places);
+    t->size = size;
+    t->tag_bits = tag_bits_of(size);
+    t->places = e3d_large_memory(size * sizeof *t->places);
+    if (t->places)
+        memset(t->places, 0, size * sizeof *t->places);
+    return t->places;
 }
 
 /* Makes room so that `wanted` numbers leave enough places empty. */
 static bool reserve_places(table *t, size_t wanted)
 {
-    if (t->places && wanted * LEAST <= t->size)
+    if (t->places && (wanted * LEAST <= t->size || t->size == MOST_PLACES))
         return true;
-    table grown = *t;
-    int bits = FEWEST_BITS;
-    while (bits < MOST_BITS && (size_t)1 << bits < wanted * PLENTY)
-        bits++;
-    grown.size = (size_t)1 << bits;
-    grown.shift = 32 - bits;
-    grown.places = large_zeros(grown.size * sizeof *grown.places);
-    if (!grown.places)
+    const size_t size = wanted * PLENTY < FEWEST_PLACES ? FEWEST_PLACES : wanted * PLENTY;
+    if (!empty_places(t, size < MOST_PLACES ? size : MOST_PLACES))
         return false;
-    for (size_t i = 0; t->places && i < t->size; i++) {
-        if (!t->places[i])
-            continue;
-        size_t place = e3d_place_of(&grown, (uint32_t)t->places[i]);
-        while (grown.places[place])
-            place = e3d_next_place(&grown, place);
-        grown.places[place] = t->places[i];
+    for (size_t number = 0; number < t->count; number++) {
+        const uint8_t *const row = t->rows + number * t->width * WORD;
+        const uint32_t half = e3d_half_of(e3d_hash_row(row, t->width, t->zero, t->seeds));
+        uint32_t *place = e3d_place_of(t, half);
+        while (*place)
+            place = e3d_next_place(t, place);
+        *place = e3d_entry_of(t, number, half);
     }
-    free(t->places);
-    *t = grown;
     return true;
 }
 
@@ -91,27 +102,54 @@ static bool reserve_rows(table *t, size_t wanted)
 }
 
 /* Numbers the next rows, up to BLOCK; inlined for each width. */
-static ALWAYS_INLINE void number_block(table *t, e3d_row_reader in, size_t count, size_t width, int32_t *numbers)
+static ALWAYS_INLINE void number_block(table *numbered, e3d_row_reader in, size_t count, size_t width, int32_t *numbers)
 {
     uint32_t halves[BLOCK];
     e3d_row_reader again = in;
+    table t = *numbered;
     for (size_t k = 0; k < count; k++) {
-        halves[k] = e3d_half_of(e3d_hash_row(e3d_next_row(&in, width), width, t->zero, t->seeds));
-        __builtin_prefetch(&t->places[e3d_place_of(t, halves[k])], 1);
+        halves[k] = e3d_half_of(e3d_hash_row(e3d_next_row(&in, width), width, t.zero, t.seeds));
+        __builtin_prefetch(e3d_place_of(&t, halves[k]), 1);
     }
     for (size_t k = 0; k < count; k++)
-        numbers[k] = (int32_t)e3d_number_row(t, e3d_next_row(&again, width), width, halves[k]);
+        numbers[k] = (int32_t)e3d_number_row(&t, e3d_next_row(&again, width), width, halves[k]);
+    numbered->count = t.count;
+}
+
+/* The same for the corners of facets, which take turns without a count. */
+static void number_facets(table *numbered, const uint8_t *facets, size_t stride, size_t count, int32_t *numbers)
+{
+    uint32_t halves[BLOCK];
+    table t = *numbered;
+    const uint8_t *facet = facets;
+    for (size_t k = 0; k < count; k += 3, facet += stride) {
+#pragma GCC unroll 3
+        for (unsigned j = 0; j < 3; j++) {
+            halves[k + j] = e3d_half_of(e3d_hash_row(facet + j * 3 * WORD, 3, t.zero, t.seeds));
+            __builtin_prefetch(e3d_place_of(&t, halves[k + j]), 1);
+        }
+    }
+    facet = facets;
+    for (size_t k = 0; k < count; k += 3, facet += stride) {
+#pragma GCC unroll 3
+        for (unsigned j = 0; j < 3; j++)
+            numbers[k + j] = (int32_t)e3d_number_row(&t, facet + j * 3 * WORD, 3, halves[k + j]);
+    }
+    numbered->count = t.count;
 }
 
 /* Numbers rows from one on, up to BLOCK, for which there is room. */
 static void number_next(table *t, const e3d_rows *rows, size_t row, size_t count, int32_t *numbers)
 {
     const e3d_row_reader in = e3d_read_rows_from(rows, row);
-    switch (t->width) {
-    case 1: number_block(t, in, count, 1, numbers); break;
-    case 3: number_block(t, in, count, 3, numbers); break;
-    default: number_block(t, in, count, t->width, numbers);
-    }
+    if (t->width == 3 && rows->in_record == 3)
+        number_facets(t, in.row, rows->stride, count, numbers);
+    else if (t->width == 3)
+        number_block(t, in, count, 3, numbers);
+    else if (t->width == 1)
+        number_block(t, in, count, 1, numbers);
+    else
+        number_block(t, in, count, t->width, numbers);
 }
 
 /* Makes room for so many more; false if memory is out. */

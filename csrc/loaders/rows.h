@@ -78,21 +78,22 @@ static inline uint64_t e3d_hash_row(const uint8_t *row, size_t width, uint32_t z
     return hash;
 }
 
+/* Whether two rows that differ in their bits differ in more than the sign of zeros. */
+static inline bool e3d_same_but_zeros(const uint8_t *a, const uint8_t *b, size_t width, uint32_t zero)
+{
+    uint64_t differs = 0;
+    for (size_t i = 0; i < width; i += 4) {
+        const size_t count = width - i < 4 ? width - i : 4;
+        const e3d_pairs bits = e3d_plain_words(a + i * WORD, count, zero) ^ e3d_plain_words(b + i * WORD, count, zero);
+        differs |= bits[0] | bits[1];
+    }
+    return !differs;
+}
+
 /* Most rows that are equal are so without a look at zeros. */
 static inline bool e3d_same_rows(const uint8_t *a, const uint8_t *b, size_t width, uint32_t zero)
 {
-    uint64_t differs = 0, really = 0;
-    for (size_t i = 0; i < width; i += 4) {
-        const size_t count = width - i < 4 ? width - i : 4;
-        const e3d_pairs bits = e3d_plain_words(a + i * WORD, count, 0) ^ e3d_plain_words(b + i * WORD, count, 0);
-        differs |= bits[0] | bits[1];
-    }
-    for (size_t i = 0; differs && i < width; i += 4) {
-        const size_t count = width - i < 4 ? width - i : 4;
-        const e3d_pairs bits = e3d_plain_words(a + i * WORD, count, zero) ^ e3d_plain_words(b + i * WORD, count, zero);
-        really |= bits[0] | bits[1];
-    }
-    return !really;
+    return !memcmp(a, b, width * WORD) || e3d_same_but_zeros(a, b, width, zero);
 }
 
 #endif

@@ -94,7 +94,16 @@ def half_shuffled(corners):
     return np.concatenate([corners[:half], np.random.default_rng(7).permutation(corners[half:])])
 
 
-@pytest.mark.parametrize("change", [np.copy, holes, other_zeros, not_finite, half_shuffled])
+def apart(corners):
+    """Many more points than facets of a surface have: the table grows."""
+    facets = np.arange(len(corners), dtype=np.float32)[:, np.newaxis, np.newaxis] % 3000
+    return corners + np.random.default_rng(8).permutation(facets)
+
+
+CHANGES = [np.copy, holes, other_zeros, not_finite, half_shuffled, apart]
+
+
+@pytest.mark.parametrize("change", CHANGES)
 @pytest.mark.parametrize("facets_a_piece", [5242, 333, 3])
 def test_facets_weld_as_rows(change, facets_a_piece):
     """Guessing the numbers of regular facets, and failing at it, gives what a dictionary gives."""

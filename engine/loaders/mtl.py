@@ -24,6 +24,8 @@ _COLORS = {"Ka", "Kd", "Ks", "Ke", "Tf"}
 _SCALARS = {"Ns", "Ni", "d", "Tr", "illum", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr"}
 _SCALARS |= {"aniso", "anisor", "Pcor"}
 _MAPS = {"bump", "disp", "decal", "refl", "norm"}
+# Keys of ``extras`` that are ours: no statement's.
+_RESERVED = {"maps", "opacity"}
 # The words that follow each option of a map; the last three of -s, -o and -t may be left out.
 _OPTIONS = {
     "-blendu": 1,
@@ -163,6 +165,8 @@ def _read_statement(current, keyword, rest, line, warnings, path) -> None:
             current["maps"][keyword] = entry
         else:
             warnings.add(f"{keyword} without a file name", line, path)
+    elif keyword in _RESERVED:
+        warnings.add(f"{keyword} is left out", line, path)
     else:
         current["values"].setdefault(keyword, decoded(rest))
 

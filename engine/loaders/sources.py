@@ -25,6 +25,8 @@ MAX_UNPACKED_RATIO = 50
 _GZIP = b"\x1f\x8b\x08"
 _GZIP_WINDOW = 16 + 15
 _CHUNK = 1 << 20
+# What is behind the end of a member is copied once for each: a file may have very many.
+_PACKED_PIECE = 1 << 14
 # Files below this many bytes are read at once.
 _LARGE = 4 << 20
 # The bytes of a piece stay in the processor's cache until they are dealt with.
@@ -195,23 +197,24 @@ def _unpacked(source: Source) -> bytes:
     """Unpack all members of a gzip file; what stands behind them is left out."""
     import zlib
 
-    limit = MAX_UNPACKED_BASE + MAX_UNPACKED_RATIO * len(source.data)
-    rest, parts, total = source.data, [], 0
+    packed = memoryview(source.data)
+    limit = MAX_UNPACKED_BASE + MAX_UNPACKED_RATIO * len(packed)
+    place, parts, total = 0, [], 0
     try:
-        while rest.startswith(_GZIP):
+        while packed[place : place + len(_GZIP)] == _GZIP:
             member = zlib.decompressobj(_GZIP_WINDOW)
             while not member.eof:
-                part = member.decompress(rest, _CHUNK)
-                rest = member.unconsumed_tail
+                piece = packed[place : place + _PACKED_PIECE]
+                part = member.decompress(piece, _CHUNK)
+                place += len(piece) - len(member.unconsumed_tail) - len(member.unused_data)
                 parts.append(part)
                 total += len(part)
                 if total > limit:
                     raise FileFormatError(
                         f"unpacks to more than {limit} bytes, the limit for its size", source.path
                     )
-                if not part and not rest and not member.eof:
+                if not part and not piece:
                     raise FileFormatError("the compressed file is cut off", source.path)
-            rest = member.unused_data
     except zlib.error as error:
         raise FileFormatError(f"damaged compressed file: {error}", source.path) from error
     return b"".join(parts)

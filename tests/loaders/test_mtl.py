@@ -49,6 +49,17 @@ def test_colors_and_numbers(material):
     assert read.extras["Ni"] == 1.5
 
 
+@pytest.mark.parametrize("keyword", ["maps", "opacity"])
+def test_statements_that_bear_the_name_of_our_own_keys(write, obj_mesh, keyword):
+    write("model.mtl", f"newmtl m\n{keyword} nonsense\nmap_Ka a.png\nd .5\n")
+    mesh = obj_mesh(MODEL)
+    assert f"{keyword} is left out" in mesh.warnings[0]
+    assert mesh.materials[0].extras["opacity"] == 0.5
+    assert mesh.materials[0].extras["maps"] == {"map_Ka": {"name": "a.png"}}
+    write("model.mtl", f"newmtl m\n{keyword} nonsense\n")
+    assert obj_mesh(MODEL).materials[0].extras == {}
+
+
 def test_one_number_is_grey(material):
     assert material("Kd .5\n").color == (0.5, 0.5, 0.5)
 

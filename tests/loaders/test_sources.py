@@ -94,6 +94,21 @@ def test_damaged_compression(write, cut):
         load_mesh(write("a.obj.gz", bytes(broken)))
 
 
+def test_many_members():
+    """What is behind a member's end is not copied whole for each: that took minutes."""
+    empty = gzip.compress(b"")
+    data = empty * 50_000 + gzip.compress(OBJ[:40]) + gzip.compress(OBJ[40:])
+    assert len(quietly(data).faces) == len(quietly(OBJ).faces)
+
+
+def test_more_than_a_piece_at_a_time():
+    """Members larger than what is unpacked, and than what is fed, at a time."""
+    noise = b"".join(b"# %d\n" % (k * 2654435761 % 2**32) for k in range(100_000))
+    members = [gzip.compress(part, 1) for part in (noise + OBJ[:40], OBJ[40:] + noise)]
+    assert len(members[0]) > 4 * sources._PACKED_PIECE
+    assert len(quietly(b"".join(members), format="obj").faces) == len(quietly(OBJ).faces)
+
+
 def test_a_bomb_is_refused_before_it_is_unpacked(write, monkeypatch):
     path = write("a.obj.gz", gzip.compress(bytes(200 << 20)))
     tracemalloc.start()

@@ -79,6 +79,15 @@ def _options():
         yield Ratio(name, Way(workload), Way(workload, plain=True), workload == "textured")
 
 
+    several = ("color", "depth", "normal", "instance_id")
+    for workload in ("textured", "mesh"):
+        plain = Way(workload)
+        name = f"{workload}: color, depth, normals and instances over color"
+        yield Ratio(name, Way(workload, options={"outputs": several}), plain)
+        name = f"{workload}: 4 samples over 1"
+        yield Ratio(name, Way(workload, options={"samples": 4}), plain)
+
+
 def _threads():
     for workload in ("mesh", "grid", "city-above", "fill-back"):
         better, other = Way(workload, threads=2), Way(workload, threads=1)

@@ -31,16 +31,22 @@ class Drawing:
     ----------
     workload : Workload
     size : (int, int)
-    backend, threads
+    backend, threads, samples
         As for `Renderer`.
     options
         Beside those of the workload, for `Renderer.render`.
     """
 
-    def __init__(self, workload: Workload, size, backend="auto", threads=0, **options) -> None:
+    def __init__(
+        self, workload: Workload, size, backend="auto", threads=0, samples=1, **options
+    ) -> None:
         self.workload = workload
         self.renderer = Renderer(
-            *size, backend=backend, threads=threads, color_space=workload.color_space
+            *size,
+            backend=backend,
+            threads=threads,
+            samples=samples,
+            color_space=workload.color_space,
         )
         self._options = {**workload.options, **options}
 

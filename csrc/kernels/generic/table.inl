@@ -16,6 +16,7 @@
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/block_rows.inl"
 #include "kernels/generic/visible.inl"
+#include "kernels/generic/visible_records.inl"
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/project.inl"

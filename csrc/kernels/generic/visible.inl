@@ -1,4 +1,4 @@
-/* raster, the visible surface of a tile: records one after the other, with hierarchical depth (R12, R14-R16).
+/* raster, the visible surface of a tile: samples, and blocks of them with hierarchical depth (R12, R14-R16).
  *
  * A block of 8 x 8 samples that one record covers whole, nearer than all that is there, is only noted: its samples are
  * written when another record meets it halfway, or when the tile is settled. z is monotone along both axes (R14 has
@@ -17,12 +17,6 @@ static inline int32_t visible_min3(const int32_t v[3])
 {
     int32_t least = v[0] < v[1] ? v[0] : v[1];
     return least < v[2] ? least : v[2];
-}
-
-static inline int32_t visible_max3(const int32_t v[3])
-{
-    int32_t most = v[0] > v[1] ? v[0] : v[1];
-    return most > v[2] ? most : v[2];
 }
 
 /* First column or row of the sample box, in the viewport (R10). */
@@ -74,7 +68,7 @@ static inline vf32 visible_z(const raster_constants *c, vf32 column, int32_t dy)
 
 /* One vector of samples: `inside` of them are covered. Whether there are any, and whether one passes, could not be foreseen:
  * neither is asked. */
-static inline void visible_write(vmask inside, vf32 z, int at, const e3d_record *r, int32_t id,
+static inline void visible_write(vmask inside, vf32 z, size_t at, const e3d_record *r, int32_t id,
                                  e3d_visible_tile *tile, const e3d_record_table *table)
 {
     float *depth = tile->z + at;
@@ -165,7 +159,7 @@ static inline void visible_block(const e3d_piece *p, const raster_constants *c, 
             e[k] = v_addi(v_seti(p->e[k] + p->a[k] * i + p->b[k] * y0), rows_step(p->a[k], p->b[k]));
         for (int y = y0; y <= y1; y += ROWS) {
             vmask inside = full ? all : v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
-            visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + i, r, (int32_t)p->slot, tile, table);
+            visible_write(inside, visible_z(c, column, y - p->base_y), (size_t)(y * E3D_TILE + i), r, (int32_t)p->slot, tile, table);
             for (int k = 0; k < 3 && !full; k++)
                 e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));
         }
@@ -220,7 +214,7 @@ static inline visible_cover visible_cover_of(const e3d_piece *p, vi32 x, vi32 y,
     vmask across = v_mor(v_gti(v_seti(p->x0 - last), x), v_gti(x, v_seti(p->x1)));
     vmask down = v_mor(v_gti(v_seti(p->y0 - last), y), v_gti(y, v_seti(p->y1)));
     uint32_t out = v_bits(v_mor(ROWS > 1 ? v_mor(across, down) : across, v_negi(most)));
-    uint32_t all = v_bits(v_eqi(x, x));
+    uint32_t all = setup_tail(V_LANES);
     return (visible_cover){all & ~out, all & ~out & ~v_bits(v_negi(least))};
 }
 
@@ -271,26 +265,7 @@ static inline void visible_wide(const e3d_piece *p, const raster_constants *c, c
             visible_blocks(p, c, row * VISIBLE_BLOCKS + block, tame, r, tile, table);
 }
 
-/* ---- narrow boxes ---- */
-
-/* The blocks that a box of samples meets. */
-static inline uint64_t visible_met(int x0, int y0, int x1, int y1)
-{
-    const uint64_t left_column = 0x0101010101010101;
-    uint64_t columns = (2u << x1 / RASTER_BLOCK) - (1u << x0 / RASTER_BLOCK);
-    int above = y0 / RASTER_BLOCK, below = VISIBLE_BLOCKS - 1 - y1 / RASTER_BLOCK;
-    return columns * (left_column >> (VISIBLE_BLOCKS * (above + below)) << (VISIBLE_BLOCKS * above));
-}
-
-/* Whether all samples of the blocks that a piece meets are nearer. All blocks are looked at: how many vectors the met ones lie in
- * could not be foreseen. */
-static inline int visible_is_behind(uint64_t met, float near, const e3d_visible_tile *tile)
-{
-    uint64_t behind = 0;
-    for (int first = 0; first < E3D_TILE_BLOCKS; first += V_LANES)
-        behind |= (uint64_t)v_bits(v_gt(v_setf(near), v_loadf(tile->zmax + first))) << first;
-    return !(met & ~behind);
-}
+/* ---- what is written sample by sample ---- */
 
 /* Some samples of these blocks, at least one block, are written, no nearer than `near`. */
 static inline void visible_touch(uint64_t met, float near, e3d_visible_tile *tile)
@@ -300,129 +275,6 @@ static inline void visible_touch(uint64_t met, float near, e3d_visible_tile *til
         v_storef(tile->zmin + first, v_self(visible_lanes((uint32_t)(met >> first)), v_min(v_setf(near), zmin), zmin));
     }
     tile->stale |= met;
-}
-
-/* Before samples of these blocks are written one by one, no nearer than `near`. */
-static inline void visible_open(uint64_t met, float near, e3d_visible_tile *tile, const e3d_record_table *table)
-{
-    for (uint64_t left = met & tile->noted; left; left &= left - 1)
-        visible_unfold(tile, table, __builtin_ctzll(left));
-    visible_touch(met, near, tile);
-}
-
-static inline void visible_narrow(const e3d_piece *p, const raster_constants *c, uint64_t met, const e3d_record *r,
-                                  e3d_visible_tile *tile, const e3d_record_table *table)
-{
-    visible_open(met, p->zmin, tile, table);
-    int strips = (p->x1 - p->x0) / ROW_LANES + 1, y0 = p->y0 & -ROWS;
-    int most = E3D_TILE - strips * ROW_LANES;
-    int x0 = p->x0 < most ? p->x0 : most;
-    for (int x = x0; x < x0 + strips * ROW_LANES; x += ROW_LANES) {
-        vi32 e[3];
-        for (int k = 0; k < 3; k++)
-            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * x + p->b[k] * y0), rows_step(p->a[k], p->b[k]));
-        vf32 column = visible_column(c, x - p->base_x);
-        for (int y = y0; y <= p->y1; y += ROWS) {
-            vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
-            visible_write(inside, visible_z(c, column, y - p->base_y), y * E3D_TILE + x, r,
-                          (int32_t)p->slot, tile, table);
-            for (int k = 0; k < 3; k++)
-                e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));
-        }
-    }
-}
-
-/* At most 2 x 2 samples, whose cover setup has found. */
-static inline void visible_tiny(const e3d_record *r, int32_t id, e3d_visible_tile *tile,
-                                const e3d_record_table *table)
-{
-    visible_plane p = visible_plane_of(r, tile);
-    for (uint32_t cover = r->meta >> E3D_RECORD_SHIFT; cover; cover &= cover - 1) {
-        int bit = __builtin_ctz(cover), dx = bit & 1, dy = bit >> 1;
-        int x = p.base_x + dx, y = p.base_y + dy;
-        if ((x | y) & ~(E3D_TILE - 1)) /* in another tile */
-            continue;
-        float z = (p.z0 + (float)dx * p.gx) + (float)dy * p.gy;
-        z = z > p.zmin ? z : p.zmin;
-        z = z < p.zmax ? z : p.zmax;
-        int block = y / RASTER_BLOCK * VISIBLE_BLOCKS + x / RASTER_BLOCK, at = y * E3D_TILE + x;
-        if (z > tile->zmax[block])
-            continue;
-        if (tile->noted >> block & 1)
-            visible_unfold(tile, table, block);
-        if (z < tile->z[at]) {
-            tile->z[at] = z;
-            tile->id[at] = id;
-            tile->zmin[block] = tile->zmin[block] < z ? tile->zmin[block] : z;
-            tile->stale |= 1ull << block;
-        } else if (z == tile->z[at] && visible_comes_first(r, tile->id[at], table)) {
-            tile->z[at] = z;
-            tile->id[at] = id;
-        }
-    }
-}
-
-/* ---- a record in a tile ---- */
-
-/* The edges of a triangle of at most 64 samples a side: 32 bits hold all of them. */
-static inline void visible_small_edges(const e3d_record *r, e3d_piece *p, const e3d_visible_tile *tile)
-{
-    int32_t px = 256 * (tile->x + p->x0) + 128, py = 256 * (tile->y + p->y0) + 128;
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        int32_t a = r->y[i] - r->y[j], b = r->x[j] - r->x[i];
-        int32_t value = a * (px - r->x[i]) + b * (py - r->y[i]), top_left = a > 0 || (a == 0 && b > 0);
-        p->e[k] = ((value - !top_left) >> 8) - a * p->x0 - b * p->y0;
-        p->a[k] = a;
-        p->b[k] = b;
-    }
-}
-
-static inline void visible_piece(const e3d_record *r, int32_t id, e3d_visible_tile *tile,
-                                 const e3d_record_table *table)
-{
-    e3d_piece p;
-    visible_plane plane = visible_plane_of(r, tile);
-    int32_t right = visible_max3(r->x), bottom = visible_max3(r->y);
-    p.base_x = plane.base_x;
-    p.base_y = plane.base_y;
-    p.x0 = e3d_in_tile(p.base_x);
-    p.y0 = e3d_in_tile(p.base_y);
-    p.x1 = e3d_in_tile(((right - 128) >> 8) - tile->x);
-    p.y1 = e3d_in_tile(((bottom - 128) >> 8) - tile->y);
-    uint64_t met = visible_met(p.x0, p.y0, p.x1, p.y1);
-    if (visible_is_behind(met, r->zmin, tile))
-        return;
-    if (right - visible_min3(r->x) <= E3D_TILE * 256 && bottom - visible_min3(r->y) <= E3D_TILE * 256)
-        visible_small_edges(r, &p, tile);
-    else
-        for (int k = 0; k < 3; k++)
-            if (!e3d_piece_edge(r, k, tile->x, tile->y, &p))
-                return;
-    p.gx = r->gx;
-    p.gy = r->gy;
-    p.z0 = r->z0;
-    p.zmin = r->zmin;
-    p.slot = (uint32_t)id;
-    raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
-    if (raster_is_narrow(&p))
-        visible_narrow(&p, &c, met, r, tile, table);
-    else
-        visible_wide(&p, &c, r, tile, table);
-}
-
-static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids,
-                                  int count)
-{
-    for (int i = 0; i < count; i++) {
-        const e3d_record *r = e3d_record_at(table, ids[i]);
-        if (i + 4 < count)
-            __builtin_prefetch(e3d_record_at(table, ids[i + 4]));
-        if (r->meta & E3D_RECORD_TINY)
-            visible_tiny(r, (int32_t)ids[i], tile, table);
-        else
-            visible_piece(r, (int32_t)ids[i], tile, table);
-    }
 }
 
 static int __attribute__((noinline, cold)) fragment_comes_first(int32_t id, int32_t kept, const e3d_record_table *table)

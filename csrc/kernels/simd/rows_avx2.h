@@ -1,12 +1,12 @@
-/* Words for eight records of eight words at a time: columns in, rows out (AVX2 and up). */
+/* Words for eight records of eight words at a time: columns in, rows out, and back (AVX2 and up). */
 #ifndef E3D_ROWS_AVX2_H
 #define E3D_ROWS_AVX2_H
 
 #include <immintrin.h>
 #include <stdint.h>
 
-/* Lane l of column c goes to out[stride * l + c]. */
-static inline void rows_store8(const __m256i c[8], int32_t *out, int stride)
+/* Lane l of vector c becomes lane c of vector l. */
+static inline void rows_turn8(const __m256i c[8], __m256i out[8])
 {
     __m256i a[8], b[8];
     for (int i = 0; i < 4; i++) { /* pairs of columns */
@@ -20,9 +20,27 @@ static inline void rows_store8(const __m256i c[8], int32_t *out, int stride)
         b[4 * i + 3] = _mm256_unpackhi_epi64(a[4 * i + 1], a[4 * i + 3]);
     }
     for (int l = 0; l < 4; l++) {
-        _mm256_storeu_si256((__m256i *)(out + stride * l), _mm256_permute2x128_si256(b[l], b[4 + l], 0x20));
-        _mm256_storeu_si256((__m256i *)(out + stride * (l + 4)), _mm256_permute2x128_si256(b[l], b[4 + l], 0x31));
+        out[l] = _mm256_permute2x128_si256(b[l], b[4 + l], 0x20);
+        out[l + 4] = _mm256_permute2x128_si256(b[l], b[4 + l], 0x31);
     }
+}
+
+/* Lane l of column c goes to out[stride * l + c]. */
+static inline void rows_store8(const __m256i c[8], int32_t *out, int stride)
+{
+    __m256i row[8];
+    rows_turn8(c, row);
+    for (int l = 0; l < 8; l++)
+        _mm256_storeu_si256((__m256i *)(out + stride * l), row[l]);
+}
+
+/* Eight words of eight rows; word c of row l to lane l of column c. */
+static inline void rows_load8(const void *const row[8], __m256i c[8])
+{
+    __m256i a[8];
+    for (int l = 0; l < 8; l++)
+        a[l] = _mm256_loadu_si256((const __m256i *)row[l]);
+    rows_turn8(a, c);
 }
 
 #endif

@@ -114,6 +114,8 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) { return (float)a[0]; } /* r
 
 /* Lane l of column c goes to out[16 * l + c]. */
 static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c, 64); }
+/* Word c of row[l] to lane l of column c, of eight. */
+static inline void v_load_rows(const void *const row[1], vi32 c[8]) { memcpy(c, row[0], 32); }
 
 /* The lanes whose bits are set, one after the other; returns how many. A whole vector is written. */
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { memcpy(out, &a, 4); return (int)bits; }

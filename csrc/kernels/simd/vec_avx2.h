@@ -111,6 +111,7 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) {
     return _mm256_set_m128(_mm256_cvtpd_ps(a[1]), _mm256_cvtpd_ps(a[0]));
 }
 
+static inline void v_load_rows(const void *const row[8], vi32 c[8]) { rows_load8(row, c); }
 static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     rows_store8(c, out, 16);
     rows_store8(c + 8, out + 8, 16);

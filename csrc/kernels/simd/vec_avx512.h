@@ -138,6 +138,13 @@ static inline vf32 v_narrow(const vf64 a[V_HALVES]) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a[0])), _mm512_cvtpd_ps(a[1]), 1);
 }
 
+static inline void v_load_rows(const void *const row[16], vi32 c[8]) {
+    __m256i low[8], high[8];
+    rows_load8(row, low);
+    rows_load8(row + 8, high);
+    for (int i = 0; i < 8; i++)
+        c[i] = _mm512_inserti32x8(_mm512_castsi256_si512(low[i]), high[i], 1);
+}
 static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     for (int part = 0; part < 2; part++) { /* eight lanes */
         __m256i half[16];

@@ -110,6 +110,20 @@ static inline vf64 v_muld(vf64 a, vf64 b) { return _mm_mul_pd(a, b); }
 static inline vf64 v_divd(vf64 a, vf64 b) { return _mm_div_pd(a, b); }
 static inline vf32 v_narrow(const vf64 a[V_HALVES]) { return _mm_movelh_ps(_mm_cvtpd_ps(a[0]), _mm_cvtpd_ps(a[1])); }
 
+static inline void v_load_rows(const void *const row[4], vi32 c[8]) {
+    for (int i = 0; i < 8; i += 4) {
+        __m128i a[4];
+        for (int l = 0; l < 4; l++)
+            a[l] = v_loadi((const int32_t *)row[l] + i);
+        __m128i low01 = _mm_unpacklo_epi32(a[0], a[1]), low23 = _mm_unpacklo_epi32(a[2], a[3]);
+        __m128i high01 = _mm_unpackhi_epi32(a[0], a[1]), high23 = _mm_unpackhi_epi32(a[2], a[3]);
+        c[i] = _mm_unpacklo_epi64(low01, low23);
+        c[i + 1] = _mm_unpackhi_epi64(low01, low23);
+        c[i + 2] = _mm_unpacklo_epi64(high01, high23);
+        c[i + 3] = _mm_unpackhi_epi64(high01, high23);
+    }
+}
+
 static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     for (int i = 0; i < 16; i += 4) {
         __m128i low01 = _mm_unpacklo_epi32(c[i], c[i + 1]), low23 = _mm_unpacklo_epi32(c[i + 2], c[i + 3]);

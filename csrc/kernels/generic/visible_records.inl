@@ -1,0 +1,221 @@
+/* raster, the records of a tile to its visible surface: the boxes and edges of a vector of records at a time (R10, R12), then record
+ * after record (R14-R16).
+ */
+
+/* ---- a vector of records in a tile ---- */
+
+enum { RECORDS_DOWN = 16 }; /* of two numbers in a word, one of columns and one of rows, the latter's place */
+
+/* Of each lane's record, relative to the tile: its box of samples; its edges at the tile's first sample, and what a step changes;
+ * the vector of samples that a narrow box starts with. */
+typedef struct records_lanes {
+    uint32_t x0[V_LANES], y0[V_LANES], x1[V_LANES], y1[V_LANES];
+    int32_t e[3][V_LANES], steps[3][V_LANES], down[3][V_LANES];
+    uint32_t start[V_LANES];
+    float dx[V_LANES], dy[V_LANES]; /* of the start, from the plane's base */
+    uint32_t small, narrow; /* sides no longer than a tile, so that edges fit 32 bits and steps 16; of these, narrower than a block */
+} records_lanes;
+
+static inline vi32 records_in_tile(vi32 sample) { return v_maxi(v_mini(sample, v_seti(E3D_TILE - 1)), v_seti(0)); }
+
+/* R12 */
+static inline void records_edge(const vi32 x[3], const vi32 y[3], int k, vi32 x0, vi32 y0, const e3d_visible_tile *tile,
+                                records_lanes *out)
+{
+    vi32 half = v_seti(128);
+    vi32 px = v_addi(v_shl(v_addi(x0, v_seti(tile->x)), 8), half), py = v_addi(v_shl(v_addi(y0, v_seti(tile->y)), 8), half);
+    record_edge e = record_edge_of(x, y, k, v_seti(0), px, py);
+    v_storei(out->e[k], v_subi(v_sra(e.c, 8), v_addi(v_muli(e.a, x0), v_muli(e.b, y0))));
+    v_storei(out->down[k], v_muli(e.b, v_seti(ROWS)));
+    v_storei(out->steps[k], v_ori(v_andi(e.a, v_seti(0xFFFF)), v_shl(e.b, RECORDS_DOWN)));
+}
+
+/* R10. Strips of vectors start at the box's first column, or as far to the right as the tile allows. */
+static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_visible_tile *tile, vi32 first[2], records_lanes *out)
+{
+    vi32 zero = v_seti(0), up = v_seti(127), down = v_seti(128), side = v_seti(256 * E3D_TILE);
+    vi32 left = setup_min3(x[0], x[1], x[2]), right = setup_max3(x[0], x[1], x[2]);
+    vi32 top = setup_min3(y[0], y[1], y[2]), bottom = setup_max3(y[0], y[1], y[2]);
+    vi32 base_x = v_subi(v_maxi(v_sra(v_addi(left, up), 8), zero), v_seti(tile->x));
+    vi32 base_y = v_subi(v_maxi(v_sra(v_addi(top, up), 8), zero), v_seti(tile->y));
+    vi32 x0 = records_in_tile(base_x), x1 = records_in_tile(v_subi(v_sra(v_subi(right, down), 8), v_seti(tile->x)));
+    vi32 y0 = records_in_tile(base_y), y1 = records_in_tile(v_subi(v_sra(v_subi(bottom, down), 8), v_seti(tile->y)));
+    vi32 wide = v_subi(x1, x0), across = v_andi(wide, v_seti(-ROW_LANES));
+    vi32 start_x = v_mini(x0, v_subi(v_seti(E3D_TILE - ROW_LANES), across)), start_y = v_andi(y0, v_seti(-ROWS));
+    out->small = ~v_bits(v_mor(v_gti(v_subi(right, left), side), v_gti(v_subi(bottom, top), side)));
+    out->narrow = out->small & ~v_bits(v_gti(wide, v_seti(RASTER_BLOCK - 1)));
+    v_storei(out->x0, first[0] = x0);
+    v_storei(out->y0, first[1] = y0);
+    v_storei(out->x1, x1);
+    v_storei(out->y1, y1);
+    v_storei(out->start, v_ori(start_x, v_shl(start_y, RECORDS_DOWN)));
+    v_storef(out->dx, v_float(v_subi(start_x, base_x)));
+    v_storef(out->dy, v_float(v_subi(start_y, base_y)));
+}
+
+static inline void records_find(const e3d_record *const r[V_LANES], const e3d_visible_tile *tile, records_lanes *out)
+{
+    vi32 corners[8], first[2];
+    v_load_rows((const void *const *)r, corners);
+    records_boxes(corners, corners + 3, tile, first, out);
+    for (int k = 0; k < 3; k++)
+        records_edge(corners, corners + 3, k, first[0], first[1], tile, out);
+}
+
+/* ---- what is touched ---- */
+
+/* The blocks that a box of samples meets. */
+static inline uint64_t records_met(const records_lanes *in, int lane)
+{
+    const uint64_t left_column = 0x0101010101010101;
+    uint32_t columns = (2u << in->x1[lane] / RASTER_BLOCK) - (1u << in->x0[lane] / RASTER_BLOCK);
+    uint32_t above = in->y0[lane] / RASTER_BLOCK, rows = in->y1[lane] / RASTER_BLOCK - above;
+    return columns * (left_column >> (VISIBLE_BLOCKS * (VISIBLE_BLOCKS - 1 - rows)) << (VISIBLE_BLOCKS * above));
+}
+
+/* Blocks all of whose samples are nearer. */
+static inline uint64_t records_behind(float near, const e3d_visible_tile *tile)
+{
+    uint64_t behind = 0;
+    for (int first = 0; first < E3D_TILE_BLOCKS; first += V_LANES)
+        behind |= (uint64_t)v_bits(v_gt(v_setf(near), v_loadf(tile->zmax + first))) << first;
+    return behind;
+}
+
+/* Blocks whose samples are written, no nearer than `near`, and don't tell of it yet. */
+typedef struct records_touched {
+    uint64_t met;
+    float near;
+} records_touched;
+
+static inline void records_tell(records_touched *touched, e3d_visible_tile *tile)
+{
+    if (touched->met)
+        visible_touch(touched->met, touched->near, tile);
+    *touched = (records_touched){0, E3D_BEYOND_FAR};
+}
+
+/* ---- record by record ---- */
+
+/* Boxes narrower than a block. */
+static inline void records_narrow(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
+                                  const e3d_record_table *table)
+{
+    raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
+    uint32_t start = in->start[lane], strips = (in->x1[lane] - in->x0[lane]) / ROW_LANES;
+    size_t x = start & 0xFFFF, first = (start >> RECORDS_DOWN) * E3D_TILE + x, last = in->y1[lane] * E3D_TILE + x;
+    vi32 at = v_addi(v_seti((int32_t)start), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
+    vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])); /* whole numbers: sums are exact */
+    for (;; first += ROW_LANES, last += ROW_LANES) {
+        vf32 row = v_add(v_float(rows_y()), v_setf(in->dy[lane])), column = v_add(c.z0, v_mul(along, c.gx));
+        vi32 e[3], down[3];
+        for (int k = 0; k < 3; k++) {
+            e[k] = v_addi(v_seti(in->e[k][lane]), v_madd16(v_seti(in->steps[k][lane]), at));
+            down[k] = v_seti(in->down[k][lane]);
+        }
+        for (size_t i = first; i <= last; i += ROWS * E3D_TILE) {
+            vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
+            vf32 z = v_min(v_max(v_add(column, v_mul(row, c.gy)), c.zmin), c.zmax);
+            visible_write(inside, z, i, r, id, tile, table);
+            for (int k = 0; k < 3; k++)
+                e[k] = v_addi(e[k], down[k]);
+            row = v_add(row, v_setf(ROWS));
+        }
+        if (V_LANES >= RASTER_BLOCK || !strips--)
+            return;
+        at = v_addi(at, v_seti(ROW_LANES));
+        along = v_add(along, v_setf(ROW_LANES));
+    }
+}
+
+/* At most 2 x 2 samples, whose cover setup has found. */
+static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    visible_plane p = visible_plane_of(r, tile);
+    for (uint32_t cover = r->meta >> E3D_RECORD_SHIFT; cover; cover &= cover - 1) {
+        int bit = __builtin_ctz(cover), dx = bit & 1, dy = bit >> 1;
+        int x = p.base_x + dx, y = p.base_y + dy;
+        if ((x | y) & ~(E3D_TILE - 1)) /* in another tile */
+            continue;
+        float z = (p.z0 + (float)dx * p.gx) + (float)dy * p.gy;
+        z = z > p.zmin ? z : p.zmin;
+        z = z < p.zmax ? z : p.zmax;
+        int block = y / RASTER_BLOCK * VISIBLE_BLOCKS + x / RASTER_BLOCK, at = y * E3D_TILE + x;
+        if (z > tile->zmax[block])
+            continue;
+        if (tile->noted >> block & 1)
+            visible_unfold(tile, table, block);
+        if (z < tile->z[at]) {
+            tile->z[at] = z;
+            tile->id[at] = id;
+            tile->zmin[block] = tile->zmin[block] < z ? tile->zmin[block] : z;
+            tile->stale |= 1ull << block;
+        } else if (z == tile->z[at] && visible_comes_first(r, tile->id[at], table)) {
+            tile->z[at] = z;
+            tile->id[at] = id;
+        }
+    }
+}
+
+static inline void records_wide(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
+                                const e3d_record_table *table)
+{
+    e3d_piece p = {.x0 = (int32_t)in->x0[lane], .y0 = (int32_t)in->y0[lane], .x1 = (int32_t)in->x1[lane], .y1 = (int32_t)in->y1[lane],
+                   .slot = (uint32_t)id};
+    for (int k = 0; k < 3; k++)
+        if (in->small >> lane & 1) {
+            p.e[k] = in->e[k][lane];
+            p.a[k] = (int16_t)in->steps[k][lane];
+            p.b[k] = in->steps[k][lane] >> RECORDS_DOWN;
+        } else if (!e3d_piece_edge(r, k, tile->x, tile->y, &p)) {
+            return;
+        }
+    p.base_x = visible_first(r->x) - tile->x;
+    p.base_y = visible_first(r->y) - tile->y;
+    p.gx = r->gx;
+    p.gy = r->gy;
+    p.z0 = r->z0;
+    raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
+    visible_wide(&p, &c, r, tile, table);
+}
+
+static inline void records_draw(const records_lanes *in, int lane, const e3d_record *r, int32_t id, uint64_t open,
+                                records_touched *touched, e3d_visible_tile *tile, const e3d_record_table *table)
+{
+    uint64_t met = records_met(in, lane);
+    int narrow = in->narrow >> lane & 1;
+    if (!(narrow && met & open) && !(met & ~records_behind(r->zmin, tile)))
+        return;
+    if (!narrow) {
+        records_tell(touched, tile);
+        records_wide(in, lane, r, id, tile, table);
+        return;
+    }
+    for (uint64_t left = met & tile->noted; left; left &= left - 1)
+        visible_unfold(tile, table, __builtin_ctzll(left));
+    touched->met |= met;
+    touched->near = r->zmin < touched->near ? r->zmin : touched->near;
+    records_narrow(in, lane, r, id, tile, table);
+}
+
+static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count)
+{
+    const e3d_record *r[V_LANES];
+    records_lanes in;
+    records_touched touched = {0, E3D_BEYOND_FAR};
+    uint64_t open = ~records_behind(1.0f, tile); /* most blocks that are met, where not much is hidden */
+    for (int i = 0; i < count; i += V_LANES) {
+        int some = count - i < V_LANES ? count - i : V_LANES;
+        for (int l = 0; l < V_LANES; l++)
+            r[l] = e3d_record_at(table, ids[i + (l < some ? l : 0)]);
+        for (int l = some; l < 2 * some && i + l < count; l++)
+            __builtin_prefetch(e3d_record_at(table, ids[i + l]));
+        records_find(r, tile, &in);
+        for (int l = 0; l < some; l++)
+            if (r[l]->meta & E3D_RECORD_TINY)
+                records_tiny(r[l], (int32_t)ids[i + l], tile, table);
+            else
+                records_draw(&in, l, r[l], (int32_t)ids[i + l], open, &touched, tile, table);
+    }
+    records_tell(&touched, tile);
+}

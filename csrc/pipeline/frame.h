@@ -145,6 +145,12 @@ typedef struct e3d_visible_piece {
     int32_t first_run, end_run;
 } e3d_visible_piece;
 
+/* Its ID, and where its runs end. */
+typedef struct e3d_piece_name {
+    uint32_t id;
+    int32_t end_run;
+} e3d_piece_name;
+
 typedef struct e3d_tile_memory {
     e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
     float bound[E3D_TILE_SAMPLES + E3D_PAD]; /* E3D_BEYOND_FAR everywhere */
@@ -155,6 +161,7 @@ typedef struct e3d_tile_memory {
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
     e3d_run spare[E3D_TILE_SAMPLES];      /* while runs are sorted */
+    e3d_piece_name names[E3D_TILE_SAMPLES]; /* of the pieces that show */
     _Alignas(64) e3d_batch batch;
     _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */
 } e3d_tile_memory;

@@ -181,27 +181,40 @@ static ALWAYS_INLINE void fetch_face(const e3d_visible_piece *piece)
     __builtin_prefetch((const void *)((uintptr_t)piece->draw->mesh->desc.faces + 12 * (uintptr_t)piece->local));
 }
 
+/* Gives runs of one owner a number, which they bear then; how many. (Where a piece ends could not be foreseen: nothing is asked.) */
+static int32_t number_pieces(e3d_run *runs, int32_t count, e3d_piece_name *names)
+{
+    int32_t n = 0, before = runs[0].owner;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t owner = runs[i].owner;
+        n += owner != before;
+        before = owner;
+        runs[i].owner = n;
+        names[n] = (e3d_piece_name){(uint32_t)owner, i + 1};
+    }
+    return n + 1;
+}
+
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count)
 {
     enum { AHEAD = 16 };
     const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
+    const e3d_piece_name *names = worker->tile->names;
     instance_finder finder = {.group = -1};
-    int32_t n = 0;
+    int32_t all = count ? number_pieces(runs, count, worker->tile->names) : 0, first = 0;
     worker->groups.count = 0;
-    if (!e3d_array_reserve(&worker->pieces, (size_t)count, sizeof(e3d_visible_piece)))
+    if (!e3d_array_reserve(&worker->pieces, (size_t)all, sizeof(e3d_visible_piece)))
         return 0;
     e3d_visible_piece *pieces = worker->pieces.data;
-    for (int32_t i = 0, end; i < count; i = end, n++) {
-        int32_t owner = runs[i].owner;
-        uint32_t id = (uint32_t)owner;
-        for (end = i; end < count && runs[end].owner == owner; end++)
-            runs[end].owner = n;
-        if (end + 2 * AHEAD < count) {
-            fetch_named(table, (uint32_t)runs[end + 2 * AHEAD].owner);
-            fetch_number(table, (uint32_t)runs[end + AHEAD].owner);
-            fetch_material(table, (uint32_t)runs[end + AHEAD / 2].owner, finder.draw);
+    for (int32_t n = 0; n < all; n++) {
+        uint32_t id = names[n].id;
+        if (n + 2 * AHEAD < all) {
+            fetch_named(table, names[n + 2 * AHEAD].id);
+            fetch_number(table, names[n + AHEAD].id);
+            fetch_material(table, names[n + AHEAD / 2].id, finder.draw);
         }
-        pieces[n] = (e3d_visible_piece){.next = -1, .first_run = i, .end_run = end};
+        pieces[n] = (e3d_visible_piece){.next = -1, .first_run = first, .end_run = names[n].end_run};
+        first = names[n].end_run;
         if (id & E3D_FRAGMENT_ID)
             find_face(context, id, &finder, &pieces[n]);
         else
@@ -213,7 +226,7 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *run
         if (pieces[n].group < 0)
             return 0;
     }
-    worker->pieces.count = (size_t)n;
+    worker->pieces.count = (size_t)all;
     return 1;
 }
 

@@ -7,14 +7,22 @@ its folder only.
 
 from __future__ import annotations
 
+import contextlib
 import io
 import json
+import logging
+import os
+from urllib.parse import unquote
 
-from ..errors import Engine3DError, FileFormatError
+import numpy as np
+
+from ..errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
 from .documents import Document, DocumentObject
+from .gltf_limits import announced
 from .linked_files import LinkedFileError, LinkedFiles
 from .registry import Reader
 from .sources import Source, read_source
+from .text import shown
 from .warning_list import WarningList
 
 # What trimesh reads by itself, and what it reads with further packages.
@@ -23,6 +31,11 @@ _GLB = b"glTF"
 # What files of a kind begin with, if anything.
 _BEGINNINGS = {"glb": _GLB, **dict.fromkeys(("3mf", "3dxml", "zae"), b"PK")}
 _BEGINNINGS |= dict.fromkeys(("dae", "xaml"), b"<")
+# A file may announce, and its nodes may repeat, so many numbers and vertices, and besides as many
+# as it has bytes. Assign another value to change it.
+MAX_REPEATED = 1 << 20
+# Letters of what trimesh says that are passed on.
+_SAID = 200
 _BYTE_ORDER_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
 
 
@@ -50,16 +63,20 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
             f"trimesh needs further packages for {kind} files: pip install trimesh[easy]",
             source.path,
         )
+    limit = _limit(source, kind)
     warnings = WarningList(source.path)
     try:
-        loaded = trimesh.load(
-            io.BytesIO(source.data),
-            file_type=kind,
-            resolver=_resolver(trimesh, source, warnings),
-            process=False,
-        )
+        with _said(warnings):
+            loaded = trimesh.load(
+                io.BytesIO(source.data),
+                file_type=kind,
+                resolver=_resolver(trimesh, source, warnings),
+                process=False,
+            )
         scene = loaded if isinstance(loaded, trimesh.Scene) else trimesh.Scene(loaded)
         parts = scene_parts(scene)
+    except InvalidArgumentError as error:
+        raise FileFormatError(f"damaged: {error}", source.path) from error
     except Engine3DError:
         raise
     except FileNotFoundError as error:
@@ -71,6 +88,7 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
         raise FileFormatError(
             f"damaged, or no {kind} file (trimesh ended with {reason})", source.path
         ) from error
+    _check_parts(source, parts, None if split else limit)
     objects = [
         DocumentObject(part.name, part.mesh, part.pose)
         if split
@@ -86,6 +104,66 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
         "objects": [entry.name for entry in objects],
     }
     return Document(kind, objects, counts=counts, warnings=warnings.messages())
+
+
+def _limit(source: Source, kind: str) -> int:
+    """How many vertices the file may have in the end; refuses glTF that announces more numbers."""
+    if kind not in ("glb", "gltf"):
+        return MAX_REPEATED + source.size
+    numbers, names = announced(source.data)
+    limit = MAX_REPEATED + source.size + _sizes_of(names, source)
+    if numbers > limit:
+        raise FileFormatError(
+            f"announces {numbers} numbers, more than the limit for its size, {limit}", source.path
+        )
+    return limit
+
+
+def _sizes_of(names: list[str], source: Source) -> int:
+    """The bytes of the files beside the model that bear these names."""
+    files, total = LinkedFiles(source.folder), 0
+    for name in names:
+        with contextlib.suppress(LinkedFileError, OSError):
+            total += os.path.getsize(_find(files, name))
+    return total
+
+
+def _find(files: LinkedFiles, name: str) -> str:
+    """A file that is named as it is, or as a URI."""
+    try:
+        return files.find(name)
+    except LinkedFileError:
+        plain = unquote(name)
+        if plain == name:
+            raise
+        return files.find(plain)
+
+
+def _check_parts(source: Source, parts, most_vertices: int | None) -> None:
+    """Refuse poses that are none, and nodes that repeat their meshes without end."""
+    for part in parts:
+        if not (np.isfinite(part.pose).all() and np.array_equal(part.pose[3], (0, 0, 0, 1))):
+            raise FileFormatError(f"node {shown(part.name)} has no affine pose", source.path)
+    vertices = sum(len(part.mesh.positions) for part in parts)
+    if most_vertices is not None and vertices > most_vertices:
+        raise FileFormatError(
+            f"{vertices} vertices where meshes are repeated: one mesh of them is limited to "
+            f"{most_vertices}; load_scene keeps the meshes apart",
+            source.path,
+        )
+
+
+@contextlib.contextmanager
+def _said(warnings: WarningList):
+    """Let what trimesh would print become warnings."""
+    handler = logging.Handler(logging.WARNING)
+    handler.emit = lambda record: warnings.add(printable(record.getMessage()[:_SAID]))
+    logger = logging.getLogger("trimesh")
+    logger.addHandler(handler)
+    try:
+        yield
+    finally:
+        logger.removeHandler(handler)
 
 
 def _check_beginning(source: Source, kind: str) -> None:
@@ -125,7 +203,7 @@ def _resolver(trimesh, source: Source, warnings: WarningList):
 
         def get(self, name):
             try:
-                return read_source(files.find(str(name))).data
+                return read_source(_find(files, str(name))).data
             except (LinkedFileError, Engine3DError) as error:
                 warnings.add(f"{name!r}: {error}")
                 raise FileNotFoundError(f"{name!r}: {error}") from None

@@ -47,7 +47,7 @@ typedef struct level_lanes {
 static ALWAYS_INLINE void texture_place(const level_lanes *level, vf32 s, vf32 t, texture_places *places, int i)
 {
     texture_taps x = texture_linear(s, level->scale[0]), y = texture_linear(t, level->scale[1]);
-    vi32 top = v_addi(v_addi(level->start, x.first), v_muli(y.first, level->stride));
+    vi32 top = v_addi(v_addi(level->start, x.first), v_madd16(y.first, level->stride)); /* of 16 bits each: E3D_MAX_TEXTURE_SIZE */
     v_storei(places->top + i, top);
     v_storei(places->bottom + i, v_addi(top, level->stride));
     v_storei(places->across + i, x.weight);

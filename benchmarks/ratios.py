@@ -78,7 +78,6 @@ def _options():
         name = f"{workload}: default picture over plain"
         yield Ratio(name, Way(workload), Way(workload, plain=True), workload == "textured")
 
-
     several = ("color", "depth", "normal", "instance_id")
     for workload in ("textured", "mesh"):
         plain = Way(workload)

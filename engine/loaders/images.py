@@ -20,6 +20,8 @@ from .sources import Source
 # More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
 # another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
 MAX_PIXELS = 178_956_970
+# Pixels that are converted at a time.
+_STRIP = 1 << 20
 
 
 def check_image_size(width: int, height: int, path: str) -> None:
@@ -80,7 +82,14 @@ def _rgba(image) -> np.ndarray:
         # 16-bit grey; Pillow's own conversion would clip it at 255.
         wide = np.asarray(image).astype(np.int64)
         return _widened_grey(np.clip(wide >> 8, 0, 255).astype(np.uint8))
-    return np.array(image.convert("RGBA"), np.uint8)
+    # Strip by strip: Pillow's own conversion and the way from it to an array copy an image each.
+    pixels = np.empty((image.height, image.width, 4), np.uint8)
+    rows = max(_STRIP // image.width, 1)
+    for top in range(0, image.height, rows):
+        bottom = min(top + rows, image.height)
+        strip = image.crop((0, top, image.width, bottom))
+        pixels[top:bottom] = np.asarray(strip.convert("RGBA"))
+    return pixels
 
 
 def _widened_grey(grey: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from .._native.images import encode_png
 from ..atomic_write import AtomicFiles
 from ..colors import linear_color
 from ..materials import Material
+from .names import encoded
 from .rows import float_words
 
 _COLORS = ("Ka", "Tf")
@@ -62,7 +63,7 @@ def write_library(
         for material, name in zip(materials, names, strict=True)
         for line in [*_statements(material, name, images), ""]
     )
-    files.create(path).write(b"# written by engine3d\n" + text.encode())
+    files.create(path).write(b"# written by engine3d\n" + encoded(text))
 
 
 class _Images:

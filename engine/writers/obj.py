@@ -17,6 +17,7 @@ from ..colors import srgb_bytes
 from ..loaders.welding import number_rows
 from ..mesh import Mesh
 from .mtl import is_plain, material_names, write_library
+from .names import encoded
 from .outlines import Outlines, polygon_outlines
 from .registry import Writer
 from .rows import write_floats, write_integers
@@ -37,9 +38,9 @@ def write_obj(mesh: Mesh, path: str) -> list[str]:
         file = files.create(path)
         file.write(b"# written by engine3d\n")
         if library is not None:
-            file.write(f"mtllib {os.path.basename(library)}\n".encode())
+            file.write(encoded(f"mtllib {os.path.basename(library)}\n"))
         if mesh.name:
-            file.write(f"o {' '.join(mesh.name.split())}\n".encode())
+            file.write(encoded(f"o {' '.join(mesh.name.split())}\n"))
         position_of = _write_vertices(mesh, file)
         _write_faces(mesh, file, position_of, names)
         _write_lines_and_points(mesh, file, position_of)
@@ -99,9 +100,9 @@ def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) ->
     for start, end in zip(starts.tolist(), [*starts[1:].tolist(), len(first)], strict=True):
         new = tuple(states[start].tolist())
         if names and new[0] != old[0]:
-            file.write(f"usemtl {names[new[0]]}\n".encode())
+            file.write(encoded(f"usemtl {names[new[0]]}\n"))
         if new[1] != old[1]:
-            file.write(" ".join(["g", *labels[new[1]]]).encode() + b"\n")
+            file.write(encoded(" ".join(["g", *labels[new[1]]])) + b"\n")
         if new[2] != old[2]:
             file.write(b"s 1\n" if new[2] else b"s off\n")
         old = new
@@ -113,7 +114,7 @@ def _declare_materials(mesh: Mesh, file, names: list[str]) -> None:
     used, first = np.unique(mesh.material_ids, return_index=True)
     in_order = len(used) == len(names) and (np.diff(first) > 0).all()
     if not in_order:
-        file.write("".join(f"usemtl {name}\n" for name in names).encode())
+        file.write(encoded("".join(f"usemtl {name}\n" for name in names)))
 
 
 def _group_sets(mesh: Mesh) -> tuple[np.ndarray, list[list[str]]]:

@@ -8,6 +8,7 @@ from ..atomic_write import atomic_write
 from ..mesh import Mesh
 from ..normals import face_area_vectors, unit_vectors
 from .losses import lost_parts
+from .names import encoded
 from .registry import Writer
 from .rows import write_float_rows
 
@@ -27,7 +28,7 @@ def write_stl(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
     facets["corners"] = mesh.positions[mesh.faces]
     with atomic_write(path) as file:
         if ascii:
-            name = " ".join(mesh.name.split()).encode()
+            name = encoded(" ".join(mesh.name.split()))
             file.write(b"solid " + name + b"\n")
             between = _TEXT.split(b"%s")
             for start in range(0, len(facets), _BLOCK):

@@ -51,6 +51,19 @@ def test_modes(saved, mode, color, expected):
     assert texture.pixels[0, 0].tolist() == expected
 
 
+@pytest.mark.parametrize("mode", ["1", "L", "LA", "P", "RGB", "RGBA", "CMYK"])
+@pytest.mark.parametrize("strip", [1, 20, 7 * 5])
+def test_strips(saved, monkeypatch, mode, strip):
+    """What is converted piece by piece is what Pillow converts at once."""
+    monkeypatch.setattr(images, "_STRIP", strip)
+    noise = np.random.default_rng(1).integers(0, 256, (5, 7, 4), np.uint8)
+    image = Image.fromarray(noise).convert(mode)
+    options = {"transparency": 3} if mode in ("P", "L") else {}
+    path = saved(image, "a.tif" if mode == "CMYK" else "a.png", **options)
+    with Image.open(path) as again:
+        assert np.array_equal(load_texture(path).pixels, np.array(again.convert("RGBA")))
+
+
 def test_palette_with_transparency(saved):
     image = Image.new("P", (2, 1))
     image.putpalette([10, 20, 30, 40, 50, 60])

@@ -174,6 +174,23 @@ def test_names_of_materials_differ():
     assert many[-1] == "a_100000"
 
 
+@pytest.mark.parametrize("name", ["a.obj", "a.stl", "a.ply"])
+def test_names_that_no_encoding_has(tmp_path, name):
+    """Of a path that is no UTF-8, say: they are written as Python escapes them."""
+    odd = b"\xff \xfe".decode(errors="surrogateescape") + "\ud800"
+    look = e3d.Material(name=odd, color=(1.0, 0.0, 0.0), extras={"Ka": (1, 1, 1), "why": odd})
+    mesh = e3d.Mesh(np.eye(3), [[0, 1, 2]], materials=[look], name=odd)
+    mesh.groups = {odd: np.array([0], np.int32)}
+    again = saved(mesh, tmp_path / name, **({"ascii": True} if name == "a.stl" else {}))
+    assert len(again.faces) == 1
+    escaped = r"\udcff \udcfe\ud800"
+    if name == "a.obj":
+        assert again.materials[0].name == escaped
+        assert list(again.groups) == [escaped.replace(" ", "_")]
+    if name == "a.stl":
+        assert list(again.groups) == [escaped]
+
+
 def test_flat_materials_are_not_smooth(tmp_path):
     mesh = e3d.Mesh(np.eye(3), [[0, 1, 2]], materials=[e3d.Material(flat_shading=True)])
     saved(mesh, tmp_path / "a.obj")

@@ -35,6 +35,7 @@ def main(argv: list[str] | None = None) -> int:
     """
     # NumPy's linear algebra, which draws nothing here, would start a thread for each CPU.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    _replace_closed_streams()
     from .options import join_values
     from .parser import make_parser
 
@@ -47,6 +48,13 @@ def main(argv: list[str] | None = None) -> int:
         return _usage(str(error))
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else 1
+
+
+def _replace_closed_streams() -> None:
+    """Let closed streams (``>&-``) lead nowhere; the next file opened would take their place."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
 
 
 def _run(args: argparse.Namespace) -> int:

@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -379,6 +380,25 @@ def test_a_reader_that_leaves_is_no_traceback(model):
     assert b"Traceback" not in process.stderr.read()
     assert process.wait() in (0, 1)
     process.stderr.close()
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams(model, tmp_path, closed):
+    """Nobody is told anything; what is written is whole, without anybody's lines in it."""
+    written, broken = tmp_path / "a.png", tmp_path / "b.obj"
+    broken.write_text("v 0 0")
+    for arguments, status in (
+        (["info", model], 0),
+        (["info", broken], 1),
+        (["render", model, "-o", written, "--resolution", "8x8", "--verbose"], 0),
+        (["render", model, "-o", "-", "--resolution", "8x8"], 0),
+    ):
+        command = shlex.join([sys.executable, "-m", "engine3d", *map(str, arguments)])
+        done = subprocess.run(["sh", "-c", f"exec {command} {closed}"], capture_output=True)
+        assert done.returncode == status, done.stderr
+        assert b"Traceback" not in done.stderr
+    with Image.open(written) as image:
+        image.load()
 
 
 def test_a_reader_of_a_picture_that_leaves():

@@ -80,15 +80,17 @@ static int misses_tile(const e3d_record *record, int32_t x, int32_t y)
     return 0;
 }
 
-/* To the tiles of a span that the record does not miss. */
+/* To the tiles of a span that the record does not miss. Within the picture it meets each of a single row or column. */
 static int bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
                     e3d_tile_span span, uint32_t id)
 {
     const e3d_record *record = (const e3d_record *)set->records.data + number;
     e3d_bin *bins = set->bins.data;
-    for (int32_t ty = (int32_t)(span.first >> 16); ty <= (int32_t)(span.last >> 16); ty++)
-        for (int32_t tx = (int32_t)(span.first & 0xFFFF); tx <= (int32_t)(span.last & 0xFFFF); tx++) {
-            if (misses_tile(record, tx * E3D_TILE, ty * E3D_TILE))
+    int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
+    int32_t x1 = (int32_t)(span.last & 0xFFFF), y1 = (int32_t)(span.last >> 16);
+    for (int32_t ty = y0; ty <= y1; ty++)
+        for (int32_t tx = x0; tx <= x1; tx++) {
+            if (x0 < x1 && y0 < y1 && misses_tile(record, tx * E3D_TILE, ty * E3D_TILE))
                 continue;
             if (!push(set, &bins[(int64_t)ty * context->tiles_x + tx], id))
                 return 0;

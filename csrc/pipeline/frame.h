@@ -33,6 +33,7 @@ typedef struct e3d_instance {
     int32_t mirrored;
     int32_t draw;
     int32_t shows; /* its mesh's box may be in view */
+    int32_t ready; /* not only its clip matrix is known */
     uint32_t order; /* of its first primitive */
 } e3d_instance;
 
@@ -306,6 +307,8 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats);
 void e3d_count(const e3d_context *context, e3d_stats *stats);
 /* prepare.c */
 e3d_status e3d_prepare(e3d_context *context);
+/* Finds what an instance is drawn with besides its clip matrix. */
+void e3d_prepare_surface(const e3d_context *context, e3d_instance *instance);
 /* geometry.c */
 void e3d_geometry(e3d_context *context);
 /* cull.c */

@@ -311,7 +311,10 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
     unsigned shown = asked;
     e3d_fate fates[E3D_GROUP_CLUSTERS] = {E3D_FATE_DRAWN};
-    if (w->context->round.tested && e3d_is_hidden(w->context, &item->view)) {
+    int hidden = w->context->round.tested && e3d_is_hidden(w->context, &item->view);
+    if (!hidden && !w->instance->ready)
+        e3d_prepare_surface(w->context, &w->context->instances[item->instance]);
+    if (hidden) {
         shown = 0;
         for (int k = 0; k < group->clusters; k++)
             fates[k] = E3D_FATE_OCCLUDED;

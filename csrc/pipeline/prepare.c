@@ -57,33 +57,55 @@ static void clip_matrix(const double clip_from_world[16], const double world[16]
 
 static const double LAST_ROW[4] = {0, 0, 0, 1};
 
+static void world_matrix(const e3d_draw *draw, int32_t instance, double out[16])
+{
+    double pose[16];
+    if (draw->pose_kind == E3D_POSE_NONE) {
+        memcpy(out, draw->world_from_node, 16 * sizeof *out);
+    } else if (draw->pose_kind == E3D_POSE_NODES) {
+        memcpy(out, draw->node_worlds + 12 * (size_t)instance, 12 * sizeof *out);
+        memcpy(out + 12, LAST_ROW, sizeof LAST_ROW);
+    } else {
+        pose_matrix(draw, instance, pose);
+        multiply(draw->world_from_node, pose, out);
+    }
+}
+
+/* Besides clip space, which tells whether more is needed. */
+static void prepare_surface(const e3d_viewport *viewport, const double world[16], e3d_instance *out)
+{
+    for (int k = 0; k < 12; k++)
+        out->world[k] = (float)world[k];
+    normal_matrix(world, out);
+    e3d_facing_prepare(viewport, out->clip, &out->facing);
+    out->ready = 1;
+}
+
+void e3d_prepare_surface(const e3d_context *context, e3d_instance *instance)
+{
+    double world[16];
+    const e3d_draw_state *state = &context->draws[instance->draw];
+    world_matrix(state->draw, (int32_t)(instance - context->instances - state->instance_base), world);
+    prepare_surface(&context->viewport, world, instance);
+}
+
 static void prepare_instance(const e3d_frame *frame, const e3d_viewport *viewport, const e3d_draw *draw, int32_t instance, int units,
                              e3d_instance *out)
 {
-    double pose[16], world[16];
-    if (draw->pose_kind == E3D_POSE_NONE) {
-        memcpy(world, draw->world_from_node, sizeof world);
-    } else if (draw->pose_kind == E3D_POSE_NODES) {
-        memcpy(world, draw->node_worlds + 12 * (size_t)instance, 12 * sizeof *world);
-        memcpy(world + 12, LAST_ROW, sizeof LAST_ROW);
-    } else {
-        pose_matrix(draw, instance, pose);
-        multiply(draw->world_from_node, pose, world);
-    }
+    double world[16];
+    world_matrix(draw, instance, world);
     clip_matrix(frame->clip_from_world, world, out->clip);
     if (frame->frozen_clip_from_world)
         clip_matrix(frame->frozen_clip_from_world, world, out->frozen);
     const e3d_mesh *mesh = draw->mesh;
     const float *cull = e3d_culling_matrix(frame, out);
+    int one = mesh->group_count == 1; /* whose box is tried soon, by one thread */
+    int later = one && (frame->culling == E3D_CULLING_ALL || frame->culling == E3D_CULLING_ALWAYS); /* if it isn't hidden */
     out->shows = mesh->desc.components == 4 || frame->culling == E3D_CULLING_NONE ||
-                 (mesh->any_finite && (mesh->group_count == 1 || /* whose box is tried soon */
-                                       e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
-    if (!out->shows && !units) /* lines and points are wider than the box */
-        return;
-    for (int k = 0; k < 12; k++)
-        out->world[k] = (float)world[k];
-    normal_matrix(world, out);
-    e3d_facing_prepare(viewport, out->clip, &out->facing);
+                 (mesh->any_finite && (one || e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
+    out->ready = 0;
+    if (units || (out->shows && !later)) /* lines and points are wider than the box */
+        prepare_surface(viewport, world, out);
 }
 
 enum { INSTANCES_A_TASK = 256 };

@@ -72,6 +72,7 @@ typedef struct e3d_record_set {
     e3d_array blocks;  /* e3d_bin_block */
     e3d_array bins;    /* e3d_bin, one a tile */
     e3d_array earlier; /* the same, of the round that finished the tiles */
+    size_t earlier_records; /* how many there were then */
 } e3d_record_set;
 
 enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
@@ -82,6 +83,7 @@ typedef struct e3d_fragment_set {
     e3d_array bins;   /* e3d_bin, one a tile */
     e3d_array earlier; /* the same, of the round that finished the tiles */
     e3d_array drawn;  /* e3d_drawn_cluster: of the whole frame, since IDs tell of them */
+    size_t earlier_drawn; /* how many there were when the tiles were finished */
     e3d_small_triangles triangles; /* that are fragments soon */
 } e3d_fragment_set;
 
@@ -340,6 +342,8 @@ int e3d_occlusion_begin(e3d_context *context);
 /* Finds what the last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
 int e3d_remember(e3d_context *context);
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
+/* The same of what a record covers. */
+int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record);
 /* Asks for what that reads first. */
 void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
 /* Keeps the depths of a tile, which may be drawn elsewhere. */
@@ -443,6 +447,8 @@ int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
 int32_t e3d_face_of(const e3d_visible_piece *piece);
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker);
+/* Of a tile that is finished already, and of which some samples are to be shaded anew. */
+void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* batch->color is that of its samples. */
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
 /* The batch's samples show the background again: forward shading may have drawn there before. */
@@ -454,9 +460,12 @@ void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* picture.c: `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */
 void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
+/* The same back. */
+void e3d_read_rows(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *rows, size_t step);
 /* outputs.c: the G-buffer */
 int e3d_outputs_prepare(e3d_context *context); /* 0 when memory is out */
 void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker);
+void e3d_outputs_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker);
 void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile);
 /* The whole tile is background. */

@@ -115,10 +115,13 @@ static void draw_records(walker *w, const e3d_record_request *request)
     uint32_t number = (uint32_t)set->records.count;
     set->records.count += (size_t)made;
     w->worker->counters.records += made;
-    w->worker->counters.triangles_drawn += made;
-    for (int i = 0; i < made; i++, number++)
+    for (int i = 0; i < made; i++, number++) {
+        if (w->context->round.tested && e3d_record_is_hidden(w->context, &records[i]))
+            continue; /* its tiles may be finished */
+        w->worker->counters.triangles_drawn++;
         if (!e3d_bin_record(w->context, w->worker, set, number, spans[i]))
             w->worker->failed = 1;
+    }
 }
 
 /* Triangles of a cluster, a bit each, a vector at a time; those are dropped whose area has the sign `cull`. */

@@ -97,15 +97,13 @@ static int row_is_nearer(const float *z, int count, float near)
     return 1;
 }
 
-/* The same of a block's samples, as far as they are written. */
+/* The same of a block's samples, which are written. */
 static int samples_are_nearer(const e3d_visible_tile *visible, int block, const e3d_box *samples, float near)
 {
     int left = block % BLOCKS * E3D_BLOCK, top = block / BLOCKS * E3D_BLOCK;
     int x0 = samples->x0 > left ? samples->x0 : left, y0 = samples->y0 > top ? samples->y0 : top;
     int x1 = samples->x1 < left + E3D_BLOCK - 1 ? samples->x1 : left + E3D_BLOCK - 1;
     int y1 = samples->y1 < top + E3D_BLOCK - 1 ? samples->y1 : top + E3D_BLOCK - 1;
-    if (visible->noted >> block & 1)
-        return 0;
     for (int y = y0; y <= y1; y++)
         if (!row_is_nearer(visible->z + y * E3D_TILE + x0, x1 - x0 + 1, near))
             return 0;
@@ -119,20 +117,26 @@ static int is_open(const e3d_tile_depths *depths, const e3d_visible_tile *visibl
     return !(near > (visible->noted >> block & 1 ? depths->zmax[block] : visible->z[y * E3D_TILE + x]));
 }
 
-/* Whether the samples of a box, in the tile, are all nearer. */
+/* Whether the samples of a box, in the tile, are all nearer: few boxes need more than the blocks' farthest depths, which are near
+ * at hand where the samples' are not. */
 static int is_behind(const e3d_tile_depths *depths, const e3d_visible_tile *visible, const e3d_box *samples, float near)
 {
     const e3d_box blocks = e3d_blocks_of(samples);
+    uint64_t unsure = 0;
     if (near > depths->most)
         return 1;
-    if (depths->most == E3D_NOTHING_KEPT || is_open(depths, visible, samples, near))
+    if (depths->most == E3D_NOTHING_KEPT)
         return 0;
     for (int y = blocks.y0; y <= blocks.y1; y++)
-        for (int x = blocks.x0; x <= blocks.x1; x++) {
-            int block = y * BLOCKS + x;
-            if (!(near > depths->zmax[block]) && !samples_are_nearer(visible, block, samples, near))
-                return 0;
-        }
+        for (int x = blocks.x0; x <= blocks.x1; x++)
+            unsure |= (uint64_t)!(near > depths->zmax[y * BLOCKS + x]) << (y * BLOCKS + x);
+    if (!unsure)
+        return 1;
+    if (unsure & visible->noted || is_open(depths, visible, samples, near))
+        return 0;
+    for (; unsure; unsure &= unsure - 1)
+        if (!samples_are_nearer(visible, __builtin_ctzll(unsure), samples, near))
+            return 0;
     return 1;
 }
 
@@ -161,27 +165,40 @@ int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
     return 1;
 }
 
+int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record)
+{
+    const e3d_box_view view = {.near = record->zmin, .samples = e3d_sample_box(record->x, record->y, &context->viewport)};
+    return e3d_is_hidden(context, &view);
+}
+
 /* ---- a round's tiles ---- */
 
 /* Of blocks that are only noted, the farthest depth is enough. */
 static void keep_depths(e3d_visible_tile *kept, const e3d_visible_tile *visible)
 {
-    enum { ROW = E3D_BLOCK * E3D_TILE };
     kept->noted = visible->noted;
-    for (int row = 0; row < BLOCKS; row++)
-        if ((~visible->noted >> row * BLOCKS & 0xFF) != 0)
-            memcpy(kept->z + row * ROW, visible->z + row * ROW, ROW * sizeof(float));
+    for (uint64_t left = ~visible->noted; left; left &= left - 1) {
+        int block = __builtin_ctzll(left), at = block / BLOCKS * E3D_BLOCK * E3D_TILE + block % BLOCKS * E3D_BLOCK;
+        for (int y = 0; y < E3D_BLOCK; y++, at += E3D_TILE)
+            memcpy(kept->z + at, visible->z + at, E3D_BLOCK * sizeof(float));
+    }
+}
+
+static float farthest(const e3d_visible_tile *visible)
+{
+    float4 most = load4(visible->zmax);
+    for (int block = 4; block < E3D_TILE_BLOCKS; block += 4)
+        most = more_of(most, load4(visible->zmax + block));
+    float a = most[0] > most[1] ? most[0] : most[1], b = most[2] > most[3] ? most[2] : most[3];
+    return a > b ? a : b;
 }
 
 void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile)
 {
     e3d_tile_depths *depths = &context->depths[tile];
     context->kernels->raster_measure(visible);
-    float most = visible->zmax[0];
-    for (int b = 0; b < E3D_TILE_BLOCKS; b++)
-        most = most > visible->zmax[b] ? most : visible->zmax[b];
     memcpy(depths->zmax, visible->zmax, sizeof depths->zmax);
-    depths->most = most;
+    depths->most = farthest(visible);
     if (visible != &context->kept[tile])
         keep_depths(&context->kept[tile], visible);
 }
@@ -222,6 +239,8 @@ static int finish_tiles(e3d_context *context)
     for (int32_t w = 0; w < renderer->threads; w++) {
         e3d_record_set *records = &renderer->workers[w]->pass[E3D_PASS_SCENE];
         e3d_fragment_set *fragments = &renderer->workers[w]->fragments;
+        records->earlier_records = records->records.count;
+        fragments->earlier_drawn = fragments->drawn.count;
         if (!e3d_bins_keep(&records->bins, &records->earlier, tiles) || !e3d_bins_keep(&fragments->bins, &fragments->earlier, tiles))
             return 0;
     }

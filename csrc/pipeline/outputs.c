@@ -67,6 +67,16 @@ void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker)
     }
 }
 
+void e3d_outputs_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    for (int k = 0; k < E3D_OUTPUTS; k++) {
+        void *pixels = gathered(context, worker, k);
+        size_t bytes = sizeof(int32_t) * (size_t)KINDS[k].channels;
+        if (pixels)
+            e3d_read_rows(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
+    }
+}
+
 /* ---- a batch ---- */
 
 /* The pixel that each of the batch's samples stands for. */

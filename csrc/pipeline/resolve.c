@@ -24,6 +24,13 @@ void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker)
         memory->rgba[i] = context->background_rgba;
 }
 
+void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_outputs_again(context, worker, tile);
+    if (context->targets->color)
+        e3d_read_rows(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
+}
+
 /* A sample's colour, clamped, and whether it counts; or the pixel that it is. */
 static void set_sample(const e3d_context *context, e3d_tile_memory *memory, int at, const float sample[4], uint32_t rgba)
 {

@@ -39,6 +39,7 @@ typedef struct tile_job {
     e3d_tile tile;
     int64_t number;
     int kept; /* earlier rounds have drawn there */
+    int again; /* it is finished, but for what the last round added */
 } tile_job;
 
 typedef int (*piece_action)(tile_job *job, const e3d_piece *piece);
@@ -210,6 +211,17 @@ static int32_t find_runs(const tile_job *job)
                                             job->worker->tile->runs);
 }
 
+/* What the tile's samples are before they are shaded: nothing, where all of them will be. */
+static void begin(const tile_job *job)
+{
+    const e3d_context *context = job->context;
+    int covered = context->round.finished && context->depths[job->number].most < E3D_BEYOND_FAR;
+    if (job->again)
+        e3d_resolve_again(context, job->worker, &job->tile);
+    else if (!covered)
+        e3d_resolve_begin(context, job->worker);
+}
+
 static void slots_to_ids(const e3d_worker *worker, int32_t count)
 {
     e3d_run *runs = worker->tile->runs;
@@ -224,6 +236,7 @@ static int draw_pieces(tile_job *job)
     e3d_worker *worker = job->worker;
     int forward = is_forward(context);
     int64_t start = e3d_now_ns();
+    begin(job);
     clear_samples(worker->visible);
     if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
         return 0;
@@ -239,6 +252,29 @@ static int draw_pieces(tile_job *job)
     return 1;
 }
 
+/* Whether the last round drew what owns a run, a record or a cluster of fragments. */
+static int is_late(const e3d_context *context, uint32_t id)
+{
+    int bits = context->tables[E3D_PASS_SCENE].bits;
+    const e3d_worker *worker = context->renderer->workers[id & ((1u << bits) - 1)];
+    uint32_t number = (id & (E3D_FRAGMENT_ID - 1)) >> bits;
+    return id & E3D_FRAGMENT_ID ? number / E3D_CLUSTER_TRIANGLES >= worker->fragments.earlier_drawn
+                                : number >= worker->pass[E3D_PASS_SCENE].earlier_records;
+}
+
+/* Only the runs that are not shaded yet; the others' samples are counted. */
+static int32_t leave_out_shaded(const tile_job *job, int32_t count)
+{
+    e3d_run *runs = job->worker->tile->runs;
+    int32_t left = 0;
+    for (int32_t i = 0; i < count; i++)
+        if (is_late(job->context, (uint32_t)runs[i].owner))
+            runs[left++] = runs[i];
+        else
+            job->worker->counters.shaded += runs[i].length;
+    return left;
+}
+
 static int draw_visible(tile_job *job)
 {
     e3d_context *context = job->context;
@@ -251,10 +287,15 @@ static int draw_visible(tile_job *job)
         e3d_note_depths(context, worker->visible, job->number);
     int depths = context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
     context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], depths);
+    begin(job);
     int64_t rastered = e3d_now_ns();
     worker->counters.ns_raster += rastered - start;
-    if (context->wants && !e3d_shade_runs(context, worker, &job->tile, find_runs(job)))
-        return 0;
+    if (context->wants) {
+        int32_t count = find_runs(job);
+        count = job->again ? leave_out_shaded(job, count) : count;
+        if (count && !e3d_shade_runs(context, worker, &job->tile, count))
+            return 0;
+    }
     worker->counters.ns_shade += e3d_now_ns() - rastered;
     return 1;
 }
@@ -311,7 +352,6 @@ static int draw_job(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
-    e3d_resolve_begin(context, worker);
     if (!draw_scene(job) || !draw_marks(job))
         return 0;
     int64_t start = e3d_now_ns();
@@ -328,6 +368,7 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     worker->visible = job.kept ? &context->kept[number] : &worker->tile->visible;
     if (context->finished && is_empty(&job))
         return 1;
+    job.again = context->finished && depths->shaded && context->frame->samples_axis == 1;
     if (!job.kept && is_empty(&job)) {
         e3d_resolve_empty(context, &job.tile);
         return 1;

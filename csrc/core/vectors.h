@@ -4,6 +4,9 @@
 
 #include <stdint.h>
 #include <string.h>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 typedef float float4 __attribute__((vector_size(16)));
 typedef int32_t int4 __attribute__((vector_size(16)));
@@ -12,8 +15,14 @@ static inline float4 splat(float v) { return (float4){v, v, v, v}; }
 /* mask: all bits or none. */
 static inline int4 choose_bits(int4 mask, int4 a, int4 b) { return (mask & a) | (~mask & b); }
 static inline float4 choose(int4 mask, float4 a, float4 b) { return (float4)choose_bits(mask, (int4)a, (int4)b); }
+/* a < b ? a : b, and a > b ? a : b: one instruction where there is one that says just this. */
+#if defined(__SSE2__)
+static inline float4 less_of(float4 a, float4 b) { return (float4)_mm_min_ps((__m128)a, (__m128)b); }
+static inline float4 more_of(float4 a, float4 b) { return (float4)_mm_max_ps((__m128)a, (__m128)b); }
+#else
 static inline float4 less_of(float4 a, float4 b) { return choose(a < b, a, b); }
 static inline float4 more_of(float4 a, float4 b) { return choose(a > b, a, b); }
+#endif
 static inline float4 size_of(float4 a) { return more_of(a, -a); }
 static inline float4 load4(const float *p)
 {

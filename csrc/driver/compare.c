@@ -218,21 +218,13 @@ static outcome compare(const drawing *what, const run_plan *plan, const char *ti
     return result;
 }
 
-static void limit_side(int32_t *side, const run_plan *plan)
-{
-    if (plan->most_side > 0 && *side > plan->most_side)
-        *side = plan->most_side;
-}
-
 outcome compare_scene(random_stream r, const run_plan *plan, const char *title)
 {
     scene s;
     /* Most scenes ask for everything; the others show that no output depends on another. */
     uint32_t mask = random_once_in(&r, 3) ? (uint32_t)random_bits(&r) : 0xFFFFFFFFu;
-    outcome result = {.status = scene_create(&s, &r), .agrees = 1};
+    outcome result = {.status = scene_create(&s, &r, plan->most_side), .agrees = 1};
     if (result.status == E3D_OK) {
-        limit_side(&s.frame.width, plan);
-        limit_side(&s.frame.height, plan);
         drawing all = {draw_scene, &s, 0, mask};
         all.pixels = (size_t)s.frame.width * (size_t)s.frame.height;
         result = compare(&all, plan, title);
@@ -243,9 +235,7 @@ outcome compare_scene(random_stream r, const run_plan *plan, const char *title)
 
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title)
 {
-    clip_triangles t = clip_triangles_create(&r);
-    limit_side(&t.width, plan);
-    limit_side(&t.height, plan);
+    clip_triangles t = clip_triangles_create(&r, plan->most_side);
     uint32_t mask = 1u << 2 | 1u << 3 | 1u << 13;
     drawing all = {draw_clip_triangles, &t, (size_t)t.width * (size_t)t.height, mask};
     outcome result = compare(&all, plan, title);

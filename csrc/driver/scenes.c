@@ -24,6 +24,8 @@ static const int32_t *random_size(random_stream *r)
     return SIZES[random_below(r, count)];
 }
 
+static int32_t limited(int32_t side, int32_t most) { return most > 0 && side > most ? most : side; }
+
 static void *scene_array(scene *s, size_t count, size_t size)
 {
     void *array = calloc(count, size);
@@ -354,12 +356,12 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     frame->light_clamp[1] = clamped ? 1.0f : INFINITY;
 }
 
-e3d_status scene_create(scene *s, random_stream *r)
+e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
 {
     memset(s, 0, sizeof *s);
     const int32_t *size = random_size(r);
-    s->frame.width = size[0];
-    s->frame.height = size[1];
+    s->frame.width = limited(size[0], most_side);
+    s->frame.height = limited(size[1], most_side);
     choose_look(&s->frame, r);
     aim_camera(&s->frame, r);
     add_lights(s, r);
@@ -379,10 +381,34 @@ void scene_destroy(scene *s)
         free(s->arrays[i]);
 }
 
-clip_triangles clip_triangles_create(random_stream *r)
+/* Corners anywhere, some of them hostile. */
+static void scatter(clip_triangles *t, random_stream *r)
+{
+    float extent = random_once_in(r, 3) ? 100.0f : 1.5f;
+    for (int32_t i = 0; i < 4 * t->vertices; i++)
+        t->clip[i] = random_float(r, -extent, extent);
+    if (random_once_in(r, 2))
+        poison(t->clip, 4 * t->vertices, r, 20);
+}
+
+/* Corners on pixel centres, with depths that are a few steps of the last bits apart: edges go through centres, depths
+ * are equal, and rounding takes some beyond those of the corners. */
+static void align(clip_triangles *t, random_stream *r)
+{
+    const float depth = (float)random_below(r, 64) * (1.0f / 64.0f), step = 1.0f / (float)(1 << 24);
+    for (int32_t i = 0; i < t->vertices; i++) {
+        float *const v = t->clip + 4 * (size_t)i;
+        v[0] = (float)(2 * random_below(r, t->width) + 1 - t->width) / (float)t->width;
+        v[1] = (float)(2 * random_below(r, t->height) + 1 - t->height) / (float)t->height;
+        v[2] = depth + (float)random_below(r, 4) * step;
+        v[3] = 1.0f;
+    }
+}
+
+clip_triangles clip_triangles_create(random_stream *r, int32_t most_side)
 {
     const int32_t *size = random_size(r);
-    clip_triangles t = {.width = size[0], .height = size[1]};
+    clip_triangles t = {.width = limited(size[0], most_side), .height = limited(size[1], most_side)};
     t.vertices = 3 + random_below(r, 200);
     t.faces_count = random_below(r, 300);
     t.cull = (e3d_cull)random_below(r, 3);
@@ -390,11 +416,7 @@ clip_triangles clip_triangles_create(random_stream *r)
     t.faces = calloc((size_t)t.faces_count * 3 + 1, sizeof *t.faces);
     if (t.clip == NULL || t.faces == NULL)
         abort();
-    float extent = random_once_in(r, 3) ? 100.0f : 1.5f;
-    for (int32_t i = 0; i < 4 * t.vertices; i++)
-        t.clip[i] = random_float(r, -extent, extent);
-    if (random_once_in(r, 2))
-        poison(t.clip, 4 * t.vertices, r, 20);
+    (random_once_in(r, 3) ? align : scatter)(&t, r);
     for (int32_t i = 0; i < 3 * t.faces_count; i++)
         t.faces[i] = random_below(r, t.vertices);
     return t;

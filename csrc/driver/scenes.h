@@ -37,11 +37,11 @@ typedef struct clip_triangles {
     e3d_cull cull;
 } clip_triangles;
 
-/* The scene must be destroyed also where this gives an error. */
-e3d_status scene_create(scene *s, random_stream *r);
+/* Sides are limited to `most_side` pixels; 0: by nothing. The scene must be destroyed also where this gives an error. */
+e3d_status scene_create(scene *s, random_stream *r, int32_t most_side);
 void scene_destroy(scene *s);
 
-clip_triangles clip_triangles_create(random_stream *r);
+clip_triangles clip_triangles_create(random_stream *r, int32_t most_side);
 void clip_triangles_destroy(clip_triangles *t);
 
 #endif

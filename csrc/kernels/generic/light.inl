@@ -29,8 +29,17 @@ static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf3
     return near;
 }
 
-static inline void light_highlight(const e3d_light *light, const vf32 l[3], vf32 facing,
-                                   vf32 attenuation, vmask near, float shininess, lit_lanes *lit)
+/* near: lanes within range; NULL: all are. */
+static ALWAYS_INLINE void light_sum(vf32 sums[3], const float color[3], vf32 amount, const vmask *near)
+{
+    for (int k = 0; k < 3; k++) {
+        vf32 more = v_add(sums[k], v_mul(v_setf(color[k]), amount));
+        sums[k] = near ? v_self(*near, more, sums[k]) : more;
+    }
+}
+
+static inline void light_highlight(const e3d_light *light, const vf32 l[3], vf32 facing, vf32 attenuation, const vmask *near,
+                                   float shininess, lit_lanes *lit)
 {
     vf32 zero = v_setf(0.0f), h[3];
     for (int k = 0; k < 3; k++)
@@ -40,33 +49,35 @@ static inline void light_highlight(const e3d_light *light, const vf32 l[3], vf32
     vmask some = v_mand(v_gt(facing, zero), v_ge(x, v_setf(0x1p-100f)));
     vf32 safe = v_self(some, x, v_setf(1.0f));
     vf32 power = v_self(some, exp2_poly(v_mul(v_setf(shininess), log2_poly(safe))), zero);
-    vf32 amount = v_mul(attenuation, power);
-    for (int k = 0; k < 3; k++) {
-        vf32 more = v_add(lit->shine[k], v_mul(v_setf(light->color[k]), amount));
-        lit->shine[k] = v_self(near, more, lit->shine[k]);
-    }
+    light_sum(lit->shine, light->color, v_mul(attenuation, power), near);
+}
+
+/* From one direction l. */
+static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf32 attenuation, const vmask *near,
+                                     float shininess, lit_lanes *lit)
+{
+    vf32 zero = v_setf(0.0f), facing = v_max(dot_three(lit->normal, l), zero);
+    light_sum(lit->energy, light->color, v_mul(attenuation, facing), near);
+    if (shininess <= 0.0f)
+        return;
+    vmask faces = v_gt(facing, zero);
+    if (v_any(near ? v_mand(*near, faces) : faces)) /* else it would add 0 */
+        light_highlight(light, l, facing, attenuation, near, shininess, lit);
 }
 
 static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, float shininess, lit_lanes *lit)
 {
     const e3d_light *light = &lighting->lights[n];
-    vf32 zero = v_setf(0.0f), l[3], attenuation = v_setf(1.0f);
-    vmask near = v_eq(zero, zero);
-    if (light->kind == E3D_LIGHT_DIRECTIONAL)
+    vf32 l[3], attenuation = v_setf(1.0f);
+    if (light->kind == E3D_LIGHT_DIRECTIONAL) {
         for (int k = 0; k < 3; k++)
             l[k] = v_setf(light->to_light[k]);
-    else
-        near = light_towards(lighting, n, lit->position, l, &attenuation);
-    if (!v_any(near))
+        light_from(light, l, attenuation, NULL, shininess, lit);
         return;
-    vf32 facing = v_max(dot_three(lit->normal, l), zero);
-    vf32 amount = v_mul(attenuation, facing);
-    for (int k = 0; k < 3; k++) {
-        vf32 more = v_add(lit->energy[k], v_mul(v_setf(light->color[k]), amount));
-        lit->energy[k] = v_self(near, more, lit->energy[k]);
     }
-    if (shininess > 0.0f && v_any(v_mand(near, v_gt(facing, zero)))) /* else it would add 0 */
-        light_highlight(light, l, facing, attenuation, near, shininess, lit);
+    vmask near = light_towards(lighting, n, lit->position, l, &attenuation);
+    if (v_any(near))
+        light_from(light, l, attenuation, &near, shininess, lit);
 }
 
 static inline void light_view(const e3d_lighting *lighting, lit_lanes *lit)

@@ -9,7 +9,7 @@
 #include "core/pool.h"
 #include "pipeline/frame.h"
 
-enum { ITEMS_A_TASK = 4, FEW_ITEMS = 64, UNITS_A_TASK = 8 };
+enum { TASKS_A_THREAD = 64, MOST_ITEMS_A_TASK = 32, UNITS_A_TASK = 8 };
 enum { LEAST_WORK = 4 }; /* items or tasks of units, that are worth a second thread */
 
 /* Where a thread stands: one instance of one draw. */
@@ -396,12 +396,19 @@ static void fetch_item(const e3d_context *context, const e3d_item *item)
 
 static int64_t items_of(const e3d_round *round) { return round->end - round->first; }
 
+/* As many that threads seldom ask for more, and few enough that none waits long for another's last ones. */
+static int64_t items_a_task(const e3d_context *context)
+{
+    int64_t items = items_of(&context->round) / (TASKS_A_THREAD * context->renderer->threads);
+    return items < 1 ? 1 : items > MOST_ITEMS_A_TASK ? MOST_ITEMS_A_TASK : items;
+}
+
 static void walk_items(walker *w)
 {
     enum { AHEAD = 6 };
     e3d_context *context = w->context;
     const e3d_round *round = &context->round;
-    int64_t task = items_of(round) < FEW_ITEMS ? 1 : ITEMS_A_TASK;
+    int64_t task = items_a_task(context);
     while (!w->worker->failed) {
         int64_t first = round->first + atomic_fetch_add(&context->next, task);
         if (first >= round->end)

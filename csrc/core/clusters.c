@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/bounds.h"
+#include "core/large_pages.h"
 #include "core/pool.h"
 #include "core/vectors.h"
 
@@ -292,9 +293,10 @@ int e3d_clusters_build(e3d_mesh *mesh, int threads)
 {
     const e3d_mesh_desc *d = &mesh->desc;
     float lo[3], hi[3];
-    mesh->faces = calloc((size_t)d->faces_count + E3D_CLUSTER_TRIANGLES, sizeof *mesh->faces); /* whole vectors are read */
+    mesh->faces = e3d_large_memory(((size_t)d->faces_count + E3D_CLUSTER_TRIANGLES) * sizeof *mesh->faces);
     if (!mesh->faces)
         return 0;
+    memset(mesh->faces + d->faces_count, 0, E3D_CLUSTER_TRIANGLES * sizeof *mesh->faces); /* whole vectors are read */
     if (d->components == 4 || d->faces_count <= E3D_CLUSTER_TRIANGLES) { /* one cluster, or drawn once */
         for (int32_t f = 0; f < d->faces_count; f++)
             mesh->faces[f] = f;

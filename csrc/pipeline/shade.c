@@ -191,10 +191,16 @@ typedef struct stretch {
     int32_t run, end_run;
 } stretch;
 
-/* The one that begins with piece `first`; the piece behind it in the chain. */
-static int32_t find_stretch(const e3d_visible_piece *pieces, int32_t first, int32_t end, stretch *out)
+/* The one that begins with piece `first`; the piece behind it in the chain. A single group has all pieces of the tile. */
+static int32_t find_stretch(const e3d_worker *worker, int32_t first, int32_t end, stretch *out)
 {
+    const e3d_visible_piece *pieces = worker->pieces.data;
     int32_t p = first;
+    if (worker->groups.count == 1) {
+        int32_t behind = end < 0 ? (int32_t)worker->pieces.count : end;
+        *out = (stretch){first, behind, pieces[first].first_run, pieces[behind - 1].end_run};
+        return end;
+    }
     *out = (stretch){first, first, pieces[first].first_run, pieces[first].first_run};
     for (; p != end && p == out->end; p = pieces[p].next) {
         out->end_run = pieces[p].end_run;
@@ -212,7 +218,7 @@ static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e
     batch->count = 0;
     for (int32_t p = first; p != end;) {
         stretch s;
-        p = find_stretch(worker->pieces.data, p, end, &s);
+        p = find_stretch(worker, p, end, &s);
         for (;;) {
             s.run += context->kernels->take_runs(runs + s.run, s.end_run - s.run, s.first - surface, batch);
             if (s.run == s.end_run)

@@ -167,7 +167,9 @@ def test_a_folder_that_cannot_be_written_to(name):
 
 # The signal comes when all is written, and nothing has its name yet.
 STOPPED = """
-import os, sys
+import os, signal, sys
+if signal.getsignal(int(sys.argv[1])) == signal.SIG_IGN:  # the tests run under nohup
+    signal.signal(int(sys.argv[1]), signal.SIG_DFL)
 from engine3d import atomic_write
 from engine3d.cli import main
 finish = atomic_write._Part.finish

@@ -81,7 +81,7 @@ def _options():
     several = ("color", "depth", "normal", "instance_id")
     for workload in ("textured", "mesh"):
         plain = Way(workload)
-        name = f"{workload}: color, depth, normals and instances over color"
+        name = f"{workload}: four outputs over color"
         yield Ratio(name, Way(workload, options={"outputs": several}), plain)
         name = f"{workload}: 4 samples over 1"
         yield Ratio(name, Way(workload, options={"samples": 4}), plain)

@@ -58,10 +58,8 @@ static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf
 {
     vf32 zero = v_setf(0.0f), facing = v_max(dot_three(lit->normal, l), zero);
     light_sum(lit->energy, light->color, v_mul(attenuation, facing), near);
-    if (shininess <= 0.0f)
-        return;
     vmask faces = v_gt(facing, zero);
-    if (v_any(near ? v_mand(*near, faces) : faces)) /* else it would add 0 */
+    if (shininess > 0.0f && v_any(near ? v_mand(*near, faces) : faces)) /* else it would add 0 */
         light_highlight(light, l, facing, attenuation, near, shininess, lit);
 }
 

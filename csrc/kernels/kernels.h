@@ -219,12 +219,26 @@ typedef struct e3d_tile_buffers {
 
 /* ---- shade ---- */
 
-/* Neighbouring samples of one row of a tile that show the same: a slot; then the next run of the same (-1: none); at last a
- * surface. */
+/* Neighbouring samples of one row of a tile that show the same: a slot or an ID; when they are sorted, a piece. */
 typedef struct e3d_run {
     int32_t owner;
     uint16_t sample, length;
 } e3d_run;
+
+/* A piece that shows in a tile: its ID, and its first sample in the list, or its first run. */
+typedef struct e3d_shown_piece {
+    uint32_t id;
+    int32_t first;
+} e3d_shown_piece;
+
+/* What shows in a tile, piece after piece: samples, or runs. */
+typedef struct e3d_shown {
+    const e3d_run *runs; /* owned by pieces; or NULL: */
+    int32_t sample[E3D_TILE_SAMPLES + 2 * E3D_PAD]; /* y * E3D_TILE + x */
+    int32_t of[E3D_TILE_SAMPLES + 2 * E3D_PAD];     /* whose: the piece's number */
+    e3d_shown_piece piece[E3D_TILE_SAMPLES + 1];
+    int32_t count, pieces; /* of samples or runs, and of pieces */
+} e3d_shown;
 
 enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 
@@ -335,11 +349,16 @@ typedef struct e3d_kernels {
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Finds the zmax of all stale blocks. */
     void (*raster_measure)(e3d_visible_tile *tile);
-    /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
-    int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
-    /* Adds the samples of as many runs as the batch has room for; how many runs. A batch of none takes one at least. The run of
-     * owner `first` is of surface 0, the others follow. */
-    int (*take_runs)(const e3d_run *runs, int count, int32_t first, e3d_batch *batch);
+    /* The runs of the first width x height samples of a tile whose owner is `least` or more, row by row; their number. */
+    int (*find_runs)(const int32_t *slot, int width, int height, int32_t least, e3d_run *out);
+    /* Adds the samples of runs that are sorted by owner to the list; those of one owner are a piece. */
+    void (*list_runs)(const e3d_run *runs, int count, e3d_shown *out);
+    /* Adds the samples that bear the IDs of records to the list; records, in this order, are pieces. */
+    void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
+    /* Adds as many runs, which are owned by pieces, or samples from `first` on as the batch has room for; how many. A batch of none
+     * takes one at least. Piece `piece` is surface 0, the others follow. */
+    int (*take_runs)(const e3d_run *runs, int count, int32_t piece, e3d_batch *batch);
+    int (*take_shown)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);
     /* The corners on the screen (R3, R8, R9) of pieces that have no record. */
     void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport);
     /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */

@@ -113,11 +113,11 @@ int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_se
 /* Whether any thread has a record or a fragment for the tile. */
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
 {
-    const e3d_renderer *renderer = context->renderer;
-    for (int32_t w = 0; w < renderer->threads; w++)
-        if (((const e3d_bin *)renderer->workers[w]->pass[pass].bins.data)[tile].first != E3D_NO_BLOCK ||
-            (pass == E3D_PASS_SCENE &&
-             ((const e3d_bin *)renderer->workers[w]->fragments.bins.data)[tile].first != E3D_NO_BLOCK))
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_worker *worker = context->renderer->workers[w];
+        if (e3d_first_block(&worker->pass[pass].bins, tile) != E3D_NO_BLOCK ||
+            (pass == E3D_PASS_SCENE && e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK))
             return 1;
+    }
     return 0;
 }

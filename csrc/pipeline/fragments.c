@@ -92,11 +92,22 @@ static ALWAYS_INLINE void fetch_block(const e3d_fragment_block *block)
         __builtin_prefetch((const char *)block + at);
 }
 
+int e3d_fragments_show(const e3d_context *context, int64_t tile_number)
+{
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_fragment_set *set = &context->renderer->workers[w]->fragments;
+        if (e3d_first_block(&set->bins, tile_number) != E3D_NO_BLOCK ||
+            (context->finished && e3d_first_block(&set->earlier, tile_number) != E3D_NO_BLOCK))
+            return 1;
+    }
+    return 0;
+}
+
 void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
                         int earlier)
 {
     const e3d_fragment_block *blocks = set->blocks.data;
-    uint32_t next = ((const e3d_bin *)(earlier ? set->earlier : set->bins).data)[tile_number].first;
+    uint32_t next = e3d_first_block(earlier ? &set->earlier : &set->bins, tile_number);
     for (; next != E3D_NO_BLOCK; next = blocks[next].next) {
         if (blocks[next].next != E3D_NO_BLOCK)
             fetch_block(&blocks[blocks[next].next]);

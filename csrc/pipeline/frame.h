@@ -137,7 +137,7 @@ typedef struct e3d_group {
     int32_t first, last; /* of its visible pieces */
 } e3d_group;
 
-/* A piece that shows in a tile, and its runs. */
+/* A piece that shows in a tile, and its samples, or its runs (e3d_shown). */
 typedef struct e3d_visible_piece {
     const e3d_record *record;       /* or NULL: */
     const e3d_drawn_cluster *drawn; /* the piece is of fragments */
@@ -145,14 +145,8 @@ typedef struct e3d_visible_piece {
     const e3d_draw_state *draw;
     int32_t instance, local; /* in its draw, in its instance */
     int32_t group, next;     /* the next of the same group, or -1 */
-    int32_t first_run, end_run;
+    int32_t first, end;
 } e3d_visible_piece;
-
-/* Its ID, and where its runs end. */
-typedef struct e3d_piece_name {
-    uint32_t id;
-    int32_t end_run;
-} e3d_piece_name;
 
 typedef struct e3d_tile_memory {
     e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
@@ -164,7 +158,7 @@ typedef struct e3d_tile_memory {
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
     e3d_run spare[E3D_TILE_SAMPLES];      /* while runs are sorted */
-    e3d_piece_name names[E3D_TILE_SAMPLES]; /* of the pieces that show */
+    _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
     _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */
 } e3d_tile_memory;
@@ -414,7 +408,12 @@ void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
                         int earlier);
 
+/* Whether the tile has any, of this round or of the one that finished it. */
+int e3d_fragments_show(const e3d_context *context, int64_t tile_number);
+
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
+/* The first block of a tile's chain, of records or of fragments. */
+static inline uint32_t e3d_first_block(const e3d_array *bins, int64_t tile) { return ((const e3d_bin *)bins->data)[tile].first; }
 /* After the records have their places: the tables that tell a record by its ID. */
 void e3d_tables_set(e3d_context *context);
 
@@ -433,15 +432,20 @@ int e3d_keeps_slots(const e3d_context *context);
 /* visible.c: the visible surface by record ID, for whatever shades it afterwards */
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number);
-/* Shades the first `count` of the tile memory's runs, which are owned by record IDs; 0 when memory is out. */
+/* How many records the tile's bins hold. */
+uint32_t e3d_visible_records(const e3d_context *context, int64_t tile_number);
+/* Begins the list of what shows with what the tile's records show; all of them are in its bins. */
+void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t tile_number);
+/* Shades the first `count` of the tile memory's runs, which are owned by IDs; 0 when memory is out. */
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
+/* Shades the list of what shows; 0 when memory is out. */
+int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* runs.c */
-/* Sorts runs by owner, and those of one owner as they are; where they are afterwards. */
+/* Sorts runs by owner; where they are afterwards. */
 e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
 /* surface.c */
-/* The pieces of runs that are sorted by their owners, record IDs, chained by group; 0 when memory is out. Then the pieces own
- * the runs. */
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count);
+/* The pieces of what shows, chained by group; 0 when memory is out. */
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker);
 /* The surfaces of pieces of a group from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted);
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);

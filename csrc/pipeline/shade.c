@@ -185,10 +185,10 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_resolve_batch(context, worker);
 }
 
-/* Pieces of a chain that stand side by side, and so do their runs, as in a tile of one material all do. */
+/* Pieces of a chain that stand side by side, and so do their samples or runs, as in a tile of one material all do. */
 typedef struct stretch {
     int32_t first, end; /* pieces */
-    int32_t run, end_run;
+    int32_t at, behind;
 } stretch;
 
 /* The one that begins with piece `first`; the piece behind it in the chain. A single group has all pieces of the tile. */
@@ -198,20 +198,30 @@ static int32_t find_stretch(const e3d_worker *worker, int32_t first, int32_t end
     int32_t p = first;
     if (worker->groups.count == 1) {
         int32_t behind = end < 0 ? (int32_t)worker->pieces.count : end;
-        *out = (stretch){first, behind, pieces[first].first_run, pieces[behind - 1].end_run};
+        *out = (stretch){first, behind, pieces[first].first, pieces[behind - 1].end};
         return end;
     }
-    *out = (stretch){first, first, pieces[first].first_run, pieces[first].first_run};
+    *out = (stretch){first, first, pieces[first].first, pieces[first].first};
     for (; p != end && p == out->end; p = pieces[p].next) {
-        out->end_run = pieces[p].end_run;
+        out->behind = pieces[p].end;
         out->end++;
     }
     return p;
 }
 
+/* As much of a stretch as the batch has room for. */
+static void take(const e3d_context *context, e3d_worker *worker, int32_t piece, stretch *s)
+{
+    const e3d_shown *shown = &worker->tile->shown;
+    e3d_batch *batch = &worker->tile->batch;
+    if (shown->runs)
+        s->at += context->kernels->take_runs(shown->runs + s->at, s->behind - s->at, piece, batch);
+    else
+        s->at += context->kernels->take_shown(shown, s->at, s->behind - s->at, piece, batch);
+}
+
 /* The samples of pieces whose surfaces, 0 and so on, are known. */
-static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int32_t end,
-                         const e3d_run *runs, int wanted)
+static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int32_t end, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
     int32_t surface = 0;
@@ -220,8 +230,8 @@ static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e
         stretch s;
         p = find_stretch(worker, p, end, &s);
         for (;;) {
-            s.run += context->kernels->take_runs(runs + s.run, s.end_run - s.run, s.first - surface, batch);
-            if (s.run == s.end_run)
+            take(context, worker, s.first - surface, &s);
+            if (s.at == s.behind)
                 break;
             shade_batch(context, worker, group, wanted);
             batch->count = 0;
@@ -232,27 +242,48 @@ static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e
 }
 
 static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                        const e3d_group *group, const e3d_run *runs)
+                        const e3d_group *group)
 {
     int wanted = wanted_of(context, group);
     for (int32_t first = group->first, end; first >= 0; first = end) {
         end = e3d_add_surfaces(context, worker, group, first, wanted);
         if (wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(context, worker, tile, wanted);
-        shade_pieces(context, worker, group, first, end, runs, wanted);
+        shade_pieces(context, worker, group, first, end, wanted);
     }
 }
 
-static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs,
-                     int32_t count)
+int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
-    e3d_run *sorted = e3d_sort_runs(runs, worker->tile->spare, count);
-    if (!e3d_find_pieces(context, worker, sorted, count))
+    if (!e3d_find_pieces(context, worker))
         return 0;
     const e3d_group *groups = worker->groups.data;
     for (size_t g = 0; g < worker->groups.count; g++)
-        shade_group(context, worker, tile, &groups[g], sorted);
+        shade_group(context, worker, tile, &groups[g]);
     return 1;
+}
+
+/* Gives runs of one owner, which are side by side, to a piece. (Where one begins could not be foreseen: nothing is asked.) */
+static void number_pieces(e3d_run *runs, int32_t count, e3d_shown *out)
+{
+    int32_t pieces = 0, before = E3D_NO_SLOT;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t owner = runs[i].owner;
+        out->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, i};
+        pieces += owner != before;
+        before = owner;
+        runs[i].owner = pieces - 1;
+    }
+    out->runs = runs;
+    out->count = count;
+    out->pieces = pieces;
+}
+
+static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs, int32_t count)
+{
+    e3d_run *sorted = e3d_sort_runs(runs, worker->tile->spare, count);
+    number_pieces(sorted, count, &worker->tile->shown);
+    return e3d_shade_shown(context, worker, tile);
 }
 
 /* ---- blocks: a batch of neighbours is in reach of few lights ---- */

@@ -181,40 +181,27 @@ static ALWAYS_INLINE void fetch_face(const e3d_visible_piece *piece)
     __builtin_prefetch((const void *)((uintptr_t)piece->draw->mesh->desc.faces + 12 * (uintptr_t)piece->local));
 }
 
-/* Gives runs of one owner a number, which they bear then; how many. (Where a piece ends could not be foreseen: nothing is asked.) */
-static int32_t number_pieces(e3d_run *runs, int32_t count, e3d_piece_name *names)
-{
-    int32_t n = 0, before = runs[0].owner;
-    for (int32_t i = 0; i < count; i++) {
-        int32_t owner = runs[i].owner;
-        n += owner != before;
-        before = owner;
-        runs[i].owner = n;
-        names[n] = (e3d_piece_name){(uint32_t)owner, i + 1};
-    }
-    return n + 1;
-}
-
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker, e3d_run *runs, int32_t count)
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
 {
     enum { AHEAD = 16 };
     const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
-    const e3d_piece_name *names = worker->tile->names;
+    e3d_shown *shown = &worker->tile->shown;
+    e3d_shown_piece *of = shown->piece;
     instance_finder finder = {.group = -1};
-    int32_t all = count ? number_pieces(runs, count, worker->tile->names) : 0, first = 0;
+    int32_t all = shown->pieces;
+    of[all].first = shown->count;
     worker->groups.count = 0;
     if (!e3d_array_reserve(&worker->pieces, (size_t)all, sizeof(e3d_visible_piece)))
         return 0;
     e3d_visible_piece *pieces = worker->pieces.data;
     for (int32_t n = 0; n < all; n++) {
-        uint32_t id = names[n].id;
+        uint32_t id = of[n].id;
         if (n + 2 * AHEAD < all) {
-            fetch_named(table, names[n + 2 * AHEAD].id);
-            fetch_number(table, names[n + AHEAD].id);
-            fetch_material(table, names[n + AHEAD / 2].id, finder.draw);
+            fetch_named(table, of[n + 2 * AHEAD].id);
+            fetch_number(table, of[n + AHEAD].id);
+            fetch_material(table, of[n + AHEAD / 2].id, finder.draw);
         }
-        pieces[n] = (e3d_visible_piece){.next = -1, .first_run = first, .end_run = names[n].end_run};
-        first = names[n].end_run;
+        pieces[n] = (e3d_visible_piece){.next = -1, .first = of[n].first, .end = of[n + 1].first};
         if (id & E3D_FRAGMENT_ID)
             find_face(context, id, &finder, &pieces[n]);
         else

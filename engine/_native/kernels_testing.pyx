@@ -59,6 +59,7 @@ STRUCT_SIZES = {
     "piece": sizeof(e3d_piece),
     "visible_tile": sizeof(e3d_visible_tile),
     "run": sizeof(e3d_run),
+    "shown": sizeof(e3d_shown),
     "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
     "light": sizeof(e3d_light),
@@ -248,22 +249,52 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.raster_measure(<e3d_visible_tile *>&tile[0])
 
-    def find_runs(self, const int32_t[::1] slot, int width, int height, uint8_t[::1] out):
+    def find_runs(self, const int32_t[::1] slot, int width, int height, int32_t least, uint8_t[::1] out):
         """``out`` has room for as many runs as the tile has samples, and one; returns how many."""
         cdef int count = 0
         check_size(out, (E3D_TILE_SAMPLES + 1) * sizeof(e3d_run))
         for _ in range(self.rounds):
-            count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
+            count = self.table.find_runs(&slot[0], width, height, least, <e3d_run *>&out[0])
         return count
 
-    def take_runs(self, const uint8_t[::1] runs, int32_t first, uint8_t[::1] batch):
+    def list_runs(self, const uint8_t[::1] runs, uint8_t[::1] shown):
+        """With several rounds, they are listed as often, one after the other."""
+        check_size(shown, sizeof(e3d_shown))
+        for _ in range(self.rounds):
+            self.table.list_runs(<const e3d_run *>&runs[0], <int>(runs.shape[0] // sizeof(e3d_run)),
+                                 <e3d_shown *>&shown[0])
+
+    def show_records(self, const uint8_t[::1] tile, const uint8_t[:, ::1] records,
+                     const uint32_t[::1] ids, uint8_t[::1] shown):
+        """With several rounds, they are listed as often, one after the other."""
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        check_size(tile, sizeof(e3d_visible_tile))
+        check_size(shown, sizeof(e3d_shown))
+        fill_table(&table, rows, records)
+        for _ in range(self.rounds):
+            self.table.show_records(<const e3d_visible_tile *>&tile[0], &table, &ids[0], <int>ids.shape[0],
+                                    <e3d_shown *>&shown[0])
+
+    def take_runs(self, const uint8_t[::1] runs, int32_t piece, uint8_t[::1] batch):
         """Returns how many; with several rounds, the batch is filled further."""
         cdef int taken = 0
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
             taken = self.table.take_runs(<const e3d_run *>&runs[0],
-                                         <int>(runs.shape[0] // sizeof(e3d_run)), first,
+                                         <int>(runs.shape[0] // sizeof(e3d_run)), piece,
                                          <e3d_batch *>&batch[0])
+        return taken
+
+    def take_shown(self, const uint8_t[::1] shown, int first, int count, int32_t piece,
+                   uint8_t[::1] batch):
+        """Returns how many; with several rounds, the batch is filled further."""
+        cdef int taken = 0
+        check_size(shown, sizeof(e3d_shown))
+        check_size(batch, sizeof(e3d_batch))
+        for _ in range(self.rounds):
+            taken = self.table.take_shown(<const e3d_shown *>&shown[0], first, count, piece,
+                                          <e3d_batch *>&batch[0])
         return taken
 
     def project(self, uint8_t[::1] surfaces, const uint8_t[::1] viewport):

@@ -75,6 +75,11 @@ VISIBLE_TILE = np.dtype(
     + [("noted", "u8"), ("stale", "u8"), ("x", "i4"), ("y", "i4")]
 )
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
+SHOWN = np.dtype(
+    [("runs", "u8"), ("sample", "i4", TILE * TILE + 2 * PAD), ("of", "i4", TILE * TILE + 2 * PAD)]
+    + [("piece", [("id", "u4"), ("first", "i4")], TILE * TILE + 1)]
+    + [("count", "i4"), ("pieces", "i4")]
+)
 _ELEMENTS = BATCH_SURFACES + PAD
 SURFACES = np.dtype(
     [("project", "i4", _ELEMENTS)]
@@ -131,6 +136,7 @@ STRUCTS = {
     "piece": PIECE,
     "visible_tile": VISIBLE_TILE,
     "run": RUN,
+    "shown": SHOWN,
     "surfaces": SURFACES,
     "batch": BATCH_RECORD,
     "light": LIGHT,

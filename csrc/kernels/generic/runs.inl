@@ -12,7 +12,7 @@ static inline uint64_t runs_ends(const int32_t *row, int width)
     return (ends & (last - 1)) | last;
 }
 
-static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run *out)
+static int kernel_find_runs(const int32_t *slot, int width, int height, int32_t least, e3d_run *out)
 {
     int count = 0;
     for (int y = 0; y < height; y++) {
@@ -22,30 +22,55 @@ static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run 
             int last = __builtin_ctzll(ends);
             out[count] = (e3d_run){row[first], (uint16_t)(y * E3D_TILE + first),
                                    (uint16_t)(last - first + 1)};
-            count += row[first] >= 0;
+            count += row[first] >= least;
             first = last + 1;
         }
     }
     return count;
 }
 
-/* Whole vectors are written past a run's end: the next run, or the pad, is written there afterwards. */
-static int kernel_take_runs(const e3d_run *runs, int count, int32_t first, e3d_batch *batch)
+/* Whole vectors are written past the end of a run. */
+static inline void runs_spread(const e3d_run *run, vi32 owner, int32_t *sample, int32_t *owners)
+{
+    vi32 at = v_addi(v_seti(run->sample), v_iota());
+    for (int i = 0; i < run->length; i += V_LANES) {
+        v_storei(sample + i, at);
+        v_storei(owners + i, owner);
+        at = v_addi(at, v_seti(V_LANES));
+    }
+}
+
+/* (Where a piece begins could not be foreseen: nothing is asked.) */
+static void kernel_list_runs(const e3d_run *runs, int count, e3d_shown *out)
+{
+    int32_t n = out->count, pieces = out->pieces, before = E3D_NO_SLOT;
+    for (int r = 0; r < count; r++) {
+        out->piece[pieces] = (e3d_shown_piece){(uint32_t)runs[r].owner, n};
+        pieces += runs[r].owner != before;
+        before = runs[r].owner;
+        runs_spread(&runs[r], v_seti(pieces - 1), out->sample + n, out->of + n);
+        n += runs[r].length;
+    }
+    out->count = n;
+    out->pieces = pieces;
+}
+
+static inline void batch_pad(e3d_batch *batch, int count)
+{
+    for (int pad = 0; pad < E3D_PAD; pad += V_LANES) {
+        v_storei(batch->sample + count + pad, v_seti(batch->sample[count - 1]));
+        v_storei(batch->surface + count + pad, v_seti(batch->surface[count - 1]));
+    }
+    batch->count = count;
+}
+
+static int kernel_take_runs(const e3d_run *runs, int count, int32_t piece, e3d_batch *batch)
 {
     int n = batch->count, r = 0;
     for (; r < count && n + runs[r].length <= E3D_BATCH; r++) {
-        vi32 sample = v_addi(v_seti(runs[r].sample), v_iota()), surface = v_seti(runs[r].owner - first);
-        for (int i = 0; i < runs[r].length; i += V_LANES) {
-            v_storei(batch->sample + n + i, sample);
-            v_storei(batch->surface + n + i, surface);
-            sample = v_addi(sample, v_seti(V_LANES));
-        }
+        runs_spread(&runs[r], v_seti(runs[r].owner - piece), batch->sample + n, batch->surface + n);
         n += runs[r].length;
     }
-    for (int pad = 0; pad < E3D_PAD; pad += V_LANES) {
-        v_storei(batch->sample + n + pad, v_seti(batch->sample[n - 1]));
-        v_storei(batch->surface + n + pad, v_seti(batch->surface[n - 1]));
-    }
-    batch->count = n;
+    batch_pad(batch, n);
     return r;
 }

@@ -18,6 +18,7 @@
 #include "kernels/generic/visible.inl"
 #include "kernels/generic/visible_records.inl"
 #include "kernels/generic/runs.inl"
+#include "kernels/generic/shown.inl"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/project.inl"
 #include "kernels/generic/interpolate.inl"
@@ -42,7 +43,10 @@ const e3d_kernels E3D_TABLE = {
     .raster_settle = kernel_raster_settle,
     .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
+    .list_runs = kernel_list_runs,
     .take_runs = kernel_take_runs,
+    .show_records = kernel_show_records,
+    .take_shown = kernel_take_shown,
     .project = kernel_project,
     .surface = kernel_surface,
     .interpolate = kernel_interpolate,

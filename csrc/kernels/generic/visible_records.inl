@@ -62,6 +62,17 @@ static inline void records_find(const e3d_record *const r[V_LANES], const e3d_vi
         records_edge(corners, corners + 3, k, first[0], first[1], tile, out);
 }
 
+/* The first vector of so many records, repeated where there are fewer; how many. The next one is asked for. */
+static inline int records_take(const e3d_record_table *table, const uint32_t *ids, int count, const e3d_record *r[V_LANES])
+{
+    int some = count < V_LANES ? count : V_LANES;
+    for (int l = 0; l < V_LANES; l++)
+        r[l] = e3d_record_at(table, ids[l < some ? l : 0]);
+    for (int l = some; l < 2 * some && l < count; l++)
+        __builtin_prefetch(e3d_record_at(table, ids[l]));
+    return some;
+}
+
 /* ---- what is touched ---- */
 
 /* The blocks that a box of samples meets. */
@@ -205,11 +216,7 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     records_touched touched = {0, E3D_BEYOND_FAR};
     uint64_t open = ~records_behind(1.0f, tile); /* most blocks that are met, where not much is hidden */
     for (int i = 0; i < count; i += V_LANES) {
-        int some = count - i < V_LANES ? count - i : V_LANES;
-        for (int l = 0; l < V_LANES; l++)
-            r[l] = e3d_record_at(table, ids[i + (l < some ? l : 0)]);
-        for (int l = some; l < 2 * some && i + l < count; l++)
-            __builtin_prefetch(e3d_record_at(table, ids[i + l]));
+        int some = records_take(table, ids + i, count - i, r);
         records_find(r, tile, &in);
         for (int l = 0; l < some; l++)
             if (r[l]->meta & E3D_RECORD_TINY)

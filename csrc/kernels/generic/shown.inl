@@ -1,0 +1,143 @@
+/* shown: which samples of a tile its records kept, record after record; and from there to batches.
+ *
+ * The samples of a record lie in its box, where those that bear its ID are packed: nothing has to be sorted.
+ */
+
+/* Where the next sample goes, and the next piece. */
+typedef struct shown_end {
+    int32_t count, piece;
+} shown_end;
+
+enum { SHOWN_FEW = 2 * E3D_PAD }; /* samples of a piece: so many are noted without asking how many there are */
+
+/* The samples from `end->count` on, up to `last`, are those of an ID; there may be none. */
+static inline void shown_name(uint32_t id, int32_t last, shown_end *end, e3d_shown *out)
+{
+    int32_t first = end->count;
+    vi32 piece = v_seti(end->piece);
+    for (int i = 0; i < SHOWN_FEW; i += V_LANES)
+        v_storei(out->of + first + i, piece);
+    for (int32_t i = first + SHOWN_FEW; i < last; i += V_LANES)
+        v_storei(out->of + i, piece);
+    out->piece[end->piece] = (e3d_shown_piece){id, first};
+    end->piece += last > first;
+    end->count = last;
+}
+
+/* The samples `at` + lane of these lanes of one row, mostly neighbours or none; how many. */
+static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
+{
+    int first = __builtin_ctz(lanes | 1u << (V_LANES - 1));
+    if (__builtin_expect(lanes & (lanes + (1u << first)), 0))
+        return v_pack(out, v_addi(v_iota(), v_seti(at)), lanes);
+    v_storei(out, v_addi(v_iota(), v_seti(at + first)));
+    return __builtin_popcount(lanes);
+}
+
+/* ---- boxes narrower than a block ----
+ *
+ * How many vectors a box takes, and whether it shows anything, could not be foreseen: so those of a vector of records are listed,
+ * then looked at, one after the other.
+ */
+
+enum { SHOWN_VECTORS = V_LANES * (RASTER_BLOCK / ROW_LANES) * (E3D_TILE / ROWS) };
+typedef struct shown_vectors {
+    int32_t count;
+    int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD]; /* sample, and whose box it is of */
+} shown_vectors;
+
+static inline void shown_list(const records_lanes *in, int lane, shown_vectors *list)
+{
+    uint32_t start = in->start[lane], strips = (in->x1[lane] - in->x0[lane]) / ROW_LANES, y = start >> RECORDS_DOWN;
+    int32_t rows = (int32_t)(in->y1[lane] - y) / ROWS + 1, first = (int32_t)(y * E3D_TILE + (start & 0xFFFF));
+    for (;; first += ROW_LANES) {
+        vi32 at = v_addi(v_seti(first), v_muli(v_iota(), v_seti(ROWS * E3D_TILE)));
+        for (int32_t i = 0; i < rows; i += V_LANES) {
+            v_storei(list->first + list->count + i, at);
+            v_storei(list->lane + list->count + i, v_seti(lane));
+            at = v_addi(at, v_seti(V_LANES * ROWS * E3D_TILE));
+        }
+        list->count += rows;
+        if (V_LANES >= RASTER_BLOCK || !strips--)
+            return;
+    }
+}
+
+static inline void shown_narrow(const records_lanes *in, uint32_t lanes, const uint32_t *ids, const e3d_visible_tile *tile, shown_end *end,
+                                e3d_shown *out)
+{
+    shown_vectors list;
+    int32_t last[V_LANES], count = end->count;
+    vi32 step = v_addi(rows_x(), v_muli(rows_y(), v_seti(E3D_TILE)));
+    list.count = 0;
+    for (uint32_t left = lanes; left; left &= left - 1)
+        shown_list(in, __builtin_ctz(left), &list);
+    for (int32_t i = 0; i < list.count; i++) {
+        int32_t first = list.first[i], lane = list.lane[i];
+        uint32_t shown = v_bits(v_eqi(rows_loadi(tile->id + first), v_seti((int32_t)ids[lane])));
+        count += ROWS > 1 ? v_pack(out->sample + count, v_addi(step, v_seti(first)), shown)
+                          : shown_in_row(first, shown, out->sample + count);
+        last[lane] = count;
+    }
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        int lane = __builtin_ctz(left);
+        shown_name(ids[lane], last[lane], end, out);
+    }
+}
+
+/* ---- wider boxes ---- */
+
+/* Row by row: samples that are neighbours are stored as such. */
+static inline void shown_wide(const records_lanes *in, int lane, int32_t id, const e3d_visible_tile *tile, shown_end *end, e3d_shown *out)
+{
+    int32_t count = end->count, vectors = (int32_t)(in->x1[lane] - in->x0[lane]) / V_LANES + 1, most = E3D_TILE - V_LANES * vectors;
+    int32_t x = (int32_t)in->x0[lane], first = (int32_t)in->y0[lane] * E3D_TILE + (x < most ? x : most);
+    for (int32_t y = (int32_t)in->y0[lane]; y <= (int32_t)in->y1[lane]; y++, first += E3D_TILE)
+        for (int32_t v = 0, i = first; v < vectors; v++, i += V_LANES) {
+            uint32_t shown = v_bits(v_eqi(v_loadi(tile->id + i), v_seti(id)));
+            count += shown_in_row(i, shown, out->sample + count);
+        }
+    shown_name((uint32_t)id, count, end, out);
+}
+
+/* ---- all ---- */
+
+static inline void shown_boxes(const e3d_record *const r[V_LANES], const e3d_visible_tile *tile, records_lanes *out)
+{
+    vi32 corners[8], first[2];
+    v_load_rows((const void *const *)r, corners);
+    records_boxes(corners, corners + 3, tile, first, out);
+}
+
+static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count,
+                                e3d_shown *out)
+{
+    const e3d_record *r[V_LANES];
+    records_lanes in;
+    shown_end end = {out->count, out->pieces};
+    for (int i = 0; i < count; i += V_LANES) {
+        uint32_t all = setup_tail(records_take(table, ids + i, count - i, r));
+        shown_boxes(r, tile, &in);
+        shown_narrow(&in, all & in.narrow, ids + i, tile, &end, out);
+        for (uint32_t left = all & ~in.narrow; left; left &= left - 1) {
+            int lane = __builtin_ctz(left);
+            if (records_met(&in, lane) & ~records_behind(r[lane]->zmin, tile))
+                shown_wide(&in, lane, (int32_t)ids[i + lane], tile, &end, out);
+        }
+    }
+    out->count = end.count;
+    out->pieces = end.piece;
+}
+
+/* ---- to batches ---- */
+
+static int kernel_take_shown(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+{
+    int n = batch->count, some = count < E3D_BATCH - n ? count : E3D_BATCH - n;
+    for (int i = 0; i < some; i += V_LANES) {
+        v_storei(batch->sample + n + i, v_loadi(shown->sample + first + i));
+        v_storei(batch->surface + n + i, v_subi(v_loadi(shown->of + first + i), v_seti(piece)));
+    }
+    batch_pad(batch, n + some);
+    return some;
+}

@@ -31,11 +31,12 @@ static inline texture_taps texture_linear(vf32 s, vf32 scale)
 }
 
 /* Where a batch's samples fall: numbers of the left texels, above and below, and the weights of the right and the lower
- * ones. All are found, and fetched, before any texel is read: processors don't look far enough ahead to do both at a
- * time. */
+ * ones. Each row's weight is below 256: where only the upper counts, both are it. All are found, and fetched, before any
+ * texel is read: processors don't look far enough ahead to do both at a time. */
 typedef struct texture_places {
     int32_t top[E3D_BATCH + E3D_PAD], bottom[E3D_BATCH + E3D_PAD];
     int32_t across[E3D_BATCH + E3D_PAD], down[E3D_BATCH + E3D_PAD];
+    uint32_t quads[E3D_BATCH + E3D_PAD][4]; /* texels of 8-bit channels: upper left, upper right, lower left, lower right */
 } texture_places;
 
 /* The levels of one vector's lanes: texels before it, from row to row, and its size times 256. */
@@ -49,9 +50,9 @@ static ALWAYS_INLINE void texture_place(const level_lanes *level, vf32 s, vf32 t
     texture_taps x = texture_linear(s, level->scale[0]), y = texture_linear(t, level->scale[1]);
     vi32 top = v_addi(v_addi(level->start, x.first), v_madd16(y.first, level->stride)); /* of 16 bits each: E3D_MAX_TEXTURE_SIZE */
     v_storei(places->top + i, top);
-    v_storei(places->bottom + i, v_addi(top, level->stride));
+    v_storei(places->bottom + i, v_seli(v_gti(y.weight, v_seti(0)), v_addi(top, level->stride), top));
     v_storei(places->across + i, x.weight);
-    v_storei(places->down + i, y.weight);
+    v_storei(places->down + i, v_maxi(y.weight, v_seti(1)));
 }
 
 /* Channels of one vector of texels, 16 bits each in 32. */
@@ -86,45 +87,38 @@ static inline texel_lanes texture_mix16(const void *texels, const int32_t *top, 
     return t;
 }
 
-/* Of 8-bit channels, which stand for c * 257: blended in 8 bits, a factor of 257 at the end. Across, two channels a lane. */
-static inline vi32 texture_across8(vi32 left, vi32 right, vi32 weight_left, vi32 weight_right)
+/* 256 - weight and weight, which is not 0, in the bytes of both halves. */
+static inline vi32 texture_weights8(vi32 weight)
 {
-    return v_addi(v_mul16(left, weight_left), v_mul16(right, weight_right));
+    vi32 both = v_addi(v_subi(v_shl(weight, 8), weight), v_seti(256));
+    return v_ori(both, v_shl(both, 16));
 }
 
-static inline vi32 texture_down8(vi32 pair, vi32 weights)
+/* Of 8-bit channels, which stand for c * 257: blended in 8 bits, a factor of 257 at the end. Channels are shifted down by 128
+ * before, for v_madd8 and v_madd16 are of signed bytes and halves; the sum up by 65536 * 128. */
+static ALWAYS_INLINE vi32 texture_blend8(vi32 four, vi32 across, vi32 down)
 {
-    vi32 sum = v_madd16(texture_signed(pair), weights);
+    vi32 sum = v_madd16(v_madd8(down, v_xori(four, v_seti((int32_t)0x80808080))), across);
     const uint32_t bias = 257u * TEXTURE_BIAS + 32768u;
     return v_shr(v_addi(v_addi(v_shl(sum, 8), sum), v_seti((int32_t)bias)), 16);
 }
 
-static ALWAYS_INLINE texel_lanes texture_mix8(const void *texels, const int32_t *top, const int32_t *bottom,
-                                       vi32 across, vi32 down)
+static ALWAYS_INLINE texel_lanes texture_mix8(const void *quads, vi32 across, vi32 down)
 {
-    vi32 left[2], right[2], red_blue[2], green[2], bytes = v_seti(0x00FF00FF), low = v_seti(0xFFFF);
-    vi32 weight_right = v_ori(across, v_shl(across, 16));
-    vi32 weight_left = v_subi(v_seti(0x01000100), weight_right), weights = texture_weights(down);
-    v_pairs8(texels, top, &left[0], &right[0]);
-    v_pairs8(texels, bottom, &left[1], &right[1]);
-    for (int i = 0; i < 2; i++) {
-        red_blue[i] = texture_across8(v_andi(left[i], bytes), v_andi(right[i], bytes), weight_left,
-                                      weight_right);
-        green[i] = texture_across8(v_andi(v_shr(left[i], 8), bytes), v_andi(v_shr(right[i], 8), bytes),
-                                   weight_left, weight_right);
-    }
-    vi32 red = v_ori(v_andi(red_blue[0], low), v_shl(red_blue[1], 16));
-    vi32 blue = v_ori(v_shr(red_blue[0], 16), v_subi(red_blue[1], v_andi(red_blue[1], low)));
-    vi32 both = v_ori(v_andi(green[0], low), v_shl(green[1], 16));
-    return (texel_lanes){
-        {texture_down8(red, weights), texture_down8(both, weights), texture_down8(blue, weights)}};
+    vi32 four[3];
+    texel_lanes t;
+    v_quads8(quads, four);
+    vi32 weights = texture_weights(across), weights_down = texture_weights8(down);
+    for (int k = 0; k < 3; k++)
+        t.c[k] = texture_blend8(four[k], weights, weights_down);
+    return t;
 }
 
 static ALWAYS_INLINE texel_lanes texture_mix(const void *texels, int texel_bytes, const texture_places *places, int i)
 {
     vi32 across = v_loadi(places->across + i), down = v_loadi(places->down + i);
     return texel_bytes == 4
-               ? texture_mix8(texels, places->top + i, places->bottom + i, across, down)
+               ? texture_mix8(places->quads + i, across, down)
                : texture_mix16(texels, places->top + i, places->bottom + i, across, down);
 }
 
@@ -252,8 +246,14 @@ static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int i, vf
     }
 }
 
-/* Of a whole batch. Neighbours mostly share a line of the cache: every fourth will do. */
-static ALWAYS_INLINE void texture_fetch(const texture_plan *plan, int count)
+/* Whether some of a vector's samples are between two levels. */
+static ALWAYS_INLINE int texture_is_between(const texture_plan *plan, int i)
+{
+    return v_any(v_gti(v_andi(v_loadi(plan->lod + i), v_seti(255)), v_seti(0)));
+}
+
+/* Neighbours mostly share a line of the cache: every fourth will do. */
+static ALWAYS_INLINE void texture_prefetch(const texture_plan *plan, int count)
 {
     const char *texels = plan->view->levels[0].texels;
     intptr_t bytes = plan->view->texel_bytes;
@@ -269,6 +269,32 @@ static ALWAYS_INLINE void texture_fetch(const texture_plan *plan, int count)
     }
 }
 
+/* Of one vector, to where v_quads8 expects them. */
+static ALWAYS_INLINE void texture_copy(const char *texels, texture_places *places, int i)
+{
+    for (int lane = 0; lane < V_LANES; lane++) {
+        uint32_t *quad = places->quads[i + lane % 4 * (V_LANES / 4) + lane / 4];
+        memcpy(quad, texels + 4 * (intptr_t)places->top[i + lane], 8);
+        memcpy(quad + 2, texels + 4 * (intptr_t)places->bottom[i + lane], 8);
+    }
+}
+
+/* Of a whole batch: what limits blending are the units that put vectors together, so that small texels are copied by loads and
+ * stores alone, of which many wait for memory at a time; large ones are asked for. */
+static ALWAYS_INLINE void texture_fetch(texture_plan *plan, int filter, int texel_bytes, int count)
+{
+    if (filter == E3D_NEAREST || texel_bytes != 4) {
+        texture_prefetch(plan, count);
+        return;
+    }
+    const char *texels = plan->view->levels[0].texels;
+    for (int i = 0; i < count; i += V_LANES) {
+        texture_copy(texels, &plan->near, i);
+        if (filter == E3D_TRILINEAR && texture_is_between(plan, i))
+            texture_copy(texels, &plan->far, i);
+    }
+}
+
 /* Of one vector. `filter` and `texel_bytes` are the view's, too. */
 static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filter, int texel_bytes, int i)
 {
@@ -278,8 +304,8 @@ static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filt
     texel_lanes a = texture_mix(texels, texel_bytes, &plan->near, i);
     if (filter == E3D_BILINEAR)
         return a;
-    vi32 weight = v_andi(v_loadi(plan->lod + i), v_seti(255));
-    if (v_any(v_gti(weight, v_seti(0)))) {
+    if (texture_is_between(plan, i)) {
+        vi32 weight = v_andi(v_loadi(plan->lod + i), v_seti(255));
         texel_lanes b = texture_mix(texels, texel_bytes, &plan->far, i);
         for (int k = 0; k < 3; k++)
             a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
@@ -311,9 +337,11 @@ static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const
         texture_find_all(&plan, E3D_BILINEAR, batch);
     else
         texture_find_all(&plan, view->filter, batch);
-    texture_fetch(&plan, batch->count);
-    if (view->filter == E3D_BILINEAR && view->texel_bytes == 4)
+    if (view->filter == E3D_BILINEAR && view->texel_bytes == 4) {
+        texture_fetch(&plan, E3D_BILINEAR, 4, batch->count);
         texture_read_all(&plan, E3D_BILINEAR, 4, base, batch);
-    else
+    } else {
+        texture_fetch(&plan, view->filter, view->texel_bytes, batch->count);
         texture_read_all(&plan, view->filter, view->texel_bytes, base, batch);
+    }
 }

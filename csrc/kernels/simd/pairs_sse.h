@@ -1,4 +1,4 @@
-/* Pairs of neighbouring texels, a load each (SSE4.1 and up): what the words v_pairs8 and v_pairs16 are made of.
+/* Neighbouring texels, by loads of their own and shuffles (SSE4.1 and up): what the words v_quads8 and v_pairs16 are made of.
  *
  * Gathers are no faster anywhere, and much slower on some processors.
  */
@@ -10,12 +10,10 @@
 
 enum { PAIRS_EVEN = _MM_SHUFFLE(2, 0, 2, 0), PAIRS_ODD = _MM_SHUFFLE(3, 1, 3, 1) };
 
-/* The pairs of 4-byte texels at at[0] and at[1]. */
-static inline __m128 pairs_two(const void *texels, const int32_t *at)
+/* Shuffles four 4-byte texels to each channel's bytes side by side: upper left, lower left, upper right, lower right. */
+static inline __m128i pairs_quad(void)
 {
-    const char *t = (const char *)texels;
-    __m128 low = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(t + 4 * (intptr_t)at[0])));
-    return _mm_loadh_pi(low, (const __m64 *)(t + 4 * (intptr_t)at[1]));
+    return _mm_setr_epi8(0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15);
 }
 
 /* A pair of 8-byte texels. */

@@ -72,13 +72,15 @@ static inline vi32 v_max16(vi32 a, vi32 b) {
     return halves_of(v_maxi(half_low(a), half_low(b)), v_maxi(half_high(a), half_high(b)));
 }
 #define v_sra16(a, n) halves_of(half_low(a) >> (n), half_high(a) >> (n))
-/* Products of the 16-bit halves: the low 16 bits of each; signed, both added. */
-static inline vi32 v_mul16(vi32 a, vi32 b) {
-    uint32_t x = (uint32_t)a, y = (uint32_t)b;
-    return (int32_t)((((x >> 16) * (y >> 16)) << 16) | ((x & 0xFFFFu) * (y & 0xFFFFu) & 0xFFFFu));
-}
+/* Products of the signed 16-bit halves, both added. */
 static inline vi32 v_madd16(vi32 a, vi32 b) {
     return v_addi(half_low(a) * half_low(b), half_high(a) * half_high(b));
+}
+/* Of the bytes of each half, unsigned of a, signed of b: the products, both added, where they fit signed 16 bits. */
+static inline vi32 v_madd8(vi32 a, vi32 b) {
+    uint32_t x = (uint32_t)a, y = (uint32_t)b;
+    return halves_of((int32_t)(x & 255u) * (int8_t)y + (int32_t)(x >> 8 & 255u) * (int8_t)(y >> 8),
+                     (int32_t)(x >> 16 & 255u) * (int8_t)(y >> 16) + (int32_t)(x >> 24) * (int8_t)(y >> 24));
 }
 #define v_shl(a, n) ((int32_t)((uint32_t)(a) << (n)))
 #define v_shr(a, n) ((int32_t)((uint32_t)(a) >> (n)))
@@ -132,12 +134,16 @@ static inline vf32 v_pick(const void *base, vpick p) { float v; memcpy(&v, (cons
 /* Of the lanes of a, then b: the first, third and so on; the others. */
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) { *even = a; *odd = b; }
 
-/* The texels at[lane] and at[lane] + 1 of each lane. Of 8-bit channels: whole. Of 16-bit ones: red, green and blue, of
- * the left texel in the low half, of the right one in the high half. */
-static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
-    memcpy(left, (const char *)texels + 4 * (intptr_t)at[0], 4);
-    memcpy(right, (const char *)texels + 4 * (intptr_t)at[0] + 4, 4);
+/* Of quads of 8-bit texels (upper left, upper right, lower left, lower right): red, green and blue, in the bytes of a lane
+ * upper left, lower left, upper right, lower right. Lane l is quad l % 4 * (V_LANES / 4) + l / 4. */
+static inline void v_quads8(const void *quads, vi32 out[3]) {
+    const uint8_t *t = (const uint8_t *)quads;
+    for (int k = 0; k < 3; k++)
+        out[k] = (int32_t)(t[k] | (uint32_t)t[8 + k] << 8 | (uint32_t)t[4 + k] << 16 | (uint32_t)t[12 + k] << 24);
 }
+
+/* The texels of 16-bit channels at[lane] and at[lane] + 1 of each lane: red, green and blue, of the left texel in the low
+ * half, of the right one in the high half. */
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     const uint16_t *t = (const uint16_t *)texels + 4 * (intptr_t)at[0];
     for (int k = 0; k < 3; k++)

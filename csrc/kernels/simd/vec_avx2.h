@@ -67,8 +67,8 @@ static inline vi32 v_add16(vi32 a, vi32 b) { return _mm256_add_epi16(a, b); }
 static inline vi32 v_sub16(vi32 a, vi32 b) { return _mm256_sub_epi16(a, b); }
 static inline vi32 v_min16(vi32 a, vi32 b) { return _mm256_min_epi16(a, b); }
 static inline vi32 v_max16(vi32 a, vi32 b) { return _mm256_max_epi16(a, b); }
-static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm256_mullo_epi16(a, b); }
 static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm256_madd_epi16(a, b); }
+static inline vi32 v_madd8(vi32 a, vi32 b) { return _mm256_maddubs_epi16(a, b); }
 #define v_sra16(a, n) _mm256_srai_epi16(a, n)
 #define v_shl(a, n) _mm256_slli_epi32(a, n)
 #define v_shr(a, n) _mm256_srli_epi32(a, n)
@@ -144,11 +144,15 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
     *odd = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_ODD));
 }
-static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
-    __m256 a = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));
-    __m256 b = _mm256_set_m128(pairs_two(texels, at + 6), pairs_two(texels, at + 2));
-    *left = _mm256_castps_si256(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
-    *right = _mm256_castps_si256(_mm256_shuffle_ps(a, b, PAIRS_ODD));
+static inline void v_quads8(const void *quads, vi32 out[3]) {
+    __m256i q[4], order = _mm256_broadcastsi128_si256(pairs_quad());
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm256_shuffle_epi8(_mm256_loadu_si256((const __m256i *)quads + i), order);
+    __m256i low01 = _mm256_unpacklo_epi32(q[0], q[1]), low23 = _mm256_unpacklo_epi32(q[2], q[3]);
+    __m256i high01 = _mm256_unpackhi_epi32(q[0], q[1]), high23 = _mm256_unpackhi_epi32(q[2], q[3]);
+    out[0] = _mm256_unpacklo_epi64(low01, low23);
+    out[1] = _mm256_unpackhi_epi64(low01, low23);
+    out[2] = _mm256_unpacklo_epi64(high01, high23);
 }
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m256i q[4], halves = _mm256_broadcastsi128_si256(pairs_halves());

@@ -98,8 +98,8 @@ static inline vi32 v_add16(vi32 a, vi32 b) { return _mm512_add_epi16(a, b); }
 static inline vi32 v_sub16(vi32 a, vi32 b) { return _mm512_sub_epi16(a, b); }
 static inline vi32 v_min16(vi32 a, vi32 b) { return _mm512_min_epi16(a, b); }
 static inline vi32 v_max16(vi32 a, vi32 b) { return _mm512_max_epi16(a, b); }
-static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm512_mullo_epi16(a, b); }
 static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm512_madd_epi16(a, b); }
+static inline vi32 v_madd8(vi32 a, vi32 b) { return _mm512_maddubs_epi16(a, b); }
 #define v_sra16(a, n) _mm512_srai_epi16(a, n)
 #define v_shl(a, n) _mm512_slli_epi32(a, n)
 #define v_shr(a, n) _mm512_srli_epi32(a, n)
@@ -182,17 +182,17 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
+static inline void v_quads8(const void *quads, vi32 out[3]) {
+    __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm512_shuffle_epi8(_mm512_loadu_si512((const char *)quads + 64 * i), order);
+    __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
+    __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
+    out[0] = _mm512_unpacklo_epi64(low01, low23);
+    out[1] = _mm512_unpackhi_epi64(low01, low23);
+    out[2] = _mm512_unpacklo_epi64(high01, high23);
+}
 /* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
-static inline vf32 pairs_eight(const void *texels, const int32_t *at) {
-    __m256 low = _mm256_set_m128(pairs_two(texels, at + 4), pairs_two(texels, at));
-    __m256 high = _mm256_set_m128(pairs_two(texels, at + 12), pairs_two(texels, at + 8));
-    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
-}
-static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
-    __m512 a = pairs_eight(texels, at), b = pairs_eight(texels, at + 2);
-    *left = _mm512_castps_si512(_mm512_shuffle_ps(a, b, PAIRS_EVEN));
-    *right = _mm512_castps_si512(_mm512_shuffle_ps(a, b, PAIRS_ODD));
-}
 static inline vi32 pairs_four(const void *texels, const int32_t *at) {
     __m256i low = _mm256_set_m128i(pairs_one(texels, at[4]), pairs_one(texels, at[0]));
     __m256i high = _mm256_set_m128i(pairs_one(texels, at[12]), pairs_one(texels, at[8]));

@@ -72,8 +72,8 @@ static inline vi32 v_add16(vi32 a, vi32 b) { return _mm_add_epi16(a, b); }
 static inline vi32 v_sub16(vi32 a, vi32 b) { return _mm_sub_epi16(a, b); }
 static inline vi32 v_min16(vi32 a, vi32 b) { return _mm_min_epi16(a, b); }
 static inline vi32 v_max16(vi32 a, vi32 b) { return _mm_max_epi16(a, b); }
-static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm_mullo_epi16(a, b); }
 static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm_madd_epi16(a, b); }
+static inline vi32 v_madd8(vi32 a, vi32 b) { return _mm_maddubs_epi16(a, b); }
 #define v_sra16(a, n) _mm_srai_epi16(a, n)
 #define v_shl(a, n) _mm_slli_epi32(a, n)
 #define v_shr(a, n) _mm_srli_epi32(a, n)
@@ -151,10 +151,15 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = _mm_shuffle_ps(a, b, PAIRS_EVEN);
     *odd = _mm_shuffle_ps(a, b, PAIRS_ODD);
 }
-static inline void v_pairs8(const void *texels, const int32_t *at, vi32 *left, vi32 *right) {
-    __m128 a = pairs_two(texels, at), b = pairs_two(texels, at + 2);
-    *left = _mm_castps_si128(_mm_shuffle_ps(a, b, PAIRS_EVEN));
-    *right = _mm_castps_si128(_mm_shuffle_ps(a, b, PAIRS_ODD));
+static inline void v_quads8(const void *quads, vi32 out[3]) {
+    __m128i q[4];
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm_shuffle_epi8(_mm_loadu_si128((const __m128i *)quads + i), pairs_quad());
+    __m128i low01 = _mm_unpacklo_epi32(q[0], q[1]), low23 = _mm_unpacklo_epi32(q[2], q[3]);
+    __m128i high01 = _mm_unpackhi_epi32(q[0], q[1]), high23 = _mm_unpackhi_epi32(q[2], q[3]);
+    out[0] = _mm_unpacklo_epi64(low01, low23);
+    out[1] = _mm_unpackhi_epi64(low01, low23);
+    out[2] = _mm_unpacklo_epi64(high01, high23);
 }
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m128i q[4];

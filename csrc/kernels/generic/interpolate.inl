@@ -110,12 +110,12 @@ static ALWAYS_INLINE void stage_uv(e3d_batch *batch, const sample_vector *v)
 static ALWAYS_INLINE void stage_normal(e3d_batch *batch, const sample_vector *v, int flat)
 {
     vf32 b[3], n[3], zero = v_setf(0.0f);
-    vmask front = v_eqi(v_asi(take((const float *)v->s->back, &v->elements, v->same)), v_seti(0));
+    vmask back = v_mnot(v_eqi(v_asi(take((const float *)v->s->back, &v->elements, v->same)), v_seti(0)));
     load_barycentric(batch, v->i, b);
     for (int c = 0; c < 3; c++) {
         n[c] = flat ? take(v->s->normal[c][0], &v->elements, v->same)
                     : interpolate_one(v->s->normal[c], &v->elements, v->same, b);
-        n[c] = v_self(front, n[c], v_sub(zero, n[c]));
+        n[c] = v_self(back, v_sub(zero, n[c]), n[c]);
     }
     unit_length(&n[0], &n[1], &n[2]);
     for (int c = 0; c < 3; c++)

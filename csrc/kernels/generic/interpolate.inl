@@ -80,30 +80,39 @@ static ALWAYS_INLINE void load_barycentric(const e3d_batch *batch, int i, vf32 b
 }
 
 static ALWAYS_INLINE void interpolate_into(e3d_lane_array *out, int count, const e3d_surface_floats rows[][3],
-                                           const e3d_batch *batch, const sample_vector *v)
+                                           const vf32 b[3], const sample_vector *v)
 {
-    vf32 b[3];
-    load_barycentric(batch, v->i, b);
     for (int c = 0; c < count; c++)
         v_storef(out[c] + v->i, interpolate_one(rows[c], &v->elements, v->same, b));
 }
 
-static ALWAYS_INLINE void stage_barycentric(e3d_batch *batch, const sample_vector *v)
+static ALWAYS_INLINE void find_barycentric(e3d_batch *batch, const sample_vector *v, vf32 b[3])
 {
-    vf32 b[3], r = interpolate_barycentric(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), b);
+    vf32 r = interpolate_barycentric(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), b);
     v_storef(batch->r + v->i, r);
     for (int k = 0; k < 3; k++)
         v_storef(batch->b[k] + v->i, b[k]);
 }
 
-static ALWAYS_INLINE void stage_position(e3d_batch *batch, const sample_vector *v)
+static ALWAYS_INLINE void stage_barycentric(e3d_batch *batch, const sample_vector *v)
 {
-    interpolate_into(batch->position, 3, v->s->position, batch, v);
+    vf32 b[3];
+    find_barycentric(batch, v, b);
 }
 
-static ALWAYS_INLINE void stage_uv(e3d_batch *batch, const sample_vector *v)
+/* Two short ones. */
+static ALWAYS_INLINE void stage_barycentric_uv(e3d_batch *batch, const sample_vector *v)
 {
-    interpolate_into(batch->uv, 2, v->s->uv, batch, v);
+    vf32 b[3];
+    find_barycentric(batch, v, b);
+    interpolate_into(batch->uv, 2, v->s->uv, b, v);
+}
+
+static ALWAYS_INLINE void stage_position(e3d_batch *batch, const sample_vector *v)
+{
+    vf32 b[3];
+    load_barycentric(batch, v->i, b);
+    interpolate_into(batch->position, 3, v->s->position, b, v);
 }
 
 /* R22 */
@@ -127,15 +136,16 @@ static ALWAYS_INLINE void stage_flat_normal(e3d_batch *batch, const sample_vecto
 
 static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
 {
-    each_vector(batch, surfaces, stage_barycentric);
+    if (wanted & E3D_WANT_UV)
+        each_vector(batch, surfaces, stage_barycentric_uv);
+    else
+        each_vector(batch, surfaces, stage_barycentric);
     if (wanted & E3D_WANT_POSITION)
         each_vector(batch, surfaces, stage_position);
     if (wanted & E3D_WANT_NORMAL && wanted & E3D_WANT_FLAT)
         each_vector(batch, surfaces, stage_flat_normal);
     else if (wanted & E3D_WANT_NORMAL)
         each_vector(batch, surfaces, stage_smooth_normal);
-    if (wanted & E3D_WANT_UV)
-        each_vector(batch, surfaces, stage_uv);
 }
 
 /* R24: color *= tint */

@@ -137,15 +137,25 @@ static void visible_measure(e3d_visible_tile *tile, int block)
     tile->stale &= ~(1ull << block);
 }
 
+/* Whether all samples of a block, which are written, are nearer. */
+static inline int visible_hides(const e3d_visible_tile *tile, int block, float near)
+{
+    const float *z = tile->z + block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
+    vf32 far = rows_loadf(z);
+    for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES)
+        for (int y = 0; y < RASTER_BLOCK; y += ROWS)
+            far = v_max(far, rows_loadf(z + y * E3D_TILE + x));
+    return !v_any(v_mnot(v_gt(v_setf(near), far)));
+}
+
 /* A block that the record covers in part, or neither wholly before nor behind what is there. */
 static inline void visible_block(const e3d_piece *p, const raster_constants *c, int block, int full, float near,
                                  const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     int x = block % VISIBLE_BLOCKS * RASTER_BLOCK, top = block / VISIBLE_BLOCKS * RASTER_BLOCK;
-    if ((tile->stale >> block & 1) && near > tile->zmin[block]) { /* else it cannot be behind */
+    if ((tile->stale >> block & 1) && near > tile->zmin[block] && visible_hides(tile, block, near)) { /* else it cannot be behind */
         visible_measure(tile, block);
-        if (near > tile->zmax[block])
-            return;
+        return;
     }
     if (tile->noted >> block & 1)
         visible_unfold(tile, table, block);

@@ -87,13 +87,27 @@ static inline void shown_narrow(const records_lanes *in, uint32_t lanes, const u
 
 /* ---- wider boxes ---- */
 
+/* The blocks of its box that may show a record: neither noted for another nor nearer everywhere. */
+static inline uint64_t shown_blocks(const records_lanes *in, int lane, const e3d_record *r, int32_t id, const e3d_visible_tile *tile)
+{
+    uint64_t own = 0, blocks = records_met(in, lane) & ~records_behind(r->zmin, tile);
+    for (int first = 0; first < E3D_TILE_BLOCKS; first += V_LANES)
+        own |= (uint64_t)v_bits(v_eqi(v_loadi(tile->noted_id + first), v_seti(id))) << first;
+    blocks &= own | ~tile->noted;
+    for (uint64_t left = blocks & tile->stale; left; left &= left - 1)
+        if (visible_hides(tile, __builtin_ctzll(left), r->zmin))
+            blocks &= ~(left & -left);
+    return blocks;
+}
+
 /* Row by row: samples that are neighbours are stored as such. */
-static inline void shown_wide(const records_lanes *in, int lane, int32_t id, const e3d_visible_tile *tile, shown_end *end, e3d_shown *out)
+static inline void shown_wide(const records_lanes *in, int lane, uint64_t blocks, int32_t id, const e3d_visible_tile *tile,
+                              shown_end *end, e3d_shown *out)
 {
     int32_t count = end->count, vectors = (int32_t)(in->x1[lane] - in->x0[lane]) / V_LANES + 1, most = E3D_TILE - V_LANES * vectors;
-    int32_t x = (int32_t)in->x0[lane], first = (int32_t)in->y0[lane] * E3D_TILE + (x < most ? x : most);
-    for (int32_t y = (int32_t)in->y0[lane]; y <= (int32_t)in->y1[lane]; y++, first += E3D_TILE)
-        for (int32_t v = 0, i = first; v < vectors; v++, i += V_LANES) {
+    int32_t x = (int32_t)in->x0[lane] < most ? (int32_t)in->x0[lane] : most;
+    for (int32_t y = (int32_t)in->y0[lane]; y <= (int32_t)in->y1[lane]; y++)
+        for (int32_t v = 0, i = y * E3D_TILE + x; v < vectors && blocks >> y / RASTER_BLOCK * VISIBLE_BLOCKS & 0xFF; v++, i += V_LANES) {
             uint32_t shown = v_bits(v_eqi(v_loadi(tile->id + i), v_seti(id)));
             count += shown_in_row(i, shown, out->sample + count);
         }
@@ -121,8 +135,10 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
         shown_narrow(&in, all & in.narrow, ids + i, tile, &end, out);
         for (uint32_t left = all & ~in.narrow; left; left &= left - 1) {
             int lane = __builtin_ctz(left);
-            if (records_met(&in, lane) & ~records_behind(r[lane]->zmin, tile))
-                shown_wide(&in, lane, (int32_t)ids[i + lane], tile, &end, out);
+            int32_t id = (int32_t)ids[i + lane];
+            uint64_t blocks = shown_blocks(&in, lane, r[lane], id, tile);
+            if (blocks)
+                shown_wide(&in, lane, blocks, id, tile, &end, out);
         }
     }
     out->count = end.count;

@@ -347,8 +347,8 @@ typedef struct e3d_kernels {
     void (*raster_fragments)(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *block);
     /* Writes the samples of all noted blocks: the IDs, and the depths where these are needed, else they stay noted. */
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
-    /* Finds the zmax of all stale blocks. */
-    void (*raster_measure)(e3d_visible_tile *tile);
+    /* Finds, of each block that isn't noted, zmax and the farthest depth of each column. */
+    void (*raster_measure)(e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
     /* The runs of the first width x height samples of a tile whose owner is `least` or more, row by row; their number. */
     int (*find_runs)(const int32_t *slot, int width, int height, int32_t least, e3d_run *out);
     /* Adds the samples of runs that are sorted by owner to the list; those of one owner are a piece. */

@@ -107,10 +107,12 @@ typedef struct e3d_item {
     e3d_box_view view;
 } e3d_item;
 
-/* The farthest depths of a kept tile's blocks, and the farthest of them. */
+/* The farthest depths of a kept tile: of all, of its blocks, and of the columns of those that aren't noted. */
 typedef struct e3d_tile_depths {
-    float most, zmax[E3D_TILE_BLOCKS];
+    float most;
     int32_t shaded; /* samples, when the tile was finished */
+    uint64_t noted;
+    float zmax[E3D_TILE_BLOCKS], columns[E3D_TILE_BLOCKS][E3D_BLOCK];
 } e3d_tile_depths;
 #define E3D_NOTHING_KEPT 4.0f /* greater than any depth: nothing was drawn there */
 

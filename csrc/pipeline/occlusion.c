@@ -1,8 +1,8 @@
 /* raster, ahead of its time: what the nearest clusters cover is drawn first, so that clusters behind it are left out.
  *
- * Tiles are kept over the rounds of a frame; after each round the farthest depth of every block of 8 x 8 samples is noted, and
+ * Tiles are kept over the rounds of a frame; after each round the farthest depths of every block of 8 x 8 samples are noted, and
  * what is in a box that is strictly behind all samples that it may touch is hidden: behind a block (Greene, Kass and Miller
- * 1993), or else one by one. What the last frames showed goes first; the picture does not depend on it.
+ * 1993), or else column by column of a block. What the last frames showed goes first; the picture does not depend on it.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -45,8 +45,10 @@ int e3d_occlusion_begin(e3d_context *context)
         return 0;
     context->kept = renderer->kept;
     context->depths = renderer->tile_depths.data;
-    for (size_t t = 0; t < tiles; t++)
-        context->depths[t] = (e3d_tile_depths){.most = E3D_NOTHING_KEPT};
+    for (size_t t = 0; t < tiles; t++) {
+        context->depths[t].most = E3D_NOTHING_KEPT;
+        context->depths[t].shaded = 0;
+    }
     return 1;
 }
 
@@ -82,44 +84,32 @@ void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats)
 
 /* ---- a box against what is drawn ---- */
 
-/* Whether all samples of a row are nearer. */
-static int row_is_nearer(const float *z, int count, float near)
+/* Whether all columns of a block, from one to another, are nearer. */
+static int columns_are_nearer(const float *columns, int first, int last, float near)
 {
-    int i = 0;
-    for (; i + 4 <= count; i += 4) {
-        int4 nearer = splat(near) > load4(z + i);
-        if ((nearer[0] & nearer[1] & nearer[2] & nearer[3]) == 0)
-            return 0;
-    }
-    for (; i < count; i++)
-        if (!(near > z[i]))
-            return 0;
-    return 1;
+    int nearer = 1;
+    for (int x = first; x <= last; x++)
+        nearer &= near > columns[x];
+    return nearer;
 }
 
-/* The same of a block's samples, which are written. */
-static int samples_are_nearer(const e3d_visible_tile *visible, int block, const e3d_box *samples, float near)
+/* The same of those that a box of samples meets. */
+static int block_is_nearer(const e3d_tile_depths *depths, int block, const e3d_box *samples, float near)
 {
-    int left = block % BLOCKS * E3D_BLOCK, top = block / BLOCKS * E3D_BLOCK;
-    int x0 = samples->x0 > left ? samples->x0 : left, y0 = samples->y0 > top ? samples->y0 : top;
-    int x1 = samples->x1 < left + E3D_BLOCK - 1 ? samples->x1 : left + E3D_BLOCK - 1;
-    int y1 = samples->y1 < top + E3D_BLOCK - 1 ? samples->y1 : top + E3D_BLOCK - 1;
-    for (int y = y0; y <= y1; y++)
-        if (!row_is_nearer(visible->z + y * E3D_TILE + x0, x1 - x0 + 1, near))
-            return 0;
-    return 1;
+    int left = block % BLOCKS * E3D_BLOCK, right = left + E3D_BLOCK - 1;
+    return columns_are_nearer(depths->columns[block], samples->x0 > left ? samples->x0 - left : 0,
+                              (samples->x1 < right ? samples->x1 : right) - left, near);
 }
 
-/* Whether the sample in a box's middle tells at once that the box isn't hidden. */
-static int is_open(const e3d_tile_depths *depths, const e3d_visible_tile *visible, const e3d_box *box, float near)
+/* Whether the column in a box's middle tells at once that the box isn't hidden. */
+static int is_open(const e3d_tile_depths *depths, const e3d_box *box, float near)
 {
     int x = (box->x0 + box->x1) / 2, y = (box->y0 + box->y1) / 2, block = y / E3D_BLOCK * BLOCKS + x / E3D_BLOCK;
-    return !(near > (visible->noted >> block & 1 ? depths->zmax[block] : visible->z[y * E3D_TILE + x]));
+    return !(near > (depths->noted >> block & 1 ? depths->zmax[block] : depths->columns[block][x % E3D_BLOCK]));
 }
 
-/* Whether the samples of a box, in the tile, are all nearer: few boxes need more than the blocks' farthest depths, which are near
- * at hand where the samples' are not. */
-static int is_behind(const e3d_tile_depths *depths, const e3d_visible_tile *visible, const e3d_box *samples, float near)
+/* Whether the samples of a box, in the tile, are all nearer, as far as the columns of its blocks tell. */
+static int is_behind(const e3d_tile_depths *depths, const e3d_box *samples, float near)
 {
     const e3d_box blocks = e3d_blocks_of(samples);
     uint64_t unsure = 0;
@@ -132,10 +122,10 @@ static int is_behind(const e3d_tile_depths *depths, const e3d_visible_tile *visi
             unsure |= (uint64_t)!(near > depths->zmax[y * BLOCKS + x]) << (y * BLOCKS + x);
     if (!unsure)
         return 1;
-    if (unsure & visible->noted || is_open(depths, visible, samples, near))
+    if (unsure & depths->noted || is_open(depths, samples, near))
         return 0;
     for (; unsure; unsure &= unsure - 1)
-        if (!samples_are_nearer(visible, __builtin_ctzll(unsure), samples, near))
+        if (!block_is_nearer(depths, __builtin_ctzll(unsure), samples, near))
             return 0;
     return 1;
 }
@@ -145,10 +135,11 @@ void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view)
     const e3d_box *s = &view->samples;
     int32_t x = (s->x0 + s->x1) / 2, y = (s->y0 + s->y1) / 2;
     int64_t tile = (int64_t)(y / E3D_TILE) * context->tiles_x + x / E3D_TILE;
-    int sample = y % E3D_TILE * E3D_TILE + x % E3D_TILE;
-    __builtin_prefetch(&context->depths[tile]);
-    __builtin_prefetch(&context->depths[tile].zmax[y % E3D_TILE / E3D_BLOCK * BLOCKS]);
-    __builtin_prefetch(&context->kept[tile].z[sample]);
+    const e3d_tile_depths *depths = &context->depths[tile];
+    int row = y % E3D_TILE / E3D_BLOCK * BLOCKS;
+    __builtin_prefetch(depths);
+    __builtin_prefetch(&depths->zmax[row]);
+    __builtin_prefetch(depths->columns[row + x % E3D_TILE / E3D_BLOCK]);
 }
 
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
@@ -159,7 +150,7 @@ int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
             const e3d_box within = {e3d_in_tile(s->x0 - tx * E3D_TILE), e3d_in_tile(s->y0 - ty * E3D_TILE),
                                     e3d_in_tile(s->x1 - tx * E3D_TILE), e3d_in_tile(s->y1 - ty * E3D_TILE)};
             int64_t tile = (int64_t)ty * context->tiles_x + tx;
-            if (!is_behind(&context->depths[tile], &context->kept[tile], &within, view->near))
+            if (!is_behind(&context->depths[tile], &within, view->near))
                 return 0;
         }
     return 1;
@@ -173,17 +164,6 @@ int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record)
 
 /* ---- a round's tiles ---- */
 
-/* Of blocks that are only noted, the farthest depth is enough. */
-static void keep_depths(e3d_visible_tile *kept, const e3d_visible_tile *visible)
-{
-    kept->noted = visible->noted;
-    for (uint64_t left = ~visible->noted; left; left &= left - 1) {
-        int block = __builtin_ctzll(left), at = block / BLOCKS * E3D_BLOCK * E3D_TILE + block % BLOCKS * E3D_BLOCK;
-        for (int y = 0; y < E3D_BLOCK; y++, at += E3D_TILE)
-            memcpy(kept->z + at, visible->z + at, E3D_BLOCK * sizeof(float));
-    }
-}
-
 static float farthest(const e3d_visible_tile *visible)
 {
     float4 most = load4(visible->zmax);
@@ -196,11 +176,10 @@ static float farthest(const e3d_visible_tile *visible)
 void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile)
 {
     e3d_tile_depths *depths = &context->depths[tile];
-    context->kernels->raster_measure(visible);
+    context->kernels->raster_measure(visible, depths->columns);
     memcpy(depths->zmax, visible->zmax, sizeof depths->zmax);
+    depths->noted = visible->noted;
     depths->most = farthest(visible);
-    if (visible != &context->kept[tile])
-        keep_depths(&context->kept[tile], visible);
 }
 
 static void draw_kept(e3d_context *context, e3d_worker *worker, int64_t number)

@@ -11,6 +11,8 @@ cdef extern from "kernels/kernels.h" nogil:
         E3D_PAD
         E3D_TILE
         E3D_TILE_SAMPLES
+        E3D_TILE_BLOCKS
+        E3D_BLOCK
         E3D_CLUSTER_TRIANGLES
         E3D_CLUSTER_VERTICES
         E3D_BATCH
@@ -154,7 +156,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*raster_fragments)(e3d_visible_tile *tile, const e3d_record_table *table,
                                  const e3d_fragment_block *block)
         void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
-        void (*raster_measure)(e3d_visible_tile *tile)
+        void (*raster_measure)(e3d_visible_tile *tile, float (*columns)[E3D_BLOCK])
         int (*find_runs)(const int32_t *slot, int width, int height, int32_t least, e3d_run *out)
         void (*list_runs)(const e3d_run *runs, int count, e3d_shown *out)
         void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table,

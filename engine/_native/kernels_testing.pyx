@@ -244,10 +244,14 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.raster_settle(<e3d_visible_tile *>&tile[0], &table, depths)
 
-    def raster_measure(self, uint8_t[::1] tile):
+    def raster_measure(self, uint8_t[::1] tile, float[:, ::1] columns):
+        """``columns``: the farthest depth of each column of each block."""
         check_size(tile, sizeof(e3d_visible_tile))
+        if columns.shape[0] != E3D_TILE_BLOCKS or columns.shape[1] != E3D_BLOCK:
+            raise ValueError("columns must be (blocks, columns)")
         for _ in range(self.rounds):
-            self.table.raster_measure(<e3d_visible_tile *>&tile[0])
+            self.table.raster_measure(<e3d_visible_tile *>&tile[0],
+                                      <float (*)[E3D_BLOCK]>&columns[0, 0])
 
     def find_runs(self, const int32_t[::1] slot, int width, int height, int32_t least, uint8_t[::1] out):
         """``out`` has room for as many runs as the tile has samples, and one; returns how many."""

@@ -28,6 +28,7 @@ from kernels.test_raster import BEYOND_FAR, LARGEST, random_corners, random_tile
 
 RECORDS = 60  # a tile
 TILES = 40
+TILE_BLOCKS = (TILE // BLOCK) ** 2
 GUARD = 256  # bytes of poison around a tile
 WORKERS = [1, 2, 4, 8]
 KINDS = ["tiny"] * 4 + ["small", "medium", "centers", "sliver", "whole", "limit"]
@@ -208,6 +209,21 @@ class Tile:
         z = self.fields["z"][0, : TILE * TILE].reshape(TILE // BLOCK, BLOCK, TILE // BLOCK, BLOCK)
         return z.min(axis=(1, 3)).ravel(), z.max(axis=(1, 3)).ravel()
 
+    def measure(self, kernels):
+        """Measure the blocks that aren't noted; each one's columns, and NaN of those that are."""
+        columns = np.full((TILE_BLOCKS, BLOCK), np.nan, np.float32)
+        kernels.raster_measure(self.bytes, columns)
+        noted = (self.fields["noted"] >> np.arange(TILE_BLOCKS, dtype=np.uint64)) & np.uint64(1)
+        assert self.fields["stale"] == 0
+        assert np.array_equal(np.isnan(columns).all(axis=1), noted == 1)
+        return columns
+
+    def check_columns(self, columns):
+        """The columns' depths, of a settled tile, are those that were measured."""
+        z = self.fields["z"][0, : TILE * TILE].reshape(TILE // BLOCK, BLOCK, TILE // BLOCK, BLOCK)
+        written = ~np.isnan(columns)
+        assert np.array_equal(columns[written], z.max(axis=1).reshape(-1, BLOCK)[written])
+
     def check_bounds(self, settled, exact):
         """What is said of each block's depths."""
         nearest, farthest = settled.blocks()
@@ -223,9 +239,9 @@ def draw_parts(kernels, scene, arrival, parts, measured):
         kernels.raster_visible(tile.bytes, scene.table, scene.ids[part])
         tile.check_bounds(tile.settled(kernels, scene.table), exact=False)
         if measured:
-            kernels.raster_measure(tile.bytes)
-            assert tile.fields["stale"] == 0
-            tile.check_bounds(tile.settled(kernels, scene.table), exact=not scene.wild)
+            columns, settled = tile.measure(kernels), tile.settled(kernels, scene.table)
+            settled.check_columns(columns)
+            tile.check_bounds(settled, exact=not scene.wild)
         tile.check_poison()
     return tile
 

@@ -118,23 +118,39 @@ static inline void visible_unfold_ids(e3d_visible_tile *tile, int block)
             rows_storei(tile->id + at + y * E3D_TILE + x, id);
 }
 
-/* The farthest depth of a block whose samples are written, anew. */
-static void visible_measure(e3d_visible_tile *tile, int block)
+static inline float visible_farther(float a, float b) { return a > b ? a : b; }
+
+/* The farthest depth of each column of a block whose samples are written. */
+static inline void visible_columns(const e3d_visible_tile *tile, int block, float columns[RASTER_BLOCK])
 {
     const float *z = tile->z + block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
-    enum { LANES = RASTER_BLOCK * ROWS };
-    float lanes[LANES], most;
+    float lanes[RASTER_BLOCK * ROWS];
     for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES) {
         vf32 far = rows_loadf(z + x);
         for (int y = ROWS; y < RASTER_BLOCK; y += ROWS)
             far = v_max(far, rows_loadf(z + y * E3D_TILE + x));
         v_storef(lanes + x, far);
     }
-    most = lanes[0];
-    for (int x = 1; x < LANES; x++)
-        most = most > lanes[x] ? most : lanes[x];
-    tile->zmax[block] = most;
+    for (int x = 0; x < RASTER_BLOCK; x++) /* of one row of lanes, or two */
+        columns[x] = visible_farther(lanes[x], lanes[x + RASTER_BLOCK * (ROWS - 1)]);
+}
+
+/* The farthest depth of a block, of those of its columns. */
+static inline void visible_bound(e3d_visible_tile *tile, int block, const float columns[RASTER_BLOCK])
+{
+    float far[RASTER_BLOCK / 2];
+    for (int x = 0; x < RASTER_BLOCK / 2; x++)
+        far[x] = visible_farther(columns[x], columns[x + RASTER_BLOCK / 2]);
+    tile->zmax[block] = visible_farther(visible_farther(far[0], far[2]), visible_farther(far[1], far[3]));
     tile->stale &= ~(1ull << block);
+}
+
+/* The farthest depth of a block whose samples are written, anew. */
+static void visible_measure(e3d_visible_tile *tile, int block)
+{
+    float columns[RASTER_BLOCK];
+    visible_columns(tile, block, columns);
+    visible_bound(tile, block, columns);
 }
 
 /* Whether all samples of a block, which are written, are nearer. */
@@ -332,8 +348,11 @@ static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table 
     }
 }
 
-static void kernel_raster_measure(e3d_visible_tile *tile)
+static void kernel_raster_measure(e3d_visible_tile *tile, float columns[][E3D_BLOCK])
 {
-    for (uint64_t left = tile->stale; left; left &= left - 1)
-        visible_measure(tile, __builtin_ctzll(left));
+    for (uint64_t left = ~tile->noted; left; left &= left - 1) {
+        int block = __builtin_ctzll(left);
+        visible_columns(tile, block, columns[block]);
+        visible_bound(tile, block, columns[block]);
+    }
 }

@@ -60,6 +60,10 @@ class Watch:
         """Look at a thing from now on."""
         self._seen[id(thing)] = thing, thing.version
 
+    def remove(self, thing) -> None:
+        """Look at a thing no longer, if it was looked at."""
+        self._seen.pop(id(thing), None)
+
     def changed(self) -> list:
         """Return the things whose version is another than when they were last looked at."""
         ids, self._moment = _since(self._moment)

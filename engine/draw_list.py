@@ -1,8 +1,9 @@
 """From a scene to what the core draws: draws, materials and lights, renewed where they changed.
 
 In: a `Scene` and what the picture needs of its meshes. Out: a `NativeDrawList` that is up to date.
-Between frames it keeps the objects' part of the list and the versions it was made from; nodes are
-placed by C, from the scene's arrays. Python looks at the objects that changed, never at every node.
+Between frames it keeps the part of the list that tells of objects, and what that was made from;
+nodes are placed by C, from the arrays of the scene. Python looks at the objects that came, went or
+changed, at all of them only where many did, and never at every node.
 """
 
 from __future__ import annotations
@@ -55,10 +56,13 @@ class DrawList:
         self._watch = Watch()
         self._changed: list = []  # of what is watched, since the list was made
         self._materials: dict[Material, tuple[bool, list[tuple[int, int]]]] = {}
-        self._material_lists: list[list[Material]] = []  # the meshes' own, and as they were:
-        self._lists_then: list[list[Material]] = []
+        self._bases: dict[tuple[int, ...], int] = {}  # where materials begin, by their ids
+        self._material_lists: list[list[Material]] = []  # the meshes' own, by number of the object
+        self._lists_then: list[list[Material]] = []  # and as they were
+        self._listed: list = []  # what the objects were made of, by number: things, materials' ids
+        self._left = 0  # how often an object went, or took other materials, since all were listed
         self._marks = False
-        self._many: list[tuple[int, InstancedMesh]] = []  # with their index in the native list
+        self._many: dict[int, InstancedMesh] = {}  # by number
         self._trees, self._frames = False, 0
         self._placed: tuple | None = None
         self._frustum: np.ndarray | None = None
@@ -108,10 +112,15 @@ class DrawList:
         """Make trees of many instances, once these have stayed as they are for some frames."""
         self._frames += 1
         if self._frames == _SETTLED:
-            for index, instances in self._many:
-                self.native.set_instance_tree(index, instances._tree())
+            for number, instances in self._many.items():
+                self.native.set_instance_tree(number, instances._tree())
             self._trees = True
             self._placed = None
+
+    def _unsettle(self) -> None:
+        for number in self._many:
+            self.native.set_instance_tree(number, None)
+        self._trees, self._frames = False, 0
 
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
@@ -119,77 +128,137 @@ class DrawList:
 
     def _lists(self, scene: Scene) -> bool:
         """Whether the objects are those of the scene, as they are now."""
-        return self._has_objects_of(scene) and not self._changed
-
-    def _has_objects_of(self, scene: Scene) -> bool:
-        """Whether the objects are the scene's, and have the materials that they had."""
         self._changed += self._watch.changed()
         return (
             self._scene() is scene
             and self._objects_version == scene._objects.version
             and self._material_lists == self._lists_then
+            and not self._changed
         )
 
     def _renew(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
-        """Make the list of objects anew, or only those materials that changed."""
-        same = self._needs == needs and self._normals == normals and self._has_objects_of(scene)
-        if not same or not all(map(self._is_material, self._changed)):
+        """Make the list of objects anew, or only what changed of it."""
+        self._changed += self._watch.changed()
+        same = self._scene() is scene and self._needs == needs and self._normals == normals
+        numbers = self._numbers_that_changed(scene) if same else None
+        self._scene = lambda: None  # if anything below raises, the list is not current
+        if numbers is None:
             self._rebuild(scene, needs, normals)
-            return
-        for material in self._changed:
-            for index, number in self._materials[material][1]:
-                self._set_material(index, material, number)
-        self._changed = []
+        else:
+            self._replace(scene, sorted(numbers))
+        self._objects_version = scene._objects.version
+        self._scene = weakref.ref(scene)
+
+    def _numbers_that_changed(self, scene: Scene) -> set[int] | None:
+        """Numbers of objects that are others or changed; None where all are to be listed anew."""
+        objects = scene._objects
+        numbers = objects.renewed_since(self._objects_version)
+        if numbers is None or self._material_lists != self._lists_then:
+            return None
+        for thing in self._changed:
+            if isinstance(thing, (Mesh, InstancedMesh)):
+                numbers |= objects.drawn_by(thing)
+            elif not self._is_material(thing):
+                return None
+        # Materials that nothing shows any longer are let go of when the list is made anew.
+        few = 4 * (self._left + len(numbers)) <= len(objects.objects)
+        return numbers if few or not numbers else None
 
     def _is_material(self, thing) -> bool:
         """Whether it is a material that asks for the same normals as before."""
         return isinstance(thing, Material) and self._materials[thing][0] == thing.flat_shading
 
-    def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
-        self._scene = lambda: None  # if anything below raises, the list is not current
+    def _replace(self, scene: Scene, numbers: list[int]) -> None:
+        """Renew the objects of some numbers, and the materials that changed."""
+        for material in filter(self._is_material, self._changed):
+            for index, number in self._materials[material][1]:
+                self._set_material(index, material, number)
+        self._changed = []
+        if not numbers:
+            return
         self._placed = None
+        many = set(self._many)
+        for number in numbers:
+            self._forget(scene, number)
+            self._set_object(number, scene._objects.objects[number])
+        if not many.union(self._many).isdisjoint(numbers):
+            self._unsettle()
+
+    def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
+        self._placed = None
+        self._needs, self._normals = needs, normals
         self.native.clear()
         self._lights.forget()
         self._watch, self._changed, self._materials = Watch(), [], {}
-        self._material_lists, self._lists_then = [], []
+        self._bases, self._material_lists, self._lists_then, self._listed = {}, [], [], []
+        self._left = 0
         self._marks = self._trees = False
-        self._many, self._frames = [], 0
-        bases: dict[tuple[int, ...], int] = {}
-        for obj in scene._objects.objects:
-            if obj is None:
-                self.native.add_object(None, 0)
-            else:
-                self._add_object(obj, bases, needs, normals)
-        self._objects_version = scene._objects.version
-        self._needs, self._normals = needs, normals
-        self._scene = weakref.ref(scene)
+        self._many, self._frames = {}, 0
+        for number, obj in enumerate(scene._objects.objects):
+            self._set_object(number, obj)
 
-    def _add_object(self, obj, bases: dict[tuple[int, ...], int], needs, normals: str) -> None:
-        """Add a mesh, once or at many poses. `bases` knows where materials begin, by their ids."""
+    def _set_object(self, number: int, obj) -> None:
+        """List a mesh, once or at many poses, or nothing, under a number or the next one."""
+        self._many.pop(number, None)
+        if obj is None:
+            self.native.set_object(number, None, 0)
+            self._note(number, (), (), [])
+            return
         mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
-        self._watch_mesh(mesh)
         surfaces = tuple(map(id, mesh.materials))
-        if surfaces not in bases:
-            bases[surfaces] = self.native.material_count
-            for number, material in enumerate(mesh.materials):
-                self._materials.setdefault(material, (material.flat_shading, []))
-                self._materials[material][1].append((self.native.material_count, number))
-                self._set_material(self.native.material_count, material, number)
-        native = native_mesh(mesh, _needs_of(mesh, needs, normals), self._threads)
-        index = self.native.add_object(native, bases[surfaces])
-        if obj is not mesh:
-            self._watch.add(obj)
-            if len(obj) >= _MANY:
-                self._many.append((index, obj))
-            colors = obj.colors
-            eight_bit = colors is not None and colors.dtype == np.uint8
-            self.native.set_instances(
-                index,
-                obj._flat_poses(),
-                colors if eight_bit else None,
-                None if eight_bit else colors,
-                obj._ids,
+        if surfaces not in self._bases:
+            self._bases[surfaces] = self._add_materials(mesh.materials)
+        native = native_mesh(mesh, _needs_of(mesh, self._needs, self._normals), self._threads)
+        self.native.set_object(number, native, self._bases[surfaces])
+        self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
+        if obj is mesh:
+            self._note(number, (mesh,), surfaces, mesh.materials)
+        else:
+            self._note(number, (mesh, obj), surfaces, mesh.materials)
+            self._set_instances(number, obj)
+
+    def _set_instances(self, number: int, obj: InstancedMesh) -> None:
+        if len(obj) >= _MANY:
+            self._many[number] = obj
+        colors = obj.colors
+        eight_bit = colors is not None and colors.dtype == np.uint8
+        self.native.set_instances(
+            number,
+            obj._flat_poses(),
+            colors if eight_bit else None,
+            None if eight_bit else colors,
+            obj._ids,
+        )
+
+    def _note(self, number: int, things: tuple, surfaces: tuple, materials: list) -> None:
+        """Remember what would make a listed object, or its list of materials, out of date."""
+        for thing in things:
+            self._watch.add(thing)
+        if number == len(self._listed):
+            self._listed.append(((), ()))
+            self._material_lists.append([])
+            self._lists_then.append([])
+        self._left += self._listed[number][1] not in ((), surfaces)
+        self._listed[number] = things, surfaces
+        self._material_lists[number], self._lists_then[number] = materials, list(materials)
+
+    def _forget(self, scene: Scene, number: int) -> None:
+        """Look no longer at what a number's object was made of, where no other is."""
+        if number < len(self._listed):
+            for thing in self._listed[number][0]:
+                if not scene._objects.drawn_by(thing):
+                    self._watch.remove(thing)
+
+    def _add_materials(self, materials: list[Material]) -> int:
+        """Add materials to the native list; return the first one's number."""
+        base = self.native.material_count
+        for number, material in enumerate(materials):
+            index = base + number
+            self._materials.setdefault(material, (material.flat_shading, []))[1].append(
+                (index, number)
             )
+            self._set_material(index, material, number)
+        return base
 
     def _place(
         self, arrays: NodeArrays, frustum: np.ndarray | None, widen: float, batching: bool
@@ -224,13 +293,6 @@ class DrawList:
         self.changes += moved
         self._placed, self._selected = placed, selected
         self._frustum, self._how = frustum, how
-
-    def _watch_mesh(self, mesh: Mesh) -> None:
-        """Remember what would make a mesh, or its list of materials, out of date."""
-        self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
-        self._watch.add(mesh)
-        self._material_lists.append(mesh.materials)
-        self._lists_then.append(list(mesh.materials))
 
     def _set_material(self, index: int, material: Material, number: int) -> None:
         self._watch.add(material)

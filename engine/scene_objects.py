@@ -1,7 +1,8 @@
 """What the nodes of a scene draw: each mesh and each set of instances once, under a number.
 
 In: objects, as nodes come and go. Out: their numbers, and their boxes in object space, renewed when
-an object changed. A number is used again only after ``version`` has grown.
+an object changed. A number is used again only after ``version`` has grown. What a change costs
+depends on what changed, not on how many objects there are.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from .changes import Watch
 from .instances import InstancedMesh, mesh_box
 from .mesh import Mesh
 
+_REMEMBERED = 1024  # numbers that got other objects
 _NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)
 
 
@@ -25,9 +27,9 @@ class ObjectTable:
         By number; None where a number is free.
     boxes : (N, OBJECT_BOX) float64
         By number: lowest and highest corner, and how far from 0 coordinates are that they were made
-        of; lowest above highest where nothing can show.
+        of; lowest above highest where nothing can show. There may be more rows than numbers.
     version : int
-        Grows when a number gets another object.
+        Grows by one when a number gets another object.
     """
 
     def __init__(self) -> None:
@@ -38,8 +40,11 @@ class ObjectTable:
         self._numbers: dict = {}
         self._uses: list[int] = []
         self._free: list[int] = []
-        self._watch: Watch | None = Watch()  # None: objects came or went
+        self._watch = Watch()
         self._drawn: dict = {}  # numbers of what each mesh or set of instances is drawn by
+        self._parts: dict[int, list] = {}  # the meshes and sets of instances that a number draws
+        self._renewed: list[int] = []  # the numbers that got other objects, the latest last
+        self._unboxed: set[int] = set()  # of these, those whose boxes are not renewed yet
 
     @property
     def shapes(self) -> NativeShapes:
@@ -59,8 +64,10 @@ class ObjectTable:
                 self.objects.append(None)
                 self._uses.append(0)
             number = self._numbers[obj] = self._free.pop()
-            self.objects[number] = obj
-            self._changed()
+            self._give(number, obj)
+            self._look_at(obj, number)
+            if isinstance(obj, InstancedMesh):
+                self._look_at(obj.mesh, number)
         self._uses[number] += 1
         return number
 
@@ -72,22 +79,29 @@ class ObjectTable:
         self._uses[number] -= 1
         if self._uses[number] == 0:
             del self._numbers[obj]
-            self.objects[number] = None
             self._free.append(number)
-            self._changed()
+            self._give(number, None)
+            for part in self._parts.pop(number):
+                self._look_away(part, number)
+
+    def renewed_since(self, version: int) -> set[int] | None:
+        """Return the numbers that got other objects since a version; None if that is forgotten."""
+        count = self.version - version
+        return set(self._renewed[-count:] if count else ()) if count <= len(self._renewed) else None
+
+    def drawn_by(self, thing) -> set[int]:
+        """Return the numbers of the objects that draw a mesh or set of instances."""
+        return self._drawn.get(thing, set())
 
     def refresh(self) -> np.ndarray | None:
         """Renew the boxes; return (N,) uint8 that tells which changed, or None."""
-        if self._watch is None:
-            self._look_at_all()
-            numbers = list(range(len(self.objects)))
-        else:
-            numbers = self._numbers_that_changed()
+        numbers = sorted(self._unboxed | self._numbers_that_changed())
+        self._unboxed = set()
         if not numbers:
             return None
         self._shapes = None
         if len(self.boxes) < len(self.objects):
-            more = np.full((len(self.objects) - len(self.boxes), OBJECT_BOX), np.nan)
+            more = np.full((2 * len(self.objects) - len(self.boxes), OBJECT_BOX), np.nan)
             self.boxes = np.concatenate([self.boxes, more])
         boxes = np.array([_box(self.objects[number]) for number in numbers])
         changed = np.zeros(len(self.boxes), np.uint8)
@@ -95,28 +109,35 @@ class ObjectTable:
         self.boxes[numbers] = boxes
         return changed if changed.any() else None
 
-    def _numbers_that_changed(self) -> list[int]:
+    def _numbers_that_changed(self) -> set[int]:
         numbers = set()
         for thing in self._watch.changed():
             numbers |= self._drawn[thing]
             if isinstance(thing, InstancedMesh):
                 self._look_at(thing.mesh, self._numbers[thing])
-        return sorted(numbers)
-
-    def _look_at_all(self) -> None:
-        self._watch, self._drawn = Watch(), {}
-        for obj, number in self._numbers.items():
-            self._look_at(obj, number)
-            if isinstance(obj, InstancedMesh):
-                self._look_at(obj.mesh, number)
+        return numbers
 
     def _look_at(self, thing, number: int) -> None:
-        self._watch.add(thing)
-        self._drawn.setdefault(thing, set()).add(number)
+        numbers = self._drawn.setdefault(thing, set())
+        if not numbers:
+            self._watch.add(thing)
+        if number not in numbers:
+            numbers.add(number)
+            self._parts.setdefault(number, []).append(thing)
 
-    def _changed(self) -> None:
+    def _look_away(self, thing, number: int) -> None:
+        self._drawn[thing].remove(number)
+        if not self._drawn[thing]:
+            del self._drawn[thing]
+            self._watch.remove(thing)
+
+    def _give(self, number: int, obj) -> None:
+        self.objects[number] = obj
         self.version += 1
-        self._watch = None
+        self._unboxed.add(number)
+        self._renewed.append(number)
+        if len(self._renewed) > 2 * _REMEMBERED:
+            del self._renewed[:_REMEMBERED]
 
 
 def _box(obj) -> np.ndarray:

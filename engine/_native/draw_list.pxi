@@ -2,7 +2,7 @@
 #
 # In:  handles of meshes and textures, colours and poses; then, for each frame, the rows of the nodes.
 # Out: the draws, materials and lights that NativeRenderer.render hands to the core.
-# Always: what the structs point to is held in `borrowed` and `textures`.
+# Always: what the structs point to is held in `borrowed`, `trees` and `textures`.
 
 cdef int copy_vector(float *to, value, int count) except -1:
     for k in range(count):
@@ -37,11 +37,11 @@ cdef class NativeDrawList:
     cdef e3d_light *lights
     cdef readonly int object_count, material_count, light_count
     cdef int object_capacity, material_capacity, light_capacity
-    cdef list borrowed
-    cdef dict textures  # by the number of the material
+    cdef dict borrowed, trees  # by the number of the object
+    cdef dict textures  # by that of the material
 
     def __cinit__(self):
-        self.borrowed = []
+        self.borrowed, self.trees = {}, {}
         self.textures = {}
 
     def __dealloc__(self):
@@ -53,27 +53,36 @@ cdef class NativeDrawList:
     def clear(self):
         """Forget objects, draws, materials and lights, and let go of their arrays."""
         self.object_count = self.material_count = self.light_count = 0
-        self.placed.count = self.placed.order_count = self.placed.nodes = 0
-        self.borrowed = []
+        self.forget_places()
+        self.borrowed, self.trees = {}, {}
         self.textures = {}
+
+    cdef void forget_places(self) noexcept:
+        self.placed.count = self.placed.order_count = self.placed.nodes = 0
 
     def clear_lights(self):
         self.light_count = 0
 
-    def add_object(self, NativeMesh mesh, int32_t material_base):
-        """Append what nodes refer to by its number, which is returned; None is never drawn."""
-        self.objects = <e3d_placed *>grown(
-            self.objects, self.object_count, &self.object_capacity, sizeof(e3d_placed)
-        )
-        cdef e3d_placed *entry = &self.objects[self.object_count]
+    def set_object(self, int index, NativeMesh mesh, int32_t material_base):
+        """Say what nodes refer to by a number, or by the next one; None is never drawn.
+
+        Nothing is drawn until `place`.
+        """
+        require(0 <= index <= self.object_count, "no such object")
+        self.forget_places()
+        if index == self.object_count:
+            self.objects = <e3d_placed *>grown(
+                self.objects, self.object_count, &self.object_capacity, sizeof(e3d_placed)
+            )
+            self.object_count += 1
+        cdef e3d_placed *entry = &self.objects[index]
         memset(entry, 0, sizeof(e3d_placed))
         if mesh is not None:
             entry.draw.mesh = mesh.handle
         entry.draw.instances = 1
         entry.draw.material_base = material_base
-        self.borrowed.append(mesh)
-        self.object_count += 1
-        return self.object_count - 1
+        self.borrowed[index] = mesh, None
+        self.trees.pop(index, None)
 
     def place(
         self,
@@ -123,7 +132,7 @@ cdef class NativeDrawList:
         """Let instances be left out by a NativeTree of their boxes, or by none."""
         require(0 <= index < self.object_count, "no such object")
         self.objects[index].instances = NULL if tree is None else <e3d_tree *><size_t>tree.address
-        self.borrowed.append(tree)
+        self.trees[index] = tree
 
     def set_instances(
         self,
@@ -137,6 +146,7 @@ cdef class NativeDrawList:
         require(0 <= index < self.object_count, "no such object")
         cdef e3d_draw *draw = &self.objects[index].draw
         require(poses.shape[1] in (4, 16), "poses must be (N, 16) or (N, 4)")
+        self.forget_places()
         draw.pose_kind = E3D_POSE_MATRIX if poses.shape[1] == 16 else E3D_POSE_OFFSET_SCALE
         draw.instances = <int32_t>poses.shape[0]
         draw.poses = &poses[0, 0] if poses.shape[0] else NULL
@@ -152,7 +162,7 @@ cdef class NativeDrawList:
         elif colors_f32 is not None and poses.shape[0]:
             require(colors_f32.shape[0] == poses.shape[0] and colors_f32.shape[1] == 4, "colors: (N, 4)")
             draw.instance_colors_f32 = &colors_f32[0, 0]
-        self.borrowed.append((poses, colors_u8, colors_f32, ids))
+        self.borrowed[index] = self.borrowed[index][0], (poses, colors_u8, colors_f32, ids)
 
     def set_material(
         self, int index, color, specular, float shininess, emissive, NativeTexture texture, int32_t id,

@@ -1,7 +1,10 @@
 """What changed is found without looking at everything, and nothing that changed is missed."""
 
+import gc
 import os
+import subprocess
 import sys
+import weakref
 
 import numpy as np
 import pytest
@@ -30,16 +33,19 @@ def calls_of(function, *arguments):
         nonlocal count
         count += event in ("call", "c_call")
 
+    gc.collect()
+    gc.disable()  # what an earlier scene leaves behind is not counted
     sys.setprofile(profile)
     try:
         function(*arguments)
     finally:
         sys.setprofile(None)
+        gc.enable()
     return count
 
 
 def test_python_does_not_look_at_every_mesh():
-    """Neither in a frame without changes, nor where one material or one mesh's arrays change."""
+    """Neither in a frame without changes, nor where one comes, goes or changes."""
     counts = []
     for size in (20, 20, 400):  # what is imported at its first use does not count
         scene, meshes = spheres(size)
@@ -52,6 +58,11 @@ def test_python_does_not_look_at_every_mesh():
             row.append(calls_of(scene._update))
             meshes[0].positions = meshes[0].positions * 2
             row.append(calls_of(scene._update))
+            row.append(calls_of(renderer.render, scene, VIEW))
+            node = scene.add(e3d.uv_sphere(0.7, (8, 5)))
+            row.append(calls_of(renderer.render, scene, VIEW))
+            scene.remove(node)
+            row.append(calls_of(renderer.render, scene, VIEW))
         counts.append(row)
     assert counts[1] == counts[2]
 
@@ -116,6 +127,87 @@ def test_a_change_shows(change):
         assert (after.color == fresh.render(scene, VIEW).color).all()
 
 
+class Guests:
+    """A scene in which meshes and sets of instances come, go and change at random."""
+
+    def __init__(self, seed):
+        self.random = np.random.default_rng(seed)
+        self.scene, meshes = spheres(30)
+        self.materials = [mesh.materials[0] for mesh in meshes]
+        self.nodes = list(self.scene.nodes)
+
+    def do(self):
+        self.random.choice([self.come, self.come, self.go, self.go, self.change, self.gather])()
+
+    def come(self):
+        obj = e3d.uv_sphere(0.5, (6, 4))
+        if self.random.random() < 0.5:
+            obj.materials = [self.random.choice(self.materials)]
+        if self.random.random() < 0.3:
+            obj = e3d.InstancedMesh(obj, self.random.uniform(-3, 3, (4, 4)))
+        if self.random.random() < 0.3:
+            obj = self.random.choice(self.nodes).object
+        self.nodes.append(self.scene.add(obj, translation=self.random.uniform(-3, 3, 3)))
+
+    def go(self):
+        self.scene.remove(self.nodes.pop(self.random.integers(len(self.nodes))))
+
+    def change(self):
+        obj = self.random.choice(self.nodes).object
+        if isinstance(obj, e3d.InstancedMesh):
+            obj.poses = self.random.uniform(-3, 3, (3, 4))
+        else:
+            obj.positions = obj.positions * 1.1
+
+    def gather(self):
+        """A mesh that is drawn by itself is drawn as instances, too."""
+        obj = self.random.choice(self.nodes).object
+        if isinstance(obj, e3d.Mesh):
+            crowd = e3d.InstancedMesh(obj, self.random.uniform(-3, 3, (2, 4)))
+            self.nodes.append(self.scene.add(crowd))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_comes_and_goes(seed, monkeypatch):
+    """By a renderer that looks at each frame, one that looks now and then, and a new one."""
+    monkeypatch.setattr("engine3d.draw_list._MANY", 3)  # instances that get a tree
+    guests, outputs = Guests(seed), ("color", "object_id", "instance_id")
+    camera, shows = VIEW[0], set()
+    with e3d.Renderer(64, 48, threads=1) as always, e3d.Renderer(64, 48, threads=1) as seldom:
+        for step in range(120):
+            if step % 6 < 2:  # between them, instances settle
+                guests.do()
+            view = camera, e3d.look_at((0.2 * (step % 5), 0, 6), (0.3 * (step % 4), 0, 0))
+            looking = (always, seldom) if step % 13 == 0 else (always,)
+            fresh = e3d.render(guests.scene, view, size=(64, 48), threads=1, outputs=outputs)
+            shows.update(fresh.object_id.ravel().tolist())
+            for renderer in looking:
+                frame = renderer.render(guests.scene, view, outputs=outputs)
+                for name in outputs:
+                    assert np.array_equal(getattr(frame, name), getattr(fresh, name)), name
+    assert len(shows) > 30
+
+
+def test_what_went_is_let_go():
+    scene, meshes = spheres(40)
+    nodes = list(scene.nodes)
+    with e3d.Renderer(64, 48, threads=1) as renderer:
+        renderer.render(scene, VIEW)
+        gone = weakref.ref(meshes.pop(7))
+        scene.remove(nodes.pop(7))
+        renderer.render(scene, VIEW)
+        gc.collect()
+        assert gone() is None
+        materials = [weakref.ref(mesh.materials[0]) for mesh in meshes]
+        while len(meshes) > 20:
+            meshes.pop()
+            scene.remove(nodes.pop())
+            renderer.render(scene, VIEW)
+        gc.collect()
+        held = sum(material() is not None for material in materials)
+        assert held <= 20 + 40 // 4
+
+
 def test_instances_of_another_mesh_have_another_box():
     scene = e3d.Scene()
     crowd = e3d.InstancedMesh(e3d.box(), [(0, 0, 0, 1), (4, 0, 0, 1)])
@@ -146,13 +238,25 @@ def test_a_watch_tells_once():
     assert watch.changed() == [later]
 
 
+FORK = """
+import os
+import engine3d as e3d
+from engine3d.changes import Watch
+things = [e3d.Material() for _ in range(3)]
+watch = Watch(things)
+things[2].name = "before"
+child = os.fork()
+if not child:
+    things[0].name = "after"
+    os._exit(0 if set(watch.changed()) == {things[0], things[2]} else 1)
+assert os.waitpid(child, 0)[1] == 0
+assert watch.changed() == [things[2]]
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
 def test_a_forked_process_misses_nothing():
-    things = [e3d.Material() for _ in range(3)]
-    watch = Watch(things)
-    things[2].name = "before"
-    child = os.fork()
-    if not child:
-        things[0].name = "after"
-        os._exit(0 if set(watch.changed()) == {things[0], things[2]} else 1)
-    assert os.waitpid(child, 0)[1] == 0
-    assert watch.changed() == [things[2]]
+    """The one that forks is a process of its own: this one may have threads by now."""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run([sys.executable, "-c", FORK], env=environment, timeout=60)
+    assert done.returncode == 0

@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 
 import engine3d
+from engine3d.atomic_write import atomic_write
 from engine3d.attributes import CheckedAttribute
 
 PAGE = Path(__file__).resolve().parent / "api.md"
@@ -221,7 +222,8 @@ def main(arguments: list[str]) -> int:
     check_complete()
     text = page()
     if "--check" not in arguments:
-        PAGE.write_text(text, encoding="utf-8")
+        with atomic_write(PAGE) as file:
+            file.write(text.encode())
         return 0
     if PAGE.exists() and PAGE.read_text(encoding="utf-8") == text:
         return 0

@@ -36,47 +36,49 @@ class LightList:
 
     def forget(self) -> None:
         """List all lights anew at the next update."""
-        self._state: tuple | None = None
         self._listed: tuple | None = None
+        self._shown = np.empty(0, bool)
+        self._changes = 0
         self._placed = np.empty(0, np.uint32)
 
     def update(self, scene: Scene, headlight) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
         self._find_slots(scene)
-        versions = [light.version for light in self._lights]
-        headlight = None if self._lights else headlight
-        color, towards = headlight or (None, None)
-        changes = scene._arrays.changes if self._lights else 0
-        state = self._slots_of, changes, versions, color
-        same, self._state = self._state == state, None  # for if anything below raises
-        if not same:
-            self._renew(scene, versions, headlight)
+        color, towards = (None, None) if self._lights else headlight or (None, None)
+        listed = self._slots_of, [light.version for light in self._lights], color
+        same, self._listed = self._listed == listed, None  # for if anything below raises
+        if self._lights:
+            changes = scene._arrays.changes
+            if not same or self._changes != changes:
+                self._renew(scene, same)
+            self._changes = changes
+        elif not same:
+            self._native.clear_lights()
+            if towards is not None:
+                self._native.add_directional_light(color, towards)
         elif towards is not None:
             self._native.turn_light(0, towards)
-        self._state = state
+        self._listed = listed
 
-    def _renew(self, scene: Scene, versions: list[int], headlight) -> None:
-        """List lights that changed, and place those that moved."""
+    def _renew(self, scene: Scene, same: bool) -> None:
+        """List lights that show, if they are not the same as before, and place those that moved."""
         columns = scene._arrays.columns
         shown = columns["flags"][self._slots] & SHOWN != 0
         slots = self._slots[shown]
-        listed = self._slots_of, versions, shown.tobytes(), headlight
         placed = columns["world_version"][slots]
-        same, self._listed = self._listed == listed, None  # for if anything below raises
-        moved = np.flatnonzero(placed != self._placed) if same else np.arange(len(slots))
-        if not same:
+        if same and np.array_equal(shown, self._shown):
+            moved = np.flatnonzero(placed != self._placed)
+        else:
+            moved = np.arange(len(slots))
             self._native.clear_lights()
-            for light, on in zip(self._lights, shown.tolist(), strict=True):
-                if on:
-                    self._add(light)
-            if headlight is not None:
-                self._native.add_directional_light(*headlight)
+            for light in np.flatnonzero(shown).tolist():
+                self._add(self._lights[light])
         if len(moved):
             lights = np.flatnonzero(shown)[moved].tolist()
             poses = columns["world"][slots[moved]].tolist()
             for number, light, pose in zip(moved.tolist(), lights, poses, strict=True):
                 self._place(number, self._lights[light], pose)
-        self._listed, self._placed = listed, placed
+        self._shown, self._placed = shown, placed
 
     def _find_slots(self, scene: Scene) -> None:
         """Find the lights' rows in the scene's arrays, once for as long as these are the same."""

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from weakref import WeakValueDictionary
 
 from .errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from .file_states import FileState
 from .loaders import load_mesh, load_texture
 from .loaders.linked_files import found_files
 from .materials import Material
@@ -90,19 +91,18 @@ class Resources:
             if thing is None:
                 del self._files[key]
                 continue
-            now = _states(loaded.states)
-            if now == loaded.states:
+            if not any(state.changed() for state in loaded.states.values()):
                 continue
-            loaded.states = now
+            loaded.states = {path: FileState(path) for path in loaded.states}
             path = key[1]
             try:
-                fresh, files = _read(loaded.load, path, loaded.options)
+                fresh, states = _read(loaded.load, path, loaded.options)
             except Engine3DError as error:
                 warnings.warn(f"not loaded again: {error}", Engine3DWarning, stacklevel=2)
                 continue
             self._forget_content(thing)
             _become(thing, fresh)
-            loaded.states, loaded.versions = _states(files), _versions(thing)
+            loaded.states, loaded.versions = states, _versions(thing)
             done.append(path)
         return tuple(done)
 
@@ -130,13 +130,13 @@ class Resources:
         if thing is not None and self._files[key].versions == _versions(thing):
             self._shared += 1
             return thing
-        thing, files = _read(load, name, options)
+        thing, states = _read(load, name, options)
         for material in thing.materials if isinstance(thing, Mesh) else ():
             if material.texture is not None:
                 material.texture = self._same(material.texture, count=False)
         thing = self._same(thing)
         self._by_file[key] = thing
-        self._files[key] = _Loaded(load, options, _states(files), thing)
+        self._files[key] = _Loaded(load, options, states, thing)
         return thing
 
     def _same(self, thing, *, count: bool = True):
@@ -158,7 +158,7 @@ class Resources:
 class _Loaded:
     """How a file was loaded: by what, with which options, from which files in which states."""
 
-    def __init__(self, load, options: dict, states: dict, thing) -> None:
+    def __init__(self, load, options: dict, states: dict[str, FileState], thing) -> None:
         self.load, self.options, self.states = load, options, states
         self.versions = _versions(thing)
 
@@ -170,24 +170,17 @@ def _versions(thing) -> tuple:
     return tuple(part.version for part in (thing, *materials, *textures))
 
 
-def _read(load, path: str, options: dict) -> tuple[Mesh | Texture, list[str]]:
-    """Load a file; return what it holds, and all files that were read for it."""
-    with found_files() as files:
+def _read(load, path: str, options: dict) -> tuple[Mesh | Texture, dict[str, FileState]]:
+    """Load a file; return what it holds, and how all files were before they were read for it."""
+    states = {path: FileState(path)}
+
+    def note(found: str) -> None:
+        if found not in states:
+            states[found] = FileState(found)
+
+    with found_files(note):
         thing = load(path, **options)
-    return thing, [path, *files]
-
-
-def _states(files) -> dict[str, tuple | None]:
-    """Size and time of each file; None for one that is gone."""
-    return {path: _state(path) for path in files}
-
-
-def _state(path: str) -> tuple | None:
-    try:
-        status = os.stat(path)
-    except OSError:
-        return None
-    return status.st_size, status.st_mtime_ns, status.st_ino
+    return thing, states
 
 
 def _arrays(mesh: Mesh) -> list:

@@ -1,12 +1,13 @@
 """Tells when a file has been written anew.
 
-In: a path. Out: True once after each change, when the file's size and time have settled.
+In: a path. Out: True once after each change, when the file's stamp has settled.
 """
 
 from __future__ import annotations
 
-import os
 import time
+
+from ..file_states import file_stamp
 
 #: How often the file is looked at.
 CHECK_SECONDS = 0.25
@@ -49,8 +50,4 @@ class FileWatch:
     def _stamp(self):
         if self.path is None:
             return None
-        try:
-            status = os.stat(self.path)
-        except OSError:
-            return None
-        return status.st_mtime_ns, status.st_size
+        return file_stamp(self.path)

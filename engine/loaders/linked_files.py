@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import re
 import stat
+from collections.abc import Callable
 from contextlib import contextmanager
 from contextvars import ContextVar
 
@@ -18,16 +19,15 @@ _MAX_NAME = 4096
 _MAX_FAILURES = 2000
 
 
-_listeners: ContextVar[tuple[list[str], ...]] = ContextVar("listeners", default=())
+_listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listeners", default=())
 
 
 @contextmanager
-def found_files():
-    """Collect the paths that are found within the block, in a list."""
-    found: list[str] = []
-    token = _listeners.set((*_listeners.get(), found))
+def found_files(note: Callable[[str], object]):
+    """Call ``note`` with each path that is found within the block, before it is read."""
+    token = _listeners.set((*_listeners.get(), note))
     try:
-        yield found
+        yield
     finally:
         _listeners.reset(token)
 
@@ -72,8 +72,8 @@ class LinkedFiles:
             raise LinkedFileError("not looked for, too many files are missing")
         try:
             path = self._find(name, self.root if folder is None else folder)
-            for found in _listeners.get():
-                found.append(path)
+            for note in _listeners.get():
+                note(path)
             return path
         except LinkedFileError:
             self._failures += 1

@@ -2,6 +2,7 @@
 
 import gc
 import os
+import time
 
 import numpy as np
 import pytest
@@ -114,6 +115,49 @@ def test_files_that_changed_are_loaded_again(folder):
         assert resources.reload_changed() == (f"{path}/m.obj",)
         assert mesh.positions.max() == 5
         assert scene.bounds[1, 0] == 5
+
+
+@pytest.mark.parametrize("name", ["m.obj", "m.mtl", "t.png"])
+def test_a_change_that_keeps_size_and_time_is_found(folder, name):
+    resources = e3d.Resources()
+    mesh = resources.load_mesh(folder / "m.obj")
+    path = folder / name
+    status, content = os.stat(path), path.read_bytes()
+    time.sleep(0.05)  # longer than the clock's steps
+    path.write_bytes(content)
+    os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
+    assert resources.reload_changed() == (os.path.realpath(folder / "m.obj"),)
+    assert mesh.positions.max() == 1
+
+
+def test_a_change_within_a_step_of_the_clock_is_found(folder, monkeypatch):
+    """Once the step is over, by the content: the stamp is that of before."""
+    monkeypatch.setattr("engine3d.file_states.file_stamp", lambda path: (1, 1, *[stamp.now] * 2))
+    stamp.now = time.time_ns()
+    resources = e3d.Resources()
+    mesh = resources.load_mesh(folder / "m.obj")
+    (folder / "m.obj").write_text(OBJ.replace("v 1 0 0", "v 4 0 0"))
+    assert resources.reload_changed() == ()
+    now = stamp.now + 10 * 10**9
+    monkeypatch.setattr("engine3d.file_states.time.time_ns", lambda: now)
+    assert len(resources.reload_changed()) == 1
+    assert mesh.positions.max() == 4
+    assert resources.reload_changed() == ()
+
+
+def test_a_change_while_a_file_is_read_is_found(folder, monkeypatch):
+    read = e3d.load_mesh
+
+    def read_what_changes(path):
+        mesh = read(path)
+        (folder / "m.obj").write_text(OBJ.replace("v 1 0 0", "v 40 0 0"))
+        return mesh
+
+    monkeypatch.setattr("engine3d.resources.load_mesh", read_what_changes)
+    resources = e3d.Resources()
+    mesh = resources.load_mesh(folder / "m.obj")
+    assert len(resources.reload_changed()) == 1
+    assert mesh.positions.max() == 40
 
 
 def test_damaged_files_leave_what_is_there(folder):

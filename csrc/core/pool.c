@@ -1,7 +1,8 @@
 /* The process's one thread pool: made at the first frame, remade after a fork.
  *
  * Threads sleep on a condition between jobs, but only once they have watched for the next one as long as waking takes: a
- * frame is several jobs. A second caller does not wait: it works alone, which cannot deadlock and gives the same picture.
+ * frame is several jobs. Who has not come when the caller has nothing left to do is not waited for: there is nothing left.
+ * A second caller does not wait: it works alone, which cannot deadlock and gives the same picture.
  */
 #include "core/pool.h"
 
@@ -27,13 +28,14 @@ static struct {
     pthread_mutex_t lock;  /* guards what follows */
     pthread_cond_t start, done;
     int threads;           /* made so far, without the caller */
-    int wanted, running;   /* helpers of the job that shall run, that still run */
+    int called;            /* helpers, to the last job, */
+    int wanted, running;   /* that may still join it: none once it is over; that are at work */
     unsigned long job;
     void (*work)(void *, int);
     void *argument;
     atomic_int watches;    /* there is a CPU for each thread */
     atomic_ulong posted;   /* the last job, once nobody holds the lock for it */
-    atomic_ulong finished; /* the last one whose helpers have returned, likewise */
+    atomic_ulong finished; /* the last one that was over before its helpers had returned, and now they have */
 } pool = {.owner = PTHREAD_MUTEX_INITIALIZER,
           .lock = PTHREAD_MUTEX_INITIALIZER,
           .start = PTHREAD_COND_INITIALIZER,
@@ -59,7 +61,7 @@ static void in_child(void) /* no thread came along */
     pthread_mutex_init(&pool.lock, NULL);
     pthread_cond_init(&pool.start, NULL);
     pthread_cond_init(&pool.done, NULL);
-    pool.threads = pool.wanted = pool.running = 0;
+    pool.threads = pool.called = pool.wanted = pool.running = 0;
 }
 
 static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
@@ -74,6 +76,23 @@ static void watch(const atomic_ulong *number, unsigned long job)
         pause_briefly();
 }
 
+/* Holding the lock: until there is a job to join after the one that was seen; its number. */
+static unsigned long await_job(int worker, unsigned long seen)
+{
+    while (pool.job == seen || worker > pool.wanted) {
+        int late = pool.job != seen && worker <= pool.called;
+        seen = pool.job;
+        if (late) {
+            pthread_mutex_unlock(&pool.lock);
+            watch(&pool.posted, seen + 1);
+            pthread_mutex_lock(&pool.lock);
+        }
+        if (pool.job == seen)
+            pthread_cond_wait(&pool.start, &pool.lock);
+    }
+    return pool.job;
+}
+
 static void *helper(void *number)
 {
     int worker = (int)(intptr_t)number;
@@ -81,11 +100,8 @@ static void *helper(void *number)
     pthread_mutex_lock(&pool.lock);
     seen = pool.job - 1; /* made for the job that is about to start */
     for (;;) {
-        while (pool.job == seen || worker > pool.wanted) {
-            seen = pool.job;
-            pthread_cond_wait(&pool.start, &pool.lock);
-        }
-        seen = pool.job;
+        seen = await_job(worker, seen);
+        pool.running++;
         void (*work)(void *, int) = pool.work;
         void *argument = pool.argument;
         pthread_mutex_unlock(&pool.lock);
@@ -93,7 +109,7 @@ static void *helper(void *number)
         work(argument, worker);
         e3d_fpenv_leave(saved);
         pthread_mutex_lock(&pool.lock);
-        int last = --pool.running == 0;
+        int last = --pool.running == 0 && !pool.wanted;
         if (last)
             pthread_cond_signal(&pool.done);
         pthread_mutex_unlock(&pool.lock);
@@ -124,6 +140,22 @@ static void make_helpers(int wanted)
     pthread_sigmask(SIG_SETMASK, &saved, NULL);
 }
 
+/* The job is over, but for those who are at work. */
+static void await_helpers(void)
+{
+    pthread_mutex_lock(&pool.lock);
+    pool.wanted = 0;
+    if (pool.running) {
+        unsigned long job = pool.job;
+        pthread_mutex_unlock(&pool.lock);
+        watch(&pool.finished, job);
+        pthread_mutex_lock(&pool.lock);
+    }
+    while (pool.running)
+        pthread_cond_wait(&pool.done, &pool.lock);
+    pthread_mutex_unlock(&pool.lock);
+}
+
 static e3d_pool_runner borrowed; /* NULL: this copy's own pool */
 
 void e3d_pool_borrow(e3d_pool_runner runner) { borrowed = runner; }
@@ -144,8 +176,7 @@ void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
     pthread_mutex_lock(&pool.lock);
     pool.job++;
     make_helpers(threads - 1);
-    pool.wanted = threads - 1 < pool.threads ? threads - 1 : pool.threads;
-    pool.running = pool.wanted;
+    pool.called = pool.wanted = threads - 1 < pool.threads ? threads - 1 : pool.threads;
     pool.work = work;
     pool.argument = argument;
     pthread_cond_broadcast(&pool.start);
@@ -153,13 +184,7 @@ void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
     atomic_store(&pool.posted, pool.job);
 
     work(argument, 0);
-
-    if (pool.wanted)
-        watch(&pool.finished, pool.job);
-    pthread_mutex_lock(&pool.lock);
-    while (pool.running)
-        pthread_cond_wait(&pool.done, &pool.lock);
-    pthread_mutex_unlock(&pool.lock);
+    await_helpers();
     pthread_mutex_unlock(&pool.owner);
 }
 

@@ -349,12 +349,12 @@ typedef struct e3d_kernels {
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Finds, of each block that isn't noted, zmax and the farthest depth of each column. */
     void (*raster_measure)(e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
-    /* The runs of the first width x height samples of a tile whose owner is `least` or more, row by row; their number. */
-    int (*find_runs)(const int32_t *slot, int width, int height, int32_t least, e3d_run *out);
-    /* Adds the samples of runs that are sorted by owner to the list; those of one owner are a piece. */
-    void (*list_runs)(const e3d_run *runs, int count, e3d_shown *out);
+    /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
+    int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
     /* Adds the samples that bear the IDs of records to the list; records, in this order, are pieces. */
     void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
+    /* The same of fragments; those of one triangle that follow each other are a piece. */
+    void (*show_fragments)(const e3d_visible_tile *tile, const e3d_fragment_block *block, e3d_shown *out);
     /* Adds as many runs, which are owned by pieces, or samples from `first` on as the batch has room for; how many. A batch of none
      * takes one at least. Piece `piece` is surface 0, the others follow. */
     int (*take_runs)(const e3d_run *runs, int count, int32_t piece, e3d_batch *batch);

@@ -204,10 +204,10 @@ static void clear_marks(e3d_tile_memory *memory)
         memory->mark[i] = 0;
 }
 
-/* The runs of IDs or slots, `least` or more, that show in the tile; how many. */
-static int32_t find_runs(const tile_job *job, int32_t least)
+/* The runs of what shows in the tile; how many. */
+static int32_t find_runs(const tile_job *job)
 {
-    return job->context->kernels->find_runs(job->worker->visible->id, job->tile.width, job->tile.height, least,
+    return job->context->kernels->find_runs(job->worker->visible->id, job->tile.width, job->tile.height,
                                             job->worker->tile->runs);
 }
 
@@ -243,7 +243,7 @@ static int draw_pieces(tile_job *job)
     int64_t rastered = e3d_now_ns();
     worker->counters.ns_raster += rastered - start;
     if (context->wants && !forward) {
-        int32_t count = find_runs(job, 0);
+        int32_t count = find_runs(job);
         slots_to_ids(worker, count);
         if (!e3d_shade_runs(context, worker, &job->tile, count))
             return 0;
@@ -275,7 +275,7 @@ static int32_t leave_out_shaded(const tile_job *job, int32_t count)
     return left;
 }
 
-enum { MANY_RECORDS = 64 }; /* in a tile */
+enum { MANY = 64 }; /* records and fragments, in a tile */
 
 /* No ID beyond the viewport, where whole blocks and vectors are written, too. */
 static void clear_outside(const tile_job *job)
@@ -286,23 +286,19 @@ static void clear_outside(const tile_job *job)
             id[y * E3D_TILE + x] = E3D_NO_SLOT;
 }
 
-/* Where there are many, most are narrow: their samples are found in their boxes. Else runs are found in rows and sorted, as are
- * those of fragments; also where the bins don't hold all that shows, or not all of it is to be shaded, or block by block. */
+/* Where there are many pieces, most are small: their samples are found where they lie. Else runs are found in rows and sorted; also
+ * where the bins don't hold all that shows, or not all of it is to be shaded, or block by block. */
 static int shade_visible(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
-    if (job->kept || job->again || context->blockwise || e3d_visible_records(context, job->number) < MANY_RECORDS) {
-        int32_t count = find_runs(job, 0);
+    if (job->kept || job->again || context->blockwise || e3d_visible_count(context, job->number) < MANY) {
+        int32_t count = find_runs(job);
         count = job->again ? leave_out_shaded(job, count) : count;
         return e3d_shade_runs(context, worker, &job->tile, count);
     }
     clear_outside(job);
     e3d_visible_show(context, worker, job->number);
-    if (e3d_fragments_show(context, job->number)) {
-        int32_t count = find_runs(job, E3D_FRAGMENT_ID);
-        context->kernels->list_runs(e3d_sort_runs(worker->tile->runs, worker->tile->spare, count), count, &worker->tile->shown);
-    }
     return e3d_shade_shown(context, worker, &job->tile);
 }
 

@@ -157,10 +157,11 @@ cdef extern from "kernels/kernels.h" nogil:
                                  const e3d_fragment_block *block)
         void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
         void (*raster_measure)(e3d_visible_tile *tile, float (*columns)[E3D_BLOCK])
-        int (*find_runs)(const int32_t *slot, int width, int height, int32_t least, e3d_run *out)
-        void (*list_runs)(const e3d_run *runs, int count, e3d_shown *out)
+        int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
         void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table,
                              const uint32_t *ids, int count, e3d_shown *out)
+        void (*show_fragments)(const e3d_visible_tile *tile, const e3d_fragment_block *block,
+                               e3d_shown *out)
         int (*take_runs)(const e3d_run *runs, int count, int32_t piece, e3d_batch *batch)
         int (*take_shown)(const e3d_shown *shown, int first, int count, int32_t piece,
                           e3d_batch *batch)

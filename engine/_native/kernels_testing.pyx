@@ -253,20 +253,13 @@ cdef class Kernels:
             self.table.raster_measure(<e3d_visible_tile *>&tile[0],
                                       <float (*)[E3D_BLOCK]>&columns[0, 0])
 
-    def find_runs(self, const int32_t[::1] slot, int width, int height, int32_t least, uint8_t[::1] out):
+    def find_runs(self, const int32_t[::1] slot, int width, int height, uint8_t[::1] out):
         """``out`` has room for as many runs as the tile has samples, and one; returns how many."""
         cdef int count = 0
         check_size(out, (E3D_TILE_SAMPLES + 1) * sizeof(e3d_run))
         for _ in range(self.rounds):
-            count = self.table.find_runs(&slot[0], width, height, least, <e3d_run *>&out[0])
+            count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
         return count
-
-    def list_runs(self, const uint8_t[::1] runs, uint8_t[::1] shown):
-        """With several rounds, they are listed as often, one after the other."""
-        check_size(shown, sizeof(e3d_shown))
-        for _ in range(self.rounds):
-            self.table.list_runs(<const e3d_run *>&runs[0], <int>(runs.shape[0] // sizeof(e3d_run)),
-                                 <e3d_shown *>&shown[0])
 
     def show_records(self, const uint8_t[::1] tile, const uint8_t[:, ::1] records,
                      const uint32_t[::1] ids, uint8_t[::1] shown):
@@ -279,6 +272,15 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.show_records(<const e3d_visible_tile *>&tile[0], &table, &ids[0], <int>ids.shape[0],
                                     <e3d_shown *>&shown[0])
+
+    def show_fragments(self, const uint8_t[::1] tile, const uint8_t[::1] block, uint8_t[::1] shown):
+        """With several rounds, they are listed as often, one after the other."""
+        check_size(tile, sizeof(e3d_visible_tile))
+        check_size(block, sizeof(e3d_fragment_block))
+        check_size(shown, sizeof(e3d_shown))
+        for _ in range(self.rounds):
+            self.table.show_fragments(<const e3d_visible_tile *>&tile[0],
+                                      <const e3d_fragment_block *>&block[0], <e3d_shown *>&shown[0])
 
     def take_runs(self, const uint8_t[::1] runs, int32_t piece, uint8_t[::1] batch):
         """Returns how many; with several rounds, the batch is filled further."""

@@ -1,7 +1,8 @@
 """fragments against R9, R10 and R12-R14: what small triangles cover, in lists of their tiles.
 
 Small is a box of at most 4 x 4 samples, at least one, and sides of at most 16383 steps. The oracle
-works in 64 bits; the order of fragments says nothing, so both sides are sorted.
+works in 64 bits; of the order of fragments only that matters that those of a triangle in a tile
+follow each other, so both sides are sorted.
 """
 
 import numpy as np
@@ -159,6 +160,16 @@ class Lists:
         places = self.owners()[:, None] * TILE * TILE + used["sample"]
         return in_order(used["id"][there], places[there], bits(used["z"][there]))
 
+    def check_order(self):
+        """In each tile's chain, the fragments of a triangle follow each other."""
+        for block in self.bins["first"][self.bins["first"] != NO_BLOCK]:
+            ids = []
+            while block != NO_BLOCK:
+                ids.append(self.blocks["id"][block, : self.blocks["count"][block]])
+                block = self.blocks["next"][block]
+            ids = np.concatenate(ids)
+            assert (np.diff(ids) != 0).sum() + 1 == len(np.unique(ids))
+
 
 def in_order(ids, places, depths):
     rows = np.array([ids, places, depths], np.int64)
@@ -191,3 +202,5 @@ def test_fragments(kernels, kind):
         expected = [v[covered[n]] for v in (ids, places[n], bits(depths[n]))]
         expected = in_order(*(np.tile(values, calls) for values in expected))
         assert np.array_equal(lists.fragments(), expected), f"batch {n}"
+        if calls == 1:
+            lists.check_order()

@@ -1,10 +1,10 @@
-"""find_runs: neighbouring samples of a row that show one slot; what becomes of them afterwards."""
+"""find_runs: neighbouring samples of a row that show the same slot; take_runs: their samples."""
 
 import itertools
 
 import numpy as np
-from kernels.harness import POISON, Records, all_backends, check_lanes, check_poisoned
-from kernels.layouts import BATCH, BATCH_RECORD, PAD, RUN, SHOWN, TILE
+from kernels.harness import POISON, Records, all_backends, check_poisoned
+from kernels.layouts import BATCH, BATCH_RECORD, PAD, RUN, TILE
 
 TILES = 250  # of 4096 samples: 10^6 and more
 ROOM = np.dtype([("runs", RUN, TILE * TILE + 1)])
@@ -18,24 +18,24 @@ def random_slots(rng):
     return np.append(slots, np.full(PAD, POISON, np.uint32).view(np.int32))
 
 
-def expected_runs(slots, width, height, least):
+def expected_runs(slots, width, height):
     """(owner, first sample, length), row by row."""
     runs = []
     for row in range(height):
         first = TILE * row
         for owner, samples in itertools.groupby(slots[first : first + width].tolist()):
             length = len(list(samples))
-            if owner >= least:
+            if owner >= 0:
                 runs.append((owner, first, length))
             first += length
     return np.array(runs, RUN)
 
 
-def check(kernels, slots, width, height, least=0):
+def check(kernels, slots, width, height):
     out = Records(ROOM, 1)
     poison = out.rows[0].copy()
-    count = kernels.find_runs(slots, width, height, least, out.rows[0])
-    expected = expected_runs(slots, width, height, least)
+    count = kernels.find_runs(slots, width, height, out.rows[0])
+    expected = expected_runs(slots, width, height)
     assert count == len(expected)
     assert np.array_equal(out.fields["runs"][0, :count], expected)
     end = (count + 1) * RUN.itemsize  # the next one may be started
@@ -48,7 +48,7 @@ def test_random_tiles(kernels):
     rng = np.random.default_rng(0)
     for number in range(TILES):
         width, height = (TILE, TILE) if number % 2 else rng.integers(1, TILE + 1, 2)
-        check(kernels, random_slots(rng), int(width), int(height), number % 3)
+        check(kernels, random_slots(rng), int(width), int(height))
 
 
 @all_backends
@@ -96,37 +96,3 @@ def test_take_runs(kernels):
             assert np.array_equal(got, np.append(values, [values[-1]] * PAD)), name
         check_poisoned(fields, ["b", "r", "position", "normal", "uv", "color", "lod"])
     batches.check_gaps()
-
-
-@all_backends
-def test_list_runs(kernels):
-    """Behind what is listed already: every sample of each owner, and whose it is."""
-    rng = np.random.default_rng(2)
-    lists = Records(SHOWN, 100)
-    for row, fields in zip(lists.rows, lists.fields, strict=True):
-        runs = random_runs(rng)
-        runs["owner"] = np.sort(rng.integers(0, 2**31, len(runs)))[np.arange(len(runs)) * 2 // 3]
-        count, pieces = (
-            rng.integers(0, TILE * TILE - runs["length"].sum() + 1),
-            rng.integers(0, 100),
-        )
-        fields["count"], fields["pieces"] = count, pieces
-        kernels.list_runs(runs.view(np.uint8), row)
-        owners, first = np.unique(runs["owner"], return_index=True)
-        lengths = np.add.reduceat(runs["length"].astype(int), first)
-        samples = np.concatenate([run["sample"] + np.arange(run["length"]) for run in runs])
-        assert fields["count"] == count + len(samples)
-        assert fields["pieces"] == pieces + len(owners)
-        for name, values in (
-            ("sample", samples),
-            ("of", np.repeat(pieces + np.arange(len(owners)), lengths)),
-        ):
-            got = fields[name][count:][None]
-            expected = np.zeros_like(got)
-            expected[0, : len(values)] = values
-            check_lanes(name, got, expected, [len(values)])
-            check_poisoned({name: fields[name][:count]}, [name])
-        named = fields["piece"][pieces : pieces + len(owners)]
-        assert np.array_equal(named["id"], owners.astype(np.uint32))
-        assert np.array_equal(named["first"], count + np.append(0, np.cumsum(lengths)[:-1]))
-    lists.check_gaps()

@@ -1,9 +1,18 @@
-"""show_records: the samples that records show, one after the other; take_shown: them to a batch."""
+"""show_records, show_fragments: the samples that these show, in order; take_shown: to batches."""
 
 import numpy as np
 import pytest
 from kernels.harness import Records, all_backends, check_poisoned
-from kernels.layouts import BATCH, BATCH_RECORD, FRAGMENT_ID, PAD, SHOWN, TILE
+from kernels.layouts import (
+    BATCH,
+    BATCH_RECORD,
+    BLOCK_FRAGMENTS,
+    FRAGMENT_BLOCK,
+    FRAGMENT_ID,
+    PAD,
+    SHOWN,
+    TILE,
+)
 from kernels.test_visible import RECORDS, TILES, Tile, scene
 
 
@@ -53,6 +62,54 @@ def test_show_records(kernels, parts):
         assert fields["runs"] == 7
         hidden += RECORDS - pieces
     assert hidden > TILES  # or nothing was left out
+    lists.check_gaps()
+
+
+def fragment_blocks(rng, tile):
+    """Fragments, some of which show: one or several of each triangle, in two blocks."""
+    count = int(rng.integers(2, BLOCK_FRAGMENTS))
+    ids = FRAGMENT_ID + np.repeat(rng.permutation(1000), rng.choice([1, 1, 1, 2, 5], 1000))
+    at = rng.permutation(TILE * TILE)[: 2 * count]
+    blocks = np.zeros(2, FRAGMENT_BLOCK)
+    blocks["count"] = count, rng.integers(0, count)
+    for number in range(2):
+        some = slice(number * count, (number + 1) * count)
+        blocks["id"][number, :count] = ids[some]
+        blocks["sample"][number, :count] = at[some]
+        shows = at[some][rng.random(count) < rng.choice([0, 0.3, 1])]
+        tile.fields["id"][0, shows] = ids[some][np.isin(at[some], shows)]
+    return blocks
+
+
+@all_backends
+def test_show_fragments(kernels):
+    """Those that show, in order; of one triangle they are one piece, in two blocks, too."""
+    lists, pieces = Records(SHOWN, 200), 0
+    for seed, (row, fields) in enumerate(zip(lists.rows, lists.fields, strict=True)):
+        rng, tile = np.random.default_rng(seed), Tile(0, 0)
+        blocks = fragment_blocks(rng, tile)
+        before = tile.bytes.copy()
+        fields["count"], fields["pieces"] = 0, 0
+        ids, samples = [], []
+        for block in blocks:
+            kernels.show_fragments(tile.bytes, block.reshape(1).view(np.uint8), row)
+            all_ids, at = (block[name][: block["count"]] for name in ("id", "sample"))
+            shows = tile.fields["id"][0, at] == all_ids
+            ids, samples = np.append(ids, all_ids[shows]), np.append(samples, at[shows])
+        assert np.array_equal(tile.bytes, before)
+        fresh = np.flatnonzero(np.diff(ids, prepend=-1))
+        assert fields["count"] == len(ids) and fields["pieces"] == len(fresh)
+        assert np.array_equal(fields["sample"][: len(ids)], samples)
+        assert np.array_equal(
+            fields["of"][: len(ids)], np.cumsum(np.diff(ids, prepend=-1) != 0) - 1
+        )
+        assert np.array_equal(fields["piece"]["id"][: len(fresh)], ids[fresh])
+        assert np.array_equal(fields["piece"]["first"][: len(fresh)], fresh)
+        for name in ("sample", "of"):
+            check_poisoned({name: fields[name][len(ids) + PAD :]}, [name])
+        check_poisoned({"piece": fields["piece"][len(fresh) + 1 :]}, ["piece"])
+        pieces += len(fresh)
+    assert pieces > 5000
     lists.check_gaps()
 
 

@@ -78,53 +78,85 @@ static inline uint32_t fragment_begin(const e3d_small_triangles *triangles, int 
     return v_bits(finite) & setup_tail(triangles->count - first);
 }
 
-/* These lanes' triangles cover this sample of their boxes. */
-static inline void fragment_list(fragment_vector *v, int column, int row, uint32_t lanes)
+/* Places: a lane, and a sample of its triangle's box. They are listed triangle after triangle, for what shades them. */
+static inline vi32 fragment_place(vi32 lane, vi32 column, vi32 row)
 {
-    vi32 place = v_ori(v_iota(), v_seti(column << FRAGMENT_COLUMN | row << FRAGMENT_ROW));
-    v->places += v_pack8(v->place + v->places, place, lanes);
+    return v_ori(lane, v_ori(v_shl(column, FRAGMENT_COLUMN), v_shl(row, FRAGMENT_ROW)));
+}
+
+/* Eight numbers below 16 side by side. */
+static inline uint32_t fragment_nibbles(const uint8_t bytes[8])
+{
+    uint64_t b;
+    memcpy(&b, bytes, 8);
+    b = (b | b >> 4) & 0x00FF00FF00FF00FF;
+    b = (b | b >> 8) & 0x0000FFFF0000FFFF;
+    return (uint32_t)(b | b >> 16);
 }
 
 /* How many triangles cover samples. */
-static inline int fragment_tiny(const e3d_small_triangles *triangles, const uint8_t *covers, const e3d_viewport *viewport,
+static inline int fragment_tiny(const e3d_small_triangles *triangles, uint8_t *covers, const e3d_viewport *viewport,
                                 fragment_vector *vectors)
 {
     int some = 0;
     for (int first = 0; first < triangles->count; first += V_LANES, vectors++) {
         fragment_corners c;
         uint32_t lanes = fragment_begin(triangles, first, viewport, &c, vectors);
-        vi32 cover = v_loadu8(covers + first), zero = v_seti(0);
         some += __builtin_popcount(lanes);
-        for (int sample = 0; sample < 4; sample++)
-            fragment_list(vectors, sample & 1, sample >> 1, lanes & ~v_bits(v_eqi(v_andi(cover, v_seti(1 << sample)), zero)));
+        for (uint32_t left = setup_tail(V_LANES) & ~lanes; left; left &= left - 1)
+            covers[first + __builtin_ctz(left)] = 0;
+        uint64_t samples = fragment_nibbles(covers + first);
+        if (V_LANES > 8)
+            samples |= (uint64_t)fragment_nibbles(covers + first + 8) << 32;
+        for (int i = 0; i < 4 * V_LANES; i += V_LANES) {
+            vi32 at = v_addi(v_iota(), v_seti(i)), one = v_seti(1);
+            vi32 place = fragment_place(v_shr(at, 2), v_andi(at, one), v_andi(v_shr(at, 1), one));
+            vectors->places += v_pack8(vectors->place + vectors->places, place, (uint32_t)(samples >> i) & setup_tail(V_LANES));
+        }
     }
     return some;
 }
 
-/* The lanes that cover samples. */
-static inline uint32_t fragment_list_wide(const fragment_corners *c, uint32_t lanes, fragment_vector *v)
+/* Which of the samples of its box a triangle covers: bit 4 * row + column of each lane. */
+static inline vi32 fragment_cover(const fragment_corners *c)
 {
     record_edge e[3];
-    vi32 half = v_seti(128), zero = v_seti(0), wide = v_subi(c->across.last, c->across.first);
+    vi32 half = v_seti(128), zero = v_seti(0), cover = zero, wide = v_subi(c->across.last, c->across.first);
     vi32 high = v_subi(c->down.last, c->down.first), x0 = v_addi(v_shl(c->across.first, 8), half);
     vi32 y0 = v_addi(v_shl(c->down.first, 8), half);
-    uint32_t any = 0;
     for (int k = 0; k < 3; k++)
         e[k] = record_edge_of(c->at.x, c->at.y, k, zero, x0, y0);
     for (int row = 0; row < E3D_SMALL; row++) {
-        uint32_t rows = lanes & ~v_bits(v_gti(v_seti(row), high));
+        vmask below = v_gti(v_seti(row), high);
         vi32 at[3] = {e[0].c, e[1].c, e[2].c};
         for (int column = 0; column < E3D_SMALL; column++) {
-            uint32_t covered = rows & ~v_bits(v_mor(v_gti(v_seti(column), wide), v_negi(v_ori(v_ori(at[0], at[1]), at[2]))));
-            any |= covered;
-            fragment_list(v, column, row, covered);
+            vmask out = v_mor(v_mor(below, v_gti(v_seti(column), wide)), v_negi(v_ori(v_ori(at[0], at[1]), at[2])));
+            cover = v_ori(cover, v_seli(out, zero, v_seti(1 << (E3D_SMALL * row + column))));
             for (int k = 0; k < 3; k++)
                 at[k] = v_addi(at[k], v_shl(e[k].a, 8));
         }
         for (int k = 0; k < 3; k++)
             e[k].c = v_addi(e[k].c, v_shl(e[k].b, 8));
     }
-    return any;
+    return cover;
+}
+
+/* The lanes that cover samples. */
+static inline uint32_t fragment_list_wide(const fragment_corners *c, uint32_t lanes, fragment_vector *v)
+{
+    int32_t covers[V_LANES];
+    vi32 cover = fragment_cover(c);
+    v_storei(covers, cover);
+    lanes &= ~v_bits(v_eqi(cover, v_seti(0)));
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        int lane = __builtin_ctz(left);
+        for (int i = 0; i < E3D_SMALL * E3D_SMALL; i += V_LANES) {
+            vi32 at = v_addi(v_iota(), v_seti(i)), low = v_seti(E3D_SMALL - 1);
+            vi32 place = fragment_place(v_seti(lane), v_andi(at, low), v_shr(at, 2));
+            v->places += v_pack8(v->place + v->places, place, (uint32_t)covers[lane] >> i & setup_tail(V_LANES));
+        }
+    }
+    return lanes;
 }
 
 static inline int fragment_wide(const e3d_small_triangles *triangles, const e3d_viewport *viewport, fragment_vector *vectors)

@@ -12,7 +12,7 @@ static inline uint64_t runs_ends(const int32_t *row, int width)
     return (ends & (last - 1)) | last;
 }
 
-static int kernel_find_runs(const int32_t *slot, int width, int height, int32_t least, e3d_run *out)
+static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run *out)
 {
     int count = 0;
     for (int y = 0; y < height; y++) {
@@ -22,7 +22,7 @@ static int kernel_find_runs(const int32_t *slot, int width, int height, int32_t 
             int last = __builtin_ctzll(ends);
             out[count] = (e3d_run){row[first], (uint16_t)(y * E3D_TILE + first),
                                    (uint16_t)(last - first + 1)};
-            count += row[first] >= least;
+            count += row[first] >= 0;
             first = last + 1;
         }
     }
@@ -38,21 +38,6 @@ static inline void runs_spread(const e3d_run *run, vi32 owner, int32_t *sample, 
         v_storei(owners + i, owner);
         at = v_addi(at, v_seti(V_LANES));
     }
-}
-
-/* (Where a piece begins could not be foreseen: nothing is asked.) */
-static void kernel_list_runs(const e3d_run *runs, int count, e3d_shown *out)
-{
-    int32_t n = out->count, pieces = out->pieces, before = E3D_NO_SLOT;
-    for (int r = 0; r < count; r++) {
-        out->piece[pieces] = (e3d_shown_piece){(uint32_t)runs[r].owner, n};
-        pieces += runs[r].owner != before;
-        before = runs[r].owner;
-        runs_spread(&runs[r], v_seti(pieces - 1), out->sample + n, out->of + n);
-        n += runs[r].length;
-    }
-    out->count = n;
-    out->pieces = pieces;
 }
 
 static inline void batch_pad(e3d_batch *batch, int count)

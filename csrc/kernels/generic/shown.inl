@@ -1,6 +1,7 @@
-/* shown: which samples of a tile its records kept, record after record; and from there to batches.
+/* shown: which samples of a tile its records and fragments kept, one after the other; and from there to batches.
  *
- * The samples of a record lie in its box, where those that bear its ID are packed: nothing has to be sorted.
+ * The samples of a record lie in its box, where those that bear its ID are packed, and the fragments of a triangle follow each
+ * other: nothing has to be sorted.
  */
 
 /* Where the next sample goes, and the next piece. */
@@ -143,6 +144,29 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
     }
     out->count = end.count;
     out->pieces = end.piece;
+}
+
+/* ---- fragments ---- */
+
+/* Those that show come first: they may be few. (Which ones could not be foreseen: nothing is asked.) */
+static void kernel_show_fragments(const e3d_visible_tile *tile, const e3d_fragment_block *b, e3d_shown *out)
+{
+    uint8_t shown[E3D_BLOCK_FRAGMENTS];
+    int32_t n = out->count, pieces = out->pieces, last = pieces ? (int32_t)out->piece[pieces - 1].id : E3D_NO_SLOT, count = 0;
+    for (uint32_t i = 0; i < b->count; i++) {
+        shown[count] = (uint8_t)i;
+        count += tile->id[b->sample[i]] == b->id[i];
+    }
+    for (int32_t k = 0; k < count; k++, n++) {
+        int32_t id = b->id[shown[k]];
+        out->piece[pieces] = (e3d_shown_piece){(uint32_t)id, n};
+        pieces += id != last;
+        last = id;
+        out->sample[n] = b->sample[shown[k]];
+        out->of[n] = pieces - 1;
+    }
+    out->count = n;
+    out->pieces = pieces;
 }
 
 /* ---- to batches ---- */

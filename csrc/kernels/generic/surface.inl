@@ -74,17 +74,26 @@ static inline void surface_planes(e3d_surfaces *s, int n, int tile_x, int tile_y
 
 /* ---- vertices to world space (R3) ---- */
 
-/* The elements of one vector in arrays of elements that ascend by 1 at most: all the same, or to be picked. */
+/* The elements of one vector in arrays of elements that ascend by 1 at most: all the same, or to be picked from the vector that
+ * begins with `first`. */
 typedef struct element_lanes {
     int first, same;
     vpick pick;
 } element_lanes;
 
+/* Where to begin. A vector that is as long as a line of the cache takes more than twice as long across two of them: it begins
+ * at a line, as arrays do, where that one's end isn't too early. */
+static inline int lanes_first(int first, int last)
+{
+    enum { LINE = 16 };
+    int line = V_LANES == LINE ? first & -LINE : first;
+    return first != last && last - line < V_LANES ? line : first;
+}
+
 static inline element_lanes lanes_of(const int32_t *elements)
 {
-    element_lanes lanes = {elements[0], elements[0] == elements[V_LANES - 1],
-                           v_picker(v_subi(v_loadi(elements), v_seti(elements[0])))};
-    return lanes;
+    int first = elements[0], last = elements[V_LANES - 1], from = lanes_first(first, last);
+    return (element_lanes){from, first == last, v_picker(v_subi(v_loadi(elements), v_seti(from)))};
 }
 
 /* The surfaces from the first of one vector's on. (One address, from which all arrays are at constant offsets.) */

@@ -336,6 +336,9 @@ typedef struct e3d_kernels {
                  const e3d_viewport *viewport, e3d_survivors *out);
     /* Records and their tiles; how many. Room for as many as are asked for. */
     int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
+    /* Adds triangles of a cluster, a bit each; the IDs of triangle t are first + (t << bits). There is room for all. */
+    void (*add_small)(const e3d_vertices *vertices, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
+                      e3d_small_triangles *to);
     /* The fragments of small triangles, which are consumed, to their tiles; tiles in a row of them. */
     void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out);
     void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile);

@@ -30,18 +30,6 @@ static int32_t first_id(const e3d_context *context, const e3d_worker *worker)
     return E3D_FRAGMENT_ID | number << context->tables[E3D_PASS_SCENE].bits | (int32_t)worker->number;
 }
 
-static void add_triangle(e3d_small_triangles *to, const e3d_vertices *v, const uint8_t *indices, int triangle, int32_t id)
-{
-    int32_t n = to->count++;
-    for (int k = 0; k < 3; k++) {
-        int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
-        to->x[k][n] = v->sx[i];
-        to->y[k][n] = v->sy[i];
-        to->zn[k][n] = v->zn[i];
-    }
-    to->id[n] = id;
-}
-
 void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const e3d_vertices *vertices,
                        const uint8_t *indices, uint64_t triangles)
 {
@@ -55,10 +43,7 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
     ((e3d_drawn_cluster *)set->drawn.data)[set->drawn.count++] = *drawn;
     if (set->triangles.count > E3D_SMALLS - E3D_CLUSTER_TRIANGLES)
         e3d_fragments_flush(context, worker);
-    for (uint64_t left = triangles; left; left &= left - 1) {
-        int triangle = __builtin_ctzll(left);
-        add_triangle(&set->triangles, vertices, indices, triangle, first + (triangle << bits));
-    }
+    context->kernels->add_small(vertices, indices, triangles, first, bits, &set->triangles);
 }
 
 /* ---- fragments to tiles ---- */

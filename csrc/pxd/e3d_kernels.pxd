@@ -1,6 +1,6 @@
 # The Cython mirror of csrc/kernels/kernels.h, and nothing else: what the tests of the kernels need.
 
-from libc.stdint cimport int32_t, uint8_t, uint32_t
+from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 
 from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
 
@@ -69,7 +69,7 @@ cdef extern from "kernels/kernels.h" nogil:
         pass
 
     ctypedef struct e3d_small_triangles:
-        pass
+        int32_t count
 
     ctypedef struct e3d_fragment_block:
         pass
@@ -145,6 +145,8 @@ cdef extern from "kernels/kernels.h" nogil:
         int (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull,
                      int fragments, const e3d_viewport *viewport, e3d_survivors *out)
         int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans)
+        void (*add_small)(const e3d_vertices *vertices, const uint8_t *indices, uint64_t triangles, int32_t first,
+                          int bits, e3d_small_triangles *to)
         void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x,
                           e3d_fragment_bins *out)
         void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile)

@@ -59,6 +59,15 @@ class Kernels:
         out: _Bytes,
         spans: _Bytes,
     ) -> int: ...
+    def add_small(
+        self,
+        vertices: _Bytes,
+        indices: _Bytes,
+        triangles: int,
+        first: int,
+        bits: int,
+        out: _Bytes,
+    ) -> None: ...
     def fragments(
         self,
         triangles: _Bytes,

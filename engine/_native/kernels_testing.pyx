@@ -8,7 +8,7 @@ Always: nothing but the sizes of structs is checked. What a kernel expects of it
      (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
 """
 
-from libc.stdint cimport int32_t, uint8_t, uint32_t
+from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 from libc.string cimport memcpy, memset
 
 from e3d cimport (
@@ -173,6 +173,18 @@ cdef class Kernels:
         for _ in range(self.rounds):
             made = self.table.record(&request, <e3d_record *>&out[0], <e3d_tile_span *>&spans[0])
         return made
+
+    def add_small(self, const uint8_t[::1] vertices, const uint8_t[::1] indices, uint64_t triangles,
+                  int32_t first, int bits, uint8_t[::1] out):
+        """With several rounds, to where ``out`` ends at first."""
+        check_size(vertices, sizeof(e3d_vertices))
+        check_size(indices, 3 * E3D_CLUSTER_TRIANGLES)
+        check_size(out, sizeof(e3d_small_triangles))
+        cdef e3d_small_triangles *to = <e3d_small_triangles *>&out[0]
+        cdef int32_t count = to.count
+        for _ in range(self.rounds):
+            to.count = count
+            self.table.add_small(<const e3d_vertices *>&vertices[0], &indices[0], triangles, first, bits, to)
 
     def fragments(self, const uint8_t[::1] triangles, const uint8_t[::1] viewport, int tiles_x,
                   uint8_t[::1] blocks, uint8_t[::1] bins, uint32_t count):

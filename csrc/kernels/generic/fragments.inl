@@ -4,6 +4,60 @@
  * Stages are short loops over a batch: one that goes all the way from corners to tiles is longer than processors look ahead.
  */
 
+/* ---- triangles of a cluster ---- */
+
+static inline void fragment_add_each(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
+                                     e3d_small_triangles *to)
+{
+    for (; triangles; triangles &= triangles - 1) {
+        int32_t n = to->count++, triangle = __builtin_ctzll(triangles);
+        for (int k = 0; k < 3; k++) {
+            int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
+            to->x[k][n] = v->sx[i];
+            to->y[k][n] = v->sy[i];
+            to->zn[k][n] = v->zn[i];
+        }
+        to->id[n] = first + (triangle << bits);
+    }
+}
+
+/* Vertices are looked up for a vector of triangles: what is behind the last is anything. */
+static inline void fragment_add_vectors(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
+                                        e3d_small_triangles *to)
+{
+    int32_t corner[3][E3D_CLUSTER_TRIANGLES + E3D_PAD], id[E3D_CLUSTER_TRIANGLES + E3D_PAD], count = 0;
+    vtable x, y, zn;
+    for (int i = 0; i < E3D_CLUSTER_TRIANGLES; i += V_LANES) {
+        uint32_t some = (uint32_t)(triangles >> i) & setup_tail(V_LANES);
+        for (int k = 0; k < 3; k++)
+            v_pack(corner[k] + count, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i), some);
+        count += v_pack(id + count, v_addi(v_seti(first), v_muli(v_addi(v_iota(), v_seti(i)), v_seti(1 << bits))), some);
+    }
+    v_table(v->sx, v->count, &x);
+    v_table(v->sy, v->count, &y);
+    v_table((const int32_t *)v->zn, v->count, &zn);
+    for (int i = 0, n = to->count; i < count; i += V_LANES, n += V_LANES) {
+        for (int k = 0; k < 3; k++) {
+            vi32 at = v_loadi(corner[k] + i);
+            v_storei(to->x[k] + n, v_lookup(&x, at));
+            v_storei(to->y[k] + n, v_lookup(&y, at));
+            v_storei(to->zn[k] + n, v_lookup(&zn, at));
+        }
+        v_storei(to->id + n, v_loadi(id + i));
+    }
+    to->count += count;
+}
+
+/* Only tables that lie in registers are faster than memory, and may be asked for anything. */
+static void kernel_add_small(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
+                             e3d_small_triangles *to)
+{
+    if (V_LANES < 16)
+        fragment_add_each(v, indices, triangles, first, bits, to);
+    else
+        fragment_add_vectors(v, indices, triangles, first, bits, to);
+}
+
 /* ---- which triangles cover samples ---- */
 
 /* The lanes of `bits` of one vector, to the end of a list, which may be the same: it then is not longer than what was read. */

@@ -33,6 +33,7 @@ const e3d_kernels E3D_TABLE = {
     .take_clip = kernel_take_clip,
     .setup = kernel_setup,
     .record = kernel_record,
+    .add_small = kernel_add_small,
     .fragments = kernel_fragments,
     .raster_depth = kernel_raster_depth,
     .raster_overwrite = kernel_raster_overwrite,

@@ -7,9 +7,20 @@
 #define E3D_KERNELS_H
 
 #include "core/limits.h"
+#include "core/mesh.h"
 #include "e3d.h"
 
 enum { E3D_PAD = 16 };
+
+/* ---- cull ---- */
+
+/* What tells which way an instance's clusters face. */
+typedef struct e3d_facing {
+    float eye[3];    /* object space */
+    int32_t sign;    /* of the screen's area where n.(p - eye) is positive; 0: cannot be told */
+    float length[4]; /* of the clip matrix's rows x, y, w, z, without translation */
+    float scale;     /* of areas, over the first three lengths */
+} e3d_facing;
 
 /* ---- transform ---- */
 
@@ -324,6 +335,9 @@ typedef struct e3d_paint {
 /* ---- the table ---- */
 
 typedef struct e3d_kernels {
+    /* Bit k: every triangle of cluster k surely has an area of the sign `drop` on the screen, or none; at most 32 clusters. */
+    uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float clip[16],
+                          const e3d_viewport *viewport);
     /* positions: planes `stride` apart, 3 or 4 of them; count vertices. inside: those that are finite are surely in the frustum,
      * in spite of rounding. */
     void (*transform)(const float *positions, int stride, int count, const float matrix[16],

@@ -17,14 +17,6 @@ enum { E3D_LINES_A_UNIT = 256 }; /* lines, points or edges in one unit of work *
 
 /* ---- prepared once a frame ---- */
 
-/* What tells which way an instance's clusters face. */
-typedef struct e3d_facing {
-    float eye[3];    /* object space */
-    int32_t sign;    /* of the screen's area where n.(p - eye) is positive; 0: cannot be told */
-    double scale;    /* of areas */
-    float length[4]; /* of the clip matrix's rows x, y, w, z, without translation */
-} e3d_facing;
-
 /* One instance's matrices (R1, R2). */
 typedef struct e3d_instance {
     float clip[16], world[12], normal[9];
@@ -326,9 +318,6 @@ const e3d_turn *e3d_find_turn(const e3d_context *context, uint32_t order);
 
 /* facing.c */
 void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_facing *out);
-/* Whether every triangle of the cluster surely has an area of the sign `drop` on the screen, or none. */
-int e3d_faces_away(const e3d_viewport *viewport, const e3d_facing *facing, const float clip[16],
-                   const e3d_cluster *cluster, int drop);
 
 /* occlusion.c */
 int e3d_occlusion_pays(const e3d_context *context);

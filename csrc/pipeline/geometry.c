@@ -220,18 +220,21 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 
 /* ---- items ---- */
 
-static int faces_away(const walker *w, const e3d_cluster *cluster)
+/* A bit for each cluster. */
+static unsigned find_away(const walker *w, const e3d_group_box *group)
 {
-    return e3d_faces_away(&w->context->viewport, &w->instance->facing, w->instance->clip, cluster, drop_sign(w));
+    const e3d_context *context = w->context;
+    return context->kernels->face_away(&w->draw->mesh->clusters[group->first_cluster], group->clusters, &w->instance->facing,
+                                       drop_sign(w), w->instance->clip, &context->viewport);
 }
 
 /* Without what is drawn already: *view tells of a cluster that may show whether it must be tried against that. */
-static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_box_view *view)
+static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
     const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
     if (!cluster->any_finite)
         return E3D_FATE_OUTSIDE;
-    if (faces_away(w, cluster))
+    if (away)
         return item->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
                    ? E3D_FATE_AWAY
                    : E3D_FATE_OUTSIDE;
@@ -247,10 +250,10 @@ static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_grou
 {
     const e3d_context *context = w->context;
     e3d_box_view views[E3D_GROUP_CLUSTERS];
-    unsigned shown = 0;
+    unsigned shown = 0, away = find_away(w, group);
     for (unsigned left = asked; left; left &= left - 1) {
         int k = __builtin_ctz(left);
-        fates[k] = fate_of(w, item, &w->draw->mesh->clusters[group->first_cluster + k], &views[k]);
+        fates[k] = fate_of(w, item, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1, &views[k]);
         shown |= (unsigned)(fates[k] == E3D_FATE_DRAWN) << k;
         if (context->round.tested && fates[k] == E3D_FATE_DRAWN)
             e3d_fetch_kept(context, &views[k]);

@@ -3,6 +3,7 @@
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 
 from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
+from e3d_clusters cimport e3d_cluster
 
 
 cdef extern from "kernels/kernels.h" nogil:
@@ -66,6 +67,9 @@ cdef extern from "kernels/kernels.h" nogil:
         pass
 
     ctypedef struct e3d_bin:
+        pass
+
+    ctypedef struct e3d_facing:
         pass
 
     ctypedef struct e3d_small_triangles:
@@ -138,6 +142,8 @@ cdef extern from "kernels/kernels.h" nogil:
         e3d_samples *samples
 
     ctypedef struct e3d_kernels:
+        uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float *clip,
+                              const e3d_viewport *viewport)
         void (*transform)(const float *positions, int stride, int count, const float *matrix,
                           const e3d_viewport *viewport, int inside, e3d_vertices *out)
         void (*take_clip)(const float *positions, int stride, int count,

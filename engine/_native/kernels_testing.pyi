@@ -22,6 +22,9 @@ def set_float_control(value: int) -> None: ...
 class Kernels:
     rounds: int
     def __init__(self, backend: int) -> None: ...
+    def face_away(
+        self, clusters: _Bytes, facing: _Bytes, drop: int, clip: _Floats, viewport: _Bytes
+    ) -> int: ...
     def transform(
         self,
         positions: _Floats,

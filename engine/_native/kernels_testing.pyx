@@ -47,6 +47,8 @@ cdef extern from *:
     void float_control_write(unsigned long long value) nogil
 
 STRUCT_SIZES = {
+    "cluster": sizeof(e3d_cluster),
+    "facing": sizeof(e3d_facing),
     "viewport": sizeof(e3d_viewport),
     "vertices": sizeof(e3d_vertices),
     "survivors": sizeof(e3d_survivors),
@@ -119,6 +121,17 @@ cdef class Kernels:
         self.table = e3d_kernels_for(<e3d_backend>backend)
         if self.table == NULL:
             raise LookupError("this build or CPU lacks the backend")
+
+    def face_away(self, const uint8_t[::1] clusters, const uint8_t[::1] facing, int drop, const float[::1] clip,
+                  const uint8_t[::1] viewport):
+        """A bit for each cluster."""
+        cdef uint32_t away = 0
+        check_size(facing, sizeof(e3d_facing))
+        check_size(viewport, sizeof(e3d_viewport))
+        for _ in range(self.rounds):
+            away = self.table.face_away(<const e3d_cluster *>&clusters[0], <int>(clusters.shape[0] // sizeof(e3d_cluster)),
+                                        <const e3d_facing *>&facing[0], drop, &clip[0], <const e3d_viewport *>&viewport[0])
+        return away
 
     def transform(self, const float[::1] positions, int stride, int count, const float[::1] matrix,
                   const uint8_t[::1] viewport, bint inside, uint8_t[::1] out):

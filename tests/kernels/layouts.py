@@ -38,6 +38,13 @@ VIEWPORT = np.dtype(
         ("guard_y", "f4"),
     ]
 )
+CLUSTER = np.dtype(
+    [("positions", "u8"), ("first", "i4")]
+    + [(name, "u1") for name in ("triangles", "vertices", "stride", "any_finite")]
+    + [(name, "f4", 3) for name in ("lo", "hi", "axis")]
+    + [(name, "f4") for name in ("cosine", "altitude", "radius")]
+)
+FACING = np.dtype([("eye", "f4", 3), ("sign", "i4"), ("length", "f4", 4), ("scale", "f4")])
 VERTICES = np.dtype(
     [(name, "f4", CLUSTER_VERTICES) for name in ("x", "y", "z", "w", "iw", "zn")]
     + [(name, "i4", CLUSTER_VERTICES) for name in ("sx", "sy", "code")]
@@ -124,6 +131,8 @@ LIGHT = np.dtype(
     ]
 )
 STRUCTS = {
+    "cluster": CLUSTER,
+    "facing": FACING,
     "viewport": VIEWPORT,
     "vertices": VERTICES,
     "survivors": SURVIVORS,

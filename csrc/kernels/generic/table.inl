@@ -11,6 +11,7 @@
 
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"
+#include "kernels/generic/facing.inl"
 #include "kernels/generic/record.inl"
 #include "kernels/generic/fragments.inl"
 #include "kernels/generic/raster.inl"
@@ -29,6 +30,7 @@
 #include "kernels/generic/paint.inl"
 
 const e3d_kernels E3D_TABLE = {
+    .face_away = kernel_face_away,
     .transform = kernel_transform,
     .take_clip = kernel_take_clip,
     .setup = kernel_setup,

@@ -212,6 +212,26 @@ def coplanar():
     return Picture(scene, TOP_VIEW)
 
 
+def layers(key):
+    """Squares over the whole picture or a part of it, level or tilted, some of them as deep."""
+    rng = np.random.default_rng(9)
+    centre, half = rng.uniform(-1, 1, (90, 1, 2)), rng.uniform(0.1, 0.4, (90, 1, 2))
+    centre[::3], half[::3] = 0, 1.25
+    x, y = np.moveaxis(centre + half * [(-1, -1), (1, -1), (1, 1), (-1, 1)], 2, 0)
+    level = rng.choice(np.linspace(0.0, 0.6, 6), (90, 1))
+    level[::3] += 0.24
+    tilt = rng.uniform(-0.15, 0.15, (90, 2)) * (rng.random((90, 1)) < 0.4)
+    corners = np.stack([x, y, level + tilt[:, :1] * x + tilt[:, 1:] * y], axis=2)
+    corners = corners[key(rng, level[:, 0])].reshape(-1, 3)
+    faces = 4 * np.arange(90)[:, None, None] + [(0, 1, 2), (0, 2, 3)]
+    scene = one_object(e3d.Mesh(corners, faces.reshape(-1, 3)))
+    return Picture(scene, clip_camera(), options={"mode": "random", "cull": "none"})
+
+
+variant("layers", layers, lambda rng, level: rng.permutation(len(level)))
+variant("layers_back_to_front", layers, lambda rng, level: np.argsort(-level))
+
+
 @picture
 def slivers():
     """A fan of a thousand triangles around one corner, all thinner than a pixel."""

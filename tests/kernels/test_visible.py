@@ -32,6 +32,7 @@ TILE_BLOCKS = (TILE // BLOCK) ** 2
 GUARD = 256  # bytes of poison around a tile
 WORKERS = [1, 2, 4, 8]
 KINDS = ["tiny"] * 4 + ["small", "medium", "centers", "sliver", "whole", "limit"]
+LARGE = ["whole", "limit"]
 
 
 # ---- records ----
@@ -111,7 +112,7 @@ class Scene:
 
     def __init__(self, seed):
         rng = np.random.default_rng(seed)
-        kinds = ["budget", *KINDS] if seed % 5 == 0 else KINDS
+        kinds = {0: ["budget", *KINDS], 2: LARGE}.get(seed % 5, KINDS)
         self.wild = seed % 4 == 1
         self.place = random_tile(rng, kinds[0])
         made = []
@@ -119,16 +120,16 @@ class Scene:
             one = record_of(rng, rng.choice(kinds), self.place, self.wild)
             made += [one] if one else []
         self.records = np.concatenate([record for record, _ in made])
-        # Twos and threes of one order are pieces of one triangle: the first of them comes first.
+        # Twos and threes of one order are pieces of one triangle: the first of them goes first.
         self.records["order"] = rng.permutation(RECORDS)[np.arange(RECORDS) * 2 // 3]
         self.z, self.kept = draw(self.records, [triangle for _, triangle in made], self.place)
         self.workers = WORKERS[seed % 4]
         self.table, self.ids = self._table(rng)
-        self.arrivals = [self._arrival(rng) for _ in range(2)]
+        self.arrivals = self._arrivals(rng)
 
     def _table(self, rng):
         """(workers, bytes) records, and each record's ID."""
-        owner = rng.integers(0, self.workers, RECORDS)
+        owner = rng.integers(0, self.workers, RECORDS)[self.records["order"]]
         table, ids = np.zeros((self.workers, RECORDS), RECORD), np.empty(RECORDS, np.uint32)
         filled = np.zeros(self.workers, int)
         for number, worker in enumerate(owner):
@@ -137,10 +138,9 @@ class Scene:
             filled[worker] += 1
         return table.view(np.uint8), ids
 
-    def _arrival(self, rng):
-        """The records' numbers in some order in which pieces of a triangle follow each other."""
-        key = rng.permutation(RECORDS)[self.records["order"]]
-        return np.argsort(key, kind="stable")
+    def _arrivals(self, rng):
+        """The records' numbers in two orders: any, and from far to near."""
+        return rng.permutation(RECORDS), np.argsort(-self.records["zmin"], kind="stable")
 
     @property
     def shown(self):

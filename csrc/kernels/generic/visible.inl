@@ -34,9 +34,13 @@ static inline visible_plane visible_plane_of(const e3d_record *r, const e3d_visi
 
 /* ---- samples ---- */
 
-static inline int visible_comes_first(const e3d_record *r, int32_t kept, const e3d_record_table *table)
+/* By the order of primitives, then of pieces: those of one primitive are of one worker. */
+static inline int visible_comes_first(const e3d_record *r, int32_t id, int32_t kept, const e3d_record_table *table)
 {
-    return kept >= 0 && r->order < e3d_order_at(table, (uint32_t)kept);
+    if (kept < 0)
+        return 0;
+    uint32_t order = e3d_order_at(table, (uint32_t)kept);
+    return r->order < order || (r->order == order && id < kept);
 }
 
 /* Lanes of equal depth; of two zeros the depth takes the sign, too. */
@@ -47,7 +51,7 @@ static inline void visible_ties(uint32_t equal, vf32 z, float *depth, int32_t *k
     v_storef(lanes, z);
     for (; equal; equal &= equal - 1) {
         int lane = __builtin_ctz(equal), at = rows_sample(lane);
-        if (!visible_comes_first(r, kept[at], table))
+        if (!visible_comes_first(r, id, kept[at], table))
             continue;
         depth[at] = lanes[lane];
         kept[at] = id;

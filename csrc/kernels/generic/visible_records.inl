@@ -161,7 +161,7 @@ static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_til
             tile->id[at] = id;
             tile->zmin[block] = tile->zmin[block] < z ? tile->zmin[block] : z;
             tile->stale |= 1ull << block;
-        } else if (z == tile->z[at] && visible_comes_first(r, tile->id[at], table)) {
+        } else if (z == tile->z[at] && visible_comes_first(r, id, tile->id[at], table)) {
             tile->z[at] = z;
             tile->id[at] = id;
         }
@@ -209,20 +209,44 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
     records_narrow(in, lane, r, id, tile, table);
 }
 
+/* Whether records seem to come from far to near, and are large: some reach farther than a tile from their first corner. */
+static inline int records_approach(const e3d_record *first, const e3d_record *last)
+{
+    const uint32_t side = 256 * E3D_TILE; /* a power of two: so is what must not be reached */
+    uint32_t reach = 0;
+    for (int k = 1; k < 3; k++)
+        reach |= ((uint32_t)(last->x[k] - last->x[0]) + side) | ((uint32_t)(last->y[k] - last->y[0]) + side);
+    return (last->zmin < first->zmin) & (reach >= 2 * side);
+}
+
+static void __attribute__((noinline, cold)) records_turn(const uint32_t *ids, int count, uint32_t *out)
+{
+    for (int i = 0; i < count; i++)
+        out[i] = ids[count - 1 - i];
+}
+
 static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count)
 {
     const e3d_record *r[V_LANES];
+    uint32_t turned[V_LANES];
     records_lanes in;
     records_touched touched = {0, E3D_BEYOND_FAR};
     uint64_t open = ~records_behind(1.0f, tile); /* most blocks that are met, where not much is hidden */
     for (int i = 0; i < count; i += V_LANES) {
-        int some = records_take(table, ids + i, count - i, r);
+        const uint32_t *id = ids + i;
+        int left = count - i, some = left < V_LANES ? left : V_LANES;
+        if (records_approach(e3d_record_at(table, id[0]), e3d_record_at(table, id[some - 1]))) {
+            records_turn(id, some, turned); /* the near ones hide the others */
+            id = turned;
+            left = some;
+        }
+        records_take(table, id, left, r);
         records_find(r, tile, &in);
         for (int l = 0; l < some; l++)
             if (r[l]->meta & E3D_RECORD_TINY)
-                records_tiny(r[l], (int32_t)ids[i + l], tile, table);
+                records_tiny(r[l], (int32_t)id[l], tile, table);
             else
-                records_draw(&in, l, r[l], (int32_t)ids[i + l], open, &touched, tile, table);
+                records_draw(&in, l, r[l], (int32_t)id[l], open, &touched, tile, table);
     }
     records_tell(&touched, tile);
 }

@@ -89,20 +89,21 @@ void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set,
     }
 }
 
-void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number, int earlier)
-{
-    const e3d_fragment_block *blocks = set->blocks.data;
-    uint32_t next = e3d_first_block(earlier ? &set->earlier : &set->bins, tile_number);
-    for (; next != E3D_NO_BLOCK; next = blocks[next].next)
-        context->kernels->show_fragments(worker->visible, &blocks[next], &worker->tile->shown);
-}
-
-uint32_t e3d_fragments_count(const e3d_fragment_set *set, int64_t tile_number, int earlier)
+uint32_t e3d_fragments_count(const e3d_context *context, int64_t tile_number)
 {
     uint32_t count = 0;
-    const e3d_fragment_block *blocks = set->blocks.data;
-    uint32_t next = e3d_first_block(earlier ? &set->earlier : &set->bins, tile_number);
-    for (; next != E3D_NO_BLOCK; next = blocks[next].next)
-        count += blocks[next].count;
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_fragment_set *set = &context->renderer->workers[w]->fragments;
+        const e3d_fragment_block *blocks = set->blocks.data;
+        for (uint32_t next = e3d_first_block(&set->bins, tile_number); next != E3D_NO_BLOCK; next = blocks[next].next)
+            count += blocks[next].count;
+    }
     return count;
+}
+
+void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number)
+{
+    const e3d_fragment_block *blocks = set->blocks.data;
+    for (uint32_t next = e3d_first_block(&set->bins, tile_number); next != E3D_NO_BLOCK; next = blocks[next].next)
+        context->kernels->show_fragments(worker->visible, &blocks[next], &worker->tile->shown);
 }

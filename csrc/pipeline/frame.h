@@ -399,9 +399,10 @@ void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
                         int earlier);
 
+/* How many the tile's bins hold. */
+uint32_t e3d_fragments_count(const e3d_context *context, int64_t tile_number);
 /* What they show of the tile, to the end of the list. */
-void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number, int earlier);
-uint32_t e3d_fragments_count(const e3d_fragment_set *set, int64_t tile_number, int earlier);
+void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number);
 
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
 /* The first block of a tile's chain, of records or of fragments. */
@@ -424,8 +425,8 @@ int e3d_keeps_slots(const e3d_context *context);
 /* visible.c: the visible surface by record ID, for whatever shades it afterwards */
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number);
-/* How many records and fragments the tile's bins hold. */
-uint32_t e3d_visible_count(const e3d_context *context, int64_t tile_number);
+/* How many records the tile's bins hold. */
+uint32_t e3d_visible_records(const e3d_context *context, int64_t tile_number);
 /* Makes the list of what shows, where the tile's bins hold all of it. */
 void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t tile_number);
 /* Shades the first `count` of the tile memory's runs, which are owned by IDs; 0 when memory is out. */

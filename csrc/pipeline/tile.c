@@ -275,7 +275,18 @@ static int32_t leave_out_shaded(const tile_job *job, int32_t count)
     return left;
 }
 
-enum { MANY = 64 }; /* records and fragments, in a tile */
+enum { FEW_PIECES = 64, MANY_RECORDS = 768, MOSTLY = 4 }; /* in a tile */
+
+/* Whether samples are found where pieces lie: the bins must hold all of them, and few records be wide or hidden. */
+static int shows_pieces(const tile_job *job)
+{
+    const e3d_context *context = job->context;
+    if (job->kept || context->finished || context->blockwise)
+        return 0;
+    uint32_t records = e3d_visible_records(context, job->number), fragments = e3d_fragments_count(context, job->number);
+    uint32_t most = context->kept ? fragments / MOSTLY : MANY_RECORDS; /* kept: where things hide each other */
+    return records <= most && records + fragments >= FEW_PIECES;
+}
 
 /* No ID beyond the viewport, where whole blocks and vectors are written, too. */
 static void clear_outside(const tile_job *job)
@@ -286,20 +297,19 @@ static void clear_outside(const tile_job *job)
             id[y * E3D_TILE + x] = E3D_NO_SLOT;
 }
 
-/* Where there are many pieces, most are small: their samples are found where they lie. Else runs are found in rows and sorted; also
- * where the bins don't hold all that shows, or not all of it is to be shaded, or block by block. */
+/* Of pieces where they lie, one after the other; or runs are found in rows and sorted. */
 static int shade_visible(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
-    if (job->kept || job->again || context->blockwise || e3d_visible_count(context, job->number) < MANY) {
-        int32_t count = find_runs(job);
-        count = job->again ? leave_out_shaded(job, count) : count;
-        return e3d_shade_runs(context, worker, &job->tile, count);
+    if (shows_pieces(job)) {
+        clear_outside(job);
+        e3d_visible_show(context, worker, job->number);
+        return e3d_shade_shown(context, worker, &job->tile);
     }
-    clear_outside(job);
-    e3d_visible_show(context, worker, job->number);
-    return e3d_shade_shown(context, worker, &job->tile);
+    int32_t count = find_runs(job);
+    count = job->again ? leave_out_shaded(job, count) : count;
+    return e3d_shade_runs(context, worker, &job->tile, count);
 }
 
 static int draw_visible(tile_job *job)

@@ -45,33 +45,22 @@ void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int
     }
 }
 
-static uint32_t count_records(const e3d_record_set *set, int64_t tile_number, int earlier)
+uint32_t e3d_visible_records(const e3d_context *context, int64_t tile_number)
 {
     uint32_t count = 0;
-    const e3d_bin_block *blocks = set->blocks.data;
-    uint32_t next = e3d_first_block(earlier ? &set->earlier : &set->bins, tile_number);
-    for (; next != E3D_NO_BLOCK; next = blocks[next].next)
-        count += blocks[next].count;
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
+        const e3d_bin_block *blocks = set->blocks.data;
+        for (uint32_t next = e3d_first_block(&set->bins, tile_number); next != E3D_NO_BLOCK; next = blocks[next].next)
+            count += blocks[next].count;
+    }
     return count;
 }
 
-uint32_t e3d_visible_count(const e3d_context *context, int64_t tile_number)
-{
-    uint32_t count = 0;
-    for (int earlier = context->finished; earlier >= 0; earlier--)
-        for (int32_t w = 0; w < context->renderer->threads; w++) {
-            const e3d_worker *from = context->renderer->workers[w];
-            count += count_records(&from->pass[E3D_PASS_SCENE], tile_number, earlier);
-            count += e3d_fragments_count(&from->fragments, tile_number, earlier);
-        }
-    return count;
-}
-
-static void show_records(const e3d_context *context, const e3d_record_set *set, e3d_worker *worker, int64_t tile_number, int earlier)
+static void show_records(const e3d_context *context, const e3d_record_set *set, e3d_worker *worker, int64_t tile_number)
 {
     const e3d_bin_block *blocks = set->blocks.data;
-    uint32_t next = e3d_first_block(earlier ? &set->earlier : &set->bins, tile_number);
-    for (; next != E3D_NO_BLOCK; next = blocks[next].next)
+    for (uint32_t next = e3d_first_block(&set->bins, tile_number); next != E3D_NO_BLOCK; next = blocks[next].next)
         context->kernels->show_records(worker->visible, &context->tables[E3D_PASS_SCENE], blocks[next].id, (int)blocks[next].count,
                                        &worker->tile->shown);
 }
@@ -80,10 +69,9 @@ void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t ti
 {
     worker->tile->shown.runs = NULL;
     worker->tile->shown.count = worker->tile->shown.pieces = 0;
-    for (int earlier = context->finished; earlier >= 0; earlier--)
-        for (int32_t w = 0; w < context->renderer->threads; w++) {
-            const e3d_worker *from = context->renderer->workers[w];
-            show_records(context, &from->pass[E3D_PASS_SCENE], worker, tile_number, earlier);
-            e3d_fragments_show(context, &from->fragments, worker, tile_number, earlier);
-        }
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_worker *from = context->renderer->workers[w];
+        show_records(context, &from->pass[E3D_PASS_SCENE], worker, tile_number);
+        e3d_fragments_show(context, &from->fragments, worker, tile_number);
+    }
 }

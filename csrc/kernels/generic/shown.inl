@@ -68,7 +68,7 @@ static inline void shown_narrow(const records_lanes *in, uint32_t lanes, const u
                                 e3d_shown *out)
 {
     shown_vectors list;
-    int32_t last[V_LANES], count = end->count;
+    int32_t last[V_LANES] = {0}, count = end->count;
     vi32 step = v_addi(rows_x(), v_muli(rows_y(), v_seti(E3D_TILE)));
     list.count = 0;
     for (uint32_t left = lanes; left; left &= left - 1)

@@ -279,14 +279,13 @@ static ALWAYS_INLINE void texture_copy(const char *texels, texture_places *place
     }
 }
 
-/* Of a whole batch: what limits blending are the units that put vectors together, so that small texels are copied by loads and
- * stores alone, of which many wait for memory at a time; large ones are asked for. */
+/* Of a whole batch: texels are asked for before any is needed. What limits blending are the units that put vectors together, so
+ * small ones are copied then, by loads and stores alone. */
 static ALWAYS_INLINE void texture_fetch(texture_plan *plan, int filter, int texel_bytes, int count)
 {
-    if (filter == E3D_NEAREST || texel_bytes != 4) {
-        texture_prefetch(plan, count);
+    texture_prefetch(plan, count);
+    if (filter == E3D_NEAREST || texel_bytes != 4)
         return;
-    }
     const char *texels = plan->view->levels[0].texels;
     for (int i = 0; i < count; i += V_LANES) {
         texture_copy(texels, &plan->near, i);

@@ -5,12 +5,17 @@
 #include <stdint.h>
 #include <time.h>
 
-/* Nanoseconds since some fixed moment. */
-static inline int64_t e3d_now_ns(void)
+static inline int64_t e3d_read_clock(clockid_t clock)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
 }
+
+/* Nanoseconds since some fixed moment. */
+static inline int64_t e3d_now_ns(void) { return e3d_read_clock(CLOCK_MONOTONIC); }
+
+/* Nanoseconds that the calling thread has had of a CPU. */
+static inline int64_t e3d_thread_ns(void) { return e3d_read_clock(CLOCK_THREAD_CPUTIME_ID); }
 
 #endif

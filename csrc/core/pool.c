@@ -1,7 +1,8 @@
 /* The process's one thread pool: made at the first frame, remade after a fork.
  *
  * Threads sleep on a condition between jobs, but only once they have watched for the next one as long as waking takes: a
- * frame is several jobs. Who has not come when the caller has nothing left to do is not waited for: there is nothing left.
+ * frame is several jobs. While frames follow each other closely, and nobody else wants the CPU, they watch from one to the
+ * next. Who has not come when the caller has nothing left to do is not waited for: there is nothing left.
  * A second caller does not wait: it works alone, which cannot deadlock and gives the same picture.
  */
 #include "core/pool.h"
@@ -66,14 +67,42 @@ static void in_child(void) /* no thread came along */
 
 static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
 
-/* Until the number is this job's, or for about as long as a thread takes to wake up. */
-static void watch(const atomic_ulong *number, unsigned long job)
+enum {
+    WAKING_NS = 30000, /* about what a thread takes to wake up */
+    SOON_NS = 400000,  /* what passes between the frames of a program that does little else */
+    SLICE_NS = 500000  /* for how long another thread has the CPU, at least, once the scheduler gives it away */
+};
+
+/* Until the number is this job's, or for so long. */
+static void watch(const atomic_ulong *number, unsigned long job, int64_t patience)
 {
-    enum { WAKING_NS = 30000 };
     if (!atomic_load(&pool.watches))
         return;
-    for (int64_t end = e3d_now_ns() + WAKING_NS; atomic_load(number) < job && e3d_now_ns() < end;)
+    for (int64_t end = e3d_now_ns() + patience; atomic_load(number) < job && e3d_now_ns() < end;)
         pause_briefly();
+}
+
+/* For how long a thread watches for the next job. */
+typedef struct patience {
+    int64_t ns;
+    int64_t began;      /* to watch */
+    int64_t came, used; /* the last job, and what the thread had had of the CPU by then */
+    int wary;           /* for so many jobs: watching took a CPU from others, or was in vain */
+} patience;
+
+/* When a job has come. Those that come at once are of the same frame. */
+static void learn_patience(patience *p)
+{
+    enum { WARY_JOBS = 256 };
+    int64_t now = e3d_now_ns(), used = e3d_thread_ns(), idle = now - p->began;
+    int64_t lost = (now - p->came) - (used - p->used);
+    p->wary = p->ns == SOON_NS && lost > SLICE_NS ? WARY_JOBS : p->wary - (p->wary > 0);
+    if (p->wary || idle > SOON_NS)
+        p->ns = WAKING_NS;
+    else if (idle > WAKING_NS)
+        p->ns = SOON_NS;
+    p->came = now;
+    p->used = used;
 }
 
 /* Holding the lock: until there is a job to join after the one that was seen; its number. */
@@ -84,7 +113,7 @@ static unsigned long await_job(int worker, unsigned long seen)
         seen = pool.job;
         if (late) {
             pthread_mutex_unlock(&pool.lock);
-            watch(&pool.posted, seen + 1);
+            watch(&pool.posted, seen + 1, WAKING_NS);
             pthread_mutex_lock(&pool.lock);
         }
         if (pool.job == seen)
@@ -97,6 +126,7 @@ static void *helper(void *number)
 {
     int worker = (int)(intptr_t)number;
     unsigned long seen = 0;
+    patience own = {.ns = WAKING_NS};
     pthread_mutex_lock(&pool.lock);
     seen = pool.job - 1; /* made for the job that is about to start */
     for (;;) {
@@ -105,6 +135,7 @@ static void *helper(void *number)
         void (*work)(void *, int) = pool.work;
         void *argument = pool.argument;
         pthread_mutex_unlock(&pool.lock);
+        learn_patience(&own);
         e3d_fpenv saved = e3d_fpenv_enter();
         work(argument, worker);
         e3d_fpenv_leave(saved);
@@ -115,7 +146,8 @@ static void *helper(void *number)
         pthread_mutex_unlock(&pool.lock);
         if (last)
             atomic_store(&pool.finished, seen);
-        watch(&pool.posted, seen + 1);
+        own.began = e3d_now_ns();
+        watch(&pool.posted, seen + 1, own.ns);
         pthread_mutex_lock(&pool.lock);
     }
     return NULL;
@@ -148,7 +180,7 @@ static void await_helpers(void)
     if (pool.running) {
         unsigned long job = pool.job;
         pthread_mutex_unlock(&pool.lock);
-        watch(&pool.finished, job);
+        watch(&pool.finished, job, WAKING_NS);
         pthread_mutex_lock(&pool.lock);
     }
     while (pool.running)

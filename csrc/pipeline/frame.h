@@ -172,7 +172,9 @@ typedef struct e3d_worker {
     e3d_array outputs;      /* int32_t or float: the tile's, one output after the other */
     e3d_counters counters;
     int failed;             /* out of memory */
-    char padding[128];      /* no false sharing between workers */
+    char padding[128];      /* no false sharing between workers, */
+    atomic_llong next_tile; /* of this one's share: others take from it, too */
+    char more_padding[128];
 } e3d_worker;
 
 enum { E3D_NEED_COLOR = 256, E3D_NEED_ALBEDO = 512, E3D_NEED_OUTPUTS = 1024 };
@@ -284,7 +286,7 @@ typedef struct e3d_context {
     float background_sample[4], line_sample[4]; /* colour, and whether it counts (e3d_samples) */
     uint32_t background_rgba, line_rgba;        /* of a pixel of nothing else */
     uint32_t background_row[E3D_TILE];
-    atomic_llong next; /* instance, task, item or tile */
+    atomic_llong next; /* instance, task or item */
     atomic_llong next_unit;
     atomic_int stop;   /* cancelled or out of memory */
     int cancelled;
@@ -333,6 +335,12 @@ int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record);
 void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
 /* Keeps the depths of a tile, which may be drawn elsewhere. */
 void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile);
+/* All tiles are to be drawn, each by one worker. */
+void e3d_share_tiles(e3d_context *context);
+
+/* The next tile for a worker; -1 when none is left. */
+int64_t e3d_take_tile(e3d_context *context, int worker);
+
 /* Draws a round's tiles, and keeps what the next one needs of them; 0 when memory is out. */
 int e3d_draw_kept_tiles(e3d_context *context);
 /* Whether most tiles can be finished with what the last frames showed. */

@@ -200,8 +200,8 @@ static void kept_work(void *argument, int number)
 {
     e3d_context *context = argument;
     for (;;) {
-        int64_t tile = atomic_fetch_add(&context->next, 1);
-        if (tile >= e3d_tile_count(context))
+        int64_t tile = e3d_take_tile(context, number);
+        if (tile < 0)
             return;
         if (e3d_has_bin(context, E3D_PASS_SCENE, tile))
             draw_kept(context, context->renderer->workers[number], tile);
@@ -232,7 +232,7 @@ int e3d_draw_kept_tiles(e3d_context *context)
     if (context->round.finished)
         return finish_tiles(context);
     e3d_tables_set(context);
-    atomic_store(&context->next, 0);
+    e3d_share_tiles(context);
     e3d_pool_run(renderer->threads, kept_work, context);
     int32_t tiles = (int32_t)e3d_tile_count(context);
     for (int32_t w = 0; w < renderer->threads; w++) {

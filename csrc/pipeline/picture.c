@@ -7,7 +7,7 @@
 /* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
 static int is_far(const e3d_context *context, size_t bytes)
 {
-    enum { LARGE = 1 << 21, SHARED = 1 << 18 };
+    enum { LARGE = 1 << 20, SHARED = 1 << 18 };
     return bytes >= (context->renderer->threads > 1 ? SHARED : LARGE);
 }
 

@@ -438,8 +438,8 @@ static void tiles_work(void *argument, int number)
     e3d_context *context = argument;
     e3d_worker *worker = context->renderer->workers[number];
     while (!atomic_load(&context->stop)) {
-        int64_t tile = atomic_fetch_add(&context->next, 1);
-        if (tile >= e3d_tile_count(context))
+        int64_t tile = e3d_take_tile(context, number);
+        if (tile < 0)
             break;
         if (!draw_tile(context, worker, tile)) {
             worker->failed = 1;
@@ -454,6 +454,6 @@ static void tiles_work(void *argument, int number)
 void e3d_tiles(e3d_context *context)
 {
     e3d_tables_set(context);
-    atomic_store(&context->next, 0);
+    e3d_share_tiles(context);
     e3d_pool_run(e3d_tile_count(context) > 2 ? context->renderer->threads : 1, tiles_work, context);
 }

@@ -171,6 +171,7 @@ typedef struct e3d_worker {
     e3d_array groups;       /* e3d_group of the tile */
     e3d_array outputs;      /* int32_t or float: the tile's, one output after the other */
     e3d_counters counters;
+    int64_t lap;            /* when the last stage of a tile ended (e3d_lap) */
     int failed;             /* out of memory */
     char padding[128];      /* no false sharing between workers, */
     atomic_llong next_tile; /* of this one's share: others take from it, too */
@@ -335,6 +336,14 @@ int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record);
 void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
 /* Keeps the depths of a tile, which may be drawn elsewhere. */
 void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile);
+/* Adds to a stage's time what has passed since the thread's last lap. */
+static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)
+{
+    int64_t now = e3d_now_ns();
+    *stage_ns += now - worker->lap;
+    worker->lap = now;
+}
+
 /* All tiles are to be drawn, each by one worker. */
 void e3d_share_tiles(e3d_context *context);
 

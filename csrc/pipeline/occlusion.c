@@ -186,25 +186,26 @@ static void draw_kept(e3d_context *context, e3d_worker *worker, int64_t number)
 {
     e3d_tile_depths *depths = &context->depths[number];
     e3d_visible_tile *visible = &context->kept[number];
-    int64_t start = e3d_now_ns();
     if (depths->most == E3D_NOTHING_KEPT) {
         e3d_tile tile = e3d_tile_at(context, number);
         e3d_visible_clear(visible, &tile);
     }
     e3d_visible_draw(context, visible, number);
     e3d_note_depths(context, visible, number);
-    worker->counters.ns_raster += e3d_now_ns() - start;
+    e3d_lap(worker, &worker->counters.ns_raster);
 }
 
 static void kept_work(void *argument, int number)
 {
     e3d_context *context = argument;
+    e3d_worker *worker = context->renderer->workers[number];
+    worker->lap = e3d_now_ns();
     for (;;) {
         int64_t tile = e3d_take_tile(context, number);
         if (tile < 0)
             return;
         if (e3d_has_bin(context, E3D_PASS_SCENE, tile))
-            draw_kept(context, context->renderer->workers[number], tile);
+            draw_kept(context, worker, tile);
     }
 }
 

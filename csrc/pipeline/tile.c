@@ -235,20 +235,18 @@ static int draw_pieces(tile_job *job)
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
     int forward = is_forward(context);
-    int64_t start = e3d_now_ns();
     begin(job);
     clear_samples(worker->visible);
     if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
         return 0;
-    int64_t rastered = e3d_now_ns();
-    worker->counters.ns_raster += rastered - start;
+    e3d_lap(worker, &worker->counters.ns_raster);
     if (context->wants && !forward) {
         int32_t count = find_runs(job);
         slots_to_ids(worker, count);
         if (!e3d_shade_runs(context, worker, &job->tile, count))
             return 0;
     }
-    worker->counters.ns_shade += e3d_now_ns() - rastered;
+    e3d_lap(worker, &worker->counters.ns_shade);
     return 1;
 }
 
@@ -316,7 +314,6 @@ static int draw_visible(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
-    int64_t start = e3d_now_ns();
     if (!job->kept)
         e3d_visible_clear(worker->visible, &job->tile);
     e3d_visible_draw(context, worker->visible, job->number);
@@ -325,11 +322,10 @@ static int draw_visible(tile_job *job)
     int depths = context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
     context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], depths);
     begin(job);
-    int64_t rastered = e3d_now_ns();
-    worker->counters.ns_raster += rastered - start;
+    e3d_lap(worker, &worker->counters.ns_raster);
     if (context->wants && !shade_visible(job))
         return 0;
-    worker->counters.ns_shade += e3d_now_ns() - rastered;
+    e3d_lap(worker, &worker->counters.ns_shade);
     return 1;
 }
 
@@ -346,7 +342,6 @@ static int draw_marks(tile_job *job)
         return 1;
     if (frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE)
         return 1;
-    int64_t start = e3d_now_ns();
     if (edges_are_tested(frame))
         find_edge_limits(job); /* while the slots are the scene's */
     if (frame->mode == E3D_MODE_OVERDRAW && frame->wireframe != E3D_WIRE_ONLY) {
@@ -361,7 +356,7 @@ static int draw_marks(tile_job *job)
             return 0;
         e3d_resolve_wire(job->context, job->worker, &job->tile);
     }
-    job->worker->counters.ns_raster += e3d_now_ns() - start;
+    e3d_lap(job->worker, &job->worker->counters.ns_raster);
     return 1;
 }
 
@@ -383,13 +378,11 @@ e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
 
 static int draw_job(tile_job *job)
 {
-    e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
     if (!draw_scene(job) || !draw_marks(job))
         return 0;
-    int64_t start = e3d_now_ns();
-    e3d_resolve(context, worker, &job->tile);
-    worker->counters.ns_resolve += e3d_now_ns() - start;
+    e3d_resolve(job->context, worker, &job->tile);
+    e3d_lap(worker, &worker->counters.ns_resolve);
     return 1;
 }
 
@@ -404,6 +397,7 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     job.again = context->finished && depths->shaded && context->frame->samples_axis == 1;
     if (!job.kept && is_empty(&job)) {
         e3d_resolve_empty(context, &job.tile);
+        e3d_lap(worker, &worker->counters.ns_resolve);
         return 1;
     }
     int64_t before = worker->counters.shaded;
@@ -418,13 +412,10 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
 }
 
 /* The calling thread asks at most every 20 ms. */
-static void poll(e3d_context *context)
+static void poll(e3d_context *context, int64_t now)
 {
     e3d_renderer *renderer = context->renderer;
-    if (!renderer->poll)
-        return;
-    int64_t now = e3d_now_ns();
-    if (now - context->last_poll < 20000000)
+    if (!renderer->poll || now - context->last_poll < 20000000)
         return;
     context->last_poll = now;
     if (renderer->poll(renderer->poll_user)) {
@@ -437,6 +428,7 @@ static void tiles_work(void *argument, int number)
 {
     e3d_context *context = argument;
     e3d_worker *worker = context->renderer->workers[number];
+    worker->lap = e3d_now_ns();
     while (!atomic_load(&context->stop)) {
         int64_t tile = e3d_take_tile(context, number);
         if (tile < 0)
@@ -446,7 +438,7 @@ static void tiles_work(void *argument, int number)
             atomic_store(&context->stop, 1);
         }
         if (number == 0)
-            poll(context);
+            poll(context, worker->lap);
     }
     e3d_stream_end();
 }

@@ -14,7 +14,7 @@ import stat
 from collections.abc import Iterator
 from typing import BinaryIO
 
-from .errors import FileAccessError
+from .errors import FileAccessError, InvalidArgumentError
 
 
 @contextlib.contextmanager
@@ -40,6 +40,15 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
         yield files.create(path)
 
 
+def checked_path(path: str | bytes | os.PathLike) -> str:
+    """Return the path of an output file as a string."""
+    try:
+        return os.fsdecode(path)
+    except TypeError:
+        kind = type(path).__name__
+        raise InvalidArgumentError(f"path must be a str or path-like, not {kind}") from None
+
+
 class AtomicFiles:
     """Files that appear together, when the ``with`` block ends without an exception.
 
@@ -55,7 +64,7 @@ class AtomicFiles:
         if self._parts:
             with _named(self._parts[-1].path):
                 self._parts[-1].finish()
-        part = _Part(os.fspath(path))
+        part = _Part(checked_path(path))
         self._parts.append(part)
         with _named(part.path):
             part.open()

@@ -423,6 +423,8 @@ def _scale(scale: int) -> int:
 
 
 def _codes(string: str) -> bytes:
+    if not isinstance(string, str):
+        raise InvalidArgumentError(f"a text must be a str, not {type(string).__name__}")
     characters = string.expandtabs(_TAB_COLUMNS).encode("utf-32-le", "surrogatepass")
     codes = np.frombuffer(characters, "<u4")
     if codes.size and (codes.max() > 126 or codes.min() < 32):

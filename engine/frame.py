@@ -13,7 +13,7 @@ import os
 import numpy as np
 
 from ._native.images import encode_png
-from .atomic_write import atomic_write
+from .atomic_write import atomic_write, checked_path
 from .errors import InvalidArgumentError, MissingOutputError
 
 # Every output: dtype and number of channels (0: no third axis).
@@ -160,7 +160,7 @@ class Frame:
         FileAccessError
             The file cannot be written.
         """
-        suffix = os.path.splitext(os.fspath(path))[1].lstrip(".").lower()
+        suffix = os.path.splitext(checked_path(path))[1].lstrip(".").lower()
         data = self.encode(suffix, **options)
         with atomic_write(path) as file:
             file.write(data)

@@ -327,6 +327,8 @@ def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str)
 
 
 def _check_materials(materials: Iterable[Material] | None) -> list[Material]:
+    if isinstance(materials, Material):
+        raise InvalidArgumentError("materials must be a list of Material, not one Material")
     materials = [] if materials is None else list(materials)
     for material in materials:
         if not isinstance(material, Material):

@@ -86,6 +86,9 @@ class Node:
         below = (nodes[slot] for slot in self._arrays.children(self._slot))
         return tuple(node for node in below if node is not None)
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Node belongs to its Scene: it cannot be copied or pickled")
+
     def reparent(self, parent: Node | None, *, keep_world_pose: bool = False) -> None:
         """Hang the node, with everything below it, under another one.
 

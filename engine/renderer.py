@@ -124,6 +124,9 @@ class Renderer:
             self._native = self._draw_list = None
             self._pool.forget()
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
+
     def __enter__(self) -> Renderer:
         return self
 

@@ -36,18 +36,7 @@ def main(argv: list[str] | None = None) -> int:
     # NumPy's linear algebra, which draws nothing here, would start a thread for each CPU.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _replace_closed_streams()
-    from .options import join_values
-    from .parser import make_parser
-
-    parser = make_parser()
-    arguments = sys.argv[1:] if argv is None else argv
-    try:
-        args = parser.parse_args(join_values(arguments))
-        return _run(args)
-    except UsageError as error:
-        return _usage(str(error))
-    except SystemExit as stop:
-        return stop.code if isinstance(stop.code, int) else 1
+    return _run(sys.argv[1:] if argv is None else argv)
 
 
 def _replace_closed_streams() -> None:
@@ -57,14 +46,13 @@ def _replace_closed_streams() -> None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
 
 
-def _run(args: argparse.Namespace) -> int:
-    """Run the command that was parsed, and turn every foreseen exception into a line."""
+def _run(arguments: list[str]) -> int:
+    """Do what the arguments say, and turn every foreseen exception into a line."""
     from ..errors import Engine3DError
 
     try:
         with _short_warnings(), _ended_politely():
-            command = _load(args)
-            status = command(args)
+            status = _obey(arguments)
             sys.stdout.flush()
         return status
     except BrokenPipeError:
@@ -81,6 +69,20 @@ def _run(args: argparse.Namespace) -> int:
         return _fail(_one_line(error))
     except MemoryError:
         return _fail("out of memory")
+
+
+def _obey(arguments: list[str]) -> int:
+    """Parse the arguments, run the command that they name, and return its exit status."""
+    from .options import join_values
+    from .parser import make_parser
+
+    try:
+        args = make_parser().parse_args(join_values(arguments))
+        return _load(args)(args)
+    except UsageError as error:
+        return _usage(str(error))
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else 1
 
 
 class _Ended(BaseException):

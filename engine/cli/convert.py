@@ -6,6 +6,7 @@ import argparse
 
 from ..loaders import load_mesh
 from ..writers import formats, save_mesh
+from .inputs import model_file
 from .loading_bar import LoadingBar
 from .outputs import check_extension
 from .usage import UsageError
@@ -21,6 +22,6 @@ def convert(args: argparse.Namespace) -> int:
     if options and extension.lower() not in BINARY_FORMATS:
         raise UsageError(f"--ascii is for {' and '.join(BINARY_FORMATS)} files")
     with LoadingBar() as progress:
-        mesh = load_mesh(args.model, progress=progress)
+        mesh = load_mesh(model_file(args.model), progress=progress)
     save_mesh(mesh, args.output, **options)
     return 0

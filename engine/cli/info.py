@@ -11,13 +11,14 @@ from ..errors import Engine3DWarning, printable
 from ..linalg import transform_points
 from ..loaders import load_document
 from ..mesh import Mesh
+from .inputs import model_file
 from .loading_bar import LoadingBar
 
 
 def info(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     sys.stdout.reconfigure(errors="backslashreplace")
-    report = describe(args.model)
+    report = describe(model_file(args.model))
     if args.json:
         print(json.dumps(report, indent=2))
     else:
@@ -31,7 +32,7 @@ def describe(path) -> dict:
 
     Parameters
     ----------
-    path : path-like
+    path : path-like or binary file object
         A file of any format that `engine3d.loaders` reads.
 
     Returns
@@ -46,7 +47,7 @@ def describe(path) -> dict:
     meshes = [mesh for _, mesh, _ in document.objects]
     materials = {id(material): material for mesh in meshes for material in mesh.materials}
     return {
-        "file": str(path),
+        "file": path.name if hasattr(path, "read") else str(path),
         "format": document.format,
         "counts": dict(document.counts),
         "bounds": _bounds(document.objects),

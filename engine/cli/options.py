@@ -11,6 +11,7 @@ import math
 import re
 
 from . import values
+from .inputs import model_file
 from .loading_bar import LoadingBar
 from .usage import UsageError
 
@@ -62,7 +63,9 @@ def join_values(arguments: list[str]) -> list[str]:
 def add_subject(parser) -> None:
     """Add what to show."""
     group = parser.add_argument_group("what to show")
-    group.add_argument("model", metavar="MODEL", nargs="?", help="a model file")
+    group.add_argument(
+        "model", metavar="MODEL", nargs="?", help="a model file; - for standard input"
+    )
     group.add_argument(
         "--scene", choices=SCENES, metavar="NAME", help=f"a scene: {', '.join(SCENES)}"
     )
@@ -105,7 +108,12 @@ def add_picture(parser) -> None:
         metavar="N",
         help="0: all that may be used",
     )
-    group.add_argument("--background-color", type=values.color, metavar="COLOR")
+    group.add_argument(
+        "--background-color",
+        type=values.color,
+        metavar="COLOR",
+        help="R,G,B from 0 to 1 or to 255, #rrggbb or a name, as everywhere",
+    )
     group.add_argument("-g", "--grid", action="store_true", help="a grid under the model")
     group.add_argument("-x", "--axis", action="store_true", help="the axes, in the corner")
     group.add_argument("-m", "--metadata", action="store_true", help="what the file holds, as text")
@@ -251,8 +259,7 @@ def add_render(parser) -> None:
     )
     group.add_argument(
         "--reference-threshold",
-        type=values.not_negative,
-        default=0.0,
+        type=values.fraction,
         metavar="D",
         help="the largest root mean square difference, 0 to 1, that passes; 0 by default",
     )
@@ -335,4 +342,5 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
     from ..display.opening import open_model
 
     with LoadingBar() as progress:
-        return open_model(args.model, texture=args.texture, color=args.color, progress=progress)
+        file = model_file(args.model)
+        return open_model(file, texture=args.texture, color=args.color, progress=progress)

@@ -12,9 +12,16 @@ from ..version import __version__
 from . import options, values
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are a line, not lost below all the options that there are."""
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: error: {message} (see {self.prog} --help)\n")
+
+
 def make_parser() -> argparse.ArgumentParser:
     """Return the parser; ``load_command()`` of what it parsed returns the command's function."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="engine3d",
         description="Draw 3D models on the CPU: in a window, or to a file where there is none.",
         allow_abbrev=False,
@@ -75,7 +82,7 @@ def _add_info(commands) -> None:
         allow_abbrev=False,
     )
     command.set_defaults(load_command=_load_info)
-    command.add_argument("model", metavar="MODEL", help="the file")
+    command.add_argument("model", metavar="MODEL", help="the file; - for standard input")
     command.add_argument("--json", action="store_true", help="print JSON")
 
 
@@ -88,7 +95,9 @@ def _add_convert(commands) -> None:
         allow_abbrev=False,
     )
     command.set_defaults(load_command=_load_convert)
-    command.add_argument("model", metavar="IN", help="the file to read, of any format")
+    command.add_argument(
+        "model", metavar="IN", help="the file to read, of any format; - for standard input"
+    )
     command.add_argument("output", metavar="OUT", help="the file to write")
     command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")
 

@@ -56,6 +56,8 @@ def render(args: argparse.Namespace) -> int:
 
 def _check(args: argparse.Namespace) -> None:
     """Refuse, before any work, what cannot be written."""
+    if args.reference_threshold is not None and args.reference is None:
+        raise UsageError("--reference-threshold goes with --reference")
     if args.output is None:
         if args.reference is None or args.turntable is not None:
             raise UsageError("say where to write with -o FILE")
@@ -93,7 +95,7 @@ def _compare(args: argparse.Namespace, pixels) -> int:
     from .comparison import compare
 
     result = compare(pixels, args.reference)
-    if result.difference <= args.reference_threshold:
+    if result.difference <= (args.reference_threshold or 0.0):
         return 0
     print(f"engine3d: error: {args.reference}: {result}", file=sys.stderr)
     return 1

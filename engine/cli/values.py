@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 
 UPS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 MAX_SIDE = 16384
+MAX_THREADS = 256
 
 
 def resolution(text: str) -> tuple[int, int]:
@@ -53,6 +54,14 @@ def not_negative(text: str) -> float:
     return value
 
 
+def fraction(text: str) -> float:
+    """Parse a number from 0 to 1."""
+    value = not_negative(text)
+    if value > 1.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is above one")
+    return value
+
+
 def count(text: str) -> int:
     """Parse an integer of at least one."""
     if not re.fullmatch(r"\d{1,9}", text) or int(text) < 1:
@@ -69,7 +78,9 @@ def integer(text: str) -> int:
 
 def thread_count(text: str) -> int:
     """Parse a number of threads, 0 for as many as the process may use."""
-    return 0 if text == "0" else count(text)
+    if not re.fullmatch(r"\d{1,3}", text) or int(text) > MAX_THREADS:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to {MAX_THREADS}")
+    return int(text)
 
 
 def thread_counts(text: str) -> list[int]:

@@ -76,7 +76,12 @@ def _equal_vertices(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 def _simplified(positions: np.ndarray, faces: np.ndarray, ratio: float):
     """Positions and faces of one part, the old vertex behind each new one, and the error."""
-    import fast_simplification
+    try:
+        import fast_simplification
+    except ImportError as error:
+        raise ImportError(
+            "simplify needs the package fast-simplification: engine3d[detail]"
+        ) from error
 
     used, faces = np.unique(faces, return_inverse=True)
     faces = faces.reshape(-1, 3).astype(np.int32)

@@ -101,7 +101,7 @@ class PlacedLight:
             if is_light(node):
                 node.visible = False
         if intensity is None:
-            intensity = sum((p - c) ** 2 for p, c in zip(position, bounds.center, strict=True))
+            intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
             intensity = intensity if intensity > 0.0 and math.isfinite(intensity) else 1.0
         scene.add(PointLight(color=(1.0, 1.0, 1.0), intensity=intensity), translation=position)
 

@@ -14,7 +14,7 @@ from ..scene_loading import scene_from_document
 from .subject import Subject
 
 #: Formats whose models, by custom, stand on the XY plane.
-Z_UP_SUFFIXES = (".asc", ".stl")
+Z_UP_FORMATS = ("asc", "stl")
 BACKGROUND = (43, 46, 53)
 
 
@@ -23,7 +23,7 @@ def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
 
     Parameters
     ----------
-    path : path-like
+    path : path-like or binary file object
         A file of any format that `engine3d.loaders` reads.
     texture : path-like, optional
         The base colour texture of the meshes without materials. Left out, an image beside the
@@ -42,18 +42,20 @@ def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
     FileFormatError, FileAccessError
         The file (or the texture asked for) cannot be read.
     """
-    path = os.fspath(path)
     document = load_document(path, progress=progress)
+    path = None if hasattr(path, "read") else os.fspath(path)
     bare = [mesh for _, mesh, _ in document.objects if not has_materials(mesh)]
     if bare:
-        image = texture or (None if color is not None else companion_texture(path))
+        image = texture
+        if image is None and color is None and path is not None:
+            image = companion_texture(path)
         _dress(bare, image, color)
     scene = scene_from_document(document)
     scene.background = BACKGROUND
     return Subject(
         scene,
-        os.path.basename(path),
-        up="+Z" if path.lower().removesuffix(".gz").endswith(Z_UP_SUFFIXES) else "+Y",
+        "model" if path is None else os.path.basename(path),
+        up="+Z" if document.format in Z_UP_FORMATS else "+Y",
         path=path,
         details=document_lines(document),
         warnings=list(document.warnings),

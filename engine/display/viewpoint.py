@@ -204,9 +204,12 @@ class Viewpoint:
     def look_from(self, position, focal_point) -> None:
         """Stand at ``position`` and look at ``focal_point`` (both (3,), world space)."""
         position = np.asarray(position, dtype=np.float64)
-        offset = position - np.asarray(focal_point, dtype=np.float64)
-        distance = float(linalg.length(offset))
-        if not distance > 0.0 or not math.isfinite(distance):
+        with np.errstate(over="ignore"):
+            offset = position - np.asarray(focal_point, dtype=np.float64)
+            distance = float(linalg.length(offset))
+        if not distance < math.inf:
+            raise InvalidArgumentError("the camera's position and focal point are too far apart")
+        if distance == 0.0:
             raise InvalidArgumentError("the camera's position and focal point are the same")
         right, up, front = home_axes(self.up)
         self.target = position - offset

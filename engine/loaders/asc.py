@@ -469,7 +469,7 @@ def _counts(parser: _Parser) -> dict:
     }
 
 
-def _resembles_asc(head: bytes) -> bool:
+def _resembles_asc(head: bytes, size: int) -> bool:
     return head.lstrip().startswith((b"Ambient light color", b"Named object"))
 
 

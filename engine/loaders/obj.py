@@ -111,7 +111,7 @@ def _fill_normals(file: ObjFile, triangles: Triangles, states: ObjStates):
     return normals
 
 
-def _resembles_obj(head: bytes) -> bool:
+def _resembles_obj(head: bytes, size: int) -> bool:
     return b"\0" not in head and any(
         line.startswith((b"v ", b"vn ", b"vt ", b"f ", b"mtllib ")) for line in head.splitlines()
     )

@@ -36,7 +36,8 @@ class Reader(NamedTuple):
     signature : callable, optional
         ``signature(head) -> bool``: whether the first bytes can be of this format only.
     resembles : callable, optional
-        ``resembles(head) -> bool``: whether the first bytes look like this format.
+        ``resembles(head, size) -> bool``: whether the first bytes of a file of so many bytes look
+        like this format.
     """
 
     name: str
@@ -45,7 +46,7 @@ class Reader(NamedTuple):
     extensions: tuple[str, ...]
     read: Callable
     signature: Callable[[bytes], bool] | None = None
-    resembles: Callable[[bytes], bool] | None = None
+    resembles: Callable[[bytes, int], bool] | None = None
 
 
 class Format(NamedTuple):
@@ -103,7 +104,7 @@ def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
     """
     head = source.head(SNIFFED_BYTES)
     namesake = _namesake(source.extension, kind)
-    if name is None and namesake is not None and _recognises(namesake, head):
+    if name is None and namesake is not None and _recognises(namesake, head, source.size):
         return namesake
     candidates = [reader for reader in readers() if reader.kind == kind]
     if name is not None:
@@ -115,12 +116,11 @@ def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
         if source.extension in reader.extensions:
             return reader
     for reader in candidates:
-        if reader.resembles is not None and reader.resembles(head):
+        if reader.resembles is not None and reader.resembles(head, source.size):
             return reader
     known = ", ".join(sorted(e for reader in candidates for e in reader.extensions))
-    raise FileFormatError(
-        f"unknown {kind} format {source.extension!r} (known: {known})", source.path
-    )
+    what = repr(source.extension) if source.extension else "without an extension"
+    raise FileFormatError(f"unknown {kind} format {what} (known: {known})", source.path)
 
 
 def _namesake(extension: str, kind: str) -> Reader | None:
@@ -137,9 +137,10 @@ def _namesake(extension: str, kind: str) -> Reader | None:
     return None
 
 
-def _recognises(reader: Reader, head: bytes) -> bool:
-    looks = (reader.signature, reader.resembles)
-    return any(look is not None and look(head) for look in looks)
+def _recognises(reader: Reader, head: bytes, size: int) -> bool:
+    if reader.signature is not None and reader.signature(head):
+        return True
+    return reader.resembles is not None and reader.resembles(head, size)
 
 
 def _by_name(candidates: list[Reader], name: str, kind: str) -> Reader:

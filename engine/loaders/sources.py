@@ -183,7 +183,9 @@ def _read_path(path: str) -> Source:
 
 def _read_stream(file) -> Source:
     name = getattr(file, "name", None)
-    path = name if isinstance(name, str) and os.path.exists(name) else f"<{type(file).__name__}>"
+    path = f"<{type(file).__name__}>"
+    if isinstance(name, str) and (name == "<stdin>" or os.path.exists(name)):
+        path = name
     try:
         data = file.read()
     except (OSError, ValueError, EOFError) as error:

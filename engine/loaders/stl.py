@@ -108,9 +108,13 @@ def _is_text(source: Source) -> bool:
     head = source.head(_SNIFFED)
     if _TEXT.match(head) is None and (head.strip() or _TEXT.match(source.data) is None):
         return False
+    return not _has_binary_length(head, source.size) and b"\0" not in source.data
+
+
+def _has_binary_length(head: bytes, size: int) -> bool:
+    """Whether a file is as long as the number of facets in a binary file's header says."""
     count = int.from_bytes(head[80:_HEADER], "little")
-    has_binary_length = source.size == _HEADER + _FACET_SIZE * count
-    return not has_binary_length and b"\0" not in source.data
+    return size == _HEADER + _FACET_SIZE * count
 
 
 def _read_binary(source: Source, warnings: WarningList) -> _Facets:
@@ -208,4 +212,11 @@ def _part(whole: Mesh, chosen: np.ndarray, name: str) -> Mesh:
     )
 
 
-READERS = (Reader("stl", "STL, text and binary", "mesh", (".stl",), read_stl),)
+def _resembles_stl(head: bytes, size: int) -> bool:
+    is_text = _TEXT.match(head) is not None and b"facet" in head
+    return is_text or _has_binary_length(head, size)
+
+
+READERS = (
+    Reader("stl", "STL, text and binary", "mesh", (".stl",), read_stl, resembles=_resembles_stl),
+)

@@ -248,7 +248,7 @@ def _turn_upright(pixels: np.ndarray, header: _Header) -> None:
             row[:] = row[::-1].copy()
 
 
-def _resembles_tga(head: bytes) -> bool:
+def _resembles_tga(head: bytes, size: int) -> bool:
     if len(head) < _HEADER.size:
         return False
     kind = head[2] & ~_RUN_LENGTH

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 
+from ..atomic_write import checked_path
 from ..errors import Engine3DWarning, InvalidArgumentError
 from ..mesh import Mesh
 from .registry import find_writer
@@ -35,7 +36,7 @@ def save_mesh(mesh: Mesh, path: str | os.PathLike, *, format: str | None = None,
     """
     if not isinstance(mesh, Mesh):
         raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
-    path = os.fspath(path)
+    path = checked_path(path)
     writer = find_writer(path, format)
     unknown = sorted(set(options) - set(writer.options))
     if unknown:

@@ -195,6 +195,7 @@ def test_a_reference_decides_the_exit_status(model, tmp_path, capsys):
         (["square.obj", "--reference", "broken.obj"], "broken.obj"),
         (["square.obj", "-o", "no/folder/out.png"], "no/folder"),
         (["square.obj", "--camera-position", "0,0,0", "--camera-focal-point", "0,0,0"], "same"),
+        (["square.obj", "--camera-position", "1e300,0,0"], "too far apart"),
         (["square.obj", "--camera-view-up", "0,0,0"], "zero"),
         (["."], "."),
     ],
@@ -237,8 +238,12 @@ def test_bad_input_is_one_line_and_status_1(model, tmp_path, capsys, arguments, 
         ["render", "a.obj", "-o", "out.png", "--unlit", "--mode", "depth"],
         ["render", "a.obj", "-o", "out.png", "--backend", "gpu"],
         ["render", "a.obj", "-o", "out.png", "--no-such-option"],
+        ["render", "a.obj", "-o", "out.png", "--reference-threshold", "0.1"],
+        ["render", "a.obj", "--reference", "a.png", "--reference-threshold", "1.1"],
+        ["render", "a.obj", "-o", "out.png", "--threads", "257"],
         ["run", "--headless", "-o", "out.png"],
         ["run", "--watch"],
+        ["run", "-", "--watch"],
         ["run", "-o", "out.gif"],
         ["info"],
     ],
@@ -248,7 +253,8 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
     assert main(arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    assert "error: " in err.splitlines()[-1]
+    assert err.startswith("engine3d") and "error: " in err
+    assert err.count("\n") == 1
     assert [entry.name for entry in tmp_path.iterdir()] == ["a.obj"]
 
 
@@ -256,6 +262,63 @@ def test_a_backend_that_the_machine_lacks_is_an_error(model, capsys, monkeypatch
     monkeypatch.setenv("ENGINE3D_BACKEND", "abacus")
     assert main(["render", str(model), *SMALL, "-o", "out.png"]) == 1
     assert "abacus" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("position", ["1e300,0,0", "0,0,1e160"])
+def test_a_light_may_be_as_far_away_as_numbers_reach(model, capsys, position):
+    command = ["render", str(model), *SMALL, "-o", "out.png", "--light-position", position]
+    assert main(command) == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def give(monkeypatch, data):
+    """Let ``data`` be what comes on standard input."""
+    stream = io.TextIOWrapper(io.BytesIO(data))
+    stream.buffer.name = "<stdin>"
+    monkeypatch.setattr(sys, "stdin", stream)
+
+
+def test_a_model_on_standard_input(model, tmp_path, capsys, monkeypatch):
+    assert main(["convert", str(model), "square.stl"]) == 0
+    capsys.readouterr()
+    for name in ("square.obj", "square.stl"):
+        data = (tmp_path / name).read_bytes()
+        give(monkeypatch, data)
+        assert main(["info", "-", "--json"]) == 0
+        report = json.loads(capsys.readouterr().out)
+        assert (report["file"], report["format"]) == ("<stdin>", name[-3:])
+        assert report["counts"]["triangles"] == 2
+        give(monkeypatch, data)
+        assert main(["render", "-", *SMALL, "-o", "piped.png"]) == 0
+        assert main(["render", name, *SMALL, "-o", "named.png"]) == 0
+        assert np.array_equal(pixels("piped.png"), pixels("named.png"))
+        give(monkeypatch, data)
+        assert main(["convert", "-", "piped.ply"]) == 0
+        capsys.readouterr()
+        assert len(e3d.load_mesh("piped.ply").faces) == 2
+
+
+def test_standard_input_without_a_model(capsys, monkeypatch):
+    give(monkeypatch, b"")
+    assert main(["info", "-"]) == 1
+    assert capsys.readouterr().err.startswith("engine3d: error: <stdin>: unknown mesh format")
+    monkeypatch.setattr(sys.stdin, "isatty", lambda: True)
+    assert main(["info", "-"]) == 2
+    monkeypatch.setattr(sys, "stdin", None)
+    assert main(["info", "-"]) == 2
+    assert capsys.readouterr().err.count("\n") == 2
+
+
+@pytest.mark.parametrize("option", ["--list-readers", "--help", "--version"])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_what_is_printed_on_a_full_disk_ends_without_a_traceback(option, unbuffered):
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "engine3d", option]
+        environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+        done = subprocess.run(command, stdout=full, stderr=-1, env=environment, check=False)
+    assert done.stderr in (b"", b"engine3d: error: No space left on device\n")
+    assert done.returncode == (1 if done.stderr else 0)  # argparse swallows what it cannot print
+    assert done.stderr or option != "--list-readers"
 
 
 def test_a_loaders_warning_is_a_line(tmp_path, capsys):

@@ -9,6 +9,9 @@ import pytest
 from engine3d.cli.parser import make_parser
 from engine3d.display.keymap import BINDINGS
 from engine3d.loaders import formats
+from engine3d.loaders.images import MAX_PIXELS
+from engine3d.rasterization import MAX_SIZE
+from engine3d.textures import MAX_SIDE
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -60,6 +63,14 @@ def test_keys_are_those_of_the_viewer():
     expected = key_table()
     missing = [row for row in expected if row not in lines]
     assert not missing, "README.md should have these rows:\n" + "\n".join(expected)
+
+
+def test_limits_are_those_of_the_code():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert f"Frames of 1 to {MAX_SIZE} pixels a side, textures of up to {MAX_SIDE};" in text
+    text = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
+    assert f"at most {MAX_PIXELS:,} pixels" in text
+    assert f"sides\n  of at most {MAX_SIDE:,};" in text
 
 
 def test_formats_are_those_of_the_loaders():

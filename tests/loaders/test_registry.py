@@ -5,9 +5,11 @@ import subprocess
 import sys
 import tracemalloc
 
+import numpy as np
 import pytest
 from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 
+from engine3d import Mesh, box
 from engine3d.errors import Engine3DError, FileFormatError
 from engine3d.loaders import formats, load_mesh, load_texture
 
@@ -32,6 +34,17 @@ def test_an_unknown_format_is_a_clear_error(write):
 def test_text_is_recognised_without_its_extension(write, extension):
     text = "# made by hand\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
     assert len(load_mesh(write(f"a.{extension}", text)).faces) == 1
+
+
+@pytest.mark.parametrize("is_text", [False, True])
+def test_stl_is_recognised_without_a_name(tmp_path, is_text):
+    path = tmp_path / "a.stl"
+    Mesh(box().positions, box().faces).save(path, ascii=is_text)
+    data = path.read_bytes()
+    assert np.array_equal(load_mesh(data).positions, load_mesh(path).positions)
+    if not is_text:
+        with pytest.raises(FileFormatError, match="<bytes>: unknown mesh format without an ext"):
+            load_mesh(data + b"more")
 
 
 def test_loading_a_mesh_does_not_import_pillow(write):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from engine3d.canvas import Canvas, text_size
+from engine3d.errors import InvalidArgumentError
 
 WHITE = (255, 255, 255)
 PRINTABLE = "".join(chr(code) for code in range(32, 127))
@@ -89,6 +90,14 @@ def test_clipped_text_is_the_whole_text_inside():
         shown = whole[7:37, max(x, 0) : x + 40]
         expected[:, max(-x, 0) :][:, : shown.shape[1]] = shown
         assert np.array_equal(part, expected)
+
+
+@pytest.mark.parametrize("text", [5, b"text", None])
+def test_what_is_no_text(text):
+    with pytest.raises(InvalidArgumentError, match="text must be a str"):
+        Canvas(9, 9).text(0, 0, text, WHITE)
+    with pytest.raises(InvalidArgumentError, match="text must be a str"):
+        text_size(text)
 
 
 @pytest.mark.parametrize("at", [(np.nan, 0), (0, np.inf), (1e300, 0), (0, -1e300), (-(2**31), 5)])

@@ -2,6 +2,7 @@
 
 import copy
 import io
+import os
 import pickle
 
 import numpy as np
@@ -101,6 +102,19 @@ def test_a_failed_save_leaves_what_was_there(frame, tmp_path, monkeypatch):
 def test_missing_folder(frame, tmp_path):
     with pytest.raises(e3d.FileAccessError, match="nowhere"):
         frame.save(tmp_path / "nowhere" / "frame.png")
+
+
+def test_paths_may_be_bytes(frame, tmp_path):
+    frame.save(os.fsencode(tmp_path / "ü.png"))
+    assert (tmp_path / "ü.png").read_bytes() == frame.encode()
+
+
+@pytest.mark.parametrize("path", [None, 3, io.BytesIO()])
+def test_what_is_no_path(frame, path):
+    with pytest.raises(e3d.InvalidArgumentError, match="path must be"):
+        frame.save(path)
+    with pytest.raises(e3d.InvalidArgumentError, match="path must be"):
+        e3d.box().save(path, format="ply")
 
 
 def test_saving_without_colour(tmp_path):

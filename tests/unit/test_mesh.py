@@ -112,6 +112,12 @@ def test_assigning_checks_against_what_is_there():
     assert len(mesh.positions) == 4
 
 
+@pytest.mark.parametrize("materials", [Material(), [None], ["red"]])
+def test_materials_are_a_list_of_them(materials):
+    with pytest.raises(InvalidArgumentError, match="Material"):
+        square(materials=materials)
+
+
 def test_material_ids_start_again_when_the_number_of_faces_changes():
     mesh = square(materials=[Material(), Material()], material_ids=[0, 1])
     mesh.faces = [(0, 1, 2)]

@@ -29,6 +29,18 @@ def test_a_scene_says_that_it_cannot_be_copied(scene, copied):
         copied(scene)
 
 
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_nodes_and_renderers_say_that_they_cannot_be_copied(scene, copied):
+    node = scene.add(e3d.box())
+    with pytest.raises(TypeError, match="belongs to its Scene"):
+        copied(node)
+    with (
+        e3d.Renderer(4, 4) as renderer,
+        pytest.raises(TypeError, match="make one in each process"),
+    ):
+        copied(renderer)
+
+
 def test_an_id_is_read_only(scene):
     """Colliders, rays and frames go by it."""
     node = scene.add(e3d.box())

@@ -9,12 +9,18 @@ from __future__ import annotations
 
 import io
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._native.images import encode_png
 from .atomic_write import atomic_write, checked_path
 from .errors import InvalidArgumentError, MissingOutputError
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+    from .canvas import Canvas
 
 # Every output: dtype and number of channels (0: no third axis).
 OUTPUTS: dict[str, tuple[np.dtype, int]] = {
@@ -130,13 +136,13 @@ class Frame:
             return np.array(self.color, dtype)
         return np.asarray(self.color, dtype)
 
-    def image(self):
+    def image(self) -> Image.Image:
         """Return the colour as an image of Pillow (``PIL.Image.Image``, RGBA), a copy."""
         from PIL import Image
 
         return Image.frombytes("RGBA", (self.width, self.height), self.color.tobytes())
 
-    def canvas(self):
+    def canvas(self) -> Canvas:
         """Return an `engine3d.Canvas` that draws into this frame's colour."""
         from .canvas import Canvas
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -233,7 +234,7 @@ class Mesh:
 
         return mesh_from_trimesh(geometry)
 
-    def to_trimesh(self):
+    def to_trimesh(self) -> Any:
         """Return the mesh for the package trimesh, which must be installed.
 
         Returns

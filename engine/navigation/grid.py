@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection
+from typing import Any
 
 import numpy as np
 
@@ -113,7 +114,7 @@ class NavigationGrid:
             array.setflags(write=False)
         self.starts, self.heights, self._slope_x, self._slope_z, self.walkable = arrays
 
-    def sample_ground(self, x, z, y=None):
+    def sample_ground(self, x, z, y=None) -> tuple[Any, Any]:
         """Return how high the ground is somewhere, and whether one can stand there.
 
         Parameters

@@ -2,10 +2,13 @@
 
 import ast
 import importlib
+import inspect
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+
+import engine3d as e3d
 
 NATIVE = Path(__file__).resolve().parents[2] / "engine" / "_native"
 MODULES = sorted(path.stem for path in NATIVE.glob("*.pyx"))
@@ -45,3 +48,24 @@ def test_stub_matches_module(name):
     assert stub.is_file(), f"{name}.pyx has no stub"
     module = importlib.import_module(f"engine3d._native.{name}")
     assert declared_names(stub.read_text("utf-8")) == defined_names(module)
+
+
+def public_functions():
+    """The functions and methods that ``import engine3d`` names."""
+    for name in e3d.__all__:
+        value = getattr(e3d, name)
+        has_members = inspect.isclass(value) or isinstance(value, ModuleType)
+        members = vars(value) if has_members else {name: value}
+        for key, item in members.items():
+            item = getattr(item, "__func__", item)
+            is_ours = getattr(item, "__module__", "").startswith("engine3d")
+            if inspect.isfunction(item) and is_ours and not key.startswith("_"):
+                yield item
+
+
+def test_public_functions_declare_what_they_return():
+    """To strict type checkers, calling one that doesn't is an error."""
+    functions = list(public_functions())
+    assert len(functions) > 100
+    missing = [item.__qualname__ for item in functions if "return" not in item.__annotations__]
+    assert missing == []

@@ -1,4 +1,4 @@
-/* Writing what this core won't read again: past the caches, so that memory isn't read first. */
+/* Writing past the caches, 16 bytes at a time. */
 #ifndef E3D_STREAM_H
 #define E3D_STREAM_H
 

@@ -403,6 +403,8 @@ typedef struct e3d_kernels {
     void (*average)(const e3d_samples *samples, int axis, int row, int width, const float background[3], int srgb, uint32_t *rgba);
     /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. There are few lights. */
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
+    /* Copies what this core won't read again: e3d_stream_end before other threads are told. */
+    void (*stream)(void *to, const void *from, size_t bytes);
 } e3d_kernels;
 
 /* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */

@@ -124,6 +124,11 @@ typedef struct e3d_counters {
 
 /* ---- one tile at a time, a thread ---- */
 
+typedef struct e3d_tile {
+    int32_t x, y;          /* first sample */
+    int32_t width, height; /* samples inside the viewport */
+} e3d_tile;
+
 /* Samples that are shaded by the same steps. */
 typedef struct e3d_group {
     const e3d_material *material;
@@ -157,6 +162,9 @@ typedef struct e3d_tile_memory {
     _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */
 } e3d_tile_memory;
 
+/* What is done with tiles: those that something is in are drawn, the others cleared. */
+typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
+
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
     e3d_fragment_set fragments;
@@ -171,10 +179,12 @@ typedef struct e3d_worker {
     e3d_array groups;       /* e3d_group of the tile */
     e3d_array outputs;      /* int32_t or float: the tile's, one output after the other */
     e3d_counters counters;
+    e3d_tile blank;         /* what is left of the one that is being cleared */
+    int blanks;             /* whether there may be more */
     int64_t lap;            /* when the last stage of a tile ended (e3d_lap) */
     int failed;             /* out of memory */
     char padding[128];      /* no false sharing between workers, */
-    atomic_llong next_tile; /* of this one's share: others take from it, too */
+    atomic_llong next_tile[E3D_TO_DO]; /* of this one's share: others take from it, too */
     char more_padding[128];
 } e3d_worker;
 
@@ -344,11 +354,19 @@ static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)
     worker->lap = now;
 }
 
-/* All tiles are to be drawn, each by one worker. */
+/* All tiles are to be done, each by one worker. */
 void e3d_share_tiles(e3d_context *context);
 
-/* The next tile for a worker; -1 when none is left. */
-int64_t e3d_take_tile(e3d_context *context, int worker);
+/* The next tile that a worker may do this with; -1 when none is left. */
+int64_t e3d_take_tile(const e3d_context *context, const e3d_worker *worker, e3d_to_do what);
+
+/* Whether nothing is drawn in a tile, or nothing more. */
+int e3d_is_blank(const e3d_context *context, int64_t number);
+
+/* Clears such tiles: some rows at a time, and at last what is left of all. */
+void e3d_blank_begin(const e3d_context *context, e3d_worker *worker);
+void e3d_blank_some(const e3d_context *context, e3d_worker *worker);
+void e3d_blank_rest(const e3d_context *context, e3d_worker *worker);
 
 /* Draws a round's tiles, and keeps what the next one needs of them; 0 when memory is out. */
 int e3d_draw_kept_tiles(e3d_context *context);
@@ -431,10 +449,6 @@ void e3d_tables_set(e3d_context *context);
 int e3d_sort_records(e3d_context *context);
 
 /* tile.c, shade.c, resolve.c */
-typedef struct e3d_tile {
-    int32_t x, y;          /* first sample */
-    int32_t width, height; /* samples inside the viewport */
-} e3d_tile;
 void e3d_tiles(e3d_context *context);
 e3d_tile e3d_tile_at(const e3d_context *context, int64_t number);
 /* Whether samples keep slots rather than record IDs. */
@@ -470,7 +484,7 @@ void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* The whole tile is background. */
-void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile);
+void e3d_resolve_blank(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* picture.c: `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */
 void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
@@ -483,7 +497,7 @@ void e3d_outputs_again(const e3d_context *context, e3d_worker *worker, const e3d
 void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker);
 void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile);
 /* The whole tile is background. */
-void e3d_outputs_empty(const e3d_context *context, const e3d_tile *tile);
+void e3d_outputs_blank(const e3d_context *context, const e3d_tile *tile);
 
 static inline int e3d_is_shiny(const e3d_material *m)
 {
@@ -503,5 +517,11 @@ static inline int32_t e3d_instance_id(const e3d_draw *draw, int32_t instance)
 }
 
 static inline int64_t e3d_tile_count(const e3d_context *c) { return (int64_t)c->tiles_x * c->tiles_y; }
+
+/* Whether earlier rounds drew something in a tile, which this one draws upon. */
+static inline int e3d_is_kept(const e3d_context *c, int64_t tile)
+{
+    return c->kept && !c->finished && c->depths[tile].most != E3D_NOTHING_KEPT;
+}
 
 #endif

@@ -201,7 +201,7 @@ static void kept_work(void *argument, int number)
     e3d_worker *worker = context->renderer->workers[number];
     worker->lap = e3d_now_ns();
     for (;;) {
-        int64_t tile = e3d_take_tile(context, number);
+        int64_t tile = e3d_take_tile(context, worker, E3D_TO_DRAW);
         if (tile < 0)
             return;
         if (e3d_has_bin(context, E3D_PASS_SCENE, tile))

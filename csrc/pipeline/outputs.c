@@ -223,7 +223,7 @@ void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const
     }
 }
 
-void e3d_outputs_empty(const e3d_context *context, const e3d_tile *tile)
+void e3d_outputs_blank(const e3d_context *context, const e3d_tile *tile)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
         int32_t row[3 * E3D_TILE];

@@ -1,7 +1,6 @@
 /* A tile's rows to a picture of the caller's, and back. */
 #include <string.h>
 
-#include "core/stream.h"
 #include "pipeline/frame.h"
 
 /* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
@@ -33,7 +32,7 @@ void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *pict
     int far = is_far(context, at.pitch * (size_t)context->frame->height);
     for (int y = 0; y < at.rows; y++, to += at.pitch, from += step)
         if (far)
-            e3d_stream(to, from, at.bytes);
+            context->kernels->stream(to, from, at.bytes);
         else
             memcpy(to, from, at.bytes);
 }

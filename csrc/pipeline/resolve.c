@@ -92,9 +92,9 @@ static void average(const e3d_context *context, e3d_tile_memory *memory, const e
                                   memory->rgba + y * E3D_TILE);
 }
 
-void e3d_resolve_empty(const e3d_context *context, const e3d_tile *tile)
+void e3d_resolve_blank(const e3d_context *context, const e3d_tile *tile)
 {
-    e3d_outputs_empty(context, tile);
+    e3d_outputs_blank(context, tile);
     if (context->targets->color)
         e3d_write_rows(context, tile, context->targets->color, sizeof(uint32_t), context->background_row, 0);
 }

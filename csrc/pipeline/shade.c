@@ -164,6 +164,7 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_batch *batch = &worker->tile->batch;
     const e3d_surfaces *surfaces = &worker->tile->surfaces;
     worker->counters.shaded += batch->count;
+    e3d_blank_some(context, worker);
     if (is_painted(context, group)) {
         paint_batch(context, worker, group, wanted);
         return;

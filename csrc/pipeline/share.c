@@ -10,15 +10,16 @@ static int64_t first_of(const e3d_context *context, int worker)
 void e3d_share_tiles(e3d_context *context)
 {
     for (int w = 0; w < context->renderer->threads; w++)
-        atomic_store(&context->renderer->workers[w]->next_tile, first_of(context, w));
+        for (int k = 0; k < E3D_TO_DO; k++)
+            atomic_store(&context->renderer->workers[w]->next_tile[k], first_of(context, w));
 }
 
-int64_t e3d_take_tile(e3d_context *context, int worker)
+int64_t e3d_take_tile(const e3d_context *context, const e3d_worker *worker, e3d_to_do what)
 {
     int threads = context->renderer->threads;
     for (int k = 0; k < threads; k++) {
-        int owner = (worker + k) % threads;
-        atomic_llong *next = &context->renderer->workers[owner]->next_tile;
+        int owner = ((int)worker->number + k) % threads;
+        atomic_llong *next = &context->renderer->workers[owner]->next_tile[what];
         int64_t end = first_of(context, owner + 1), tile = atomic_load(next) < end ? atomic_fetch_add(next, 1) : end;
         if (tile < end)
             return tile;

@@ -360,12 +360,6 @@ static int draw_marks(tile_job *job)
     return 1;
 }
 
-static int is_empty(const tile_job *job)
-{
-    return !e3d_has_bin(job->context, E3D_PASS_SCENE, job->number) &&
-           !e3d_has_bin(job->context, E3D_PASS_WIRE, job->number);
-}
-
 e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
 {
     e3d_tile tile = {.x = (int32_t)(number % context->tiles_x) * E3D_TILE,
@@ -388,18 +382,13 @@ static int draw_job(tile_job *job)
 
 static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
 {
+    if (e3d_is_blank(context, number))
+        return 1;
     e3d_tile_depths *depths = context->kept ? &context->depths[number] : NULL;
     tile_job job = {.context = context, .worker = worker, .number = number, .tile = e3d_tile_at(context, number)};
-    job.kept = depths && depths->most != E3D_NOTHING_KEPT && !context->finished;
+    job.kept = e3d_is_kept(context, number);
     worker->visible = job.kept ? &context->kept[number] : &worker->tile->visible;
-    if (context->finished && is_empty(&job))
-        return 1;
     job.again = context->finished && depths->shaded && context->frame->samples_axis == 1;
-    if (!job.kept && is_empty(&job)) {
-        e3d_resolve_empty(context, &job.tile);
-        e3d_lap(worker, &worker->counters.ns_resolve);
-        return 1;
-    }
     int64_t before = worker->counters.shaded;
     if (!draw_job(&job))
         return 0;
@@ -429,8 +418,9 @@ static void tiles_work(void *argument, int number)
     e3d_context *context = argument;
     e3d_worker *worker = context->renderer->workers[number];
     worker->lap = e3d_now_ns();
+    e3d_blank_begin(context, worker);
     while (!atomic_load(&context->stop)) {
-        int64_t tile = e3d_take_tile(context, number);
+        int64_t tile = e3d_take_tile(context, worker, E3D_TO_DRAW);
         if (tile < 0)
             break;
         if (!draw_tile(context, worker, tile)) {
@@ -440,6 +430,9 @@ static void tiles_work(void *argument, int number)
         if (number == 0)
             poll(context, worker->lap);
     }
+    if (!atomic_load(&context->stop))
+        e3d_blank_rest(context, worker);
+    e3d_lap(worker, &worker->counters.ns_resolve);
     e3d_stream_end();
 }
 

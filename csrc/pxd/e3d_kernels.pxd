@@ -190,5 +190,6 @@ cdef extern from "kernels/kernels.h" nogil:
                         const float *background, int srgb, uint32_t *rgba)
         void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint,
                       uint32_t *rgba)
+        void (*stream)(void *to, const void *source, size_t size)
 
     const e3d_kernels *e3d_kernels_for(e3d_backend backend)

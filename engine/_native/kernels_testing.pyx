@@ -445,6 +445,11 @@ cdef class Kernels:
             self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
                              &paint, &rgba[0])
 
+    def stream(self, uint8_t[::1] to, const uint8_t[::1] source):
+        check_size(source, to.nbytes)
+        for _ in range(self.rounds):
+            self.table.stream(&to[0], &source[0], to.nbytes)
+
 
 cdef e3d_samples *samples_of(float[:, ::1] planes) except NULL:
     if planes.nbytes != sizeof(e3d_samples):

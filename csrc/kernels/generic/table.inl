@@ -6,6 +6,7 @@
 #include "core/always_inline.h"
 #include "core/fpenv.h"
 #include "core/encode_tables.h"
+#include "core/stream.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
 
@@ -28,6 +29,7 @@
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
+#include "kernels/generic/stream.inl"
 
 const e3d_kernels E3D_TABLE = {
     .face_away = kernel_face_away,
@@ -63,4 +65,5 @@ const e3d_kernels E3D_TABLE = {
     .keep = kernel_keep,
     .average = kernel_average,
     .paint = kernel_paint,
+    .stream = kernel_stream,
 };

@@ -25,6 +25,8 @@ static inline vf32 v_loadf(const float *p) { return *p; }
 static inline vi32 v_loadi(const void *p) { int32_t v; memcpy(&v, p, 4); return v; }
 static inline void v_storef(float *p, vf32 a) { *p = a; }
 static inline void v_storei(void *p, vi32 a) { memcpy(p, &a, 4); }
+/* Past the caches; the place is aligned to a vector. */
+static inline void v_streami(void *p, vi32 a) { memcpy(p, &a, 4); }
 static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
 /* Bytes base[index]; the base is aligned to four bytes, and whole fours are read. */
 static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) { return base[i]; }

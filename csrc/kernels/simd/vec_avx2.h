@@ -23,6 +23,7 @@ static inline vf32 v_loadf(const float *p) { return _mm256_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
 static inline void v_storef(float *p, vf32 a) { _mm256_storeu_ps(p, a); }
 static inline void v_storei(void *p, vi32 a) { _mm256_storeu_si256((__m256i *)p, a); }
+static inline void v_streami(void *p, vi32 a) { _mm256_stream_si256((__m256i *)p, a); }
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)p));
 }

@@ -24,6 +24,7 @@ static inline vf32 v_loadf(const float *p) { return _mm512_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm512_loadu_si512(p); }
 static inline void v_storef(float *p, vf32 a) { _mm512_storeu_ps(p, a); }
 static inline void v_storei(void *p, vi32 a) { _mm512_storeu_si512(p, a); }
+static inline void v_streami(void *p, vi32 a) { _mm512_stream_si512((__m512i *)p, a); }
 /* Lanes 0-7 and 8-15 by themselves. */
 static inline vi32 v_load_halves(const void *low, const void *high) {
     __m256i first = _mm256_loadu_si256((const __m256i *)low);

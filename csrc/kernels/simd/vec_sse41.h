@@ -23,6 +23,7 @@ static inline vf32 v_loadf(const float *p) { return _mm_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm_loadu_si128((const __m128i *)p); }
 static inline void v_storef(float *p, vf32 a) { _mm_storeu_ps(p, a); }
 static inline void v_storei(void *p, vi32 a) { _mm_storeu_si128((__m128i *)p, a); }
+static inline void v_streami(void *p, vi32 a) { _mm_stream_si128((__m128i *)p, a); }
 static inline vi32 v_loadu8(const uint8_t *p) {
     int32_t v;
     memcpy(&v, p, 4);

@@ -1,0 +1,50 @@
+/* Tiles that nothing is drawn in: their rows are written between the batches of other tiles, a few at a time, since memory takes
+ * them in while the core computes. */
+#include "pipeline/frame.h"
+
+int e3d_is_blank(const e3d_context *context, int64_t number)
+{
+    return !e3d_is_kept(context, number) && !e3d_has_bin(context, E3D_PASS_SCENE, number) && !e3d_has_bin(context, E3D_PASS_WIRE, number);
+}
+
+/* Looks at a few tiles for the next blank one; whether there may be more. */
+static int find_blank(const e3d_context *context, e3d_worker *worker)
+{
+    enum { TILES = 8 };
+    for (int k = 0; k < TILES; k++) {
+        int64_t number = e3d_take_tile(context, worker, E3D_TO_CLEAR);
+        if (number < 0)
+            return 0;
+        if (e3d_is_blank(context, number)) {
+            worker->blank = e3d_tile_at(context, number);
+            return 1;
+        }
+    }
+    return 1;
+}
+
+void e3d_blank_begin(const e3d_context *context, e3d_worker *worker)
+{
+    worker->blank = (e3d_tile){0};
+    worker->blanks = !context->finished; /* then they are written already */
+}
+
+void e3d_blank_some(const e3d_context *context, e3d_worker *worker)
+{
+    enum { ROWS = 8 };
+    e3d_tile *left = &worker->blank, some;
+    if (!left->height)
+        worker->blanks = worker->blanks && find_blank(context, worker);
+    some = *left;
+    some.height = left->height < ROWS ? left->height : ROWS;
+    if (some.height)
+        e3d_resolve_blank(context, &some);
+    left->y += some.height;
+    left->height -= some.height;
+}
+
+void e3d_blank_rest(const e3d_context *context, e3d_worker *worker)
+{
+    while (worker->blanks || worker->blank.height)
+        e3d_blank_some(context, worker);
+}

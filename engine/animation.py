@@ -15,6 +15,7 @@ from . import linalg
 from .attributes import finite, vector3
 from .errors import InvalidArgumentError
 from .nodes import Node
+from .scene import Scene
 
 _SLOWEST = 6  # far nodes move at least every 2**6 updates
 
@@ -42,6 +43,8 @@ class Animator:
     """
 
     def __init__(self, scene, *, full_rate_distance: float = math.inf) -> None:
+        if not isinstance(scene, Scene):
+            raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
         if not full_rate_distance > 0:
             raise InvalidArgumentError("full_rate_distance must be greater than 0")
         self.time = 0.0
@@ -75,8 +78,7 @@ class Animator:
         axis = vector3(axis, "axis")
         if not axis.any() or finite(period, "period") == 0:
             raise InvalidArgumentError("a spin needs an axis and a period other than 0")
-        nodes = [nodes] if isinstance(nodes, Node) else list(nodes)
-        self._scene.select(nodes)  # checks them
+        nodes = self._scene.select(nodes if isinstance(nodes, Iterable) else [nodes]).nodes
         axis, phase = linalg.normalize(axis), finite(phase, "phase")
         self._spins += [(node, axis, 1.0 / period, phase, node.rotation) for node in nodes]
         self._batch = None

@@ -1,19 +1,43 @@
-"""Attributes that check what is assigned to them and count the assignments.
+"""Attributes that check what is assigned to them and count the assignments; owners without others.
 
 In: whatever a caller assigns. Out: the checked value; the owner's ``version`` grows, which tells
-the renderer to renew what it made of the owner. Used by cameras, lights and instances.
+the renderer to renew what it made of the owner. Used by cameras, lights and instances. What a
+`Closed` class does not declare cannot be assigned at all.
 """
 
 from __future__ import annotations
 
+import functools
 import math
 import numbers
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .changes import tell
 from .errors import InvalidArgumentError
+
+
+class Closed:
+    """Base of what has no public attributes but its class's, so that a misspelt one is an error.
+
+    Attributes of instances are declared by annotations; a subclass may declare more.
+    """
+
+    if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
+
+        def __setattr__(self, name: str, value) -> None:
+            kind = type(self)
+            if name[0] != "_" and not hasattr(kind, name) and name not in _declared(kind):
+                raise AttributeError(f"a {kind.__name__} has no attribute {name!r}")
+            object.__setattr__(self, name, value)
+
+
+@functools.cache
+def _declared(kind: type) -> frozenset[str]:
+    """The names that a class and its bases annotate."""
+    return frozenset().union(*(getattr(base, "__annotations__", {}) for base in kind.__mro__))
 
 
 class CheckedAttribute:

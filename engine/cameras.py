@@ -14,7 +14,7 @@ import numbers
 import numpy as np
 
 from . import linalg
-from .attributes import CheckedAttribute, finite, matrix4, optional_positive, positive
+from .attributes import CheckedAttribute, Closed, finite, matrix4, optional_positive, positive
 from .errors import InvalidArgumentError
 
 
@@ -40,7 +40,7 @@ def _check_range(camera) -> None:
         )
 
 
-class Camera:
+class Camera(Closed):
     """A camera given by its projection matrix.
 
     Parameters
@@ -58,6 +58,7 @@ class Camera:
     InvalidArgumentError
     """
 
+    version: int
     matrix = CheckedAttribute(matrix4, "clip_from_view, (4, 4) float64, read-only.")
     znear: float | None = None
     zfar: float | None = None

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
-from .attributes import CheckedAttribute
+from .attributes import CheckedAttribute, Closed
 from .changes import tell
 from .errors import InvalidArgumentError
 from .mesh import Mesh
@@ -23,7 +23,7 @@ def _check_mesh(value, what: str) -> Mesh:
     return value
 
 
-class InstancedMesh:
+class InstancedMesh(Closed):
     """A mesh at many poses; one node of a scene, drawn far faster than a node for each.
 
     Parameters
@@ -47,6 +47,7 @@ class InstancedMesh:
     """
 
     mesh = CheckedAttribute(_check_mesh)
+    version: int
 
     def __init__(self, mesh: Mesh, poses, *, colors=None) -> None:
         self._box_of: tuple | None = None

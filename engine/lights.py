@@ -12,7 +12,7 @@ import numbers
 
 import numpy as np
 
-from .attributes import CheckedAttribute, not_negative, one_of, vector3
+from .attributes import CheckedAttribute, Closed, not_negative, one_of, vector3
 from .colors import check_color
 from .errors import InvalidArgumentError
 
@@ -32,7 +32,7 @@ def _range(value, what: str) -> float:
     return float(value)
 
 
-class DirectionalLight:
+class DirectionalLight(Closed):
     """A light infinitely far away, such as the sun.
 
     Parameters
@@ -53,6 +53,7 @@ class DirectionalLight:
     InvalidArgumentError
     """
 
+    version: int
     direction = CheckedAttribute(_direction)
     color = CheckedAttribute(check_color)
     intensity = CheckedAttribute(not_negative)
@@ -67,7 +68,7 @@ class DirectionalLight:
         return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"
 
 
-class PointLight:
+class PointLight(Closed):
     """A light that shines from one point in all directions.
 
     Parameters
@@ -92,6 +93,7 @@ class PointLight:
     InvalidArgumentError
     """
 
+    version: int
     color = CheckedAttribute(check_color)
     intensity = CheckedAttribute(not_negative)
     range = CheckedAttribute(_range)

@@ -19,6 +19,7 @@ from . import normals as _normals
 from . import topology as _topology
 from ._native.loaders import frozen
 from ._native.rasterizer import bound_points
+from .attributes import Closed
 from .changes import tell
 from .errors import InvalidArgumentError
 from .materials import Material
@@ -35,7 +36,7 @@ from .mesh_arrays import (
 )
 
 
-class Mesh:
+class Mesh(Closed):
     """Triangles, lines and points over one list of vertices.
 
     Parameters
@@ -84,6 +85,10 @@ class Mesh:
         A wrong shape or type, lengths that do not match, an index out of range.
     """
 
+    name: str
+    version: int
+    groups: dict[str, np.ndarray]
+    warnings: list[str]
     positions = ArrayAttribute(check_vectors3)
     faces = ArrayAttribute(check_triples)
     uvs = ArrayAttribute(check_vectors2, optional=True)
@@ -113,8 +118,8 @@ class Mesh:
     ) -> None:
         self.name = str(name)
         self.version = 0
-        self.groups: dict[str, np.ndarray] = {}
-        self.warnings: list[str] = []
+        self.groups = {}
+        self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = {}
         self._derived: dict[str, np.ndarray] = {}
         self._materials = _check_materials(materials)

@@ -9,11 +9,15 @@ from __future__ import annotations
 import numpy as np
 
 from .colors import srgb_to_linear_table
+from .errors import InvalidArgumentError
 from .materials import Material
 
 
 def concatenate(mesh_type: type, meshes: list, name: str):
     """Return a ``mesh_type`` that holds everything of ``meshes``; see `Mesh.concatenate`."""
+    for mesh in meshes:
+        if not isinstance(mesh, mesh_type):
+            raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
     if not meshes:
         return mesh_type(np.zeros((0, 3), np.float32), name=name)
     starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])[:-1]

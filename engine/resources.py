@@ -123,6 +123,9 @@ class Resources:
         )
 
     def _load(self, load, path, options: dict):
+        if not isinstance(path, (str, os.PathLike)):
+            kind = type(path).__name__
+            raise InvalidArgumentError(f"resources are loaded by their paths, not from {kind}")
         self._loads += 1
         name = os.path.realpath(os.fspath(path))
         key = (load.__name__, name, tuple(sorted(options.items())))

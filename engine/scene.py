@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._native.scene_graph import OBJECT_BOX, union
-from .attributes import vector3
+from .attributes import Closed, vector3
 from .cameras import Camera
 from .colors import check_color
 from .errors import InvalidArgumentError
@@ -36,7 +36,7 @@ _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
 _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, DirectionalLight, PointLight)
 
 
-class Scene:
+class Scene(Closed):
     """What is drawn, and the light that is everywhere.
 
     Parameters
@@ -61,6 +61,8 @@ class Scene:
     InvalidArgumentError
     """
 
+    warnings: list[str]
+
     def __init__(
         self, background=(0, 0, 0), ambient=(0.1, 0.1, 0.1), light_clamp: tuple | None = None
     ) -> None:
@@ -75,7 +77,7 @@ class Scene:
         self._placed_colliders = None  # made when asked for
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
-        self.warnings: list[str] = []
+        self.warnings = []
         self.background = background
         self.ambient = ambient
         self.light_clamp = light_clamp
@@ -253,6 +255,8 @@ class Scene:
         InvalidArgumentError
             A node is not in this scene; also later, once one was removed.
         """
+        if nodes is not None and not isinstance(nodes, Iterable):
+            raise InvalidArgumentError(f"nodes must be an iterable of Node, not {nodes!r}")
         return NodeSelection(self, self.nodes if nodes is None else nodes)
 
     def raycast(

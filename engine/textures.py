@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .attributes import choose
+from .attributes import Closed, choose
 from .changes import tell
 from .colors import COLOR_SPACES
 from .errors import InvalidArgumentError
@@ -20,7 +20,7 @@ WRAPS = ("repeat", "clamp", "mirror")
 MAX_SIDE = 16384
 
 
-class Texture:
+class Texture(Closed):
     """An image and the way to sample it.
 
     Parameters
@@ -45,6 +45,9 @@ class Texture:
     ------
     InvalidArgumentError
     """
+
+    name: str
+    version: int
 
     def __init__(
         self,

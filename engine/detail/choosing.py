@@ -19,6 +19,8 @@ def pixels_a_unit(camera: Camera, size: tuple[int, int], distances: np.ndarray) 
 
     Without perspective that is the same everywhere.
     """
+    if not isinstance(camera, Camera):
+        raise InvalidArgumentError(f"camera must be a Camera, not {type(camera).__name__}")
     projection = camera.projection(*size)
     pixels = abs(float(projection[1, 1])) * size[1] * 0.5
     if float(projection[3, 3]) == 0.0:

@@ -130,10 +130,18 @@ class NavigationGrid:
         height : float or (N,) float64
             NaN where there is no such layer, or no grid.
         walkable : bool or (N,) bool
+
+        Raises
+        ------
+        InvalidArgumentError
+            What is given are no numbers, or not as many of each.
         """
-        x, z = np.asarray(x, np.float64), np.asarray(z, np.float64)
-        limit = np.inf if y is None else np.asarray(y, np.float64) + self.step
-        x, z, limit = np.broadcast_arrays(x, z, limit)
+        try:
+            x, z = np.asarray(x, np.float64), np.asarray(z, np.float64)
+            limit = np.inf if y is None else np.asarray(y, np.float64) + self.step
+            x, z, limit = np.broadcast_arrays(x, z, limit)
+        except (TypeError, ValueError) as error:
+            raise InvalidArgumentError(f"x, z and y must be numbers: {error}") from None
         layer, heights = self._layers(x.ravel(), z.ravel(), limit.ravel())
         walkable = np.zeros(len(layer), bool)
         walkable[layer >= 0] = self.walkable[layer[layer >= 0]]

@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..attributes import finite
 from ..errors import InvalidArgumentError
 from .grid import NavigationGrid
 
@@ -49,7 +50,7 @@ class Walker:
     Raises
     ------
     InvalidArgumentError
-        Nothing is walkable.
+        Nothing is walkable, or a number is not finite.
     """
 
     def __init__(
@@ -62,11 +63,14 @@ class Walker:
         *,
         survey: Callable[[float, float], NavigationGrid] | None = None,
     ) -> None:
+        if not isinstance(grid, NavigationGrid):
+            raise InvalidArgumentError(f"grid must be a NavigationGrid, not {type(grid).__name__}")
         self.grid = grid
         self._survey = survey
         self._surveyed = math.inf, math.inf
         self.eye_height = float(eye_height)
-        self._layer, self.x, self.z = _nearest(grid, float(x), float(z), y)
+        y = None if y is None else finite(y, "y")
+        self._layer, self.x, self.z = _nearest(grid, finite(x, "x"), finite(z, "z"), y)
         self.y = self._ground(self.x, self.z)
 
     @property

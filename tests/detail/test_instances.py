@@ -106,3 +106,9 @@ def test_bad_levels():
     for bad in ((), [(mesh, 1.0)], [(mesh, 0.0), (mesh, 2.0), (mesh, 1.0)], [mesh], [("box", 0.0)]):
         with pytest.raises(InvalidArgumentError, match="levels"):
             e3d.DetailedInstances(bad, [(0, 0, 0, 1.0)])
+
+
+def test_a_camera_that_is_none():
+    spheres = e3d.DetailedInstances(levels(), [(0, 0, 0, 1.0)])
+    with pytest.raises(InvalidArgumentError, match="camera must be a Camera"):
+        spheres.update(None, at(5.0), size=SIZE)

@@ -330,3 +330,9 @@ def test_hostile_triangles_do_no_harm(seed):
         assert (np.diff(heights) > grid.headroom - 1e-3).all()
     free = e3d.NavigationGrid(mesh, radius=0.0, **options)
     assert not (grid.walkable & ~free.walkable).any()
+
+
+@pytest.mark.parametrize("place", [("a", 0), ([1, 2], [1, 2, 3]), (None, [[1], [2, 3]])])
+def test_places_that_are_no_numbers(place):
+    with pytest.raises(InvalidArgumentError, match="x, z and y must be numbers"):
+        e3d.NavigationGrid(floor(-5, -5, 5, 5)).sample_ground(*place)

@@ -221,3 +221,13 @@ def test_a_survey_that_finds_no_ground_changes_nothing():
     walker = e3d.Walker(grid, 50.0, 50.0, survey=lambda x, z: nowhere)
     assert walker.move(45.0, 0.0) and walker.x == 95.0
     assert walker.grid is grid
+
+
+@pytest.mark.parametrize(
+    "place", [{"x": math.nan, "z": 0}, {"x": 0, "z": math.inf}, {"x": 0, "z": 0, "y": math.nan}]
+)
+def test_a_place_that_is_none(place):
+    with pytest.raises(InvalidArgumentError, match="must be a finite number"):
+        e3d.Walker(e3d.NavigationGrid(floor(-5, -5, 5, 5)), **place)
+    with pytest.raises(InvalidArgumentError, match="grid must be a NavigationGrid"):
+        e3d.Walker(None, x=0.0, z=0.0)

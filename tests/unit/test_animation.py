@@ -142,3 +142,14 @@ def test_arguments(scene, make, message):
 def test_distance_must_be_positive(scene):
     with pytest.raises(e3d.InvalidArgumentError, match="full_rate_distance"):
         e3d.Animator(scene, full_rate_distance=0)
+
+
+def test_what_is_no_scene_or_no_nodes(scene):
+    with pytest.raises(e3d.InvalidArgumentError, match="scene must be a Scene"):
+        e3d.Animator(None)
+    animator = e3d.Animator(scene)
+    for nodes in (None, 3, "ab", [e3d.Scene().add()]):
+        with pytest.raises(e3d.InvalidArgumentError, match="is not a node of this scene"):
+            animator.spin(nodes, period=1.0)
+    with pytest.raises(e3d.InvalidArgumentError, match="iterable of Node"):
+        scene.select(3)

@@ -247,3 +247,9 @@ def test_only_other_arrays_make_the_core_cut_a_mesh_again():
         renewed = native_mesh(mesh, MeshNeeds(), 1)
         assert renewed is not made
         made = renewed
+
+
+def test_only_meshes_are_joined():
+    with pytest.raises(InvalidArgumentError, match="not a Mesh: int"):
+        Mesh.concatenate([square(), 5])
+    assert len(Mesh.concatenate(square() for _ in range(3)).faces) == 6

@@ -181,3 +181,9 @@ def test_arguments(tmp_path):
         e3d.Resources().share(3)
     with pytest.raises(e3d.FileAccessError):
         e3d.Resources().load_mesh(tmp_path / "none.obj")
+
+
+@pytest.mark.parametrize("path", [None, 3, OBJ.encode()])
+def test_only_paths_are_loaded(path):
+    with pytest.raises(e3d.InvalidArgumentError, match="by their paths"):
+        e3d.Resources().load_mesh(path)

@@ -41,6 +41,48 @@ def test_nodes_and_renderers_say_that_they_cannot_be_copied(scene, copied):
         copied(renderer)
 
 
+@pytest.mark.parametrize(
+    "thing",
+    [
+        e3d.Scene(),
+        e3d.Scene().add(e3d.PerspectiveCamera()),
+        e3d.box(),
+        e3d.InstancedMesh(e3d.box(), []),
+        e3d.Material(),
+        e3d.Texture(np.zeros((1, 1), np.uint8)),
+        e3d.DirectionalLight(),
+        e3d.PointLight(),
+        e3d.Camera(np.eye(4)),
+        e3d.PerspectiveCamera(),
+        e3d.OrthographicCamera(1.0),
+        e3d.IntrinsicsCamera(1.0, 1.0, 0.0, 0.0),
+    ],
+    ids=lambda thing: type(thing).__name__,
+)
+def test_attributes_that_there_are_not_cannot_be_assigned(thing):
+    """Such as a position of a light, which would change nothing."""
+    for name in ("position", "fov", "vertices"):
+        with pytest.raises(AttributeError, match=f"no attribute '{name}'"):
+            setattr(thing, name, 1.0)
+
+
+def test_a_subclass_declares_its_own_attributes(scene):
+    class Zoom(e3d.PerspectiveCamera):
+        steps: int
+
+        def __init__(self, steps):
+            super().__init__()
+            self.steps = steps
+            self._private = steps
+
+    camera = Zoom(3)
+    scene.add(camera)
+    camera.steps += 1
+    assert camera.steps == 4
+    with pytest.raises(AttributeError, match="a Zoom has no attribute 'stepz'"):
+        camera.stepz = 3
+
+
 def test_an_id_is_read_only(scene):
     """Colliders, rays and frames go by it."""
     node = scene.add(e3d.box())

@@ -23,6 +23,12 @@ static inline float4 more_of(float4 a, float4 b) { return (float4)_mm_max_ps((__
 static inline float4 less_of(float4 a, float4 b) { return choose(a < b, a, b); }
 static inline float4 more_of(float4 a, float4 b) { return choose(a > b, a, b); }
 #endif
+/* A bit a lane of a mask. */
+#if defined(__SSE2__)
+static inline int lanes_of(int4 mask) { return _mm_movemask_ps((__m128)mask); }
+#else
+static inline int lanes_of(int4 mask) { return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8); }
+#endif
 static inline float4 size_of(float4 a) { return more_of(a, -a); }
 static inline float4 load4(const float *p)
 {

@@ -15,6 +15,7 @@
 enum { FRAMES_BETWEEN_TRIALS = 32 };
 
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };
+_Static_assert(BLOCKS == 8 && E3D_BLOCK == 8, "a row of blocks and the columns of a block are compared eight at a time");
 
 /* Beyond this many samples the tiles of a frame are not worth their memory: 8 bytes a sample. */
 #define E3D_MOST_KEPT_SAMPLES (1 << 25)
@@ -84,21 +85,21 @@ void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats)
 
 /* ---- a box against what is drawn ---- */
 
-/* Whether all columns of a block, from one to another, are nearer. */
-static int columns_are_nearer(const float *columns, int first, int last, float near)
+/* The first and last of eight that lie one beside the other, and all between them: a bit each. */
+static unsigned from_to(int first, int last) { return (2u << last) - (1u << first); }
+
+/* Which of eight depths are nearer: a bit each. */
+static unsigned nearer_than(const float depths[8], float near)
 {
-    int nearer = 1;
-    for (int x = first; x <= last; x++)
-        nearer &= near > columns[x];
-    return nearer;
+    return (unsigned)(lanes_of(load4(depths) < splat(near)) | lanes_of(load4(depths + 4) < splat(near)) << 4);
 }
 
-/* The same of those that a box of samples meets. */
+/* Whether all columns of a block that a box of samples meets are nearer. */
 static int block_is_nearer(const e3d_tile_depths *depths, int block, const e3d_box *samples, float near)
 {
     int left = block % BLOCKS * E3D_BLOCK, right = left + E3D_BLOCK - 1;
-    return columns_are_nearer(depths->columns[block], samples->x0 > left ? samples->x0 - left : 0,
-                              (samples->x1 < right ? samples->x1 : right) - left, near);
+    unsigned columns = from_to(samples->x0 > left ? samples->x0 - left : 0, (samples->x1 < right ? samples->x1 : right) - left);
+    return !(columns & ~nearer_than(depths->columns[block], near));
 }
 
 /* Whether the column in a box's middle tells at once that the box isn't hidden. */
@@ -118,8 +119,7 @@ static int is_behind(const e3d_tile_depths *depths, const e3d_box *samples, floa
     if (depths->most == E3D_NOTHING_KEPT)
         return 0;
     for (int y = blocks.y0; y <= blocks.y1; y++)
-        for (int x = blocks.x0; x <= blocks.x1; x++)
-            unsure |= (uint64_t)!(near > depths->zmax[y * BLOCKS + x]) << (y * BLOCKS + x);
+        unsure |= (uint64_t)(from_to(blocks.x0, blocks.x1) & ~nearer_than(depths->zmax + y * BLOCKS, near)) << (y * BLOCKS);
     if (!unsure)
         return 1;
     if (unsure & depths->noted || is_open(depths, samples, near))

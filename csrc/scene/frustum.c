@@ -60,8 +60,8 @@ static int outside(const plane *p, const e3d_block *b, int *inside)
     }
     most = ((m[0] + m[1]) + m[2]) + most;
     least = ((l[0] + l[1]) + l[2]) + least;
-    *inside = e3d_lanes(least >= 0);
-    return e3d_lanes(most < limit); /* false for NaN: kept */
+    *inside = lanes_of(least >= 0);
+    return lanes_of(most < limit); /* false for NaN: kept */
 }
 
 static void select_item(int32_t item, uint64_t *bits) { bits[item >> 6] |= (uint64_t)1 << (item & 63); }
@@ -73,7 +73,7 @@ static void select_run(const e3d_tree *t, int32_t block, int level, uint64_t *bi
     const e3d_block *leaves = e3d_tree_level(t, 0);
     const int32_t *items = t->items.data;
     for (int64_t b = first; b < end && b < t->blocks_in[0]; b++) {
-        int there = e3d_lanes(leaves[b].low[0] <= leaves[b].high[0]);
+        int there = lanes_of(leaves[b].low[0] <= leaves[b].high[0]);
         for (int lane = 0; lane < 4; lane++)
             if (there >> lane & 1)
                 select_item(items[4 * b + lane], bits);
@@ -85,7 +85,7 @@ static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *
 {
     const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
     const int32_t *items = t->items.data;
-    int out = ~e3d_lanes(b->low[0] <= b->high[0]), within[4] = {0}, inside;
+    int out = ~lanes_of(b->low[0] <= b->high[0]), within[4] = {0}, inside;
     for (int i = 0; i < 6; i++)
         if (at.planes >> i & 1) {
             out |= outside(&planes[i], b, &inside);

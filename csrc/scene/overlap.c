@@ -22,9 +22,9 @@ void e3d_tree_overlaps(const e3d_tree *t, const double low[3], const double high
     while (top) {
         entry at = stack[--top];
         const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
-        int lanes = e3d_lanes(b->low[0] <= b->high[0]); /* an endless box meets all, but not what is none */
+        int lanes = lanes_of(b->low[0] <= b->high[0]); /* an endless box meets all, but not what is none */
         for (int k = 0; k < 3; k++)
-            lanes &= e3d_lanes((b->low[k] <= q.high[k]) & (b->high[k] >= q.low[k]));
+            lanes &= lanes_of((b->low[k] <= q.high[k]) & (b->high[k] >= q.low[k]));
         for (int lane = 0; lane < 4; lane++) {
             int32_t below = 4 * at.block + lane;
             if (!(lanes >> lane & 1))

@@ -74,7 +74,7 @@ static int enter(const ray *r, const e3d_block *b, double pad, double most, v4d 
     *near = in;
     /* A ray that is not finite meets everything, but nothing stands where there is no box. */
     return ((meets[0] & 1) | (meets[1] & 2) | (meets[2] & 4) | (meets[3] & 8)) &
-           e3d_lanes(b->low[0] <= b->high[0]);
+           lanes_of(b->low[0] <= b->high[0]);
 }
 
 static double pad_of(const e3d_tree *t, const ray *r)

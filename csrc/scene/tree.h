@@ -8,6 +8,7 @@
 #define E3D_TREE_H
 
 #include "core/grow.h"
+#include "core/vectors.h"
 #include "e3d_scene.h"
 
 enum { E3D_TREE_LEVELS = 16, E3D_TREE_STACK = 3 * E3D_TREE_LEVELS + 1 };
@@ -43,12 +44,6 @@ static inline e3d_block *e3d_tree_level(const e3d_tree *tree, int level)
 
 /* One box into a lane of a block. */
 void e3d_block_set(e3d_block *block, int lane, const double box[E3D_BOX]);
-
-/* A bit a lane that is not 0. */
-static inline int e3d_lanes(e3d_v4i mask)
-{
-    return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
-}
 
 static inline e3d_v4 e3d_v4_all(float value) { return (e3d_v4){value, value, value, value}; }
 

@@ -47,23 +47,26 @@ void e3d_tables_set(e3d_context *context)
         context->drawn[w] = context->renderer->workers[w]->fragments.drawn.data;
 }
 
-static int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
+/* An empty block at a chain's end; 0 when memory is out. */
+static int __attribute__((noinline)) add_block(e3d_array *array, e3d_bin *bin)
 {
-    e3d_bin_block *blocks = set->blocks.data;
-    if (bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) {
-        if (!e3d_array_reserve(&set->blocks, set->blocks.count + 1, sizeof(e3d_bin_block)))
-            return 0;
-        blocks = set->blocks.data;
-        uint32_t fresh = (uint32_t)set->blocks.count++;
-        blocks[fresh].next = E3D_NO_BLOCK;
-        blocks[fresh].count = 0;
-        if (bin->last == E3D_NO_BLOCK)
-            bin->first = fresh;
-        else
-            blocks[bin->last].next = fresh;
-        bin->last = fresh;
-    }
-    e3d_bin_block *block = &blocks[bin->last];
+    if (!e3d_array_reserve(array, array->count + 1, sizeof(e3d_bin_block)))
+        return 0;
+    e3d_bin_block *blocks = array->data;
+    uint32_t fresh = (uint32_t)array->count++;
+    blocks[fresh].next = E3D_NO_BLOCK;
+    blocks[fresh].count = 0;
+    *(bin->last == E3D_NO_BLOCK ? &bin->first : &blocks[bin->last].next) = fresh;
+    bin->last = fresh;
+    return 1;
+}
+
+static inline int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
+{
+    const e3d_bin_block *blocks = set->blocks.data;
+    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&set->blocks, bin))
+        return 0;
+    e3d_bin_block *block = (e3d_bin_block *)set->blocks.data + bin->last;
     block->id[block->count++] = id;
     return 1;
 }
@@ -99,15 +102,23 @@ static int bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_s
     return 1;
 }
 
-int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
-                   e3d_tile_span span)
+int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
+                    int count)
 {
-    uint32_t id = number << context->tables[0].bits | worker->number;
-    if (span.first != span.last)
-        return bin_wide(context, worker, set, number, span, id);
-    worker->counters.bin_entries++;
-    int64_t tile = (int64_t)(span.first >> 16) * context->tiles_x + (span.first & 0xFFFF);
-    return push(set, (e3d_bin *)set->bins.data + tile, id);
+    int bits = context->tables[0].bits;
+    for (int i = 0; i < count; i++) {
+        uint32_t number = first + (uint32_t)i, id = number << bits | worker->number;
+        if (spans[i].first != spans[i].last) {
+            if (!bin_wide(context, worker, set, number, spans[i], id))
+                return 0;
+            continue;
+        }
+        int64_t tile = (int64_t)(spans[i].first >> 16) * context->tiles_x + (spans[i].first & 0xFFFF);
+        if (!push(set, (e3d_bin *)set->bins.data + tile, id))
+            return 0;
+        worker->counters.bin_entries++;
+    }
+    return 1;
 }
 
 /* Whether any thread has a record or a fragment for the tile. */

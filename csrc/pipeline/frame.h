@@ -412,8 +412,9 @@ int e3d_records_reset(e3d_record_set *set, int32_t tiles);
 void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles);
 /* Puts what they hold aside; 0 when memory is out. */
 int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles);
-int e3d_bin_record(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
-                   e3d_tile_span span);
+/* Of so many records from one on, to the tiles of their spans; 0 when memory is out. */
+int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
+                    int count);
 static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 {
     return (e3d_tile_span){(uint32_t)(box->y0 >> E3D_TILE_SHIFT << 16 | box->x0 >> E3D_TILE_SHIFT),

@@ -115,11 +115,12 @@ static void draw_records(walker *w, const e3d_record_request *request)
     uint32_t number = (uint32_t)set->records.count;
     set->records.count += (size_t)made;
     w->worker->counters.records += made;
-    for (int i = 0; i < made; i++, number++) {
+    int step = w->context->round.tested ? 1 : made;
+    for (int i = 0; i < made; i += step) {
         if (w->context->round.tested && e3d_record_is_hidden(w->context, &records[i]))
             continue; /* its tiles may be finished */
-        w->worker->counters.triangles_drawn++;
-        if (!e3d_bin_record(w->context, w->worker, set, number, spans[i]))
+        w->worker->counters.triangles_drawn += step;
+        if (!e3d_bin_records(w->context, w->worker, set, number + (uint32_t)i, spans + i, step))
             w->worker->failed = 1;
     }
 }

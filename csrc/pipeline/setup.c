@@ -78,7 +78,8 @@ static int accept(const e3d_context *context, e3d_worker *worker, e3d_record_set
 {
     uint32_t number = (uint32_t)set->records.count++;
     worker->counters.records++;
-    return sorted || e3d_bin_record(context, worker, set, number, e3d_span_of(box));
+    const e3d_tile_span span = e3d_span_of(box);
+    return sorted || e3d_bin_records(context, worker, set, number, &span, 1);
 }
 
 static int is_culled(const e3d_primitive *primitive, int front)

@@ -166,7 +166,8 @@ static void add_item(e3d_context *context, e3d_worker *worker, const e3d_draw_st
 {
     const e3d_instance *instance = &context->instances[number];
     const e3d_group_box *box = &draw->mesh->groups[group];
-    e3d_item item = {number, (uint32_t)group, unit, {E3D_BOX_CROSSES, E3D_NEAREST, {0, 0, 0, 0}}};
+    e3d_item item = {number, (uint32_t)group, (int32_t)(draw - context->draws), (int32_t)unit,
+                     {E3D_BOX_CROSSES, E3D_NEAREST, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
         e3d_view_box(&context->viewport, e3d_culling_matrix(context->frame, instance), box->lo, box->hi, &item.view);

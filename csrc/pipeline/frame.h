@@ -95,7 +95,7 @@ static inline e3d_box e3d_blocks_of(const e3d_box *samples)
 /* A group of clusters of one instance, in view. */
 typedef struct e3d_item {
     uint32_t instance, group;
-    int64_t unit; /* its number in the frame */
+    int32_t draw, unit; /* whose instance it is; its number in the frame: there are fewer than triangles */
     e3d_box_view view;
 } e3d_item;
 

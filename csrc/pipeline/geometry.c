@@ -310,6 +310,22 @@ static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cl
     mark(w, item, fate);
 }
 
+/* Of a group that is hidden, without a look at each cluster where all count. */
+static void count_hidden(walker *w, const e3d_group_box *group, unsigned counted)
+{
+    e3d_counters *counters = &w->worker->counters;
+    const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
+    if (counted == (1u << group->clusters) - 1) {
+        counters->clusters[E3D_FATE_OCCLUDED] += group->clusters;
+        counters->triangles[E3D_FATE_OCCLUDED] += group->triangles;
+        return;
+    }
+    for (unsigned left = counted; left; left &= left - 1) {
+        counters->clusters[E3D_FATE_OCCLUDED]++;
+        counters->triangles[E3D_FATE_OCCLUDED] += clusters[__builtin_ctz(left)].triangles;
+    }
+}
+
 /* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those that are in `asked`. Bit k is
  * cluster k. */
 static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked, unsigned wanted)
@@ -318,16 +334,15 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
     unsigned shown = asked;
     e3d_fate fates[E3D_GROUP_CLUSTERS] = {E3D_FATE_DRAWN};
-    int hidden = w->context->round.tested && e3d_is_hidden(w->context, &item->view);
-    if (!hidden && !w->instance->ready)
-        e3d_prepare_surface(w->context, &w->context->instances[item->instance]);
-    if (hidden) {
-        shown = 0;
-        for (int k = 0; k < group->clusters; k++)
-            fates[k] = E3D_FATE_OCCLUDED;
-    } else if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE) {
-        shown = find_fates(w, item, group, asked, fates);
+    if (w->context->round.tested && e3d_is_hidden(w->context, &item->view)) {
+        count_hidden(w, group, asked & wanted);
+        return 0;
     }
+    w->order = w->instance->order;
+    if (!w->instance->ready)
+        e3d_prepare_surface(w->context, &w->context->instances[item->instance]);
+    if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE)
+        shown = find_fates(w, item, group, asked, fates);
     int closely = w->context->round.tested && is_wide(&item->view.samples);
     unsigned left = closely ? shown : shown & wanted;
     if (left & (left - 1))
@@ -361,8 +376,7 @@ static void run_item(walker *w, const e3d_item *item)
 {
     e3d_context *context = w->context;
     w->instance = &context->instances[item->instance];
-    w->draw = &context->draws[w->instance->draw];
-    w->order = w->instance->order;
+    w->draw = &context->draws[item->draw];
     const e3d_group_box *group = &w->draw->mesh->groups[item->group];
     unsigned all = (1u << group->clusters) - 1;
     if (context->round.choice == E3D_ALL_ITEMS) {
@@ -385,17 +399,23 @@ static void run_item(walker *w, const e3d_item *item)
 
 /* ---- the walk ---- */
 
-/* What an item soon to come reads of the frame: anywhere in memory. */
+/* What an item soon to come reads of the frame, anywhere in memory: few of those that did not show read their instance. */
 static void fetch_item(const e3d_context *context, const e3d_item *item)
 {
     enum { LINE = 64 };
     const char *instance = (const char *)&context->instances[item->instance];
-    for (size_t at = 0; at < sizeof(e3d_instance); at += LINE)
-        __builtin_prefetch(instance + at);
-    if (context->round.choice != E3D_ALL_ITEMS)
-        __builtin_prefetch(&context->seen[item->unit]);
+    if (context->round.choice == E3D_ALL_ITEMS || context->seen[item->unit])
+        for (size_t at = 0; at < sizeof(e3d_instance); at += LINE)
+            __builtin_prefetch(instance + at);
     if (context->round.tested)
         e3d_fetch_kept(context, &item->view);
+}
+
+/* What that reads itself. */
+static void fetch_seen(const e3d_context *context, const e3d_item *item)
+{
+    if (context->round.choice != E3D_ALL_ITEMS)
+        __builtin_prefetch(&context->seen[item->unit]);
 }
 
 static int64_t items_of(const e3d_round *round) { return round->end - round->first; }
@@ -418,6 +438,8 @@ static void walk_items(walker *w)
         if (first >= round->end)
             return;
         for (int64_t i = first; i < first + task && i < round->end; i++) {
+            if (i + 2 * AHEAD < round->end)
+                fetch_seen(context, &context->items[i + 2 * AHEAD]);
             if (i + AHEAD < round->end)
                 fetch_item(context, &context->items[i + AHEAD]);
             run_item(w, &context->items[i]);

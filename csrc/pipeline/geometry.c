@@ -197,6 +197,16 @@ static void transform_cluster(const walker *w, const e3d_item *item, const e3d_c
                                     out);
 }
 
+/* Where the next records will lie, the last frame's were read by other threads: their lines are asked for ahead. */
+static void fetch_records(const walker *w, int count)
+{
+    const e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    const e3d_record *next = (const e3d_record *)set->records.data + set->records.count;
+    _Static_assert(sizeof *next == 64, "a record is a line of the cache");
+    for (int i = 0; i < count; i++)
+        __builtin_prefetch(next + i, 1);
+}
+
 /* A cluster that is transformed. */
 static void draw_cluster(walker *w, const e3d_cluster *cluster)
 {
@@ -209,6 +219,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     e3d_survivors *s = &worker->survivors;
     int count = kernels->setup(w->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
     worker->counters.triangles_rejected += cluster->triangles - count;
+    fetch_records(w, __builtin_popcountll(s->draw));
     if (s->small)
         draw_small(w, cluster, indices);
     if (!w->context->sorted)

@@ -332,6 +332,14 @@ typedef struct e3d_paint {
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
 } e3d_paint;
 
+/* Rows of pixels: `count`, of so many bytes, and how far one begins from the other. */
+typedef struct e3d_pixel_rows {
+    char *to;
+    const char *from;
+    size_t bytes, pitch, step;
+    int count;
+} e3d_pixel_rows;
+
 /* ---- the table ---- */
 
 typedef struct e3d_kernels {
@@ -404,7 +412,7 @@ typedef struct e3d_kernels {
     /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. There are few lights. */
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
     /* Copies what this core won't read again: e3d_stream_end before other threads are told. */
-    void (*stream)(void *to, const void *from, size_t bytes);
+    void (*stream)(const e3d_pixel_rows *rows);
 } e3d_kernels;
 
 /* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */

@@ -185,6 +185,7 @@ typedef struct e3d_worker {
     int failed;             /* out of memory */
     char padding[128];      /* no false sharing between workers, */
     atomic_llong next_tile[E3D_TO_DO]; /* of this one's share: others take from it, too */
+    int64_t tiles_end;
     char more_padding[128];
 } e3d_worker;
 

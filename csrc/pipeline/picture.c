@@ -10,38 +10,36 @@ static int is_far(const e3d_context *context, size_t bytes)
     return bytes >= (context->renderer->threads > 1 ? SHARED : LARGE);
 }
 
-/* The tile's pixels in a picture: where, how long a row is, and how far apart rows are. */
-typedef struct place {
-    size_t start, bytes, pitch;
-    int rows;
-} place;
+/* Where the tile's first pixel is in a picture, in bytes. */
+static size_t start_of(const e3d_context *context, const e3d_tile *tile, size_t pixel)
+{
+    int axis = context->frame->samples_axis;
+    return ((size_t)(tile->y / axis) * (size_t)context->frame->width + (size_t)(tile->x / axis)) * pixel;
+}
 
-static place place_of(const e3d_context *context, const e3d_tile *tile, size_t pixel)
+static void copy(const e3d_pixel_rows *rows)
+{
+    for (int y = 0; y < rows->count; y++)
+        memcpy(rows->to + (size_t)y * rows->pitch, rows->from + (size_t)y * rows->step, rows->bytes);
+}
+
+void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
 {
     int axis = context->frame->samples_axis;
     size_t pitch = pixel * (size_t)context->frame->width;
-    return (place){(size_t)(tile->y / axis) * pitch + (size_t)(tile->x / axis) * pixel, pixel * (size_t)(tile->width / axis), pitch,
-                   tile->height / axis};
+    const e3d_pixel_rows rows = {(char *)picture + start_of(context, tile, pixel), from, pixel * (size_t)(tile->width / axis), pitch,
+                                 step, tile->height / axis};
+    if (is_far(context, pitch * (size_t)context->frame->height))
+        context->kernels->stream(&rows);
+    else
+        copy(&rows);
 }
 
-void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step)
+void e3d_read_rows(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *to, size_t step)
 {
-    const place at = place_of(context, tile, pixel);
-    char *to = (char *)picture + at.start;
-    const char *from = rows;
-    int far = is_far(context, at.pitch * (size_t)context->frame->height);
-    for (int y = 0; y < at.rows; y++, to += at.pitch, from += step)
-        if (far)
-            context->kernels->stream(to, from, at.bytes);
-        else
-            memcpy(to, from, at.bytes);
-}
-
-void e3d_read_rows(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *rows, size_t step)
-{
-    const place at = place_of(context, tile, pixel);
-    const char *from = (const char *)picture + at.start;
-    char *to = rows;
-    for (int y = 0; y < at.rows; y++, to += step, from += at.pitch)
-        memcpy(to, from, at.bytes);
+    int axis = context->frame->samples_axis;
+    size_t pitch = pixel * (size_t)context->frame->width;
+    const e3d_pixel_rows rows = {to, (const char *)picture + start_of(context, tile, pixel), pixel * (size_t)(tile->width / axis), step,
+                                 pitch, tile->height / axis};
+    copy(&rows);
 }

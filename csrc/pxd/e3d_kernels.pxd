@@ -125,6 +125,12 @@ cdef extern from "kernels/kernels.h" nogil:
         float clamp[2]
         float eye[4]
 
+    ctypedef struct e3d_pixel_rows:
+        char *to
+        const char *source "from"
+        size_t bytes, pitch, step
+        int count
+
     ctypedef struct e3d_samples:
         pass
 
@@ -190,6 +196,6 @@ cdef extern from "kernels/kernels.h" nogil:
                         const float *background, int srgb, uint32_t *rgba)
         void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint,
                       uint32_t *rgba)
-        void (*stream)(void *to, const void *source, size_t size)
+        void (*stream)(const e3d_pixel_rows *rows)
 
     const e3d_kernels *e3d_kernels_for(e3d_backend backend)

@@ -445,10 +445,19 @@ cdef class Kernels:
             self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
                              &paint, &rgba[0])
 
-    def stream(self, uint8_t[::1] to, const uint8_t[::1] source):
-        check_size(source, to.nbytes)
+    def stream(self, uint8_t[::1] to, size_t pitch, const uint8_t[::1] source, size_t step, size_t size, int count):
+        """``count`` rows of ``size`` bytes, ``step`` bytes apart; they arrive ``pitch`` bytes apart."""
+        cdef e3d_pixel_rows rows
+        if (count - 1) * pitch + size > to.nbytes or (count - 1) * step + size > source.nbytes:
+            raise ValueError(f"{count} rows of {size} bytes don't fit")
+        rows.to = <char *>&to[0]
+        rows.source = <const char *>&source[0]
+        rows.bytes = size
+        rows.pitch = pitch
+        rows.step = step
+        rows.count = count
         for _ in range(self.rounds):
-            self.table.stream(&to[0], &source[0], to.nbytes)
+            self.table.stream(&rows)
 
 
 cdef e3d_samples *samples_of(float[:, ::1] planes) except NULL:

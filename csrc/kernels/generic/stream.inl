@@ -1,12 +1,15 @@
-/* stream: a row of pixels to the picture, which this core won't read again. */
+/* stream: rows of pixels to the picture, which this core won't read again. */
 
-/* Past the caches, so that memory isn't read first; where the row isn't made of whole vectors, of 16 bytes each or not at all. */
-static void kernel_stream(void *to, const void *from, size_t bytes)
+/* Past the caches, so that memory isn't read first; rows that aren't made of whole vectors, 16 bytes at a time or not at all. */
+static void kernel_stream(const e3d_pixel_rows *rows)
 {
-    if (((uintptr_t)to | bytes) % sizeof(vi32)) {
-        e3d_stream(to, from, bytes);
-        return;
+    char *to = rows->to;
+    const char *from = rows->from;
+    int whole = !(((uintptr_t)to | rows->pitch | rows->bytes) % sizeof(vi32));
+    for (int y = 0; y < rows->count; y++, to += rows->pitch, from += rows->step) {
+        if (!whole)
+            e3d_stream(to, from, rows->bytes);
+        for (size_t at = 0; whole && at < rows->bytes; at += sizeof(vi32))
+            v_streami(to + at, v_loadi(from + at));
     }
-    for (size_t at = 0; at < bytes; at += sizeof(vi32))
-        v_streami((char *)to + at, v_loadi((const char *)from + at));
 }

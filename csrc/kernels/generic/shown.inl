@@ -35,13 +35,13 @@ static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
     return __builtin_popcount(lanes);
 }
 
-/* ---- boxes narrower than a block ----
+/* ---- boxes of few vectors ----
  *
  * How many vectors a box takes, and whether it shows anything, could not be foreseen: so those of a vector of records are listed,
  * then looked at, one after the other.
  */
 
-enum { SHOWN_VECTORS = V_LANES * (RASTER_BLOCK / ROW_LANES) * (E3D_TILE / ROWS) };
+enum { SHOWN_VECTORS = RECORDS_FEW }; /* of as many lanes as a vector has samples */
 typedef struct shown_vectors {
     int32_t count;
     int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD]; /* sample, and whose box it is of */
@@ -59,12 +59,12 @@ static inline void shown_list(const records_lanes *in, int lane, shown_vectors *
             at = v_addi(at, v_seti(V_LANES * ROWS * E3D_TILE));
         }
         list->count += rows;
-        if (V_LANES >= RASTER_BLOCK || !strips--)
+        if (!strips--)
             return;
     }
 }
 
-static inline void shown_narrow(const records_lanes *in, uint32_t lanes, const uint32_t *ids, const e3d_visible_tile *tile, shown_end *end,
+static inline void shown_strips(const records_lanes *in, uint32_t lanes, const uint32_t *ids, const e3d_visible_tile *tile, shown_end *end,
                                 e3d_shown *out)
 {
     shown_vectors list;
@@ -86,7 +86,7 @@ static inline void shown_narrow(const records_lanes *in, uint32_t lanes, const u
     }
 }
 
-/* ---- wider boxes ---- */
+/* ---- larger boxes ---- */
 
 /* The blocks of its box that may show a record: neither noted for another nor nearer everywhere. */
 static inline uint64_t shown_blocks(const records_lanes *in, int lane, const e3d_record *r, int32_t id, const e3d_visible_tile *tile)
@@ -133,8 +133,9 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
     for (int i = 0; i < count; i += V_LANES) {
         uint32_t all = setup_tail(records_take(table, ids + i, count - i, r));
         shown_boxes(r, tile, &in);
-        shown_narrow(&in, all & in.narrow, ids + i, tile, &end, out);
-        for (uint32_t left = all & ~in.narrow; left; left &= left - 1) {
+        uint32_t few = all & (ROWS > 1 ? in.few : in.narrow);
+        shown_strips(&in, few, ids + i, tile, &end, out);
+        for (uint32_t left = all & ~few; left; left &= left - 1) {
             int lane = __builtin_ctz(left);
             int32_t id = (int32_t)ids[i + lane];
             uint64_t blocks = shown_blocks(&in, lane, r[lane], id, tile);

@@ -5,15 +5,18 @@
 /* ---- a vector of records in a tile ---- */
 
 enum { RECORDS_DOWN = 16 }; /* of two numbers in a word, one of columns and one of rows, the latter's place */
+enum { RECORDS_FEW = 1024 }; /* samples in strips: drawing them takes less than finding which blocks are met, and how */
 
 /* Of each lane's record, relative to the tile: its box of samples; its edges at the tile's first sample, and what a step changes;
- * the vector of samples that a narrow box starts with. */
+ * the vector of samples that its strips start with. */
 typedef struct records_lanes {
     uint32_t x0[V_LANES], y0[V_LANES], x1[V_LANES], y1[V_LANES];
     int32_t e[3][V_LANES], steps[3][V_LANES], down[3][V_LANES];
     uint32_t start[V_LANES];
     float dx[V_LANES], dy[V_LANES]; /* of the start, from the plane's base */
-    uint32_t small, narrow; /* sides no longer than a tile, so that edges fit 32 bits and steps 16; of these, narrower than a block */
+    /* Sides no longer than a tile, so that edges fit 32 bits and steps 16; of these, few samples in strips; of these, narrower than a
+     * block. */
+    uint32_t small, few, narrow;
 } records_lanes;
 
 static inline vi32 records_in_tile(vi32 sample) { return v_maxi(v_mini(sample, v_seti(E3D_TILE - 1)), v_seti(0)); }
@@ -43,7 +46,9 @@ static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_vis
     vi32 wide = v_subi(x1, x0), across = v_andi(wide, v_seti(-ROW_LANES));
     vi32 start_x = v_mini(x0, v_subi(v_seti(E3D_TILE - ROW_LANES), across)), start_y = v_andi(y0, v_seti(-ROWS));
     out->small = ~v_bits(v_mor(v_gti(v_subi(right, left), side), v_gti(v_subi(bottom, top), side)));
-    out->narrow = out->small & ~v_bits(v_gti(wide, v_seti(RASTER_BLOCK - 1)));
+    vi32 area = v_muli(v_addi(across, v_seti(ROW_LANES)), v_addi(v_subi(y1, start_y), v_seti(ROWS)));
+    out->few = out->small & ~v_bits(v_gti(area, v_seti(RECORDS_FEW)));
+    out->narrow = out->few & ~v_bits(v_gti(wide, v_seti(RASTER_BLOCK - 1)));
     v_storei(out->x0, first[0] = x0);
     v_storei(out->y0, first[1] = y0);
     v_storei(out->x1, x1);
@@ -108,8 +113,8 @@ static inline void records_tell(records_touched *touched, e3d_visible_tile *tile
 
 /* ---- record by record ---- */
 
-/* Boxes narrower than a block. */
-static inline void records_narrow(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
+/* Strips of vectors, one beside the other. */
+static inline void records_strips(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
                                   const e3d_record_table *table)
 {
     raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
@@ -132,7 +137,7 @@ static inline void records_narrow(const records_lanes *in, int lane, const e3d_r
                 e[k] = v_addi(e[k], down[k]);
             row = v_add(row, v_setf(ROWS));
         }
-        if (V_LANES >= RASTER_BLOCK || !strips--)
+        if (!strips--)
             return;
         at = v_addi(at, v_seti(ROW_LANES));
         along = v_add(along, v_setf(ROW_LANES));
@@ -194,10 +199,10 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
                                 records_touched *touched, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     uint64_t met = records_met(in, lane);
-    int narrow = in->narrow >> lane & 1;
-    if (!(narrow && met & open) && !(met & ~records_behind(r->zmin, tile)))
+    int strips = in->narrow >> lane & 1 || (in->few >> lane & 1 && !(met & ~open)); /* blocks that hide it are left out */
+    if (!(strips && met & open) && !(met & ~records_behind(r->zmin, tile)))
         return;
-    if (!narrow) {
+    if (!strips) {
         records_tell(touched, tile);
         records_wide(in, lane, r, id, tile, table);
         return;
@@ -206,7 +211,7 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
         visible_unfold(tile, table, __builtin_ctzll(left));
     touched->met |= met;
     touched->near = r->zmin < touched->near ? r->zmin : touched->near;
-    records_narrow(in, lane, r, id, tile, table);
+    records_strips(in, lane, r, id, tile, table);
 }
 
 /* Whether records seem to come from far to near, and are large: some reach farther than a tile from their first corner. */

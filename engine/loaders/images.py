@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 import warnings
 
 import numpy as np
@@ -54,6 +55,8 @@ def read_image(source: Source) -> np.ndarray:
     try:
         with _quiet_pillow(), Image.open(io.BytesIO(source.data), formats=formats) as image:
             check_image_size(*image.size, source.path)
+            if image.mode == "F":  # Pillow would make them 0 and 1 of 255
+                raise FileFormatError("pixels that are floats are not read", source.path)
             pixels = _rgba(image)
             pixels.setflags(write=False)
             return pixels
@@ -106,6 +109,10 @@ def _is_webp(head: bytes) -> bool:
     return head[:4] == b"RIFF" and head[8:12] == b"WEBP"
 
 
+def _is_ppm(head: bytes) -> bool:
+    return re.match(rb"P[1-6]\s", head) is not None
+
+
 _FORMATS = (
     ("png", "Portable Network Graphics", (".png",), "PNG", _starts_with(b"\x89PNG\r\n\x1a\n")),
     ("jpeg", "JPEG", (".jpg", ".jpeg"), "JPEG", _starts_with(b"\xff\xd8\xff")),
@@ -113,7 +120,7 @@ _FORMATS = (
     ("bmp", "Windows bitmap", (".bmp",), "BMP", _starts_with(b"BM")),
     ("gif", "GIF, first frame", (".gif",), "GIF", _starts_with(b"GIF87a", b"GIF89a")),
     ("tiff", "TIFF", (".tif", ".tiff"), "TIFF", _starts_with(b"II*\0", b"MM\0*")),
-    ("ppm", "Portable pixmap", (".ppm", ".pgm", ".pbm"), "PPM", None),
+    ("ppm", "Portable pixmap", (".ppm", ".pgm", ".pbm"), "PPM", _is_ppm),
 )
 
 READERS = tuple(

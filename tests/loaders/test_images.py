@@ -51,6 +51,20 @@ def test_modes(saved, mode, color, expected):
     assert texture.pixels[0, 0].tolist() == expected
 
 
+@pytest.mark.parametrize("kind", ["tiff", "ppm"])
+def test_floats_are_refused(saved, kind):
+    """Pillow would clip them, so that a picture from 0 to 1 became black."""
+    path = saved(Image.new("F", (2, 2), 0.5), "a.float", format=kind)
+    with pytest.raises(FileFormatError, match="floats are not read"):
+        load_texture(path, format=kind)
+
+
+@pytest.mark.parametrize("mode", ["1", "L", "RGB"])
+def test_portable_pixmaps_are_recognised_without_a_name(saved, mode):
+    path = saved(Image.new(mode, (3, 2), "white"), "a.ppm")
+    assert (load_texture(path.read_bytes()).pixels == 255).all()
+
+
 @pytest.mark.parametrize("mode", ["1", "L", "LA", "P", "RGB", "RGBA", "CMYK"])
 @pytest.mark.parametrize("strip", [1, 20, 7 * 5])
 def test_strips(saved, monkeypatch, mode, strip):

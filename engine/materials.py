@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import numbers
+from typing import TYPE_CHECKING
 
 from .changes import tell
 from .colors import check_color
@@ -73,16 +74,18 @@ class Material:
         self.name = name
         self.extras = {} if extras is None else extras
 
-    def __setattr__(self, attribute: str, value) -> None:
-        if attribute == "version":
-            object.__setattr__(self, attribute, value)
-            tell(self)
-            return
-        check = _CHECKS.get(attribute)
-        if check is None:
-            raise AttributeError(f"a Material has no attribute {attribute!r}")
-        object.__setattr__(self, attribute, check(value, attribute))
-        self.version += 1
+    if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
+
+        def __setattr__(self, attribute: str, value) -> None:
+            if attribute == "version":
+                object.__setattr__(self, attribute, value)
+                tell(self)
+                return
+            check = _CHECKS.get(attribute)
+            if check is None:
+                raise AttributeError(f"a Material has no attribute {attribute!r}")
+            object.__setattr__(self, attribute, check(value, attribute))
+            self.version += 1
 
     def __repr__(self) -> str:
         texture = "" if self.texture is None else f", texture={self.texture!r}"

@@ -43,11 +43,12 @@ class Peer:
             mode="unlit" if source.mode == "unlit" else "lit",
             outputs=(self.output,),
         )
+        if self.output == "instance_id":
+            np.add(self.frame.instance_id, 1, out=self.frame.instance_id)  # 0 is the background
 
     def read(self):
-        if self.output == "instance_id":
-            return (self.frame.instance_id + 1).view(np.uint32)  # 0 is the background
-        return getattr(self.frame, self.output)
+        pixels = getattr(self.frame, self.output)
+        return pixels.view(np.uint32) if self.output == "instance_id" else pixels
 
     def render_read(self):
         self.render()

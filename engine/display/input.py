@@ -89,17 +89,33 @@ class CloseRequested:
     """The user, or the system, asked the window to close."""
 
 
-def translate(event):
-    """Return ``event`` (an ``SDL_Event``) as one of this module's classes, or None."""
-    import sdl2
+class Translator:
+    """Makes this module's classes of SDL's events, in the order in which they came.
 
+    Clicks bear no modifier keys, and SDL tells of these what is so by now, several events later
+    where a frame takes long. So they are taken from the keys' events.
+    """
+
+    def __init__(self) -> None:
+        self._modifiers = 0
+
+    def translate(self, event):
+        """Return ``event`` (an ``SDL_Event``) as one of this module's classes, or None."""
+        import sdl2
+
+        if event.type in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
+            self._modifiers = event.key.keysym.mod
+        return _translated(sdl2, event, self._modifiers)
+
+
+def _translated(sdl2, event, modifiers: int):
     kind = event.type
     if kind == sdl2.SDL_QUIT:
         return CloseRequested()
     if kind in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
         return _key(sdl2, event.key, kind == sdl2.SDL_KEYDOWN)
     if kind in (sdl2.SDL_MOUSEBUTTONDOWN, sdl2.SDL_MOUSEBUTTONUP):
-        return _button(sdl2, event.button.button, kind == sdl2.SDL_MOUSEBUTTONDOWN)
+        return _button(sdl2, event.button.button, kind == sdl2.SDL_MOUSEBUTTONDOWN, modifiers)
     if kind == sdl2.SDL_MOUSEMOTION:
         return MouseMotion(event.motion.xrel, event.motion.yrel)
     if kind == sdl2.SDL_MOUSEWHEEL:
@@ -124,7 +140,7 @@ def _key(sdl2, event, down: bool):
     return KeyDown(key, position, shift, control, bool(event.repeat))
 
 
-def _button(sdl2, number: int, down: bool):
+def _button(sdl2, number: int, down: bool, modifiers: int):
     names = {
         sdl2.SDL_BUTTON_LEFT: "left",
         sdl2.SDL_BUTTON_MIDDLE: "middle",
@@ -132,7 +148,6 @@ def _button(sdl2, number: int, down: bool):
     }
     if number not in names:
         return None
-    modifiers = sdl2.SDL_GetModState()
     shift, control = bool(modifiers & sdl2.KMOD_SHIFT), bool(modifiers & sdl2.KMOD_CTRL)
     return MouseButton(names[number], down, shift, control)
 

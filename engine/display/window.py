@@ -15,7 +15,7 @@ import warnings
 import numpy as np
 
 from ..errors import DisplayError
-from .input import translate
+from .input import Translator
 
 #: SDL's drivers that draw nowhere: it falls back to them when there is no screen.
 SCREENLESS_DRIVERS = ("offscreen", "dummy", "evdev")
@@ -70,6 +70,7 @@ class Window:
         self._video_open = False
         self._texture_size = (0, 0)
         self._next_refresh = 0.0
+        self._translator = Translator()
         try:
             self._open_video()
             self._open_window(title, width, height)
@@ -151,7 +152,7 @@ class Window:
         """Return the events that are waiting; if there are none, wait up to ``timeout`` seconds."""
         sdl = self._sdl
         event = sdl.SDL_Event()
-        received = []
+        translate, received = self._translator.translate, []
         if timeout > 0.0 and sdl.SDL_WaitEventTimeout(event, int(timeout * 1000)):
             received.append(translate(event))
         while sdl.SDL_PollEvent(event):

@@ -10,6 +10,10 @@ from engine3d.display.window import load_sdl
 sdl2 = load_sdl()
 
 
+def translate(event):
+    return events.Translator().translate(event)
+
+
 def key_event(kind, symbol, scancode, modifiers=0, repeat=0):
     event = sdl2.SDL_Event()
     event.type = kind
@@ -30,19 +34,19 @@ def window_event(kind, width=0, height=0):
 
 def test_a_key_has_a_letter_and_a_position():
     azerty_z = key_event(sdl2.SDL_KEYDOWN, sdl2.SDLK_z, sdl2.SDL_SCANCODE_W)
-    assert events.translate(azerty_z) == events.KeyDown("Z", "W")
+    assert translate(azerty_z) == events.KeyDown("Z", "W")
 
 
 def test_a_key_has_modifiers_and_repeats():
     event = key_event(
         sdl2.SDL_KEYDOWN, sdl2.SDLK_w, sdl2.SDL_SCANCODE_W, sdl2.KMOD_LSHIFT | sdl2.KMOD_RCTRL, 1
     )
-    assert events.translate(event) == events.KeyDown("W", "W", True, True, True)
+    assert translate(event) == events.KeyDown("W", "W", True, True, True)
 
 
 def test_a_key_comes_up():
     event = key_event(sdl2.SDL_KEYUP, sdl2.SDLK_LEFT, sdl2.SDL_SCANCODE_LEFT)
-    assert events.translate(event) == events.KeyUp("Left", "Left")
+    assert translate(event) == events.KeyUp("Left", "Left")
 
 
 @pytest.mark.parametrize(
@@ -59,31 +63,55 @@ def test_a_key_comes_up():
 )
 def test_keys_bear_the_names_of_the_keymap(symbol, name):
     event = key_event(sdl2.SDL_KEYDOWN, symbol, 0)
-    assert events.translate(event).key == name
+    assert translate(event).key == name
+
+
+def test_a_click_has_the_modifiers_of_its_own_time():
+    """Shift is let go again before all of this is looked at."""
+    click = sdl2.SDL_Event()
+    click.type, click.button.button = sdl2.SDL_MOUSEBUTTONDOWN, sdl2.SDL_BUTTON_LEFT
+    shift = sdl2.SDLK_LSHIFT, sdl2.SDL_SCANCODE_LSHIFT
+    control = sdl2.SDLK_RCTRL, sdl2.SDL_SCANCODE_RCTRL
+    queue = [
+        click,
+        key_event(sdl2.SDL_KEYDOWN, *shift, sdl2.KMOD_LSHIFT),
+        click,
+        key_event(sdl2.SDL_KEYDOWN, *control, sdl2.KMOD_LSHIFT | sdl2.KMOD_RCTRL),
+        click,
+        key_event(sdl2.SDL_KEYUP, *shift, sdl2.KMOD_RCTRL),
+        click,
+        key_event(sdl2.SDL_KEYUP, *control),
+        click,
+    ]
+    translator = events.Translator()
+    received = [translator.translate(event) for event in queue]
+    clicks = [event for event in received if isinstance(event, events.MouseButton)]
+    held = [(event.shift, event.control) for event in clicks]
+    assert held == [(False, False), (True, False), (True, True), (False, True), (False, False)]
 
 
 def test_mouse_events():
     event = sdl2.SDL_Event()
     event.type = sdl2.SDL_MOUSEBUTTONDOWN
     event.button.button = sdl2.SDL_BUTTON_MIDDLE
-    assert events.translate(event) == events.MouseButton("middle", True)
+    assert translate(event) == events.MouseButton("middle", True)
     event.button.button = 9
-    assert events.translate(event) is None
+    assert translate(event) is None
     event = sdl2.SDL_Event()
     event.type = sdl2.SDL_MOUSEMOTION
     event.motion.xrel, event.motion.yrel = 3, -4
-    assert events.translate(event) == events.MouseMotion(3, -4)
+    assert translate(event) == events.MouseMotion(3, -4)
     event = sdl2.SDL_Event()
     event.type = sdl2.SDL_MOUSEWHEEL
     event.wheel.y = 2
-    assert events.translate(event) == events.Wheel(2)
+    assert translate(event) == events.Wheel(2)
     event.wheel.direction = sdl2.SDL_MOUSEWHEEL_FLIPPED
-    assert events.translate(event) == events.Wheel(-2)
+    assert translate(event) == events.Wheel(-2)
 
 
 def test_window_events():
     resized = window_event(sdl2.SDL_WINDOWEVENT_SIZE_CHANGED, 300, 200)
-    assert events.translate(resized) == events.Resized(300, 200)
+    assert translate(resized) == events.Resized(300, 200)
     for kind, expected in [
         (sdl2.SDL_WINDOWEVENT_EXPOSED, events.Exposed),
         (sdl2.SDL_WINDOWEVENT_MINIMIZED, events.Minimised),
@@ -91,8 +119,8 @@ def test_window_events():
         (sdl2.SDL_WINDOWEVENT_FOCUS_LOST, events.FocusLost),
         (sdl2.SDL_WINDOWEVENT_CLOSE, events.CloseRequested),
     ]:
-        assert isinstance(events.translate(window_event(kind)), expected)
-    assert events.translate(window_event(sdl2.SDL_WINDOWEVENT_MOVED)) is None
+        assert isinstance(translate(window_event(kind)), expected)
+    assert translate(window_event(sdl2.SDL_WINDOWEVENT_MOVED)) is None
 
 
 def test_a_dropped_file_gives_its_path():
@@ -103,10 +131,10 @@ def test_a_dropped_file_gives_its_path():
     event = sdl2.SDL_Event()
     event.type = sdl2.SDL_DROPFILE
     event.drop.file = ctypes.cast(memory, ctypes.c_char_p)
-    assert events.translate(event) == events.FileDropped("/tmp/päth.obj")
+    assert translate(event) == events.FileDropped("/tmp/päth.obj")
 
 
 def test_other_events_mean_nothing():
     event = sdl2.SDL_Event()
     event.type = sdl2.SDL_USEREVENT
-    assert events.translate(event) is None
+    assert translate(event) is None

@@ -88,15 +88,18 @@ def draw_help(canvas) -> None:
     scale = text_scale(canvas)
     character, line_height = text_size("M", scale)[0], text_size("M", scale)[1] + LINE_GAP * scale
     columns = help_columns()
-    indent = max(len(key) for column in columns for key, text in column if text) + 2
-    widths = [(indent + max(len(text) for _, text in column)) * character for column in columns]
-    gutter = 4 * character
+    indents = [max(len(key) for key, text in column if text) + 2 for column in columns]
+    widths = [
+        (indent + max(len(text) for _, text in column)) * character
+        for indent, column in zip(indents, columns, strict=True)
+    ]
+    gutter = 3 * character
     width = sum(widths) + gutter + 4 * PADDING
     height = line_height * max(map(len, columns)) - LINE_GAP * scale + 4 * PADDING
     left, top = _place(canvas, width, height, "middle")
     canvas.rectangle(left, top, width, height, BLOCK)
     x = left + 2 * PADDING
-    for column, column_width in zip(columns, widths, strict=True):
+    for column, indent, column_width in zip(columns, indents, widths, strict=True):
         for row, (key, text) in enumerate(column):
             y = top + 2 * PADDING + row * line_height
             canvas.text(x, y, key, KEY if text else TITLE, scale=scale)

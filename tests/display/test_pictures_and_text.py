@@ -43,8 +43,9 @@ def test_text_on_a_picture_of_a_pixel_is_clipped():
     draw_axes(canvas, Viewpoint(np.zeros(3), 1.0))
 
 
-def test_the_help_fits_the_usual_window():
-    canvas = Canvas(1280, 720)
+@pytest.mark.parametrize("size", [(1280, 720), (800, 600)])
+def test_the_help_fits_usual_windows(size):
+    canvas = Canvas(*size)
     draw_help(canvas)
     untouched = (canvas.pixels[..., :3] == 0).all(axis=2)
     assert untouched[:4].all() and untouched[-4:].all()

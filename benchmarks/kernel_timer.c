@@ -79,7 +79,7 @@ static void record_all(raster_work *work)
     work->count = 0;
     for (int c = 0; c < CLUSTERS; c++) {
         const e3d_record_request request = {.vertices = &work->vertices[c], .indices = cluster.indices,
-                                            .triangles = cluster.triangles, .count = TRIANGLES,
+                                            .triangles = cluster.triangles, .count = TRIANGLES, .tiny = 1,
                                             .order = (uint32_t)(c * TRIANGLES), .faces = cluster.faces,
                                             .viewport = &TILE_VIEWPORT};
         work->count += table->record(&request, work->records + work->count, spans);
@@ -105,6 +105,7 @@ static void make_raster(random_stream *r, float extent, raster_work *work)
     }
     for (int i = 0; i < PIECES; i++) {
         const float centre[2] = {random_float(r, 0.0f, E3D_TILE), random_float(r, 0.0f, E3D_TILE)};
+        work->vertices[i / TRIANGLES].count = 3 * TRIANGLES;
         for (int k = 0; k < 3; k++)
             make_corner(r, centre, extent, &work->vertices[i / TRIANGLES], i % TRIANGLES * 3 + k);
     }

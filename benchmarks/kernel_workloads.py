@@ -66,6 +66,7 @@ def record():
     rng = np.random.default_rng(6)
     vertices = np.zeros(1, VERTICES)
     vertices["zn"], vertices["iw"] = rng.uniform(0, 1, (2, 1, CLUSTER_VERTICES))
+    vertices["count"] = CLUSTER_VERTICES
     spread = np.repeat([200, 1500], CLUSTER_VERTICES // 2)
     for name, side in (("sx", 1280), ("sy", 720)):
         vertices[name] = 128 * side + rng.integers(-spread, spread)
@@ -75,7 +76,7 @@ def record():
     faces = np.arange(CLUSTER_TRIANGLES, dtype=np.int32)
     out = np.zeros(CLUSTER_TRIANGLES, RECORD).view(np.uint8)
     spans = np.zeros(CLUSTER_TRIANGLES, TILE_SPAN).view(np.uint8)
-    asked = (triangles, CLUSTER_TRIANGLES, 0, False, 0, faces)
+    asked = (triangles, CLUSTER_TRIANGLES, True, 0, False, 0, faces)
     viewport = viewport_of(1280, 720).view(np.uint8)
     arguments = (vertices.view(np.uint8), indices.ravel(), *asked, viewport, out, spans)
     return CLUSTER_TRIANGLES, lambda kernels: kernels.record(*arguments)

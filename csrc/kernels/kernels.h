@@ -97,6 +97,7 @@ typedef struct e3d_record_request {
     const uint8_t *indices;   /* three planes of E3D_CLUSTER_TRIANGLES */
     const uint8_t *triangles; /* `count` of the cluster; E3D_PAD more are read and must be less than 64 */
     int count;
+    int tiny;                 /* those of at most 2 x 2 samples are told from the others: without cover, they are left out */
     int cull, mirrored;       /* sign of the area to drop, as for setup; front faces are the mirrored ones */
     uint32_t order;           /* of the mesh's first face */
     const int32_t *faces;     /* of the cluster's triangles */

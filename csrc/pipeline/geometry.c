@@ -125,8 +125,9 @@ static void draw_records(walker *w, const e3d_record_request *request)
     }
 }
 
-/* Triangles of a cluster, a bit each, a vector at a time; those are dropped whose area has the sign `cull`. */
-static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int cull)
+/* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them; those are dropped whose area has the sign
+ * `cull`. */
+static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int tiny, int cull)
 {
     uint8_t list[E3D_CLUSTER_TRIANGLES + E3D_PAD];
     int count = 0;
@@ -136,7 +137,7 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
         list[count++] = (uint8_t)__builtin_ctzll(left);
     memset(list + count, 0, E3D_PAD);
     const e3d_record_request request = {.vertices = w->vertices, .indices = indices, .triangles = list,
-                                        .count = count, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
+                                        .count = count, .tiny = tiny, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
                                         .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->viewport};
     draw_records(w, &request);
 }
@@ -151,11 +152,11 @@ static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint
     return found;
 }
 
-static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int tiny)
 {
     uint64_t draw = w->worker->survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
-    draw_some(w, cluster, indices, draw & ~both, culled_sign(w));
-    draw_some(w, cluster, indices, both, 0);
+    draw_some(w, cluster, indices, draw & ~both, tiny, culled_sign(w));
+    draw_some(w, cluster, indices, both, tiny, 0);
 }
 
 /* The small triangles that are culled, where some materials are two-sided. */
@@ -223,7 +224,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     if (s->small)
         draw_small(w, cluster, indices);
     if (!w->context->sorted)
-        draw_triangles(w, cluster, indices);
+        draw_triangles(w, cluster, indices, !fragments);
     for (uint64_t left = w->context->sorted ? s->draw : 0; left; left &= left - 1)
         draw_triangle(w, cluster, indices, __builtin_ctzll(left));
     for (uint64_t left = s->clip; left; left &= left - 1)

@@ -57,6 +57,7 @@ cdef extern from "kernels/kernels.h" nogil:
         const uint8_t *indices
         const uint8_t *triangles
         int count
+        int tiny
         int cull
         int mirrored
         uint32_t order

@@ -54,6 +54,7 @@ class Kernels:
         indices: _Bytes,
         triangles: _Bytes,
         count: int,
+        tiny: bool,
         cull: int,
         mirrored: bool,
         order: int,

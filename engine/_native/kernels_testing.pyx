@@ -164,7 +164,7 @@ cdef class Kernels:
         return count
 
     def record(self, const uint8_t[::1] vertices, const uint8_t[::1] indices,
-               const uint8_t[::1] triangles, int count, int cull, bint mirrored, uint32_t order,
+               const uint8_t[::1] triangles, int count, bint tiny, int cull, bint mirrored, uint32_t order,
                const int32_t[::1] faces, const uint8_t[::1] viewport, uint8_t[::1] out,
                uint8_t[::1] spans):
         """``out`` and ``spans`` have room for a cluster's triangles; returns how many are made."""
@@ -178,6 +178,7 @@ cdef class Kernels:
         request.indices = &indices[0]
         request.triangles = &triangles[0]
         request.count = count
+        request.tiny = tiny
         request.cull = cull
         request.mirrored = mirrored
         request.order = order

@@ -1,8 +1,8 @@
 """record against R9, R10, R12 and R13: the records of a cluster's triangles, and their tiles.
 
-The oracle works in 64 bits from the vertices. What it drops besides what the rules drop: triangles
-of at most 2 x 2 samples (and sides of at most 32767 steps) that cover none of them; the records of
-the others of that size carry their cover.
+The oracle works in 64 bits from the vertices. What it drops besides what the rules drop, where tiny
+ones are told from the others: triangles of at most 2 x 2 samples (and sides of at most 32767 steps)
+that cover none of them; the records of the others of that size carry their cover.
 """
 
 import numpy as np
@@ -23,6 +23,7 @@ from kernels.layouts import (
 
 CALLS = 3000  # of each kind; with KINDS: 10^6 triangles and more
 SIZES = [(1, 1), (2, 2), (16, 16), (640, 480), (65536, 65536), (1, 4096), (37, 23)]
+TABLES = [32, 33, 64, 65, CLUSTER_VERTICES]  # vertices at and beyond what a table's parts hold
 STEPS = 32767  # of 1/256 sample: larger triangles never carry their cover
 OUT = np.dtype([("rows", RECORD, CLUSTER_TRIANGLES)])
 SPANS = np.dtype([("rows", TILE_SPAN, CLUSTER_TRIANGLES)])
@@ -77,6 +78,8 @@ def make_vertices(rng, kind, viewport):
     depth = np.where(rng.random((CALLS, 1)) < 0.2, depth[:, :1], depth)  # all alike
     vertices["zn"] = np.where(rng.random(shape) < rate, special, depth)
     vertices["iw"] = hostile(rng, shape, 10.0)
+    counts = rng.integers(3, CLUSTER_VERTICES + 1, CALLS)
+    vertices["count"] = np.where(rng.random(CALLS) < 0.5, rng.choice(TABLES, CALLS), counts)
     return vertices
 
 
@@ -138,8 +141,11 @@ def plane_of(c, area, across, down):
     return [v.astype(np.float32) for v in (z0, gx, gy)]
 
 
-def expectation(c, viewport, cull, mirrored, order):
-    """Records and spans (calls, 64) of all triangles, and which of them there are."""
+def expectation(c, viewport, told, cull, mirrored, order):
+    """Records and spans (calls, 64) of all triangles, and which of them there are.
+
+    Whether tiny ones are told from the others is each call's own.
+    """
     area = area_of(c["sx"], c["sy"])
     swapped, keep = area < 0, (area != 0) & (np.sign(area) != np.where(cull == 0, 9, cull)[:, None])
     exchange(c, swapped)
@@ -149,6 +155,7 @@ def expectation(c, viewport, cull, mirrored, order):
     )
     keep &= (across[0] <= across[1]) & (down[0] <= down[1])
     small = (across[1] - across[0] <= 1) & (down[1] - down[0] <= 1)
+    small &= told[:, None]
     small &= np.maximum(np.ptp(x, axis=0), np.ptp(y, axis=0)) <= STEPS
     cover = cover_of(x, y, across, down)
     plane = plane_of(c, np.abs(area), across, down)
@@ -200,11 +207,12 @@ def test_record(kernels, kind, seed):
     sizes = np.array(choice)[rng.integers(0, len(choice), CALLS)]
     viewport = np.concatenate([viewport_of(*size) for size in sizes])
     vertices = make_vertices(rng, kind, viewport)
-    indices = rng.integers(0, CLUSTER_VERTICES, (CALLS, 3, CLUSTER_TRIANGLES), np.uint8)
+    shape = (CALLS, 3, CLUSTER_TRIANGLES)
+    indices = rng.integers(0, vertices["count"][:, None, None], shape).astype(np.uint8)
     triangles = rng.integers(0, CLUSTER_TRIANGLES, (CALLS, CLUSTER_TRIANGLES + PAD), np.uint8)
     counts = every_count(rng, CLUSTER_TRIANGLES, CALLS)
     cull = rng.integers(-1, 2, CALLS).astype(np.int32)
-    mirrored = rng.random(CALLS) < 0.5
+    mirrored, told = rng.random(CALLS) < 0.5, rng.random(CALLS) < 0.8
     faces = rng.integers(0, 2**31, (CALLS, CLUSTER_TRIANGLES)).astype(np.int32)
     base = rng.integers(0, 2**32, CALLS, np.uint32)
 
@@ -215,6 +223,7 @@ def test_record(kernels, kind, seed):
             indices[n].ravel(),
             triangles[n],
             int(counts[n]),
+            bool(told[n]),
             int(cull[n]),
             bool(mirrored[n]),
             int(base[n]),
@@ -227,7 +236,7 @@ def test_record(kernels, kind, seed):
     asked = triangles[:, :CLUSTER_TRIANGLES].astype(np.int64)
     order = base[:, None] + np.take_along_axis(faces, asked, 1).astype(np.uint32)
     corners = corners_of(vertices, indices, asked)
-    records, tiles, keep = expectation(corners, viewport, cull, mirrored, order)
+    records, tiles, keep = expectation(corners, viewport, told, cull, mirrored, order)
     keep &= np.arange(CLUSTER_TRIANGLES) < counts[:, None]
     assert keep.sum() > 2 * CALLS
     covers = np.bincount(records["meta"][keep] >> layouts.RECORD_SHIFT, minlength=16)

@@ -15,16 +15,32 @@ static inline vi32 record_places(const uint8_t *indices, const uint8_t *triangle
     return v_gatheru8(indices + k * E3D_CLUSTER_TRIANGLES, v_loadu8(triangles));
 }
 
+static inline void record_find_words(const int32_t *words, int vertices, const vi32 places[3], vi32 out[3])
+{
+    vtable table;
+    v_table(words, vertices, &table);
+    for (int k = 0; k < 3; k++)
+        out[k] = v_lookup(&table, places[k]);
+}
+
+static inline void record_find_floats(const float *floats, int vertices, const vi32 places[3], vf32 out[3])
+{
+    vtablef table;
+    v_tablef(floats, vertices, &table);
+    for (int k = 0; k < 3; k++)
+        out[k] = v_lookupf(&table, places[k]);
+}
+
 static inline record_corners record_fetch(const e3d_vertices *v, const uint8_t *indices, const uint8_t *triangles)
 {
     record_corners c;
-    for (int k = 0; k < 3; k++) {
-        vi32 i = record_places(indices, triangles, k);
-        c.x[k] = v_gatheri(v->sx, i);
-        c.y[k] = v_gatheri(v->sy, i);
-        c.zn[k] = v_gatherf(v->zn, i);
-        c.iw[k] = v_gatherf(v->iw, i);
-    }
+    vi32 places[3];
+    for (int k = 0; k < 3; k++)
+        places[k] = record_places(indices, triangles, k);
+    record_find_words(v->sx, v->count, places, c.x);
+    record_find_words(v->sy, v->count, places, c.y);
+    record_find_floats(v->zn, v->count, places, c.zn);
+    record_find_floats(v->iw, v->count, places, c.iw);
     return c;
 }
 
@@ -128,6 +144,14 @@ typedef struct record_list {
     int count;
 } record_list;
 
+/* All, where the tiny ones are not told from the others. */
+static inline void record_list_all(const e3d_record_request *q, record_list *list)
+{
+    memcpy(list->triangles, q->triangles, (size_t)q->count + E3D_PAD);
+    memset(list->cover, 0, sizeof list->cover);
+    list->count = q->count;
+}
+
 static inline void record_try(const e3d_record_request *q, int first, record_list *list)
 {
     vi32 x[3], y[3];
@@ -151,6 +175,15 @@ static inline void record_try(const e3d_record_request *q, int first, record_lis
     }
     v_pack8(list->cover + list->count, cover, keep);
     list->count += v_pack8(list->triangles + list->count, v_loadu8(triangles), keep);
+}
+
+static inline void record_list_some(const e3d_record_request *q, record_list *list)
+{
+    list->count = 0;
+    for (int i = 0; i < q->count; i += V_LANES)
+        record_try(q, i, list);
+    memset(list->triangles + list->count, 0, E3D_PAD); /* whole vectors are read */
+    memset(list->cover + list->count, 0, E3D_PAD);
 }
 
 /* Flags of a record, with the cover of a tiny one. */
@@ -224,11 +257,10 @@ static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_
 #endif
     record_list list;
     int made = 0;
-    list.count = 0;
-    for (int i = 0; i < q->count; i += V_LANES)
-        record_try(q, i, &list);
-    memset(list.triangles + list.count, 0, E3D_PAD); /* whole vectors are read */
-    memset(list.cover + list.count, 0, E3D_PAD);
+    if (q->tiny)
+        record_list_some(q, &list);
+    else
+        record_list_all(q, &list);
     for (int i = 0; i < list.count; i += V_LANES)
         made += record_vector(q, &list, i, out + made, spans + made);
     return made;

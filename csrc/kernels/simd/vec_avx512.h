@@ -72,6 +72,10 @@ static inline vi32 v_lookup(const vtable *t, vi32 i) {
     return _mm512_mask_blend_epi32(_mm512_test_epi32_mask(i, _mm512_set1_epi32(64)), found, low);
 }
 
+typedef vtable vtablef;
+static inline void v_tablef(const float *base, int count, vtablef *out) { v_table((const int32_t *)base, count, out); }
+static inline vf32 v_lookupf(const vtablef *t, vi32 i) { return _mm512_castsi512_ps(v_lookup(t, i)); }
+
 static inline vf32 v_add(vf32 a, vf32 b) { return _mm512_add_ps(a, b); }
 static inline vf32 v_sub(vf32 a, vf32 b) { return _mm512_sub_ps(a, b); }
 static inline vf32 v_mul(vf32 a, vf32 b) { return _mm512_mul_ps(a, b); }

@@ -45,6 +45,9 @@ static inline vf32 v_gatherf(const float *base, vi32 i) {
 typedef const int32_t *vtable;
 static inline void v_table(const int32_t *base, int count, vtable *out) { (void)count; *out = base; }
 static inline vi32 v_lookup(const vtable *t, vi32 i) { return v_gatheri(*t, i); }
+typedef const float *vtablef;
+static inline void v_tablef(const float *base, int count, vtablef *out) { (void)count; *out = base; }
+static inline vf32 v_lookupf(const vtablef *t, vi32 i) { return v_gatherf(*t, i); }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return _mm_add_ps(a, b); }
 static inline vf32 v_sub(vf32 a, vf32 b) { return _mm_sub_ps(a, b); }

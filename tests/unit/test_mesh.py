@@ -1,8 +1,11 @@
 """Meshes: checks of every array, derived arrays, versions, joining."""
 
+import sys
+
 import numpy as np
 import pytest
 
+from engine3d.detail import simplify
 from engine3d.errors import InvalidArgumentError
 from engine3d.materials import Material
 from engine3d.mesh import Mesh
@@ -253,3 +256,17 @@ def test_only_meshes_are_joined():
     with pytest.raises(InvalidArgumentError, match="not a Mesh: int"):
         Mesh.concatenate([square(), 5])
     assert len(Mesh.concatenate(square() for _ in range(3)).faces) == 6
+
+
+@pytest.mark.parametrize(
+    ("package", "extra", "use"),
+    [
+        ("trimesh", "formats", lambda mesh: mesh.to_trimesh()),
+        ("fast_simplification", "detail", lambda mesh: simplify(mesh, 0.5)),
+    ],
+    ids=["to_trimesh", "simplify"],
+)
+def test_an_optional_package_that_is_missing_is_named(monkeypatch, package, extra, use):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ImportError, match=rf"engine3d\[{extra}\]"):
+        use(square())

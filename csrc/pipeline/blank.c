@@ -2,9 +2,9 @@
  * them in while the core computes. */
 #include "pipeline/frame.h"
 
-int e3d_is_blank(const e3d_context *context, int64_t number)
+int e3d_is_blank(const e3d_context *context, int64_t tile)
 {
-    return !e3d_is_kept(context, number) && !e3d_has_bin(context, E3D_PASS_SCENE, number) && !e3d_has_bin(context, E3D_PASS_WIRE, number);
+    return !e3d_is_kept(context, tile) && !e3d_has_bin(context, E3D_PASS_SCENE, tile) && !e3d_has_bin(context, E3D_PASS_WIRE, tile);
 }
 
 /* Looks at a few tiles for the next blank one; whether there may be more. */
@@ -12,11 +12,11 @@ static int find_blank(const e3d_context *context, e3d_worker *worker)
 {
     enum { TILES = 8 };
     for (int k = 0; k < TILES; k++) {
-        int64_t number = e3d_take_tile(context, worker, E3D_TO_CLEAR);
-        if (number < 0)
+        int64_t tile = e3d_take_tile(context, worker, E3D_TO_CLEAR);
+        if (tile < 0)
             return 0;
-        if (e3d_is_blank(context, number)) {
-            worker->blank = e3d_tile_at(context, number);
+        if (e3d_is_blank(context, tile)) {
+            worker->blank = e3d_tile_at(context, tile);
             return 1;
         }
     }

@@ -165,6 +165,15 @@ typedef struct e3d_tile_memory {
 /* What is done with tiles: those that something is in are drawn, the others cleared. */
 typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
 
+/* Of the list of tiles: a worker's share, and what one has taken. */
+typedef struct e3d_share {
+    atomic_llong next;
+    int64_t end;
+} e3d_share;
+typedef struct e3d_places {
+    int64_t next, end;
+} e3d_places;
+
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
     e3d_fragment_set fragments;
@@ -179,13 +188,13 @@ typedef struct e3d_worker {
     e3d_array groups;       /* e3d_group of the tile */
     e3d_array outputs;      /* int32_t or float: the tile's, one output after the other */
     e3d_counters counters;
+    e3d_places taken[E3D_TO_DO];
     e3d_tile blank;         /* what is left of the one that is being cleared */
     int blanks;             /* whether there may be more */
     int64_t lap;            /* when the last stage of a tile ended (e3d_lap) */
     int failed;             /* out of memory */
     char padding[128];      /* no false sharing between workers, */
-    atomic_llong next_tile[E3D_TO_DO]; /* of this one's share: others take from it, too */
-    int64_t tiles_end;
+    e3d_share share[E3D_TO_DO]; /* others take from it, too */
     char more_padding[128];
 } e3d_worker;
 
@@ -359,10 +368,10 @@ static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)
 void e3d_share_tiles(e3d_context *context);
 
 /* The next tile that a worker may do this with; -1 when none is left. */
-int64_t e3d_take_tile(const e3d_context *context, const e3d_worker *worker, e3d_to_do what);
+int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what);
 
 /* Whether nothing is drawn in a tile, or nothing more. */
-int e3d_is_blank(const e3d_context *context, int64_t number);
+int e3d_is_blank(const e3d_context *context, int64_t tile);
 
 /* Clears such tiles: some rows at a time, and at last what is left of all. */
 void e3d_blank_begin(const e3d_context *context, e3d_worker *worker);

@@ -4,23 +4,38 @@
 
 void e3d_share_tiles(e3d_context *context)
 {
+    int64_t tiles = e3d_tile_count(context);
     int threads = context->renderer->threads;
-    for (int w = 0; w < threads; w++) {
-        e3d_worker *worker = context->renderer->workers[w];
-        for (int k = 0; k < E3D_TO_DO; k++)
-            atomic_store(&worker->next_tile[k], e3d_tile_count(context) * w / threads);
-        worker->tiles_end = e3d_tile_count(context) * (w + 1) / threads;
-    }
+    for (int w = 0; w < threads; w++)
+        for (int what = 0; what < E3D_TO_DO; what++) {
+            e3d_worker *worker = context->renderer->workers[w];
+            atomic_store(&worker->share[what].next, tiles * w / threads);
+            worker->share[what].end = tiles * (w + 1) / threads;
+            worker->taken[what] = (e3d_places){0, 0};
+        }
 }
 
-int64_t e3d_take_tile(const e3d_context *context, const e3d_worker *worker, e3d_to_do what)
+/* Of a share with many left several at a time: an atomic operation waits for all that was streamed before. */
+static int take_more(const e3d_renderer *renderer, e3d_worker *worker, e3d_to_do what)
 {
-    int threads = context->renderer->threads;
+    enum { PARTS = 16 };
+    int threads = renderer->threads;
     for (int k = 0, owner = (int)worker->number; k < threads; k++, owner = owner + 1 < threads ? owner + 1 : 0) {
-        e3d_worker *of = context->renderer->workers[owner];
-        int64_t tile = atomic_load(&of->next_tile[what]);
-        if (tile < of->tiles_end && (tile = atomic_fetch_add(&of->next_tile[what], 1)) < of->tiles_end)
-            return tile;
+        e3d_share *from = &renderer->workers[owner]->share[what];
+        int64_t left = from->end - atomic_load(&from->next), some = 1 + left / PARTS;
+        int64_t first = left > 0 ? atomic_fetch_add(&from->next, some) : from->end;
+        if (first < from->end) {
+            worker->taken[what] = (e3d_places){first, first + some < from->end ? first + some : from->end};
+            return 1;
+        }
     }
-    return -1;
+    return 0;
+}
+
+int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what)
+{
+    e3d_places *taken = &worker->taken[what];
+    if (taken->next == taken->end && !take_more(context->renderer, worker, what))
+        return -1;
+    return taken->next++;
 }

@@ -32,7 +32,7 @@ static inline vi32 v_load_halves(const void *low, const void *high) {
 }
 static inline void v_store_halves(void *low, void *high, vi32 a) {
     _mm256_storeu_si256((__m256i *)low, _mm512_castsi512_si256(a));
-    _mm256_storeu_si256((__m256i *)high, _mm512_extracti32x8_epi32(a, 1));
+    _mm256_storeu_si256((__m256i *)high, _mm512_extracti64x4_epi64(a, 1)); /* to memory at once: extracti32x8 takes a register */
 }
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)p));

@@ -58,6 +58,9 @@ static inline void visible_ties(uint32_t equal, vf32 z, float *depth, int32_t *k
     }
 }
 
+/* R12: no edge function is negative. (One comparison, where turning a mask round is another step.) */
+static inline vmask visible_inside(const vi32 e[3]) { return v_gti(v_ori(v_ori(e[0], e[1]), e[2]), v_seti(-1)); }
+
 /* R14, the part that a column of vectors shares. */
 static inline vf32 visible_column(const raster_constants *c, int32_t from)
 {
@@ -188,7 +191,7 @@ static inline void visible_block(const e3d_piece *p, const raster_constants *c, 
         for (int k = 0; k < 3 && !full; k++)
             e[k] = v_addi(v_seti(p->e[k] + p->a[k] * i + p->b[k] * y0), rows_step(p->a[k], p->b[k]));
         for (int y = y0; y <= y1; y += ROWS) {
-            vmask inside = full ? all : v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
+            vmask inside = full ? all : visible_inside(e);
             visible_write(inside, visible_z(c, column, y - p->base_y), (size_t)(y * E3D_TILE + i), r, (int32_t)p->slot, tile, table);
             for (int k = 0; k < 3 && !full; k++)
                 e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));

@@ -130,7 +130,7 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
             down[k] = v_seti(in->down[k][lane]);
         }
         for (size_t i = first; i <= last; i += ROWS * E3D_TILE) {
-            vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
+            vmask inside = visible_inside(e);
             vf32 z = v_min(v_max(v_add(column, v_mul(row, c.gy)), c.zmin), c.zmax);
             visible_write(inside, z, i, r, id, tile, table);
             for (int k = 0; k < 3; k++)

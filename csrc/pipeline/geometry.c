@@ -201,7 +201,9 @@ static void transform_cluster(const walker *w, const e3d_item *item, const e3d_c
 /* Where the next records will lie, the last frame's were read by other threads: their lines are asked for ahead. */
 static void fetch_records(const walker *w, int count)
 {
-    const e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    if (!count || !e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES))
+        return; /* whoever makes them asks again */
     const e3d_record *next = (const e3d_record *)set->records.data + set->records.count;
     _Static_assert(sizeof *next == 64, "a record is a line of the cache");
     for (int i = 0; i < count; i++)

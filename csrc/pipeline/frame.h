@@ -165,7 +165,7 @@ typedef struct e3d_tile_memory {
 /* What is done with tiles: those that something is in are drawn, the others cleared. */
 typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
 
-/* Of the list of tiles: a worker's share, and what one has taken. */
+/* Of the tiles, by their numbers: a worker's share, and what one has taken. */
 typedef struct e3d_share {
     atomic_llong next;
     int64_t end;
@@ -356,28 +356,6 @@ int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record);
 void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
 /* Keeps the depths of a tile, which may be drawn elsewhere. */
 void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile);
-/* Adds to a stage's time what has passed since the thread's last lap. */
-static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)
-{
-    int64_t now = e3d_now_ns();
-    *stage_ns += now - worker->lap;
-    worker->lap = now;
-}
-
-/* All tiles are to be done, each by one worker. */
-void e3d_share_tiles(e3d_context *context);
-
-/* The next tile that a worker may do this with; -1 when none is left. */
-int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what);
-
-/* Whether nothing is drawn in a tile, or nothing more. */
-int e3d_is_blank(const e3d_context *context, int64_t tile);
-
-/* Clears such tiles: some rows at a time, and at last what is left of all. */
-void e3d_blank_begin(const e3d_context *context, e3d_worker *worker);
-void e3d_blank_some(const e3d_context *context, e3d_worker *worker);
-void e3d_blank_rest(const e3d_context *context, e3d_worker *worker);
-
 /* Draws a round's tiles, and keeps what the next one needs of them; 0 when memory is out. */
 int e3d_draw_kept_tiles(e3d_context *context);
 /* Whether most tiles can be finished with what the last frames showed. */
@@ -459,7 +437,28 @@ void e3d_tables_set(e3d_context *context);
 /* order.c */
 int e3d_sort_records(e3d_context *context);
 
+/* share.c: all tiles are to be done, each by one worker. */
+void e3d_share_tiles(e3d_context *context);
+
+/* The next tile that a worker may do this with; -1 when none is left. */
+int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what);
+
+/* blank.c: whether nothing is drawn in a tile, or nothing more. */
+int e3d_is_blank(const e3d_context *context, int64_t tile);
+
+/* Clears such tiles: some rows at a time, and at last what is left of all. */
+void e3d_blank_begin(const e3d_context *context, e3d_worker *worker);
+void e3d_blank_some(const e3d_context *context, e3d_worker *worker);
+void e3d_blank_rest(const e3d_context *context, e3d_worker *worker);
+
 /* tile.c, shade.c, resolve.c */
+/* Adds to a stage's time what has passed since the thread's last lap. */
+static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)
+{
+    int64_t now = e3d_now_ns();
+    *stage_ns += now - worker->lap;
+    worker->lap = now;
+}
 void e3d_tiles(e3d_context *context);
 e3d_tile e3d_tile_at(const e3d_context *context, int64_t number);
 /* Whether samples keep slots rather than record IDs. */

@@ -497,9 +497,9 @@ void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_
 void e3d_resolve_blank(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* picture.c: `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */
-void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
+void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
 /* The same back. */
-void e3d_read_rows(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *rows, size_t step);
+void e3d_read_tile(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *rows, size_t step);
 /* outputs.c: the G-buffer */
 int e3d_outputs_prepare(e3d_context *context); /* 0 when memory is out */
 void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker);

@@ -73,7 +73,7 @@ void e3d_outputs_again(const e3d_context *context, e3d_worker *worker, const e3d
         void *pixels = gathered(context, worker, k);
         size_t bytes = sizeof(int32_t) * (size_t)KINDS[k].channels;
         if (pixels)
-            e3d_read_rows(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
+            e3d_read_tile(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
     }
 }
 
@@ -219,7 +219,7 @@ void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const
         const void *pixels = gathered(context, worker, k);
         size_t bytes = sizeof(int32_t) * (size_t)KINDS[k].channels;
         if (pixels)
-            e3d_write_rows(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
+            e3d_write_tile(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
     }
 }
 
@@ -231,6 +231,6 @@ void e3d_outputs_blank(const e3d_context *context, const e3d_tile *tile)
             continue;
         for (int i = 0; i < KINDS[k].channels * E3D_TILE; i++)
             row[i] = KINDS[k].background;
-        e3d_write_rows(context, tile, context->outputs[k].target, sizeof(int32_t) * (size_t)KINDS[k].channels, row, 0);
+        e3d_write_tile(context, tile, context->outputs[k].target, sizeof(int32_t) * (size_t)KINDS[k].channels, row, 0);
     }
 }

@@ -10,11 +10,18 @@ static int is_far(const e3d_context *context, size_t bytes)
     return bytes >= (context->renderer->threads > 1 ? SHARED : LARGE);
 }
 
-/* Where the tile's first pixel is in a picture, in bytes. */
-static size_t start_of(const e3d_context *context, const e3d_tile *tile, size_t pixel)
+/* A tile's place in a picture, in bytes: to its first pixel, of one of its rows, and from each row to the next. */
+typedef struct place {
+    size_t start, bytes, pitch;
+    int rows;
+} place;
+
+static place place_of(const e3d_context *context, const e3d_tile *tile, size_t pixel)
 {
     int axis = context->frame->samples_axis;
-    return ((size_t)(tile->y / axis) * (size_t)context->frame->width + (size_t)(tile->x / axis)) * pixel;
+    size_t pitch = pixel * (size_t)context->frame->width;
+    size_t start = (size_t)(tile->y / axis) * pitch + (size_t)(tile->x / axis) * pixel;
+    return (place){start, pixel * (size_t)(tile->width / axis), pitch, tile->height / axis};
 }
 
 static void copy(const e3d_pixel_rows *rows)
@@ -23,23 +30,19 @@ static void copy(const e3d_pixel_rows *rows)
         memcpy(rows->to + (size_t)y * rows->pitch, rows->from + (size_t)y * rows->step, rows->bytes);
 }
 
-void e3d_write_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
+void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
 {
-    int axis = context->frame->samples_axis;
-    size_t pitch = pixel * (size_t)context->frame->width;
-    const e3d_pixel_rows rows = {(char *)picture + start_of(context, tile, pixel), from, pixel * (size_t)(tile->width / axis), pitch,
-                                 step, tile->height / axis};
-    if (is_far(context, pitch * (size_t)context->frame->height))
+    const place at = place_of(context, tile, pixel);
+    const e3d_pixel_rows rows = {(char *)picture + at.start, from, at.bytes, at.pitch, step, at.rows};
+    if (is_far(context, at.pitch * (size_t)context->frame->height))
         context->kernels->stream(&rows);
     else
         copy(&rows);
 }
 
-void e3d_read_rows(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *to, size_t step)
+void e3d_read_tile(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *to, size_t step)
 {
-    int axis = context->frame->samples_axis;
-    size_t pitch = pixel * (size_t)context->frame->width;
-    const e3d_pixel_rows rows = {to, (const char *)picture + start_of(context, tile, pixel), pixel * (size_t)(tile->width / axis), step,
-                                 pitch, tile->height / axis};
+    const place at = place_of(context, tile, pixel);
+    const e3d_pixel_rows rows = {to, (const char *)picture + at.start, at.bytes, step, at.pitch, at.rows};
     copy(&rows);
 }

@@ -28,7 +28,7 @@ void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d
 {
     e3d_outputs_again(context, worker, tile);
     if (context->targets->color)
-        e3d_read_rows(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
+        e3d_read_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
 }
 
 /* A sample's colour, clamped, and whether it counts; or the pixel that it is. */
@@ -96,7 +96,7 @@ void e3d_resolve_blank(const e3d_context *context, const e3d_tile *tile)
 {
     e3d_outputs_blank(context, tile);
     if (context->targets->color)
-        e3d_write_rows(context, tile, context->targets->color, sizeof(uint32_t), context->background_row, 0);
+        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), context->background_row, 0);
 }
 
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
@@ -106,5 +106,5 @@ void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile 
         return;
     if (context->frame->samples_axis > 1)
         average(context, worker->tile, tile);
-    e3d_write_rows(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
+    e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
 }

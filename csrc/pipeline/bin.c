@@ -3,6 +3,9 @@
  * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
  * each thread's own; the raster's rule (R16) makes their order irrelevant.
  */
+#include <stddef.h>
+#include <string.h>
+
 #include "pipeline/frame.h"
 
 static void empty_bins(e3d_array *bins, int32_t tiles)
@@ -121,7 +124,6 @@ int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_s
     return 1;
 }
 
-/* Whether any thread has a record or a fragment for the tile. */
 int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
 {
     for (int32_t w = 0; w < context->renderer->threads; w++) {
@@ -131,4 +133,31 @@ int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
             return 1;
     }
     return 0;
+}
+
+_Static_assert(offsetof(e3d_bin_block, next) == 0 && offsetof(e3d_bin_block, count) == 4 &&
+                   offsetof(e3d_fragment_block, next) == 0 && offsetof(e3d_fragment_block, count) == 4,
+               "both kinds of blocks begin alike");
+
+/* Of a chain of blocks of either kind. */
+static uint32_t count_chain(const e3d_array *bins, const e3d_array *blocks, size_t size, int64_t tile)
+{
+    uint32_t count = 0, head[2]; /* next, count */
+    for (uint32_t at = e3d_first_block(bins, tile); at != E3D_NO_BLOCK; at = head[0]) {
+        memcpy(head, (const char *)blocks->data + at * size, sizeof head);
+        count += head[1];
+    }
+    return count;
+}
+
+e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile)
+{
+    e3d_entries entries = {0, 0};
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
+        const e3d_fragment_set *fragments = &context->renderer->workers[w]->fragments;
+        entries.records += count_chain(&set->bins, &set->blocks, sizeof(e3d_bin_block), tile);
+        entries.fragments += count_chain(&fragments->bins, &fragments->blocks, sizeof(e3d_fragment_block), tile);
+    }
+    return entries;
 }

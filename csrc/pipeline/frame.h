@@ -410,6 +410,17 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 }
 /* Whether `more` records have IDs and memory. */
 int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
+/* Whether any thread has a record or a fragment for the tile. */
+int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
+/* How many a tile's bins of the scene hold. */
+typedef struct e3d_entries {
+    uint32_t records, fragments;
+} e3d_entries;
+e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile);
+/* The first block of a tile's chain, of records or of fragments. */
+static inline uint32_t e3d_first_block(const e3d_array *bins, int64_t tile) { return ((const e3d_bin *)bins->data)[tile].first; }
+/* After the records have their places: the tables that tell a record by its ID. */
+void e3d_tables_set(e3d_context *context);
 /* fragments.c */
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
 /* Whether a cluster more can have IDs. */
@@ -422,17 +433,8 @@ void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 /* Draws a tile's fragments, or those of the round that finished it. */
 void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
                         int earlier);
-
-/* How many the tile's bins hold. */
-uint32_t e3d_fragments_count(const e3d_context *context, int64_t tile_number);
 /* What they show of the tile, to the end of the list. */
 void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number);
-
-int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
-/* The first block of a tile's chain, of records or of fragments. */
-static inline uint32_t e3d_first_block(const e3d_array *bins, int64_t tile) { return ((const e3d_bin *)bins->data)[tile].first; }
-/* After the records have their places: the tables that tell a record by its ID. */
-void e3d_tables_set(e3d_context *context);
 
 /* order.c */
 int e3d_sort_records(e3d_context *context);
@@ -466,8 +468,6 @@ int e3d_keeps_slots(const e3d_context *context);
 /* visible.c: the visible surface by record ID, for whatever shades it afterwards */
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number);
-/* How many records the tile's bins hold. */
-uint32_t e3d_visible_records(const e3d_context *context, int64_t tile_number);
 /* Makes the list of what shows, where the tile's bins hold all of it. */
 void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t tile_number);
 /* Shades the first `count` of the tile memory's runs, which are owned by IDs; 0 when memory is out. */

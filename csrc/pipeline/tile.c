@@ -281,9 +281,9 @@ static int shows_pieces(const tile_job *job)
     const e3d_context *context = job->context;
     if (job->kept || context->finished || context->blockwise)
         return 0;
-    uint32_t records = e3d_visible_records(context, job->number), fragments = e3d_fragments_count(context, job->number);
-    uint32_t most = context->kept ? fragments / MOSTLY : MANY_RECORDS; /* kept: where things hide each other */
-    return records <= most && records + fragments >= FEW_PIECES;
+    e3d_entries in = e3d_count_entries(context, job->number);
+    uint32_t most = context->kept ? in.fragments / MOSTLY : MANY_RECORDS; /* kept: where things hide each other */
+    return in.records <= most && in.records + in.fragments >= FEW_PIECES;
 }
 
 /* No ID beyond the viewport, where whole blocks and vectors are written, too. */

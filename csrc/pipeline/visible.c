@@ -45,18 +45,6 @@ void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int
     }
 }
 
-uint32_t e3d_visible_records(const e3d_context *context, int64_t tile_number)
-{
-    uint32_t count = 0;
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
-        const e3d_bin_block *blocks = set->blocks.data;
-        for (uint32_t next = e3d_first_block(&set->bins, tile_number); next != E3D_NO_BLOCK; next = blocks[next].next)
-            count += blocks[next].count;
-    }
-    return count;
-}
-
 static void show_records(const e3d_context *context, const e3d_record_set *set, e3d_worker *worker, int64_t tile_number)
 {
     const e3d_bin_block *blocks = set->blocks.data;

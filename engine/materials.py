@@ -7,17 +7,25 @@ file says beyond this (physically based parameters, further maps) is kept in ``e
 
 from __future__ import annotations
 
-import math
-import numbers
-from typing import TYPE_CHECKING
-
-from .changes import tell
+from .attributes import CheckedAttribute, Closed, not_negative
 from .colors import check_color
 from .errors import InvalidArgumentError
 from .textures import Texture
 
 
-class Material:
+def _check_texture(value, what):
+    if value is not None and not isinstance(value, Texture):
+        raise InvalidArgumentError(f"{what} must be a Texture or None: {type(value).__name__}")
+    return value
+
+
+def _check_dict(value, what):
+    if not isinstance(value, dict):
+        raise InvalidArgumentError(f"{what} must be a dict: {type(value).__name__}")
+    return dict(value)
+
+
+class Material(Closed):
     """Surface properties shared by the faces that name it.
 
     Parameters
@@ -50,6 +58,17 @@ class Material:
     InvalidArgumentError
     """
 
+    version: int
+    color = CheckedAttribute(check_color)
+    texture = CheckedAttribute(_check_texture)
+    specular = CheckedAttribute(check_color)
+    shininess = CheckedAttribute(not_negative)
+    emissive = CheckedAttribute(check_color)
+    two_sided = CheckedAttribute(lambda value, what: bool(value))
+    flat_shading = CheckedAttribute(lambda value, what: bool(value))
+    name = CheckedAttribute(lambda value, what: str(value))
+    extras = CheckedAttribute(_check_dict)
+
     def __init__(
         self,
         *,
@@ -63,7 +82,6 @@ class Material:
         name: str = "",
         extras: dict | None = None,
     ) -> None:
-        self.version = 0
         self.color = color
         self.texture = texture
         self.specular = specular
@@ -74,50 +92,6 @@ class Material:
         self.name = name
         self.extras = {} if extras is None else extras
 
-    if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
-
-        def __setattr__(self, attribute: str, value) -> None:
-            if attribute == "version":
-                object.__setattr__(self, attribute, value)
-                tell(self)
-                return
-            check = _CHECKS.get(attribute)
-            if check is None:
-                raise AttributeError(f"a Material has no attribute {attribute!r}")
-            object.__setattr__(self, attribute, check(value, attribute))
-            self.version += 1
-
     def __repr__(self) -> str:
         texture = "" if self.texture is None else f", texture={self.texture!r}"
         return f"Material(name={self.name!r}, color={self.color}{texture})"
-
-
-def _check_texture(value, what):
-    if value is not None and not isinstance(value, Texture):
-        raise InvalidArgumentError(f"{what} must be a Texture or None: {type(value).__name__}")
-    return value
-
-
-def _check_exponent(value, what):
-    if not isinstance(value, numbers.Real) or not math.isfinite(value) or value < 0:
-        raise InvalidArgumentError(f"{what} must be a finite number >= 0: {value!r}")
-    return float(value)
-
-
-def _check_dict(value, what):
-    if not isinstance(value, dict):
-        raise InvalidArgumentError(f"{what} must be a dict: {type(value).__name__}")
-    return dict(value)
-
-
-_CHECKS = {
-    "color": check_color,
-    "texture": _check_texture,
-    "specular": check_color,
-    "shininess": _check_exponent,
-    "emissive": check_color,
-    "two_sided": lambda value, what: bool(value),
-    "flat_shading": lambda value, what: bool(value),
-    "name": lambda value, what: str(value),
-    "extras": _check_dict,
-}

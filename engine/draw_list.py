@@ -22,6 +22,7 @@ from .mesh import Mesh
 from .native_handles import MeshNeeds, native_mesh, native_texture
 from .scene import Scene
 from .scene_arrays import NodeArrays
+from .textures import Texture
 
 _MANY = 1024  # instances that are worth a tree of their boxes
 _SETTLED = 3  # frames in which they did not change
@@ -55,7 +56,9 @@ class DrawList:
         self._normals = ""
         self._watch = Watch()
         self._changed: list = []  # of what is watched, since the list was made
-        self._materials: dict[Material, tuple[bool, list[tuple[int, int]]]] = {}
+        self._materials: dict[Material, list[tuple[int, int]]] = {}  # where they are, as whose
+        self._flat: dict[Material, bool] = {}  # which normals they asked for
+        self._users: dict[Texture, set[Material]] = {}
         self._bases: dict[tuple[int, ...], int] = {}  # where materials begin, by their ids
         self._material_lists: list[list[Material]] = []  # the meshes' own, by number of the object
         self._lists_then: list[list[Material]] = []  # and as they were
@@ -158,20 +161,26 @@ class DrawList:
         for thing in self._changed:
             if isinstance(thing, (Mesh, InstancedMesh)):
                 numbers |= objects.drawn_by(thing)
-            elif not self._is_material(thing):
-                return None
+            elif isinstance(thing, Material) and self._flat[thing] != thing.flat_shading:
+                numbers |= self._numbers_with(thing)
         # Materials that nothing shows any longer are let go of when the list is made anew.
         few = 4 * (self._left + len(numbers)) <= len(objects.objects)
         return numbers if few or not numbers else None
 
-    def _is_material(self, thing) -> bool:
-        """Whether it is a material that asks for the same normals as before."""
-        return isinstance(thing, Material) and self._materials[thing][0] == thing.flat_shading
+    def _numbers_with(self, material: Material) -> set[int]:
+        """Numbers of the objects that a material was listed with."""
+        key = id(material)
+        return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
+
+    def _materials_that_changed(self) -> set[Material]:
+        """Those that did, and those of textures that did."""
+        materials = {thing for thing in self._changed if isinstance(thing, Material)}
+        return materials.union(*(self._users.get(thing, ()) for thing in self._changed))
 
     def _replace(self, scene: Scene, numbers: list[int]) -> None:
-        """Renew the objects of some numbers, and the materials that changed."""
-        for material in filter(self._is_material, self._changed):
-            for index, number in self._materials[material][1]:
+        """Renew the materials that changed, and the objects of some numbers."""
+        for material in self._materials_that_changed():
+            for index, number in self._materials[material]:
                 self._set_material(index, material, number)
         self._changed = []
         if not numbers:
@@ -189,7 +198,8 @@ class DrawList:
         self._needs, self._normals = needs, normals
         self.native.clear()
         self._lights.forget()
-        self._watch, self._changed, self._materials = Watch(), [], {}
+        self._watch, self._changed = Watch(), []
+        self._materials, self._flat, self._users = {}, {}, {}
         self._bases, self._material_lists, self._lists_then, self._listed = {}, [], [], []
         self._left = 0
         self._marks = self._trees = False
@@ -254,9 +264,7 @@ class DrawList:
         base = self.native.material_count
         for number, material in enumerate(materials):
             index = base + number
-            self._materials.setdefault(material, (material.flat_shading, []))[1].append(
-                (index, number)
-            )
+            self._materials.setdefault(material, []).append((index, number))
             self._set_material(index, material, number)
         return base
 
@@ -296,9 +304,11 @@ class DrawList:
 
     def _set_material(self, index: int, material: Material, number: int) -> None:
         self._watch.add(material)
+        self._flat[material] = material.flat_shading
         texture = material.texture
         if texture is not None:
             self._watch.add(texture)
+            self._users.setdefault(texture, set()).add(material)
             texture = native_texture(texture, self._color_space)
         self.native.set_material(
             index,

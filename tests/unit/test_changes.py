@@ -55,6 +55,12 @@ def test_python_does_not_look_at_every_mesh():
             row = [calls_of(renderer.render, scene, VIEW)]
             meshes[0].materials[0].color = (1, 0, 0)
             row.append(calls_of(renderer.render, scene, VIEW))
+            shade_flat(scene, meshes[1])
+            row.append(calls_of(renderer.render, scene, VIEW))
+            give_a_texture(scene, meshes[2])
+            row.append(calls_of(renderer.render, scene, VIEW))
+            meshes[2].materials[0].texture.pixels = np.zeros((2, 2, 3), np.uint8)
+            row.append(calls_of(renderer.render, scene, VIEW))
             row.append(calls_of(scene._update))
             meshes[0].positions = meshes[0].positions * 2
             row.append(calls_of(scene._update))
@@ -134,10 +140,12 @@ class Guests:
         self.random = np.random.default_rng(seed)
         self.scene, meshes = spheres(30)
         self.materials = [mesh.materials[0] for mesh in meshes]
+        self.texture = e3d.Texture(np.zeros((2, 2, 3), np.uint8))
         self.nodes = list(self.scene.nodes)
 
     def do(self):
-        self.random.choice([self.come, self.come, self.go, self.go, self.change, self.gather])()
+        comes_and_goes = [self.come, self.come, self.go, self.go]
+        self.random.choice([*comes_and_goes, self.change, self.gather, self.shade, self.paint])()
 
     def come(self):
         obj = e3d.uv_sphere(0.5, (6, 4))
@@ -158,6 +166,22 @@ class Guests:
             obj.poses = self.random.uniform(-3, 3, (3, 4))
         else:
             obj.positions = obj.positions * 1.1
+
+    def shade(self):
+        material = self.random.choice(self.materials)
+        material.flat_shading = not material.flat_shading
+
+    def paint(self):
+        """A texture comes, changes under the materials that share it, or goes from one."""
+        material, pixels = (
+            self.random.choice(self.materials),
+            self.random.integers(0, 256, (2, 2, 3)),
+        )
+        if material.texture is None:
+            material.texture = self.texture
+        elif self.random.random() < 0.5:
+            material.texture = None
+        self.texture.pixels = pixels.astype(np.uint8)
 
     def gather(self):
         """A mesh that is drawn by itself is drawn as instances, too."""

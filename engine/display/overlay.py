@@ -6,6 +6,8 @@ translucent blocks in the corners; what does not fit the picture is clipped.
 
 from __future__ import annotations
 
+from itertools import zip_longest
+
 from ..canvas import text_size
 from .counts import count_names, count_table
 from .keymap import GESTURES, SECTIONS
@@ -108,7 +110,7 @@ def draw_help(canvas) -> None:
 
 
 def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[str]:
-    """Return the statistics of the last frame, line by line.
+    """Return the statistics of the last frame, line by line; they fit 640 x 480 pixels.
 
     Parameters
     ----------
@@ -131,12 +133,20 @@ def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[st
         lines += count_table(stats)
     else:
         tabled = set()
+    entries = []
     for name, value in stats.items():
         if name in tabled:
             continue
         text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
-        lines.append(f"{name.replace('_', ' '):<20}{text:>12}")
-    return lines
+        entries.append(f"{name.replace('_', ' '):<19}{text:>11}")
+    return lines + _in_two_columns(entries)
+
+
+def _in_two_columns(entries: list[str]) -> list[str]:
+    """Return lines of two entries each, the first half of them on the left."""
+    half = (len(entries) + 1) // 2
+    pairs = zip_longest(entries[:half], entries[half:], fillvalue="")
+    return ["   ".join(pair).rstrip() for pair in pairs]
 
 
 def draw_axes(canvas, view: Viewpoint) -> None:

@@ -43,13 +43,27 @@ def test_text_on_a_picture_of_a_pixel_is_clipped():
     draw_axes(canvas, Viewpoint(np.zeros(3), 1.0))
 
 
+def fits(canvas):
+    """Whether nothing is drawn at the very edges of a picture, which was black."""
+    untouched = (canvas.pixels[..., :3] == 0).all(axis=2)
+    rows, columns = untouched.all(axis=1), untouched.all(axis=0)
+    return all(edge.all() for edge in (rows[:4], rows[-4:], columns[:4], columns[-4:]))
+
+
 @pytest.mark.parametrize("size", [(1280, 720), (800, 600)])
 def test_the_help_fits_usual_windows(size):
     canvas = Canvas(*size)
     draw_help(canvas)
-    untouched = (canvas.pixels[..., :3] == 0).all(axis=2)
-    assert untouched[:4].all() and untouched[-4:].all()
-    assert untouched[:, :4].all() and untouched[:, -4:].all()
+    assert fits(canvas)
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (640, 480)])
+def test_the_statistics_fit_small_windows(size):
+    canvas = Canvas(*size)
+    stats = e3d.render(e3d.Scene(), size=(8, 8)).stats
+    large = {name: 12_345_678 for name, value in stats.items() if isinstance(value, int)}
+    draw_block(canvas, statistics_lines(0.02, size, 16, stats | large))
+    assert canvas.pixels.any() and fits(canvas)
 
 
 def test_axes_point_where_the_camera_sees_them():
@@ -154,5 +168,8 @@ def test_the_table_of_counts_is_that_of_the_frame():
     for what in ("nodes", "clusters", "triangles"):
         names = (what, f"{what}_in_frustum", f"{what}_unoccluded", f"{what}_drawn")
         assert table[what] == [f"{stats[name]:,}" for name in names]
-    assert any(line.split() == ["draws", "3"] for line in lines[6:])
+    assert any(line.split()[:2] == ["draws", "3"] for line in lines[6:])
+    entries = [name for name in frame.stats if name not in stats or name == "draws"]
+    shown = "\n".join(lines[6:])
+    assert all(name.replace("_", " ") + " " in shown for name in entries)
     assert not any("in frustum" in line for line in lines[6:])

@@ -70,6 +70,7 @@ CHAPTERS = {
         "OutOfMemoryError",
         "DisplayError",
         "MissingOutputError",
+        "SceneChangedError",
         "Engine3DWarning",
     ),
 }

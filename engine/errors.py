@@ -96,6 +96,10 @@ class MissingOutputError(Engine3DError, AttributeError):
     """A frame was asked for an output that was not rendered."""
 
 
+class SceneChangedError(Engine3DError, RuntimeError):
+    """A scene got other nodes, from another thread, while a frame of it was drawn."""
+
+
 class Engine3DWarning(UserWarning):
     """Something was left out or replaced; the rest of the work went on."""
 

@@ -25,6 +25,7 @@ from .framing import frame_scene
 from .output_pool import OutputPool
 from .rasterization import check_size
 from .scene import Scene
+from .unchanged_scene import UnchangedScene
 from .view import View, find_camera
 
 _WHITE = (1.0, 1.0, 1.0)
@@ -165,9 +166,10 @@ class Renderer:
                 scene, _WHITE, mode, wireframe, "back", "deferred", normals, *rest
             )
             headlight = options.headlight_color, (0.0, 0.0, 1.0)
-            self._draw_list.update(
-                scene, options.needs(names), options.normals, headlight, None, 0.0, True
-            )
+            with UnchangedScene(scene):
+                self._draw_list.update(
+                    scene, options.needs(names), options.normals, headlight, None, 0.0, True
+                )
 
     def _check_drawable(self, scene) -> None:
         if not isinstance(scene, Scene):
@@ -247,6 +249,8 @@ class Renderer:
         Raises
         ------
         InvalidArgumentError, OutOfMemoryError
+        SceneChangedError
+            Another thread added or removed nodes meanwhile, and the frame could not be drawn.
         KeyboardInterrupt
             Ctrl-C stops a frame between its tiles.
         """
@@ -267,23 +271,26 @@ class Renderer:
                 culling,
             )
             frame = self._new_frame(outputs) if out is None else self._check_out(out)
-            view = self._look(scene, camera)
-            headlight = options.headlight_color, view.towards_viewer
-            needs = options.needs(frame.outputs)
-            chosen = None
-            if culling_camera is not None:
-                chosen = self._clip_from_world(scene, culling_camera)
-            frustum = view.clip_from_world if chosen is None else chosen
-            self._draw_list.update(
-                scene,
-                needs,
-                options.normals,
-                headlight,
-                None if culling == "none" else frustum,
-                options.mark_size / min(self._width, self._height),
-                bool(batching),
-            )
-            near, far = view.depth_range(scene.bounds) if options.mode == "depth" else (0.0, 1.0)
+            with UnchangedScene(scene):
+                view = self._look(scene, camera)
+                headlight = options.headlight_color, view.towards_viewer
+                needs = options.needs(frame.outputs)
+                chosen = None
+                if culling_camera is not None:
+                    chosen = self._clip_from_world(scene, culling_camera)
+                frustum = view.clip_from_world if chosen is None else chosen
+                self._draw_list.update(
+                    scene,
+                    needs,
+                    options.normals,
+                    headlight,
+                    None if culling == "none" else frustum,
+                    options.mark_size / min(self._width, self._height),
+                    bool(batching),
+                )
+                near, far = 0.0, 1.0
+                if options.mode == "depth":
+                    near, far = view.depth_range(scene.bounds)
             drawn = self._native.render(
                 self._draw_list.native,
                 frame._outputs,

@@ -1,7 +1,9 @@
 """Threads, forks and signals: many renderers at once, undisturbed. test_leaks has long lives."""
 
+import contextlib
 import os
 import signal
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -122,3 +124,54 @@ def test_a_signal_handler_that_does_not_raise_changes_nothing(scene):
     finally:
         signal.signal(signal.SIGUSR1, previous)
     assert seen == [1]
+
+
+@pytest.mark.parametrize("change", ["add", "remove", None])
+def test_a_scene_that_changes_meanwhile_is_named_as_the_cause(scene, change):
+    node = scene.add(e3d.box())
+
+    def change_nodes():
+        if change == "add":
+            scene.add(e3d.box())
+        elif change == "remove":
+            scene.remove(node)
+
+    class Lens(e3d.PerspectiveCamera):
+        """Fails once another thread has had its turn."""
+
+        def projection(self, width, height):
+            thread = threading.Thread(target=change_nodes)
+            thread.start()
+            thread.join()
+            raise IndexError("out of range")
+
+    with e3d.Renderer(*SIZE) as renderer:
+        with pytest.raises((e3d.SceneChangedError, IndexError)) as error:
+            renderer.render(scene, (Lens(), e3d.look_at((0, 0, 3), (0, 0, 0))))
+        assert error.type is (IndexError if change is None else e3d.SceneChangedError)
+        assert error.match("out of range" if change is None else "from another thread")
+        fresh = e3d.render(scene, size=SIZE)
+        assert np.array_equal(renderer.render(scene).color, fresh.color)
+
+
+def test_frames_beside_nodes_that_come_and_go_fail_of_nothing_else(scene):
+    done, rest = threading.Event(), sys.getswitchinterval()
+
+    def come_and_go():
+        while not done.is_set():
+            nodes = [scene.add(obj) for obj in (e3d.box(), e3d.PointLight(), None) for _ in "12345"]
+            for node in nodes:
+                scene.remove(node)
+
+    thread = threading.Thread(target=come_and_go)
+    sys.setswitchinterval(1e-5)
+    try:
+        thread.start()
+        with e3d.Renderer(16, 16, threads=1) as renderer:
+            for _ in range(200):
+                with contextlib.suppress(e3d.SceneChangedError):
+                    renderer.render(scene)
+    finally:
+        done.set()
+        thread.join()
+        sys.setswitchinterval(rest)

@@ -17,6 +17,7 @@ from engine3d import errors
         (errors.OutOfMemoryError, MemoryError),
         (errors.DisplayError, RuntimeError),
         (errors.MissingOutputError, AttributeError),
+        (errors.SceneChangedError, RuntimeError),
     ],
 )
 def test_every_exception_is_also_a_builtin(kind, builtin):

@@ -204,7 +204,8 @@ class Renderer:
         ----------
         scene : Scene
         camera : None, Node or (Camera, pose)
-            None is the scene's first visible camera; a scene without one is framed automatically.
+            A node of this scene. None is its first visible camera; a scene without one is framed
+            automatically.
         mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
             What the colour shows: light, plain surface colour, a random colour a triangle,
             nearness, view-space normals, identities as colours, or how often each pixel was

@@ -79,7 +79,7 @@ def find_camera(scene: Scene, camera) -> tuple[Camera, np.ndarray] | None:
     ----------
     scene : Scene
     camera : None, Node or (Camera, pose)
-        None is the scene's first visible camera.
+        None is the scene's first visible camera; a node is one of this scene.
 
     Returns
     -------
@@ -96,6 +96,10 @@ def find_camera(scene: Scene, camera) -> tuple[Camera, np.ndarray] | None:
     if isinstance(camera, Node):
         if not isinstance(camera.object, Camera):
             raise InvalidArgumentError(f"camera must be a node that holds a camera, not {camera!r}")
+        if camera._scene is not scene:
+            raise InvalidArgumentError(
+                f"{camera!r} is not a node of this scene: give (node.object, node.world_pose)"
+            )
         return camera.object, camera.world_pose
     if isinstance(camera, Camera):
         raise InvalidArgumentError(

@@ -71,6 +71,21 @@ def test_camera_node_must_hold_a_camera(renderer, scene):
         renderer.render(scene, scene.add(e3d.box()))
 
 
+@pytest.mark.parametrize("argument", ["camera", "culling_camera"])
+def test_a_camera_is_one_of_the_scene_or_comes_with_its_pose(argument):
+    scene, other = e3d.Scene(), e3d.Scene()
+    lens, pose = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 3), (0, 0, 0))
+    node, elsewhere = scene.add(lens, pose=pose), other.add(lens, pose=pose)
+    with e3d.Renderer(8, 8) as renderer:
+        renderer.render(scene, **{argument: node})
+        renderer.render(scene, **{argument: (elsewhere.object, elsewhere.world_pose)})
+        with pytest.raises(e3d.InvalidArgumentError, match="not a node of this scene: give"):
+            renderer.render(scene, **{argument: elsewhere})
+        scene.remove(node)
+        with pytest.raises(e3d.InvalidArgumentError, match="not a node of this scene"):
+            renderer.render(scene, **{argument: node})
+
+
 def test_out_must_have_the_size(renderer, scene):
     other = e3d.render(scene, size=(4, 4))
     with pytest.raises(e3d.InvalidArgumentError, match="out must be 8x6, not 4x4"):

@@ -70,7 +70,10 @@ def add_subject(parser) -> None:
         "--scene", choices=SCENES, metavar="NAME", help=f"a scene: {', '.join(SCENES)}"
     )
     group.add_argument(
-        "--triangles", type=values.count, metavar="N", help="of --scene city: how many, about"
+        "--triangles",
+        type=values.city_triangles,
+        metavar="N",
+        help="of --scene city: how many, about; 20,000 to 50,000,000",
     )
     group.add_argument(
         "--texture",
@@ -133,9 +136,9 @@ def add_look(parser) -> None:
     )
     group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")
     group.add_argument("--hidden-lines", action="store_true", help="draw edges behind faces too")
-    group.add_argument("--line-width", type=values.positive, metavar="PIXELS")
+    group.add_argument("--line-width", type=values.width, metavar="PIXELS", help="up to 256")
     group.add_argument("--line-color", type=values.color, metavar="COLOR")
-    group.add_argument("--point-size", type=values.positive, metavar="PIXELS")
+    group.add_argument("--point-size", type=values.width, metavar="PIXELS", help="up to 256")
     normals = group.add_mutually_exclusive_group()
     normals.add_argument("--flat", action="store_const", const="flat", dest="normals")
     normals.add_argument("--smooth", action="store_const", const="smooth", dest="normals")
@@ -181,7 +184,7 @@ def add_camera(parser) -> None:
         "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="what to look at"
     )
     group.add_argument(
-        "--camera-view-up", type=values.vector, metavar="X,Y,Z", help="what is up in the picture"
+        "--camera-view-up", type=values.direction, metavar="X,Y,Z", help="what is up in the picture"
     )
     group.add_argument(
         "--camera-view-angle", type=values.view_angle, metavar="DEGREES", help="vertical"
@@ -313,6 +316,8 @@ def place_view(args: argparse.Namespace, studio, *, turns: bool = True):
     if args.camera_view_up is not None:
         view.up = args.camera_view_up
     if args.camera_position is not None:
+        if args.camera_position == args.camera_focal_point:
+            raise UsageError("--camera-position and --camera-focal-point are the same")
         view.look_from(args.camera_position, args.camera_focal_point or studio.bounds.center)
     view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
     view.elevation += math.radians(args.camera_elevation_angle or 0.0)

@@ -114,10 +114,10 @@ def _add_city(commands) -> None:
     command.add_argument("output", metavar="OUT", help="the file to write")
     command.add_argument(
         "--triangles",
-        type=values.count,
+        type=values.city_triangles,
         default=1_000_000,
         metavar="N",
-        help="how many, about; a million by default",
+        help="how many, about: 20,000 to 50,000,000; a million by default",
     )
     command.add_argument(
         "--seed", type=values.integer, default=0, metavar="N", help="another city for each"

@@ -14,6 +14,8 @@ from collections.abc import Callable, Sequence
 UPS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 MAX_SIDE = 16384
 MAX_THREADS = 256
+MAX_WIDTH = 256  # of lines and points
+CITY_TRIANGLES = 20_000, 50_000_000
 
 
 def resolution(text: str) -> tuple[int, int]:
@@ -46,6 +48,14 @@ def positive(text: str) -> float:
     return value
 
 
+def width(text: str) -> float:
+    """Parse the width of a line or a point in pixels."""
+    value = positive(text)
+    if value > MAX_WIDTH:
+        raise argparse.ArgumentTypeError(f"{text!r} is above {MAX_WIDTH} pixels")
+    return value
+
+
 def not_negative(text: str) -> float:
     """Parse a finite number, zero or more."""
     value = number(text)
@@ -67,6 +77,14 @@ def count(text: str) -> int:
     if not re.fullmatch(r"\d{1,9}", text) or int(text) < 1:
         raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
     return int(text)
+
+
+def city_triangles(text: str) -> int:
+    """Parse how many triangles a city has."""
+    value, (least, most) = count(text), CITY_TRIANGLES
+    if not least <= value <= most:
+        raise argparse.ArgumentTypeError(f"{text!r} is not from {least:,} to {most:,}")
+    return value
 
 
 def integer(text: str) -> int:
@@ -107,6 +125,14 @@ def vector(text: str) -> tuple[float, float, float]:
     if len(parts) != 3:
         raise argparse.ArgumentTypeError(f"{text!r} is not like 1,2,3")
     return number(parts[0]), number(parts[1]), number(parts[2])
+
+
+def direction(text: str) -> tuple[float, float, float]:
+    """Parse ``X,Y,Z`` of a direction."""
+    parsed = vector(text)
+    if not any(parsed):
+        raise argparse.ArgumentTypeError(f"{text!r} is no direction")
+    return parsed
 
 
 def view_angle(text: str) -> float:

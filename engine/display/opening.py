@@ -7,7 +7,9 @@ neutral background, the up direction usual for the format, and the file's counts
 from __future__ import annotations
 
 import os
+import warnings
 
+from ..errors import Engine3DWarning
 from ..loaders import companion_texture, load_document, load_texture
 from ..materials import Material
 from ..scene_loading import scene_from_document
@@ -29,7 +31,7 @@ def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
         The base colour texture of the meshes without materials. Left out, an image beside the
         model that bears its name is taken.
     color : (3,) sequence, optional
-        The base colour of the meshes without materials.
+        The base colour of the meshes without materials. If there are none, that is warned of.
     progress : callable, optional
         As in `engine3d.load_mesh`.
 
@@ -50,6 +52,9 @@ def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
         if image is None and color is None and path is not None:
             image = companion_texture(path)
         _dress(bare, image, color)
+    elif texture is not None or color is not None:
+        message = "the model has materials of its own: it gets no other texture or colour"
+        warnings.warn(message, Engine3DWarning, stacklevel=2)
     scene = scene_from_document(document)
     scene.background = BACKGROUND
     return Subject(

@@ -4,12 +4,14 @@ import argparse
 
 import pytest
 
+import engine3d as e3d
 from engine3d.cli import options, values
 from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
 from engine3d.demos import DEMO_NAMES
 from engine3d.display.look import CULLS, HIDDEN_SURFACES, MODES
 from engine3d.display.viewpoint import UP_DIRECTIONS
+from engine3d.worlds.city import LEAST, MOST
 
 
 def parse(*arguments):
@@ -73,6 +75,29 @@ def test_bad_up_direction(text):
 def test_bad_count(text):
     with pytest.raises(argparse.ArgumentTypeError):
         values.count(text)
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "256.5", "nan", "wide"])
+def test_bad_width(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.width(text)
+
+
+@pytest.mark.parametrize("text", ["0", "19999", "50000001", "2e5"])
+def test_bad_city_triangles(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.city_triangles(text)
+
+
+def test_limits_are_those_of_what_draws():
+    assert values.CITY_TRIANGLES == (LEAST, MOST)
+    assert values.width("256") == values.MAX_WIDTH
+    assert values.city_triangles("20000") == LEAST
+    with e3d.Renderer(8, 8) as renderer:
+        renderer.render(e3d.Scene(), line_width=values.MAX_WIDTH, point_size=values.MAX_WIDTH)
+        for name in ("line_width", "point_size"):
+            with pytest.raises(e3d.InvalidArgumentError):
+                renderer.render(e3d.Scene(), **{name: values.MAX_WIDTH + 1})
 
 
 def test_values_may_start_with_a_minus_sign():

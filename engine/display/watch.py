@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 
-from ..file_states import file_stamp
+from ..file_states import file_stamp, was_written
 
 #: How often the file is looked at.
 CHECK_SECONDS = 0.25
@@ -42,10 +42,10 @@ class FileWatch:
         stamp = self._stamp()
         settled = stamp == self._pending
         self._pending = stamp
-        if stamp is None or stamp == self._seen or not settled:
+        if stamp is None or not settled:
             return False
-        self._seen = stamp
-        return True
+        seen, self._seen = self._seen, stamp
+        return was_written(seen, stamp)
 
     def _stamp(self):
         if self.path is None:

@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
+from engine3d.file_states import FileStamp
 
 OBJ = "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
 
@@ -130,9 +131,28 @@ def test_a_change_that_keeps_size_and_time_is_found(folder, name):
     assert mesh.positions.max() == 1
 
 
+@pytest.mark.parametrize("name", ["m.obj", "m.mtl", "t.png"])
+def test_permissions_and_links_are_no_change(folder, name):
+    resources = e3d.Resources()
+    mesh = resources.load_mesh(folder / "m.obj")
+    time.sleep(0.05)  # longer than the clock's steps
+    (folder / name).chmod(0o600)
+    assert resources.reload_changed() == ()
+    os.link(folder / name, folder / "link")
+    assert resources.reload_changed() == ()
+    os.remove(folder / "link")
+    assert resources.reload_changed() == ()
+    (folder / "m.obj").write_text(OBJ.replace("v 1 0 0", "v 5 0 0"))
+    assert len(resources.reload_changed()) == 1
+    assert mesh.positions.max() == 5
+
+
 def test_a_change_within_a_step_of_the_clock_is_found(folder, monkeypatch):
     """Once the step is over, by the content: the stamp is that of before."""
-    monkeypatch.setattr("engine3d.file_states.file_stamp", lambda path: (1, 1, *[stamp.now] * 2))
+    monkeypatch.setattr(
+        "engine3d.file_states.file_stamp",
+        lambda path: FileStamp(1, 1, stamp.now, stamp.now, ()),
+    )
     stamp.now = time.time_ns()
     resources = e3d.Resources()
     mesh = resources.load_mesh(folder / "m.obj")

@@ -91,7 +91,8 @@ def _add_convert(commands) -> None:
         "convert",
         help="write a model in another format",
         description="Write a model as OBJ with MTL, PLY or STL, as the extension of OUT says. What "
-        "that format does not hold is warned of.",
+        "that format does not hold is warned of. Coordinates stay as they are, whichever axis is "
+        "up.",
         allow_abbrev=False,
     )
     command.set_defaults(load_command=_load_convert)

@@ -552,6 +552,14 @@ def test_convert(model, tmp_path, capfd):
     assert main(["convert", "out.stl", "missing/out.obj"]) == 1
 
 
+@pytest.mark.parametrize("name", ["out.obj", "out.ply", "out.stl"])
+def test_convert_keeps_coordinates_whichever_axis_is_up(model, name):
+    assert main(["convert", str(model), name]) == 0
+    assert {tuple(corner) for corner in e3d.load_mesh(name).positions.tolist()} == {
+        tuple(corner) for corner in e3d.load_mesh(model).positions.tolist()
+    }
+
+
 @pytest.mark.parametrize("arguments", [["out.png"], ["out"], ["out.obj", "--ascii"]])
 def test_convert_refuses_what_it_cannot_write(model, capfd, arguments):
     assert main(["convert", str(model), *arguments]) == 2

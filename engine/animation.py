@@ -12,7 +12,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from . import linalg
-from .attributes import finite, vector3
+from .attributes import Closed, finite, vector3
 from .errors import InvalidArgumentError
 from .nodes import Node
 from .scene import Scene
@@ -20,7 +20,7 @@ from .scene import Scene
 _SLOWEST = 6  # far nodes move at least every 2**6 updates
 
 
-class Animator:
+class Animator(Closed):
     """Moves nodes of a scene.
 
     Parameters
@@ -41,6 +41,9 @@ class Animator:
     ------
     InvalidArgumentError
     """
+
+    time: float
+    paused: bool
 
     def __init__(self, scene, *, full_rate_distance: float = math.inf) -> None:
         if not isinstance(scene, Scene):

@@ -118,6 +118,13 @@ def not_negative(value, what: str) -> float:
     return float(value)
 
 
+def how_far(value, what: str) -> float:
+    """Check a distance: a number that is 0 or greater, and may be infinite."""
+    if not isinstance(value, numbers.Real) or not value >= 0:
+        raise InvalidArgumentError(f"{what} must be a number, 0 or greater, not {value!r}")
+    return float(value)
+
+
 def vector3(value, what: str) -> np.ndarray:
     """Check three finite numbers; return them as a read-only float64 array."""
     return frozen_floats(value, what, (3,))

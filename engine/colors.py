@@ -120,9 +120,11 @@ def is_8bit(components) -> bool:
 
 def _sequence(value, what: str) -> list:
     try:
-        return list(value)
+        if not isinstance(value, str):
+            return list(value)
     except TypeError:
-        raise InvalidArgumentError(f"{what} must be a sequence of 3 numbers: {value!r}") from None
+        pass
+    raise InvalidArgumentError(f"{what} must be a sequence of 3 numbers: {value!r}")
 
 
 def _scalar(component):

@@ -108,7 +108,7 @@ def located(message: str, path: str | None, line: int | None = None) -> str:
     """Return ``message`` with the place it speaks of in front: ``FILE:LINE: message``."""
     if path is None:
         return message
-    path = printable(path)
+    path = printable(path) or "''"
     place = path if line is None else f"{path}:{line}"
     return f"{place}: {message}"
 

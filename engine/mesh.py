@@ -213,6 +213,8 @@ class Mesh(Closed):
         """
         from .mesh_concatenation import concatenate
 
+        if not isinstance(meshes, Iterable):
+            raise InvalidArgumentError(f"meshes must be several Mesh, not {meshes!r}")
         return concatenate(cls, list(meshes), name)
 
     @classmethod

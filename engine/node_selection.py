@@ -11,12 +11,13 @@ from collections.abc import Iterable
 import numpy as np
 
 from ._native.scene_graph import VISIBLE
+from .attributes import Closed
 from .errors import InvalidArgumentError
 from .nodes import Node
 from .scene_arrays import matrices_of
 
 
-class NodeSelection:
+class NodeSelection(Closed):
     """Some nodes of a scene, to read or to move together; made by `Scene.select`.
 
     Whatever is assigned has a row for each node, in the order of the selection, or is one row for
@@ -26,6 +27,8 @@ class NodeSelection:
     ----------
     nodes : tuple of Node
     """
+
+    nodes: tuple[Node, ...]
 
     def __init__(self, scene, nodes: Iterable[Node]) -> None:
         self.nodes = tuple(nodes)

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ._native import rasterizer as _native
-from .attributes import choose
+from .attributes import Closed, choose
 from .backend_selection import resolve_backend, resolve_threads
 from .cameras import Camera
 from .colors import COLOR_SPACES
@@ -32,7 +32,7 @@ _WHITE = (1.0, 1.0, 1.0)
 _SAMPLES = {1: 1, 4: 2, 16: 4}  # samples a pixel -> samples along an axis
 
 
-class Renderer:
+class Renderer(Closed):
     """Draws frames of one size.
 
     Several renderers may draw in several threads at once; one renderer used from several threads
@@ -158,7 +158,7 @@ class Renderer:
         ------
         InvalidArgumentError, OutOfMemoryError
         """
-        names = tuple(choose(name, OUTPUTS, "outputs") for name in outputs)
+        names = _names_of(outputs)
         with self._lock:
             self._check_drawable(scene)
             rest = "zbuffer", False, 1.0, 1.0, "none"
@@ -315,11 +315,9 @@ class Renderer:
         return View(camera, pose, self._width, self._height).clip_from_world
 
     def _new_frame(self, outputs: Iterable[str]) -> Frame:
-        if isinstance(outputs, str):
-            raise InvalidArgumentError(f"outputs must be a tuple of names: ({outputs!r},)")
         wanted = {}
-        for name in outputs:
-            dtype, channels = OUTPUTS[choose(name, OUTPUTS, "outputs")]
+        for name in _names_of(outputs):
+            dtype, channels = OUTPUTS[name]
             shape = (self._height, self._width, channels)
             wanted[name] = (shape if channels else shape[:2], dtype)
         if not wanted:
@@ -353,6 +351,13 @@ class Renderer:
 
     def __repr__(self) -> str:
         return f"<Renderer {self._width}x{self._height}, {self._backend}>"
+
+
+def _names_of(outputs: Iterable[str]) -> tuple[str, ...]:
+    """The names of outputs, checked."""
+    if isinstance(outputs, str) or not isinstance(outputs, Iterable):
+        raise InvalidArgumentError(f"outputs must be a tuple of names, not {outputs!r}")
+    return tuple(choose(name, OUTPUTS, "outputs") for name in outputs)
 
 
 def render(

@@ -8,9 +8,11 @@ makes them anew when ``version`` has changed.
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 
-from .attributes import Closed, choose
+from .attributes import CheckedAttribute, Closed, one_of
 from .changes import tell
 from .colors import COLOR_SPACES
 from .errors import InvalidArgumentError
@@ -48,6 +50,9 @@ class Texture(Closed):
 
     name: str
     version: int
+    color_space = CheckedAttribute(one_of(COLOR_SPACES))
+    filter = CheckedAttribute(one_of(FILTERS))
+    wrap = CheckedAttribute(one_of(WRAPS))
 
     def __init__(
         self,
@@ -76,36 +81,6 @@ class Texture(Closed):
         tell(self)
 
     @property
-    def color_space(self) -> str:
-        return self._color_space
-
-    @color_space.setter
-    def color_space(self, value: str) -> None:
-        self._color_space = choose(value, COLOR_SPACES, "color_space")
-        self.version += 1
-        tell(self)
-
-    @property
-    def filter(self) -> str:
-        return self._filter
-
-    @filter.setter
-    def filter(self, value: str) -> None:
-        self._filter = choose(value, FILTERS, "filter")
-        self.version += 1
-        tell(self)
-
-    @property
-    def wrap(self) -> str:
-        return self._wrap
-
-    @wrap.setter
-    def wrap(self, value: str) -> None:
-        self._wrap = choose(value, WRAPS, "wrap")
-        self.version += 1
-        tell(self)
-
-    @property
     def width(self) -> int:
         return self._pixels.shape[1]
 
@@ -122,6 +97,8 @@ def as_rgba(pixels) -> np.ndarray:
 
     Alpha is 255 where the image has none. The result never shares memory that can be written to.
     """
+    if isinstance(pixels, (str, os.PathLike)):
+        raise InvalidArgumentError(f"a Texture is made of pixels: use load_texture({pixels!r})")
     image = np.asarray(pixels)
     if image.dtype != np.uint8:
         raise InvalidArgumentError(f"texture pixels must be uint8, got {image.dtype}")

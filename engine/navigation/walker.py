@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..attributes import finite
+from ..attributes import Closed, finite
 from ..errors import InvalidArgumentError
 from .grid import NavigationGrid
 
@@ -25,7 +25,7 @@ _MOST_STEPS = 4096
 _EDGE = 80
 
 
-class Walker:
+class Walker(Closed):
     """A point on the ground, and eyes above it.
 
     Parameters
@@ -46,12 +46,19 @@ class Walker:
     grid : NavigationGrid
     x, y, z : float
         Where the feet are; y is the ground's height.
+    eye_height : float
 
     Raises
     ------
     InvalidArgumentError
         Nothing is walkable, or a number is not finite.
     """
+
+    grid: NavigationGrid
+    x: float
+    y: float
+    z: float
+    eye_height: float
 
     def __init__(
         self,
@@ -68,7 +75,7 @@ class Walker:
         self.grid = grid
         self._survey = survey
         self._surveyed = math.inf, math.inf
-        self.eye_height = float(eye_height)
+        self.eye_height = finite(eye_height, "eye_height")
         y = None if y is None else finite(y, "y")
         self._layer, self.x, self.z = _nearest(grid, finite(x, "x"), finite(z, "z"), y)
         self.y = self._ground(self.x, self.z)

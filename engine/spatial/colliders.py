@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import linalg
 from .._native.scene_graph import BOX, SHOWN, NativeTree
-from ..attributes import positive, vector3
+from ..attributes import how_far, positive, vector3
 from ..changes import Watch
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
@@ -255,8 +255,9 @@ def _corners_near(mesh: Mesh, pose, low, high) -> np.ndarray:
 def raycast_colliders(scene, origin, direction, max_distance) -> ColliderHit | None:
     """See `Scene.raycast_colliders`."""
     origin, direction = vector3(origin, "origin"), vector3(direction, "direction")
-    if not direction.any() or not max_distance >= 0:
-        raise InvalidArgumentError("a ray needs a direction, and a max_distance of 0 or more")
+    max_distance = how_far(max_distance, "max_distance")
+    if not direction.any():
+        raise InvalidArgumentError("direction must not be the zero vector")
     direction = linalg.normalize(direction)
     placed = _placed(scene)
     rows = placed.on_ray(origin, direction, max_distance)

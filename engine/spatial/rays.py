@@ -14,8 +14,9 @@ import numpy as np
 
 from .. import linalg
 from .._native.rasterizer import CULLS
-from ..attributes import choose, vector3
+from ..attributes import choose, how_far, vector3
 from ..errors import InvalidArgumentError
+from ..frame import Frame
 from ..instances import InstancedMesh
 from ..nodes import Node
 from .shapes import tell
@@ -102,8 +103,7 @@ def raycast_many(scene, origins, directions, max_distance, cull) -> RayHits:
 def _cast(scene, origins, directions, max_distance, cull) -> tuple[np.ndarray, np.ndarray]:
     if not directions.any(axis=1).all():
         raise InvalidArgumentError("direction must not be the zero vector")
-    if not max_distance >= 0:
-        raise InvalidArgumentError(f"max_distance must be 0 or more, not {max_distance!r}")
+    max_distance = how_far(max_distance, "max_distance")
     number = CULLS[choose(cull, CULLS, "cull")]
     scene._update()
     objects = scene._objects
@@ -135,6 +135,8 @@ def _vectors(value, what: str) -> np.ndarray:
 
 def pick(scene, frame, x: int, y: int) -> RayHit | None:
     """See `Scene.pick`."""
+    if not isinstance(frame, Frame):
+        raise InvalidArgumentError(f"frame must be a Frame, not {type(frame).__name__}")
     for value in (x, y):
         if not isinstance(value, numbers.Real):
             raise InvalidArgumentError(f"a pixel is two numbers, not {value!r}")

@@ -50,6 +50,7 @@ def test_errors_survive_pickling():
         ("\x1b[31mred.obj", "\\x1b[31mred.obj"),
         ("not\udcffutf8.obj", "not\\udcffutf8.obj"),
         ("b\u00fccher ok.obj", "b\u00fccher ok.obj"),
+        ("", "''"),
     ],
 )
 def test_a_message_is_one_line_whatever_the_file_is_called(path, shown):

@@ -160,6 +160,7 @@ def test_what_is_not_finite_is_not_met():
         (((0, 0, 0), (0, 0, 0)), "zero vector"),
         (((0, 0, 0), (0, np.nan, 0)), "finite"),
         (((0, 0, 0), (0, 0, 1), {"max_distance": -1}), "max_distance"),
+        (((0, 0, 0), (0, 0, 1), {"max_distance": "far"}), "max_distance must be a number"),
         (((0, 0, 0), (0, 0, 1), {"cull": "all"}), "cull"),
     ],
 )
@@ -239,5 +240,7 @@ def test_picking_what_is_not_there_any_more():
 @pytest.mark.parametrize("pixel", [("a", 1), (1, None), ((1, 2), 3)])
 def test_a_pixel_is_two_numbers(pixel):
     frame = e3d.render(e3d.Scene(), size=(8, 8))
+    with pytest.raises(e3d.InvalidArgumentError, match="frame must be a Frame, not NoneType"):
+        e3d.Scene().pick(None, *pixel)
     with pytest.raises(e3d.InvalidArgumentError, match="a pixel is two numbers"):
         e3d.Scene().pick(frame, *pixel)

@@ -62,3 +62,8 @@ def test_what_is_no_image_is_refused(pixels):
 def test_unknown_options_are_refused(option):
     with pytest.raises(InvalidArgumentError, match=option):
         Texture(image(1, 1), **{option: "unknown"})
+
+
+def test_a_path_is_not_taken_for_pixels():
+    with pytest.raises(InvalidArgumentError, match=r"use load_texture\('wood.png'\)"):
+        Texture("wood.png")

@@ -18,14 +18,13 @@ from .backend_selection import resolve_backend, resolve_threads
 from .cameras import Camera
 from .colors import COLOR_SPACES
 from .draw_list import DrawList
-from .errors import InvalidArgumentError
+from .errors import InvalidArgumentError, SceneChangedError
 from .frame import OUTPUTS, Frame
 from .frame_options import OptionsCache
 from .framing import frame_scene
 from .output_pool import OutputPool
 from .rasterization import check_size
 from .scene import Scene
-from .unchanged_scene import UnchangedScene
 from .view import View, find_camera
 
 _WHITE = (1.0, 1.0, 1.0)
@@ -166,10 +165,14 @@ class Renderer(Closed):
                 scene, _WHITE, mode, wireframe, "back", "deferred", normals, *rest
             )
             headlight = options.headlight_color, (0.0, 0.0, 1.0)
-            with UnchangedScene(scene):
+            census = scene._census()
+            try:
                 self._draw_list.update(
                     scene, options.needs(names), options.normals, headlight, None, 0.0, True
                 )
+            except Exception as error:
+                _blame_change(scene, census, error)
+                raise
 
     def _check_drawable(self, scene) -> None:
         if not isinstance(scene, Scene):
@@ -272,7 +275,8 @@ class Renderer(Closed):
                 culling,
             )
             frame = self._new_frame(outputs) if out is None else self._check_out(out)
-            with UnchangedScene(scene):
+            census = scene._census()
+            try:
                 view = self._look(scene, camera)
                 headlight = options.headlight_color, view.towards_viewer
                 needs = options.needs(frame.outputs)
@@ -292,6 +296,9 @@ class Renderer(Closed):
                 near, far = 0.0, 1.0
                 if options.mode == "depth":
                     near, far = view.depth_range(scene.bounds)
+            except Exception as error:
+                _blame_change(scene, census, error)
+                raise
             drawn = self._native.render(
                 self._draw_list.native,
                 frame._outputs,
@@ -351,6 +358,15 @@ class Renderer(Closed):
 
     def __repr__(self) -> str:
         return f"<Renderer {self._width}x{self._height}, {self._backend}>"
+
+
+def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> None:
+    """Raise, where nodes came or went since a census, an error that says so instead of another."""
+    if scene._census() != census:
+        raise SceneChangedError(
+            "nodes were added to the scene or removed while it was drawn: change a scene between "
+            "frames, not from another thread during one"
+        ) from error
 
 
 def _names_of(outputs: Iterable[str]) -> tuple[str, ...]:

@@ -404,6 +404,10 @@ class Scene(Closed):
             self._colliders[node.id] = node
             self._colliders = dict(sorted(self._colliders.items()))
 
+    def _census(self) -> tuple[int, int]:
+        """What is another once a node has come or gone."""
+        return self._arrays.count, self._removals
+
     def _node_of(self, number: int) -> Node | None:
         """The node of an id, if it is in the scene."""
         ids = self._arrays.columns["id"][: self._arrays.count]

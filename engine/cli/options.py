@@ -137,11 +137,15 @@ def add_look(parser) -> None:
     group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")
     group.add_argument("--hidden-lines", action="store_true", help="draw edges behind faces too")
     group.add_argument("--line-width", type=values.width, metavar="PIXELS", help="up to 256")
-    group.add_argument("--line-color", type=values.color, metavar="COLOR")
+    group.add_argument("--line-color", type=values.color, metavar="COLOR", help="of the edges")
     group.add_argument("--point-size", type=values.width, metavar="PIXELS", help="up to 256")
     normals = group.add_mutually_exclusive_group()
-    normals.add_argument("--flat", action="store_const", const="flat", dest="normals")
-    normals.add_argument("--smooth", action="store_const", const="smooth", dest="normals")
+    normals.add_argument(
+        "--flat", action="store_const", const="flat", dest="normals", help="a normal a face"
+    )
+    normals.add_argument(
+        "--smooth", action="store_const", const="smooth", dest="normals", help="a normal a corner"
+    )
     group.add_argument("--cull", choices=("back", "front", "none"), help="the faces to leave out")
     group.add_argument(
         "--hidden-surfaces",
@@ -179,7 +183,9 @@ def add_camera(parser) -> None:
     group.add_argument(
         "--up", type=values.up_direction, metavar="±X|±Y|±Z", help="+Y, or +Z for .asc and .stl"
     )
-    group.add_argument("--camera-position", type=values.vector, metavar="X,Y,Z")
+    group.add_argument(
+        "--camera-position", type=values.vector, metavar="X,Y,Z", help="where it stands"
+    )
     group.add_argument(
         "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="what to look at"
     )

@@ -10,6 +10,7 @@ import argparse
 from ..benchmarking.names import WORKLOADS
 from ..version import __version__
 from . import options, values
+from .usage import UsageError
 
 
 class _Parser(argparse.ArgumentParser):
@@ -24,13 +25,15 @@ def make_parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="engine3d",
         description="Draw 3D models on the CPU: in a window, or to a file where there is none.",
+        epilog="engine3d COMMAND --help lists a command's options. To begin with: engine3d run.",
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"engine3d {__version__}")
+    parser.set_defaults(load_command=_missing_command)
     parser.add_argument(
         "--list-readers", action=_ListReaders, nargs=0, help="print the formats that are read"
     )
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     _add_run(commands)
     _add_render(commands)
     _add_info(commands)
@@ -157,7 +160,11 @@ def _add_bench(commands) -> None:
         help="numbers of threads, 0 for as many as there may be (default: 1,0)",
     )
     command.add_argument(
-        "--resolution", type=values.resolution, default=(1920, 1080), metavar="WxH"
+        "--resolution",
+        type=values.resolution,
+        default=(1920, 1080),
+        metavar="WxH",
+        help="size in pixels (default: 1920x1080)",
     )
     command.add_argument(
         "--seconds",
@@ -173,6 +180,12 @@ def _add_bench(commands) -> None:
     )
     command.add_argument("--json", metavar="FILE", help="write the figures; - for standard output")
     command.add_argument("--plot", metavar="FILE", help="draw a chart: SVG, PNG, JPEG or WebP")
+
+
+def _missing_command():
+    raise UsageError(
+        "say which command: run, render, info, convert, city or bench (see engine3d --help)"
+    )
 
 
 def _load_run():

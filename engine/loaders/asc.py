@@ -21,8 +21,8 @@ from ..mesh import Mesh
 from ..topology import polygon_ids
 from .corner_mesh import Geometry, Triangles, Vertices, build_mesh
 from .documents import CameraRecord, Document, DocumentObject, LightRecord
+from .linked_textures import give_companion_texture
 from .number_arrays import parse_float
-from .obj_materials import give_companion_texture
 from .registry import Reader
 from .smoothing import FLAT, fill_normals
 from .sources import Source

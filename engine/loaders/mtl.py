@@ -9,13 +9,12 @@ sense is a warning; a library never fails as a whole unless it is no text.
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Callable
 
 from ..errors import Engine3DError
 from ..materials import Material
 from ..textures import Texture
-from .linked_files import LinkedFileError, LinkedFiles
+from .linked_files import LinkedFileError
+from .linked_textures import TextureCache
 from .sources import Source
 from .text import decoded, shown, text_lines
 from .warning_list import WarningList
@@ -43,65 +42,6 @@ _OPTIONS = {
     "-texres": 1,
     "-type": 1,
 }
-
-
-class TextureCache:
-    """The textures of one model, each image loaded once.
-
-    Parameters
-    ----------
-    files : LinkedFiles
-        The files that the model may name.
-    load : callable
-        ``load(path, wrap=...) -> Texture``.
-    """
-
-    def __init__(self, files: LinkedFiles, load: Callable[..., Texture]) -> None:
-        self._files = files
-        self._load = load
-        self._textures: dict[tuple[str, str], Texture] = {}
-
-    def get(self, name: str, folder: str, wrap: str) -> tuple[Texture, str]:
-        """Return the texture that a name means, and what to say of it ("" for nothing).
-
-        Parameters
-        ----------
-        name : str
-        folder : str
-            Where it is looked for first, before the model's folder.
-        wrap : {"repeat", "clamp"}
-
-        Raises
-        ------
-        LinkedFileError, Engine3DError
-            There is no such image, or it is damaged.
-        """
-        path, note = self._find(name, folder)
-        key = (os.path.realpath(path), wrap)
-        if key not in self._textures:
-            self._textures[key] = self._load(path, wrap=wrap)
-        return self._textures[key], note
-
-    def _find(self, name: str, folder: str) -> tuple[str, str]:
-        """Materials made elsewhere name images by paths of another machine.
-
-        An image of the same name beside the model is taken for the one that was meant.
-        """
-        try:
-            return self._files.find(name, folder), ""
-        except LinkedFileError as error:
-            first_reason = str(error)
-        bare = name.replace("\\", "/").rpartition("/")[2]
-        candidates = dict.fromkeys([(name, self._files.root), (bare, folder)])
-        candidates[bare, self._files.root] = None
-        candidates.pop((name, folder), None)
-        for candidate, place in candidates:
-            try:
-                path = self._files.find(candidate, place)
-            except LinkedFileError:
-                continue
-            return path, f"{first_reason}; {path} is used" if candidate != name else ""
-        raise LinkedFileError(first_reason)
 
 
 def read_mtl(source: Source, textures: TextureCache, warnings: WarningList) -> dict[str, Material]:

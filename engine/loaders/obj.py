@@ -12,8 +12,9 @@ import numpy as np
 from ..materials import Material
 from .corner_mesh import Triangles
 from .documents import Document
+from .linked_textures import give_companion_texture
 from .obj_file import Elements, ObjFile, read_obj_file
-from .obj_materials import give_companion_texture, read_library, used_materials
+from .obj_materials import read_library, used_materials
 from .obj_parts import ObjParts
 from .obj_states import ObjStates, run_lengths
 from .registry import Reader

@@ -1,17 +1,16 @@
-"""The materials that an OBJ file uses, from its libraries or from an image beside it.
+"""The materials that an OBJ file uses, from its libraries.
 
-In: the names in ``usemtl`` and ``mtllib`` with their lines. Out: `Material` objects. A library or
-an image that is missing, damaged or out of bounds is a warning; its materials are plain then.
+In: the names in ``usemtl`` and ``mtllib`` with their lines. Out: `Material` objects. A library that
+is missing, damaged or out of bounds is a warning; its materials are plain then.
 """
 
 from __future__ import annotations
 
 from ..errors import Engine3DError
 from ..materials import Material
-from ..textures import Texture
-from .companions import companion_texture
 from .linked_files import LinkedFileError, LinkedFiles
-from .mtl import TextureCache, read_mtl
+from .linked_textures import TextureCache
+from .mtl import read_mtl
 from .obj_states import Setters
 from .sources import Source, read_source
 from .text import shown
@@ -36,7 +35,7 @@ def read_library(source: Source, statements: Setters, warnings: WarningList) -> 
     """
     library: dict[str, Material] = {}
     files = LinkedFiles(source.folder)
-    textures = TextureCache(files, _load_texture)
+    textures = TextureCache(files)
     seen = set()
     for names, line in zip(statements.names(), statements.lines, strict=True):
         for path in _library_paths(names, files, line, warnings):
@@ -76,22 +75,6 @@ def used_materials(
     return materials, [number[name] for name in names]
 
 
-def give_companion_texture(
-    source: Source, materials: list[Material], warnings: WarningList
-) -> None:
-    """Paint materials with the image that bears the model's name, if there is one."""
-    path = companion_texture(source.path) if source.has_name else None
-    if path is None:
-        return
-    try:
-        texture = _load_texture(path, wrap="repeat")
-    except Engine3DError as error:
-        warnings.add(f"texture beside the model left out: {error}")
-        return
-    for material in materials:
-        material.texture = texture
-
-
 def _library_paths(names: str, files: LinkedFiles, line: int, warnings: WarningList) -> list[str]:
     """``mtllib`` names one file, whose name may hold blanks, or several files."""
     try:
@@ -112,9 +95,3 @@ def _library_path(name: str, files: LinkedFiles, line: int, warnings: WarningLis
     except LinkedFileError as error:
         warnings.add(f"material library {shown(name)}: {error}", line)
         return None
-
-
-def _load_texture(path: str, wrap: str) -> Texture:
-    from .loading import load_texture
-
-    return load_texture(path, wrap=wrap)

@@ -20,11 +20,11 @@ from ..materials import Material
 from .documents import Document, DocumentObject
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .number_arrays import NotANumberError, NumberRows, read_numbers
-from .ply_vertices import finite_uvs, usable_normals
 from .registry import Reader
 from .sources import Source
 from .text import shown, text_lines
 from .triangulation import WorkBudget, triangulate
+from .vertex_values import finite_uvs, usable_normals
 from .warning_list import WarningList
 
 _KEYWORD = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF\b")

@@ -18,10 +18,11 @@ from .ply_header import is_ply, read_header
 from .ply_materials import material_ids, read_materials
 from .ply_stores import open_store
 from .ply_tables import PlyTable, read_tables
-from .ply_vertices import PlyVertices, read_vertices, usable_normals
+from .ply_vertices import PlyVertices, read_vertices
 from .registry import Reader
 from .sources import Source
 from .triangulation import WorkBudget
+from .vertex_values import usable_normals
 from .warning_list import WarningList
 
 

@@ -12,8 +12,9 @@ import numpy as np
 
 from .._native import loaders as native
 from .ply_tables import PlyList, PlyTable
-from .ply_vertices import finite_uvs, read_colors
+from .ply_vertices import read_colors
 from .triangulation import WorkBudget, triangulate
+from .vertex_values import finite_uvs
 from .warning_list import WarningList
 
 _INDEX_LISTS = ("vertex_indices", "vertex_index")

@@ -13,8 +13,7 @@ from ..errors import Engine3DError
 from ..materials import Material
 from ..textures import Texture
 from .linked_files import LinkedFileError, LinkedFiles
-from .mtl import TextureCache
-from .obj_materials import give_companion_texture
+from .linked_textures import TextureCache, give_companion_texture
 from .sources import Source
 from .text import shown
 from .warning_list import WarningList
@@ -33,7 +32,7 @@ def read_materials(
         return materials
     if len(names) > _MAX_TEXTURES:
         warnings.add(f"{len(names)} textures, {_MAX_TEXTURES} are the limit")
-    textures = TextureCache(LinkedFiles(source.folder), _load_texture)
+    textures = TextureCache(LinkedFiles(source.folder))
     return [
         Material(name=name, texture=_texture(name, textures, source, warnings))
         for name in names[:_MAX_TEXTURES]
@@ -59,9 +58,3 @@ def material_ids(numbers: np.ndarray | None, triangles: int, materials: int) -> 
         return none
     is_known = (numbers >= 0) & (numbers < materials)
     return np.where(is_known, numbers, 0).astype(np.int32)
-
-
-def _load_texture(path: str, wrap: str) -> Texture:
-    from .loading import load_texture
-
-    return load_texture(path, wrap=wrap)

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..normals import vertex_normals
 from .ply_tables import PlyTable
+from .vertex_values import finite_uvs
 
 _COLORS = (
     ("red", "green", "blue"),
@@ -20,8 +20,6 @@ _COLORS = (
 )
 _ALPHAS = ("alpha", "a", "diffuse_alpha")
 _UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
-# Normals whose largest component is outside have no direction that float32 could tell.
-_SHORTEST, _LONGEST = 1e-15, 1e15
 
 
 class PlyVertices(NamedTuple):
@@ -89,29 +87,3 @@ def read_colors(table: PlyTable) -> np.ndarray | None:
     scaled = np.clip(np.nan_to_num(values, nan=255.0), 0, 255)
     colors[:, : values.shape[1]] = np.floor(scaled + 0.5)
     return colors
-
-
-def finite_uvs(values: np.ndarray) -> np.ndarray:
-    """Return texture coordinates as float32, zero for what is not finite."""
-    with np.errstate(over="ignore"):
-        uvs = values.astype(np.float32)
-    uvs[~np.isfinite(uvs)] = 0
-    return uvs
-
-
-def usable_normals(
-    normals: np.ndarray | None, positions: np.ndarray, faces: np.ndarray
-) -> np.ndarray | None:
-    """Return normals with computed ones for those without a direction; None if all are."""
-    if normals is None:
-        return None
-    with np.errstate(invalid="ignore"):
-        largest = np.abs(normals).max(axis=1)
-        usable = (largest >= _SHORTEST) & (largest <= _LONGEST)
-    if usable.all():
-        return normals
-    if not usable.any():
-        return None
-    filled = normals.copy()
-    filled[~usable] = vertex_normals(positions.astype(np.float32), faces)[~usable]
-    return filled

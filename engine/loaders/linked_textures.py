@@ -1,0 +1,95 @@
+"""The textures of a model: those that its files name, and the one beside it that bears its name.
+
+In: names as they stand in files, or the model's own. Out: `Texture` objects, each image loaded
+once.
+"""
+
+from __future__ import annotations
+
+import os
+
+from ..errors import Engine3DError
+from ..materials import Material
+from ..textures import Texture
+from .companions import companion_texture
+from .linked_files import LinkedFileError, LinkedFiles
+from .sources import Source
+from .warning_list import WarningList
+
+
+class TextureCache:
+    """The textures of one model, each image loaded once.
+
+    Parameters
+    ----------
+    files : LinkedFiles
+        The files that the model may name.
+    """
+
+    def __init__(self, files: LinkedFiles) -> None:
+        self._files = files
+        self._textures: dict[tuple[str, str], Texture] = {}
+
+    def get(self, name: str, folder: str, wrap: str) -> tuple[Texture, str]:
+        """Return the texture that a name means, and what to say of it ("" for nothing).
+
+        Parameters
+        ----------
+        name : str
+        folder : str
+            Where it is looked for first, before the model's folder.
+        wrap : {"repeat", "clamp"}
+
+        Raises
+        ------
+        LinkedFileError, Engine3DError
+            There is no such image, or it is damaged.
+        """
+        path, note = self._find(name, folder)
+        key = (os.path.realpath(path), wrap)
+        if key not in self._textures:
+            self._textures[key] = _load_texture(path, wrap)
+        return self._textures[key], note
+
+    def _find(self, name: str, folder: str) -> tuple[str, str]:
+        """Materials made elsewhere name images by paths of another machine.
+
+        An image of the same name beside the model is taken for the one that was meant.
+        """
+        try:
+            return self._files.find(name, folder), ""
+        except LinkedFileError as error:
+            first_reason = str(error)
+        bare = name.replace("\\", "/").rpartition("/")[2]
+        candidates = dict.fromkeys([(name, self._files.root), (bare, folder)])
+        candidates[bare, self._files.root] = None
+        candidates.pop((name, folder), None)
+        for candidate, place in candidates:
+            try:
+                path = self._files.find(candidate, place)
+            except LinkedFileError:
+                continue
+            return path, f"{first_reason}; {path} is used" if candidate != name else ""
+        raise LinkedFileError(first_reason)
+
+
+def give_companion_texture(
+    source: Source, materials: list[Material], warnings: WarningList
+) -> None:
+    """Paint materials with the image that bears the model's name, if there is one."""
+    path = companion_texture(source.path) if source.has_name else None
+    if path is None:
+        return
+    try:
+        texture = _load_texture(path, "repeat")
+    except Engine3DError as error:
+        warnings.add(f"texture beside the model left out: {error}")
+        return
+    for material in materials:
+        material.texture = texture
+
+
+def _load_texture(path: str, wrap: str) -> Texture:
+    from .loading import load_texture
+
+    return load_texture(path, wrap=wrap)

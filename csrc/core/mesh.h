@@ -39,7 +39,7 @@ struct e3d_mesh {
     e3d_cluster *clusters;
     int32_t cluster_count, group_count;
     e3d_group_box *groups;
-    float **blocks;    /* positions and indices of E3D_CHUNK_FACES faces' clusters each */
+    float **blocks;    /* positions and indices of the clusters of a chunk of faces each */
     int32_t block_count;
     int32_t *faces;    /* of the clusters' triangles, one cluster after the other */
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */

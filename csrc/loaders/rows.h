@@ -34,8 +34,6 @@ typedef struct e3d_row_reader {
     const e3d_rows *rows;
 } e3d_row_reader;
 
-static inline e3d_row_reader e3d_read_rows(const e3d_rows *rows) { return (e3d_row_reader){rows->bytes, 0, rows}; }
-
 static inline e3d_row_reader e3d_read_rows_from(const e3d_rows *rows, size_t row)
 {
     const size_t record = row / rows->in_record, in_record = row % rows->in_record;

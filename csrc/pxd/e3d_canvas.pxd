@@ -6,8 +6,6 @@ from libc.stdint cimport int32_t, int64_t, uint8_t
 
 cdef extern from "e3d_canvas.h" nogil:
     enum: E3D_CANVAS_MAX_SIDE
-    enum: E3D_FONT_WIDTH
-    enum: E3D_FONT_HEIGHT
 
     ctypedef struct e3d_canvas:
         uint8_t *pixels

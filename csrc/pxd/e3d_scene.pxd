@@ -41,7 +41,6 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_graph_remove(e3d_graph *graph, int32_t slot)
     int32_t e3d_graph_walk(const e3d_graph *graph, int32_t slot, int32_t top)
     void e3d_graph_set_flag(e3d_graph *graph, int32_t slot, int flag, bint on)
-    void e3d_graph_touch(e3d_graph *graph, int32_t slot)
     void e3d_graph_set_pose(e3d_graph *graph, int32_t slot, const double *pose)
     void e3d_graph_set_translation(e3d_graph *graph, int32_t slot, const double *translation)
     bint e3d_graph_set_parts(

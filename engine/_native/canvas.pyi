@@ -2,7 +2,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 MAX_SIDE: int
-FONT_CELL: tuple[int, int]
 LINE_ALGORITHMS: dict[str, int]
 TRIANGLE_ALGORITHMS: dict[str, int]
 

@@ -9,7 +9,6 @@ from e3d_canvas cimport *
 from libc.stdint cimport int64_t, uint8_t
 
 MAX_SIDE = E3D_CANVAS_MAX_SIDE
-FONT_CELL = (E3D_FONT_WIDTH, E3D_FONT_HEIGHT)
 LINE_ALGORITHMS = {"bresenham": E3D_LINE_BRESENHAM, "dda": E3D_LINE_DDA}
 TRIANGLE_ALGORITHMS = {"edge": E3D_TRIANGLE_EDGE, "scanline": E3D_TRIANGLE_SCANLINE}
 

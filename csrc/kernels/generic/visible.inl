@@ -171,34 +171,38 @@ static inline int visible_hides(const e3d_visible_tile *tile, int block, float n
     return !v_any(v_mnot(v_gt(v_setf(near), far)));
 }
 
-/* A block that the record covers in part, or neither wholly before nor behind what is there. */
-static inline void visible_block(const e3d_piece *p, const raster_constants *c, int block, int full, float near,
+/* Of a vector of blocks: the edge functions at each one's first sample, and the depth nearest to the viewer. */
+typedef struct visible_corners {
+    int32_t e[3][V_LANES];
+    float near[V_LANES];
+} visible_corners;
+
+/* A block that the record covers in part, or neither wholly before nor behind what is there; of a fresh one nothing is covered yet,
+ * and what is there is not looked at. */
+static inline void visible_block(const e3d_piece *p, const raster_constants *c, int block, int fresh, const visible_corners *corners,
                                  const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
-    int x = block % VISIBLE_BLOCKS * RASTER_BLOCK, top = block / VISIBLE_BLOCKS * RASTER_BLOCK;
-    if ((tile->stale >> block & 1) && near > tile->zmin[block] && visible_hides(tile, block, near)) { /* else it cannot be behind */
-        visible_measure(tile, block);
-        return;
-    }
-    if (tile->noted >> block & 1)
-        visible_unfold(tile, table, block);
-    int y0 = (p->y0 > top ? p->y0 : top) & -ROWS; /* an edge leaves out what is above the box */
-    int y1 = p->y1 < top + RASTER_BLOCK - 1 ? p->y1 : top + RASTER_BLOCK - 1;
-    vmask all = v_eqi(c->slot, c->slot);
-    for (int i = x; i < x + RASTER_BLOCK; i += ROW_LANES) {
-        vf32 column = visible_column(c, i - p->base_x);
+    int left = block % VISIBLE_BLOCKS * RASTER_BLOCK, top = block / VISIBLE_BLOCKS * RASTER_BLOCK;
+    vf32 beyond = v_setf(E3D_BEYOND_FAR);
+    for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES) {
+        vf32 column = visible_column(c, left + x - p->base_x);
         vi32 e[3];
-        for (int k = 0; k < 3 && !full; k++)
-            e[k] = v_addi(v_seti(p->e[k] + p->a[k] * i + p->b[k] * y0), rows_step(p->a[k], p->b[k]));
-        for (int y = y0; y <= y1; y += ROWS) {
-            vmask inside = full ? all : visible_inside(e);
-            visible_write(inside, visible_z(c, column, y - p->base_y), (size_t)(y * E3D_TILE + i), r, (int32_t)p->slot, tile, table);
-            for (int k = 0; k < 3 && !full; k++)
+        for (int k = 0; k < 3; k++)
+            e[k] = v_addi(v_seti(corners->e[k][block % V_LANES] + p->a[k] * x), rows_step(p->a[k], p->b[k]));
+        for (int y = 0; y < RASTER_BLOCK; y += ROWS) {
+            vf32 z = visible_z(c, column, top + y - p->base_y);
+            size_t at = (size_t)((top + y) * E3D_TILE + left + x);
+            if (fresh) {
+                vmask pass = v_mand(visible_inside(e), v_lt(z, beyond));
+                rows_storef(tile->z + at, v_self(pass, z, beyond));
+                rows_storei(tile->id + at, v_seli(pass, c->slot, v_seti(E3D_NO_SLOT)));
+            } else {
+                visible_write(visible_inside(e), z, at, r, (int32_t)p->slot, tile, table);
+            }
+            for (int k = 0; k < 3; k++)
                 e[k] = v_addi(e[k], v_seti(ROWS * p->b[k]));
         }
     }
-    tile->zmin[block] = tile->zmin[block] < near ? tile->zmin[block] : near;
-    tile->stale |= 1ull << block;
 }
 
 /* Depths nearest to and farthest from the viewer, in a vector of blocks. */
@@ -234,13 +238,14 @@ typedef struct visible_cover {
     uint32_t some, whole;
 } visible_cover;
 
-static inline visible_cover visible_cover_of(const e3d_piece *p, vi32 x, vi32 y, int32_t left, int32_t top)
+static inline visible_cover visible_cover_of(const e3d_piece *p, vi32 x, vi32 y, int32_t left, int32_t top, visible_corners *corners)
 {
     const int32_t last = RASTER_BLOCK - 1;
     vi32 least = v_seti(0), most = v_seti(0);
     for (int k = 0; k < 3; k++) {
         int32_t a = p->a[k] * last, b = p->b[k] * last, first = p->e[k] + p->a[k] * left + p->b[k] * top;
         vi32 corner = v_addi(rows_step(p->a[k] * RASTER_BLOCK, p->b[k] * RASTER_BLOCK), v_seti(first));
+        v_storei(corners->e[k], corner);
         most = v_ori(most, v_addi(corner, v_seti((a > 0 ? a : 0) + (b > 0 ? b : 0))));
         least = v_ori(least, v_addi(corner, v_seti((a < 0 ? a : 0) + (b < 0 ? b : 0))));
     }
@@ -258,13 +263,39 @@ static inline vmask visible_lanes(uint32_t bits)
     return v_mnot(v_eqi(chosen, v_seti(0)));
 }
 
+/* Blocks that are covered whole, before all that is there: they are noted. */
+static inline void visible_note(uint32_t blocks, int first, const visible_range *range, vi32 id, e3d_visible_tile *tile)
+{
+    vmask lanes = visible_lanes(blocks);
+    v_storef(tile->zmin + first, v_self(lanes, range->near, v_loadf(tile->zmin + first)));
+    v_storef(tile->zmax + first, v_self(lanes, range->far, v_loadf(tile->zmax + first)));
+    v_storei(tile->noted_id + first, v_seli(lanes, id, v_loadi(tile->noted_id + first)));
+    tile->noted |= (uint64_t)blocks << first;
+    tile->stale &= ~((uint64_t)blocks << first);
+}
+
+/* Of blocks whose farthest depth was not known, those that turn out to be nearer. */
+static inline uint32_t visible_behind(uint32_t blocks, int first, const float near[V_LANES], e3d_visible_tile *tile)
+{
+    uint32_t behind = 0;
+    for (; blocks; blocks &= blocks - 1) {
+        int lane = __builtin_ctz(blocks);
+        if (!visible_hides(tile, first + lane, near[lane]))
+            continue;
+        visible_measure(tile, first + lane);
+        behind |= blocks & -blocks;
+    }
+    return behind;
+}
+
 /* One vector of blocks. */
 static inline void visible_blocks(const e3d_piece *p, const raster_constants *c, int first, int tame,
                                const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     int32_t top = first / VISIBLE_BLOCKS * RASTER_BLOCK, left = first % VISIBLE_BLOCKS * RASTER_BLOCK;
     vi32 x = v_addi(v_seti(left), v_shl(rows_x(), 3)), y = v_addi(v_seti(top), v_shl(rows_y(), 3));
-    visible_cover cover = visible_cover_of(p, x, y, left, top);
+    visible_corners corners;
+    visible_cover cover = visible_cover_of(p, x, y, left, top, &corners);
     if (!cover.some)
         return;
     visible_range range = {c->zmin, c->zmax};
@@ -272,21 +303,25 @@ static inline void visible_blocks(const e3d_piece *p, const raster_constants *c,
         range = visible_range_of(p, c, x, y);
     vf32 zmin = v_loadf(tile->zmin + first), zmax = v_loadf(tile->zmax + first);
     uint32_t open = cover.some & ~v_bits(v_gt(range.near, zmax));
-    uint32_t before = open & cover.whole & v_bits(v_lt(range.far, zmin));
-    if (before) {
-        vmask lanes = visible_lanes(before);
-        v_storef(tile->zmin + first, v_self(lanes, range.near, zmin));
-        v_storef(tile->zmax + first, v_self(lanes, range.far, zmax));
-        v_storei(tile->noted_id + first, v_seli(lanes, c->slot, v_loadi(tile->noted_id + first)));
-        tile->noted |= (uint64_t)before << first;
-        tile->stale &= ~((uint64_t)before << first);
-    }
-    float near[V_LANES];
-    v_storef(near, range.near);
-    for (uint32_t rest = open & ~before; rest; rest &= rest - 1) {
-        int lane = __builtin_ctz(rest);
-        visible_block(p, c, first + lane, cover.whole >> lane & 1, near[lane], r, tile, table);
-    }
+    uint32_t before = open & cover.whole & v_bits(v_lt(range.far, zmin)), rest = open & ~before;
+    if (before)
+        visible_note(before, first, &range, c->slot, tile);
+    if (!rest)
+        return;
+    v_storef(corners.near, range.near);
+    uint32_t noted = rest & (uint32_t)(tile->noted >> first), fresh = noted & v_bits(v_negi(v_loadi(tile->noted_id + first)));
+    uint32_t unsure = rest & (uint32_t)(tile->stale >> first) & v_bits(v_gt(range.near, zmin)); /* others cannot be behind */
+    rest &= ~visible_behind(unsure, first, corners.near, tile);
+    zmin = v_loadf(tile->zmin + first);
+    v_storef(tile->zmin + first, v_self(visible_lanes(rest), v_min(range.near, zmin), zmin));
+    tile->stale |= (uint64_t)rest << first;
+    tile->noted &= ~((uint64_t)fresh << first);
+    for (uint32_t some = fresh; some; some &= some - 1)
+        visible_block(p, c, first + __builtin_ctz(some), 1, &corners, r, tile, table);
+    for (uint32_t some = noted & ~fresh; some; some &= some - 1)
+        visible_unfold(tile, table, first + __builtin_ctz(some));
+    for (uint32_t some = rest & ~fresh; some; some &= some - 1)
+        visible_block(p, c, first + __builtin_ctz(some), 0, &corners, r, tile, table);
 }
 
 static inline void visible_wide(const e3d_piece *p, const raster_constants *c, const e3d_record *r,

@@ -6,14 +6,17 @@
 
 enum { RECORDS_DOWN = 16 }; /* of two numbers in a word, one of columns and one of rows, the latter's place */
 enum { RECORDS_FEW = 1024 }; /* samples in strips: drawing them takes less than finding which blocks are met, and how */
+enum { RECORDS_STRIPS = E3D_TILE / ROW_LANES };
 
 /* Of each lane's record, relative to the tile: its box of samples; its edges at the tile's first sample, and what a step changes;
- * the vector of samples that its strips start with. */
+ * the vector of samples that its strips start with, and how many strips follow the first. */
 typedef struct records_lanes {
     uint32_t x0[V_LANES], y0[V_LANES], x1[V_LANES], y1[V_LANES];
     int32_t e[3][V_LANES], steps[3][V_LANES], down[3][V_LANES];
     uint32_t start[V_LANES];
-    float dx[V_LANES], dy[V_LANES]; /* of the start, from the plane's base */
+    int32_t strips[V_LANES];
+    int32_t first[RECORDS_STRIPS][V_LANES], last[RECORDS_STRIPS][V_LANES]; /* rows of each strip that may be covered */
+    float dx[V_LANES], dy[V_LANES]; /* of the start, and of the tile's first row, from the plane's base */
     /* Sides no longer than a tile, so that edges fit 32 bits and steps 16; of these, few samples in strips; of these, narrower than a
      * block. */
     uint32_t small, few, narrow;
@@ -22,15 +25,17 @@ typedef struct records_lanes {
 static inline vi32 records_in_tile(vi32 sample) { return v_maxi(v_mini(sample, v_seti(E3D_TILE - 1)), v_seti(0)); }
 
 /* R12 */
-static inline void records_edge(const vi32 x[3], const vi32 y[3], int k, vi32 x0, vi32 y0, const e3d_visible_tile *tile,
-                                records_lanes *out)
+static inline record_edge records_edge(const vi32 x[3], const vi32 y[3], int k, vi32 x0, vi32 y0, const e3d_visible_tile *tile,
+                                       records_lanes *out)
 {
     vi32 half = v_seti(128);
     vi32 px = v_addi(v_shl(v_addi(x0, v_seti(tile->x)), 8), half), py = v_addi(v_shl(v_addi(y0, v_seti(tile->y)), 8), half);
     record_edge e = record_edge_of(x, y, k, v_seti(0), px, py);
-    v_storei(out->e[k], v_subi(v_sra(e.c, 8), v_addi(v_muli(e.a, x0), v_muli(e.b, y0))));
+    e.c = v_subi(v_sra(e.c, 8), v_addi(v_muli(e.a, x0), v_muli(e.b, y0)));
+    v_storei(out->e[k], e.c);
     v_storei(out->down[k], v_muli(e.b, v_seti(ROWS)));
     v_storei(out->steps[k], v_ori(v_andi(e.a, v_seti(0xFFFF)), v_shl(e.b, RECORDS_DOWN)));
+    return e;
 }
 
 /* R10. Strips of vectors start at the box's first column, or as far to the right as the tile allows. */
@@ -54,17 +59,75 @@ static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_vis
     v_storei(out->x1, x1);
     v_storei(out->y1, y1);
     v_storei(out->start, v_ori(start_x, v_shl(start_y, RECORDS_DOWN)));
+    v_storei(out->strips, v_sra(wide, ROW_SHIFT));
     v_storef(out->dx, v_float(v_subi(start_x, base_x)));
-    v_storef(out->dy, v_float(v_subi(start_y, base_y)));
+    v_storef(out->dy, v_float(v_subi(v_seti(0), base_y)));
+}
+
+/* All rows of what is narrower than a block: to find which may be covered takes longer. */
+static inline void records_all_rows(records_lanes *out)
+{
+    for (int s = 0; s < RASTER_BLOCK / ROW_LANES; s++) {
+        v_storei(out->first[s], v_andi(v_loadi(out->y0), v_seti(-ROWS)));
+        v_storei(out->last[s], v_loadi(out->y1));
+    }
+}
+
+/* An edge function where it is greatest in a strip: in row 0, and how far its zero lies below that, by a unit of it. The rows from
+ * there on may be covered, or those to there. */
+typedef struct records_bound {
+    vi32 most, step; /* from a strip to the next */
+    vf32 rows;
+    vmask from, to;
+} records_bound;
+
+static inline records_bound records_bound_of(const record_edge *e, vi32 start_x)
+{
+    vi32 zero = v_seti(0), most = v_muli(v_maxi(e->a, zero), v_seti(ROW_LANES - 1));
+    return (records_bound){v_addi(v_addi(e->c, v_muli(e->a, start_x)), most), v_muli(e->a, v_seti(ROW_LANES)),
+                           v_div(v_setf(-1), v_float(e->b)), v_gti(e->b, zero), v_gti(zero, e->b)};
+}
+
+/* In a tile four roundings move an edge's zero by less than 2^-15 of a row: it is given more room. */
+static inline void records_clip(const records_bound *b, vf32 *first, vf32 *last)
+{
+    const float room = 1.0f / 64;
+    vf32 row = v_mul(v_float(b->most), b->rows);
+    *first = v_self(b->from, v_max(v_add(row, v_setf(1 - room)), *first), *first);
+    *last = v_self(b->to, v_min(v_add(row, v_setf(room)), *last), *last);
+}
+
+static inline void records_rows(const record_edge e[3], records_lanes *out)
+{
+    records_bound bounds[3];
+    uint32_t wider = out->few;
+    vi32 start_x = v_andi(v_loadi(out->start), v_seti(0xFFFF));
+    for (int k = 0; k < 3; k++)
+        bounds[k] = records_bound_of(&e[k], start_x);
+    for (int s = 0; s < RECORDS_STRIPS && wider; s++) {
+        vf32 first = v_float(v_loadi(out->y0)), last = v_float(v_loadi(out->y1));
+        for (int k = 0; k < 3; k++) {
+            records_clip(&bounds[k], &first, &last);
+            bounds[k].most = v_addi(bounds[k].most, bounds[k].step);
+        }
+        v_storei(out->first[s], v_andi(v_trunc(v_min(first, v_setf(E3D_TILE))), v_seti(-ROWS)));
+        v_storei(out->last[s], v_trunc(v_max(last, v_setf(-1))));
+        wider = out->few & v_bits(v_gti(v_loadi(out->strips), v_seti(s)));
+    }
 }
 
 static inline void records_find(const e3d_record *const r[V_LANES], const e3d_visible_tile *tile, records_lanes *out)
 {
     vi32 corners[8], first[2];
+    record_edge e[3];
     v_load_rows((const void *const *)r, corners);
     records_boxes(corners, corners + 3, tile, first, out);
     for (int k = 0; k < 3; k++)
-        records_edge(corners, corners + 3, k, first[0], first[1], tile, out);
+        e[k] = records_edge(corners, corners + 3, k, first[0], first[1], tile, out);
+    if (out->few & ~out->narrow)
+        records_rows(e, out);
+    else
+        records_all_rows(out);
 }
 
 /* The first vector of so many records, repeated where there are fewer; how many. The next one is asked for. */
@@ -98,6 +161,22 @@ static inline uint64_t records_behind(float near, const e3d_visible_tile *tile)
     return behind;
 }
 
+/* Whether what is written in the strips is nearer, all of it; the sample in the box's middle mostly tells that it isn't. Beside the
+ * box, where nothing may be written yet, what is no number is not taken. */
+static inline int records_hidden(const records_lanes *in, int lane, float near, const e3d_visible_tile *tile)
+{
+    float middle = tile->z[(in->y0[lane] + in->y1[lane]) / 2 * E3D_TILE + (in->x0[lane] + in->x1[lane]) / 2];
+    vf32 far = v_setf(middle);
+    if (!(near > middle))
+        return 0;
+    for (int s = 0; s <= in->strips[lane]; s++) {
+        const float *z = tile->z + (in->start[lane] & 0xFFFF) + s * ROW_LANES;
+        for (int y = in->first[s][lane]; y <= in->last[s][lane]; y += ROWS)
+            far = v_max(rows_loadf(z + y * E3D_TILE), far);
+    }
+    return !v_any(v_mnot(v_gt(v_setf(near), far)));
+}
+
 /* Blocks whose samples are written, no nearer than `near`, and don't tell of it yet. */
 typedef struct records_touched {
     uint64_t met;
@@ -118,28 +197,24 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
                                   const e3d_record_table *table)
 {
     raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
-    uint32_t start = in->start[lane], strips = (in->x1[lane] - in->x0[lane]) / ROW_LANES;
-    size_t x = start & 0xFFFF, first = (start >> RECORDS_DOWN) * E3D_TILE + x, last = in->y1[lane] * E3D_TILE + x;
-    vi32 at = v_addi(v_seti((int32_t)start), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
     vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])); /* whole numbers: sums are exact */
-    for (;; first += ROW_LANES, last += ROW_LANES) {
-        vf32 row = v_add(v_float(rows_y()), v_setf(in->dy[lane])), column = v_add(c.z0, v_mul(along, c.gx));
+    for (int s = 0; s <= in->strips[lane]; s++) {
+        int x = (int)(in->start[lane] & 0xFFFF) + s * ROW_LANES, y = in->first[s][lane], last = in->last[s][lane];
+        vi32 at = v_addi(v_seti(x | y << RECORDS_DOWN), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
+        vf32 row = v_add(v_float(rows_y()), v_setf((float)y + in->dy[lane])), column = v_add(c.z0, v_mul(along, c.gx));
         vi32 e[3], down[3];
         for (int k = 0; k < 3; k++) {
             e[k] = v_addi(v_seti(in->e[k][lane]), v_madd16(v_seti(in->steps[k][lane]), at));
             down[k] = v_seti(in->down[k][lane]);
         }
-        for (size_t i = first; i <= last; i += ROWS * E3D_TILE) {
+        for (; y <= last; y += ROWS) {
             vmask inside = visible_inside(e);
             vf32 z = v_min(v_max(v_add(column, v_mul(row, c.gy)), c.zmin), c.zmax);
-            visible_write(inside, z, i, r, id, tile, table);
+            visible_write(inside, z, (size_t)(y * E3D_TILE + x), r, id, tile, table);
             for (int k = 0; k < 3; k++)
                 e[k] = v_addi(e[k], down[k]);
             row = v_add(row, v_setf(ROWS));
         }
-        if (!strips--)
-            return;
-        at = v_addi(at, v_seti(ROW_LANES));
         along = v_add(along, v_setf(ROW_LANES));
     }
 }
@@ -207,6 +282,8 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
         records_wide(in, lane, r, id, tile, table);
         return;
     }
+    if (!(in->narrow >> lane & 1 || met & tile->noted) && records_hidden(in, lane, r->zmin, tile))
+        return;
     for (uint64_t left = met & tile->noted; left; left &= left - 1)
         visible_unfold(tile, table, __builtin_ctzll(left));
     touched->met |= met;

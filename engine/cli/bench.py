@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from ..atomic_write import atomic_write
 from ..backend_selection import backends, resolve_backend
 from ..benchmarking import bar_chart, measuring, report, workloads
-from .outputs import STANDARD_OUTPUT, check_extension
+from .outputs import STANDARD_OUTPUT, check_folder, check_output
 
 PLOTS = (".svg", ".png", ".jpg", ".webp")
 #: Seconds that a row takes at most: more would tell nothing new.
@@ -21,7 +21,9 @@ LONGEST = 2.0
 def bench(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     if args.plot:
-        check_extension(args.plot, PLOTS, "--plot")
+        check_output(args.plot, PLOTS, "--plot")
+    if args.json not in (None, STANDARD_OUTPUT):
+        check_folder(args.json)
     cases = [(name, backend) for name in args.workloads for backend in _backends(args.backends)]
     quiet = args.json == STANDARD_OUTPUT
     if args.against:

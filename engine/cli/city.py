@@ -6,12 +6,12 @@ import argparse
 
 from ..worlds import city as make_city
 from ..writers import formats, save_mesh
-from .outputs import check_extension
+from .outputs import check_output
 
 
 def city(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     extensions = [extension for item in formats() for extension in item.extensions]
-    check_extension(args.output, extensions, "a model")
+    check_output(args.output, extensions, "a model")
     save_mesh(make_city(args.triangles, args.seed).mesh(), args.output)
     return 0

@@ -8,7 +8,7 @@ from ..loaders import load_mesh
 from ..writers import formats, save_mesh
 from .inputs import model_file
 from .loading_bar import LoadingBar
-from .outputs import check_extension
+from .outputs import check_output
 from .usage import UsageError
 
 BINARY_FORMATS = (".ply", ".stl")
@@ -17,7 +17,7 @@ BINARY_FORMATS = (".ply", ".stl")
 def convert(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     extensions = [extension for item in formats() for extension in item.extensions]
-    extension = check_extension(args.output, extensions, "a model")
+    extension = check_output(args.output, extensions, "a model")
     options = {"ascii": True} if args.ascii else {}
     if options and extension.lower() not in BINARY_FORMATS:
         raise UsageError(f"--ascii is for {' and '.join(BINARY_FORMATS)} files")

@@ -1,14 +1,16 @@
 """Checks of an output's name before any work, and the progress bar of long work.
 
-In: what ``-o`` was given. Out: the path, or a usage error that lists the extensions that work.
+In: what ``-o`` was given. Out: its extension, or a usage error that lists those that work.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Iterable, Iterator
 
+from ..errors import FileAccessError
 from .usage import UsageError
 
 STANDARD_OUTPUT = "-"
@@ -16,14 +18,24 @@ STANDARD_OUTPUT = "-"
 FEW_FRAMES = 8
 
 
-def check_extension(output: str, formats: Iterable[str], what: str) -> str:
-    """Return the extension of ``output``, or raise `UsageError` if it names no format."""
+def check_output(output: str, formats: Iterable[str], what: str) -> str:
+    """Return the extension of ``output``.
+
+    Raises `UsageError` if it names no format, `FileAccessError` if there is no folder for it.
+    """
     extension = os.path.splitext(output)[1]
     if extension.lower() not in tuple(formats):
         named = f"{extension!r} in {output!r}" if extension else f"{output!r} has none and"
         known = ", ".join(formats)
         raise UsageError(f"{what} needs one of the extensions {known}; {named} is not one of them")
+    check_folder(output)
     return extension
+
+
+def check_folder(output: str) -> None:
+    """Raise `FileAccessError` if there is no folder for ``output``."""
+    if not os.path.isdir(os.path.dirname(output) or os.curdir):
+        raise FileAccessError(f"cannot write: {os.strerror(errno.ENOENT)}", output)
 
 
 def check_standard_output() -> None:

@@ -16,7 +16,7 @@ from ..display.studio import Studio
 from . import options
 from .outputs import (
     STANDARD_OUTPUT,
-    check_extension,
+    check_output,
     check_standard_output,
     with_progress,
     write_standard_output,
@@ -65,12 +65,12 @@ def _check(args: argparse.Namespace) -> None:
     if args.turntable is not None:
         if args.output == STANDARD_OUTPUT or args.reference is not None:
             raise UsageError("--turntable writes to a file, and compares with none")
-        check_extension(args.output, ANIMATION_FORMATS, "an animation")
+        check_output(args.output, ANIMATION_FORMATS, "an animation")
         return
     if args.output == STANDARD_OUTPUT:
         check_standard_output()
         return
-    extension = check_extension(args.output, PICTURE_SUFFIXES, "a picture")
+    extension = check_output(args.output, PICTURE_SUFFIXES, "a picture")
     if args.no_background and extension.lower() in OPAQUE_SUFFIXES:
         raise UsageError(f"--no-background needs transparency, which {extension} lacks")
 

@@ -18,7 +18,7 @@ from ..display.studio import Studio
 from ..errors import DisplayError
 from . import options
 from .inputs import STANDARD_INPUT
-from .outputs import check_extension, with_progress
+from .outputs import check_output, with_progress
 from .report import Report
 from .usage import UsageError
 
@@ -51,7 +51,7 @@ def _check(args: argparse.Namespace) -> None:
             raise UsageError("-o goes with --headless")
         formats = PICTURE_SUFFIXES if args.frames == 1 else ANIMATION_FORMATS
         what = "a picture (--frames 1)" if args.frames == 1 else "an animation"
-        check_extension(args.output, formats, what)
+        check_output(args.output, formats, what)
     if args.watch and args.model in (None, STANDARD_INPUT):
         raise UsageError("--watch needs a MODEL that is a file")
 

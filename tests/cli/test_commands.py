@@ -282,6 +282,30 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
     assert [entry.name for entry in tmp_path.iterdir()] == ["a.obj"]
 
 
+@pytest.mark.parametrize(
+    ("arguments", "work"),
+    [
+        (["render", "--scene", "cube", "-o", "no/a.png"], "options.subject"),
+        (["run", "--scene", "cube", "--headless", "-o", "no/a.gif"], "options.subject"),
+        (["convert", "square.obj", "no/a.ply"], "convert.load_mesh"),
+        (["city", "no/a.obj"], "city.make_city"),
+        (["bench", "--json", "no/a.json"], "bench.workloads.make"),
+        (["bench", "--plot", "no/a.svg"], "bench.workloads.make"),
+    ],
+)
+def test_a_folder_that_is_not_there_is_found_before_any_work(
+    model, capsys, monkeypatch, arguments, work
+):
+    def begin(*arguments, **options):
+        raise AssertionError("the work has begun")
+
+    monkeypatch.setattr(f"engine3d.cli.{work}", begin)
+    assert main(arguments) == 1
+    path = arguments[-1]
+    expected = f"engine3d: error: {path}: cannot write: No such file or directory\n"
+    assert capsys.readouterr() == ("", expected)
+
+
 def test_a_backend_that_the_machine_lacks_is_an_error(model, capsys, monkeypatch):
     monkeypatch.setenv("ENGINE3D_BACKEND", "abacus")
     assert main(["render", str(model), *SMALL, "-o", "out.png"]) == 1

@@ -164,7 +164,7 @@ static void make_texture(random_stream *r)
     uint16_t *texels = shade_work.texels;
     for (size_t i = 0; i < sizeof shade_work.texels / sizeof *texels; i++)
         texels[i] = (uint16_t)random_bits(r);
-    *view = (e3d_texture_view){.level_count = TEXTURE_LEVELS, .texel_bytes = 8, .filter = E3D_TRILINEAR};
+    *view = (e3d_texture_view){.level_count = TEXTURE_LEVELS, .channel_bits = 16, .filter = E3D_TRILINEAR};
     for (int l = 0, side = TEXTURE_SIDE; l < TEXTURE_LEVELS; l++, side /= 2) {
         view->levels[l] = (e3d_level){texels, side, side};
         texels += 4 * (side + 2) * (side + 2);

@@ -153,7 +153,7 @@ def shading_inputs():
     batch["count"] = BATCH
     batch["sample"] = np.arange(LANES)
     batch["surface"] = np.arange(LANES) // 16  # 16 surfaces and the pad
-    for name in ("b", "position", "normal", "uv", "energy", "shine"):
+    for name in ("weight", "position", "normal", "uv", "energy", "shine"):
         batch[name] = rng.uniform(0.05, 1, batch[name].shape)
     batch["r"] = batch["color"] = 1
     return rng, batch.view(np.uint8), surfaces.view(np.uint8)
@@ -173,7 +173,7 @@ def textured(filter_name):
     fields["uv"][0] = np.linspace(0.1, 1.3, LANES) + np.array([[0], [0.4]])
     fields["lod"] = rng.integers(0, 512, LANES)
     levels = sizes if filter_name == "trilinear" else sizes[:1]
-    arguments = (texels, 8, levels, FILTERS[filter_name], WRAPS["repeat"], np.ones(3, np.float32))
+    arguments = (texels, 16, levels, FILTERS[filter_name], WRAPS["repeat"], np.ones(3, np.float32))
     return BATCH, lambda kernels: kernels.texture(batch, *arguments)
 
 

@@ -1,7 +1,7 @@
 /* Textures: 8-bit pixels become the texels that filters read, once, and their mip levels with them.
  *
- * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels are 16-bit
- * linear light; where they all are c * 257 (no sRGB, no mip levels) the 8-bit c is kept, half the memory to fetch.
+ * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels have 16 bits a
+ * channel, of linear light; without sRGB and mip levels 8, and then the texel below stands beside each.
  * Each level has a border of one texel, by its wrap: the neighbours that a filter blends always stand side by side.
  */
 #include <stdlib.h>
@@ -14,6 +14,8 @@ struct e3d_texture {
     e3d_texture_view view;
     uint8_t *texels; /* of all levels */
 };
+
+enum { TEXEL = 8 }; /* bytes: four of 16 bits, or four of 8 and those below */
 
 static size_t bordered(int32_t width, int32_t height) { return ((size_t)width + 2) * ((size_t)height + 2); }
 
@@ -40,10 +42,10 @@ static int chain_levels(int32_t width, int32_t height)
 }
 
 /* The first texel of a row inside the border. */
-static uint8_t *row_of(const e3d_texture *texture, const e3d_level *level, int32_t y)
+static uint8_t *row_of(const e3d_level *level, int32_t y)
 {
     size_t texel = ((size_t)y + 1) * ((size_t)level->width + 2) + 1;
-    return (uint8_t *)level->texels + texel * (size_t)texture->view.texel_bytes;
+    return (uint8_t *)level->texels + TEXEL * texel;
 }
 
 static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t table[256], uint16_t *out)
@@ -55,6 +57,14 @@ static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t tabl
     }
 }
 
+/* Signed: what blends them multiplies signed bytes. */
+static void shift_row(const uint8_t *pixels, int32_t width, uint8_t *out)
+{
+    for (int32_t x = 0; x < width; x++, pixels += 4, out += TEXEL)
+        for (int k = 0; k < 4; k++)
+            out[k] = pixels[k] ^ 0x80;
+}
+
 static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode_srgb)
 {
     const e3d_level *level = &texture->view.levels[0];
@@ -63,21 +73,21 @@ static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode
     for (int c = 0; c < 256; c++)
         table[c] = decode_srgb ? SRGB_TO_LINEAR16[c] : (uint16_t)(c * 257);
     for (int32_t y = 0; y < level->height; y++, pixels += row_bytes) {
-        if (texture->view.texel_bytes == 4)
-            memcpy(row_of(texture, level, y), pixels, row_bytes);
+        if (texture->view.channel_bits == 8)
+            shift_row(pixels, level->width, row_of(level, y));
         else
-            decode_row(pixels, level->width, table, (uint16_t *)row_of(texture, level, y));
+            decode_row(pixels, level->width, table, (uint16_t *)row_of(level, y));
     }
 }
 
 /* 16-bit texels only. */
-static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_level *coarse)
+static void halve(const e3d_level *fine, const e3d_level *coarse)
 {
     for (int32_t y = 0; y < coarse->height; y++) {
         int32_t y1 = 2 * y + 1 < fine->height ? 2 * y + 1 : fine->height - 1;
-        const uint16_t *top = (const uint16_t *)row_of(texture, fine, 2 * y);
-        const uint16_t *bottom = (const uint16_t *)row_of(texture, fine, y1);
-        uint16_t *out = (uint16_t *)row_of(texture, coarse, y);
+        const uint16_t *top = (const uint16_t *)row_of(fine, 2 * y);
+        const uint16_t *bottom = (const uint16_t *)row_of(fine, y1);
+        uint16_t *out = (uint16_t *)row_of(coarse, y);
         for (int32_t x = 0; x < coarse->width; x++) {
             size_t x0 = 8 * (size_t)x, x1 = 2 * x + 1 < fine->width ? x0 + 4 : 4 * (size_t)fine->width - 4;
             for (int k = 0; k < 4; k++)
@@ -86,19 +96,26 @@ static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_l
     }
 }
 
-static void fill_border(const e3d_texture *texture, const e3d_level *level)
+static void fill_border(const e3d_level *level, int repeat)
 {
-    size_t texel = (size_t)texture->view.texel_bytes, row_bytes = ((size_t)level->width + 2) * texel;
+    size_t row_bytes = TEXEL * ((size_t)level->width + 2);
     int32_t last = level->height - 1;
-    int repeat = texture->view.wrap == E3D_REPEAT;
     for (int32_t y = 0; y <= last; y++) {
-        uint8_t *first = row_of(texture, level, y), *end = first + (size_t)level->width * texel;
-        memcpy(first - texel, repeat ? end - texel : first, texel);
-        memcpy(end, repeat ? first : end - texel, texel);
+        uint8_t *first = row_of(level, y), *end = first + TEXEL * (size_t)level->width;
+        memcpy(first - TEXEL, repeat ? end - TEXEL : first, TEXEL);
+        memcpy(end, repeat ? first : end - TEXEL, TEXEL);
     }
-    memcpy(row_of(texture, level, -1) - texel, row_of(texture, level, repeat ? last : 0) - texel, row_bytes);
-    memcpy(row_of(texture, level, last + 1) - texel, row_of(texture, level, repeat ? 0 : last) - texel,
-           row_bytes);
+    memcpy(row_of(level, -1) - TEXEL, row_of(level, repeat ? last : 0) - TEXEL, row_bytes);
+    memcpy(row_of(level, last + 1) - TEXEL, row_of(level, repeat ? 0 : last) - TEXEL, row_bytes);
+}
+
+/* 8-bit texels only: to each, the one below it; to the last row's, itself. */
+static void pair_rows(const e3d_level *level)
+{
+    size_t across = (size_t)level->width + 2, count = across * ((size_t)level->height + 2);
+    uint8_t *texel = (uint8_t *)level->texels;
+    for (size_t i = 0; i < count; i++, texel += TEXEL)
+        memcpy(texel + 4, i + across < count ? texel + TEXEL * across : texel, 4);
 }
 
 static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t width, int32_t height,
@@ -109,11 +126,13 @@ static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t wi
         e3d_level *level = &texture->view.levels[l];
         *level = (e3d_level){texels, width, height};
         if (l)
-            halve(texture, level - 1, level);
+            halve(level - 1, level);
         else
             decode(texture, pixels, decode_srgb);
-        fill_border(texture, level);
-        texels += bordered(width, height) * (size_t)texture->view.texel_bytes;
+        fill_border(level, texture->view.wrap == E3D_REPEAT);
+        if (texture->view.channel_bits == 8)
+            pair_rows(level);
+        texels += TEXEL * bordered(width, height);
         width = width > 1 ? width >> 1 : 1;
         height = height > 1 ? height >> 1 : 1;
     }
@@ -132,10 +151,10 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     if (!texture)
         return E3D_OUT_OF_MEMORY;
     texture->view.level_count = levels;
-    texture->view.texel_bytes = decode_srgb || levels > 1 ? 8 : 4;
+    texture->view.channel_bits = decode_srgb || levels > 1 ? 16 : 8;
     texture->view.filter = filter;
     texture->view.wrap = wrap;
-    texture->texels = malloc(chain_texels(width, height, levels) * (size_t)texture->view.texel_bytes);
+    texture->texels = malloc(TEXEL * chain_texels(width, height, levels));
     if (!texture->texels) {
         free(texture);
         return E3D_OUT_OF_MEMORY;

@@ -92,7 +92,8 @@ typedef enum e3d_wrap { E3D_REPEAT = 0, E3D_CLAMP, E3D_MIRROR } e3d_wrap;
 /* One mip level: linear RGBA texels, top row first, within a border of one texel: the other side's where the wrap is
  * E3D_REPEAT, else the nearest. */
 typedef struct e3d_level {
-    const void *texels; /* (height + 2, width + 2, 4) */
+    const void *texels; /* channel_bits 16: uint16 (height + 2, width + 2, 4). 8: int8 (height + 2, width + 2, 2, 4), c - 128
+                         * of a texel and of the one below it (in the last row: anything). */
     int32_t width, height;
 } e3d_level;
 
@@ -101,7 +102,7 @@ enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 16384 };
 typedef struct e3d_texture_view {
     e3d_level levels[E3D_MAX_LEVELS];
     int32_t level_count; /* 1 unless the filter is E3D_TRILINEAR */
-    int32_t texel_bytes; /* 8: uint16 channels; 4: uint8 channels c that stand for c * 257 */
+    int32_t channel_bits;
     e3d_filter filter;
     e3d_wrap wrap;
 } e3d_texture_view;

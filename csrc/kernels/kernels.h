@@ -267,11 +267,11 @@ typedef struct e3d_surfaces {
     e3d_surface_words matrix;      /* number of its matrices: ascends by 1 at most; its last is repeated over the pad */
     e3d_surface_floats clip[16], world[12], normals[9]; /* matrices of R1 and R2, one an element */
     e3d_surface_floats position[3][3]; /* [component][vertex]: object space, then world */
-    e3d_surface_floats normal[3][3];   /* likewise; flat: vertex 0 has the face's */
+    e3d_surface_floats normal[3][3];   /* likewise, then turned where the face looks away; flat: vertex 0 has the face's */
     e3d_surface_floats uv[2][3];
     e3d_surface_floats color[3][3];    /* [component][vertex] */
     e3d_surface_floats instance_color[3];
-    e3d_surface_words back;        /* not 0: the face looks away, normals are negated */
+    e3d_surface_words back;        /* not 0: the face looks away */
     e3d_surface_floats p[3], px[3], py[3]; /* barycentric planes, R18 */
     e3d_surface_floats base_x, base_y;     /* relative to the tile's first sample */
     e3d_surface_floats step[2][3]; /* [axis]: sx, ux, vx of R25 */
@@ -288,21 +288,22 @@ typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 typedef struct e3d_batch {
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */
     int32_t surface[E3D_BATCH + E3D_PAD]; /* its element of e3d_surfaces */
-    e3d_lane_array b[3], r;
+    e3d_lane_array weight[3], r; /* of R19 */
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3];
     int count;
 } e3d_batch;
 
-/* What interpolation fills beyond the barycentrics. */
+/* What interpolation fills. */
 enum {
     E3D_WANT_POSITION = 1,
     E3D_WANT_NORMAL = 2,
     E3D_WANT_UV = 4,
     E3D_WANT_FLAT = 8, /* with E3D_WANT_NORMAL: of the face */
     E3D_WANT_LEVEL = 16, /* what select_level needs of the surfaces */
-    E3D_WANT_SURFACE = 32 /* any of these, or barycentrics */
+    E3D_WANT_SURFACE = 32, /* any of these */
+    E3D_WANT_WEIGHTS = 64  /* and r */
 };
 
 /* `reach`: of each light, and E3D_PAD more, its position, the square of its range (a NaN where nothing is out of it) and 1

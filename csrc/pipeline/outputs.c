@@ -150,6 +150,19 @@ static void put_view(const e3d_context *context, const e3d_worker *worker, const
     }
 }
 
+/* R19 */
+static void put_barycentric(const e3d_context *context, const e3d_worker *worker, const int32_t *at)
+{
+    const e3d_batch *batch = &worker->tile->batch;
+    e3d_lane_array b[3];
+    for (int k = 0; k < 3 && context->targets->barycentric; k++)
+        for (int i = 0; i < batch->count; i++) {
+            float v = batch->weight[k][i] * batch->r[i];
+            b[k][i] = v < 1.0f ? v : 1.0f;
+        }
+    put(context, worker, E3D_OUTPUT_BARYCENTRIC, at, b);
+}
+
 static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
 {
     for (int i = 0; i < count; i++)
@@ -195,7 +208,7 @@ void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker)
     put(context, worker, E3D_OUTPUT_WORLD_NORMAL, at, batch->normal);
     put(context, worker, E3D_OUTPUT_WORLD_POSITION, at, batch->position);
     put(context, worker, E3D_OUTPUT_UV, at, batch->uv);
-    put(context, worker, E3D_OUTPUT_BARYCENTRIC, at, batch->b);
+    put_barycentric(context, worker, at);
 }
 
 /* ---- a tile ---- */

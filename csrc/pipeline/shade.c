@@ -121,10 +121,11 @@ static int wanted_of(const e3d_context *context, const e3d_group *group)
     if (group->textured && all & E3D_NEED_ALBEDO) {
         wanted |= E3D_WANT_UV;
         if (e3d_texture_get_view(group->material->texture)->filter == E3D_TRILINEAR)
-            wanted |= E3D_WANT_LEVEL;
+            wanted |= E3D_WANT_LEVEL | E3D_WANT_WEIGHTS;
     }
-    if (wanted || context->targets->barycentric ||
-        (all & E3D_NEED_ALBEDO && (group->by_vertex || group->by_instance)))
+    if (context->targets->barycentric || (all & E3D_NEED_ALBEDO && group->by_vertex))
+        wanted |= E3D_WANT_WEIGHTS;
+    if (wanted || (all & E3D_NEED_ALBEDO && group->by_instance))
         wanted |= E3D_WANT_SURFACE;
     return group->flat ? wanted | E3D_WANT_FLAT : wanted;
 }

@@ -31,7 +31,7 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_texture_view:
         e3d_level levels[16]
         int32_t level_count
-        int32_t texel_bytes
+        int32_t channel_bits
         e3d_filter filter
         e3d_wrap wrap
 

@@ -10,6 +10,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "core/limits.h"
+
 /* Both give b when the comparison is false, NaN included. */
 static inline float ref_min(float a, float b) { return a < b ? a : b; }
 static inline float ref_max(float a, float b) { return a > b ? a : b; }
@@ -37,14 +39,13 @@ static inline float ref_dot3(const float a[3], const float b[3])
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/* A vector whose length is zero, too great for a float or not a number becomes zero (R22). */
+/* A vector whose length is zero, or too great for a float, becomes zero (R22), or no number if it was none. */
 static inline void ref_normalize(float v[3])
 {
     float length2 = ref_dot3(v, v);
-    float scale = 1.0f / sqrtf(length2);
-    int usable = length2 > 0.0f && length2 < INFINITY;
+    float scale = 1.0f / sqrtf(E3D_LEAST_LENGTH2 > length2 ? E3D_LEAST_LENGTH2 : length2);
     for (int c = 0; c < 3; c++)
-        v[c] = usable ? v[c] * scale : 0.0f;
+        v[c] = v[c] * scale;
 }
 
 /* v is positive and normal. */

@@ -29,7 +29,7 @@ static uint8_t encode(const e3d_frame *frame, float v)
 {
     if (frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT))
         return encode_srgb(v);
-    return (uint8_t)(255.0f * v + 0.5f);
+    return (uint8_t)ref_rint(255.0f * v);
 }
 
 static void clamp_color(const float color[3], float out[3])
@@ -96,7 +96,7 @@ static void resolve_color(ref_scene *scene, const ref_band *band, int32_t x, int
     float scale = count == 0 ? 1.0f : 1.0f / (float)count;
     for (int c = 0; c < 3; c++)
         out[c] = encode(frame, sum[c] * scale);
-    out[3] = (uint8_t)(255.0f * ((float)count / (float)(n * n)) + 0.5f);
+    out[3] = (uint8_t)ref_rint(255.0f * ((float)count / (float)(n * n)));
 }
 
 static void write_floats(float *target, size_t pixel, const float *values, int components)

@@ -86,6 +86,7 @@ typedef struct ref_band {
 typedef struct ref_surface {
     const ref_piece *piece;
     const ref_instance *instance;
+    float weight[3], r; /* of R19 */
     float barycentric[3];
     float world_position[3], view_position[3];
     float metric_depth;
@@ -130,8 +131,9 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, i
 void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[3]);
 
 /* texture.c */
-void ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
-                        const float uv_dy[2], float out[3]);
+/* Returns the unit. */
+float ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
+                         const float uv_dy[2], float out[3]);
 
 /* light.c */
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);

@@ -4,42 +4,36 @@
  * Out: ref_surface, in world and view space.
  * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv).
  */
-#include <float.h>
-
 #include "reference/arithmetic.h"
 #include "core/srgb_tables.h"
 #include "reference/stages.h"
 
-/* R19. Returns the reciprocal of the sum, which the derivatives need too. */
-static float barycentrics_at(const ref_piece *piece, int32_t x, int32_t y, float out[3])
+/* R19 */
+static void find_weights(ref_surface *s, int32_t x, int32_t y)
 {
+    const ref_piece *piece = s->piece;
     float dx = (float)(x - piece->left), dy = (float)(y - piece->top);
-    float p[3];
     for (int k = 0; k < 3; k++) {
-        float v = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
-        p[k] = v > 0.0f ? v : 0.0f;
+        float weight = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
+        s->weight[k] = ref_max(weight, k == 0 ? E3D_LEAST_WEIGHT : 0.0f);
     }
-    float sum = (p[0] + p[1]) + p[2];
-    if (!(sum >= FLT_MIN)) {
-        out[0] = 1.0f;
-        out[1] = out[2] = 0.0f;
-        return 0.0f;
-    }
-    float r = 1.0f / sum;
+    s->r = 1.0f / ((s->weight[0] + s->weight[1]) + s->weight[2]);
     for (int k = 0; k < 3; k++)
-        out[k] = ref_min(p[k] * r, 1.0f);
-    return r;
+        s->barycentric[k] = ref_min(s->weight[k] * s->r, 1.0f);
 }
 
-/* R20: one component of a vertex attribute; a vertex that the primitive lacks counts as 0. */
-static float interpolate(const ref_surface *s, const float *values, int components, int c)
+/* R20: of three values. */
+static float interpolate(const ref_surface *s, const float v[3]) { return ref_dot3(s->weight, v) * s->r; }
+
+/* One component of a vertex attribute; a vertex that the primitive lacks counts as 0. */
+static float interpolate_attribute(const ref_surface *s, const float *values, int components, int c)
 {
     float v[3];
     for (int k = 0; k < 3; k++) {
         int32_t vertex = s->piece->primitive.vertices[k];
         v[k] = vertex < 0 ? 0.0f : values[(size_t)vertex * (size_t)components + (size_t)c];
     }
-    return ref_dot3(s->barycentric, v);
+    return interpolate(s, v);
 }
 
 /* R21 */
@@ -55,21 +49,30 @@ static void find_position(const ref_scene *scene, ref_surface *s)
     }
     for (int c = 0; c < 3; c++) {
         float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
-        s->world_position[c] = ref_dot3(s->barycentric, v);
+        s->world_position[c] = interpolate(s, v);
     }
     ref_transform_point(scene->view_from_world, s->world_position, s->view_position);
     s->metric_depth = 0.0f - s->view_position[2];
 }
 
+/* In world space, towards the viewer's side. */
+static void turned_normal(const ref_surface *s, const float normal[3], float out[3])
+{
+    ref_transform_normal(s->instance, normal, out);
+    for (int c = 0; c < 3; c++)
+        out[c] = s->piece->front ? 0.0f + out[c] : 0.0f - out[c];
+}
+
+/* Its length doesn't matter: the weights stand for the barycentrics. */
 static void interpolate_normal(ref_surface *s)
 {
     const float *normals = s->instance->mesh->normals;
     float corners[3][3];
     for (int k = 0; k < 3; k++)
-        ref_transform_normal(s->instance, normals + 3 * (size_t)s->piece->primitive.vertices[k], corners[k]);
+        turned_normal(s, normals + 3 * (size_t)s->piece->primitive.vertices[k], corners[k]);
     for (int c = 0; c < 3; c++) {
         float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
-        s->world_normal[c] = ref_dot3(s->barycentric, v);
+        s->world_normal[c] = ref_dot3(s->weight, v);
     }
 }
 
@@ -83,19 +86,16 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
     float *n = s->world_normal;
     n[0] = n[1] = n[2] = 0.0f;
     if (primitive->kind == REF_FACE && flat && mesh->face_normals)
-        ref_transform_normal(s->instance, mesh->face_normals + 3 * (size_t)primitive->index, n);
+        turned_normal(s, mesh->face_normals + 3 * (size_t)primitive->index, n);
     else if (primitive->kind == REF_FACE && mesh->normals)
         interpolate_normal(s);
-    if (!s->piece->front)
-        for (int c = 0; c < 3; c++)
-            n[c] = 0.0f - n[c];
     ref_normalize(n);
     for (int r = 0; r < 3; r++)
         s->view_normal[r] = ref_dot3(scene->view_from_world[r], n);
 }
 
 /* R25: uv, and its derivatives along the rows and columns of samples. */
-static void find_uv(ref_surface *s, float r)
+static void find_uv(ref_surface *s)
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
     const ref_piece *piece = s->piece;
@@ -106,9 +106,9 @@ static void find_uv(ref_surface *s, float r)
         for (int k = 0; k < 3; k++)
             if (mesh->uvs && piece->primitive.vertices[k] >= 0)
                 v[k] = mesh->uvs[2 * (size_t)piece->primitive.vertices[k] + c];
-        s->uv[c] = ref_dot3(s->barycentric, v);
-        s->uv_dx[c] = (ref_dot3(piece->bary_dx, v) - s->uv[c] * sum_dx) * r;
-        s->uv_dy[c] = (ref_dot3(piece->bary_dy, v) - s->uv[c] * sum_dy) * r;
+        s->uv[c] = interpolate(s, v);
+        s->uv_dx[c] = (ref_dot3(piece->bary_dx, v) - s->uv[c] * sum_dx) * s->r;
+        s->uv_dy[c] = (ref_dot3(piece->bary_dy, v) - s->uv[c] * sum_dy) * s->r;
     }
 }
 
@@ -132,7 +132,7 @@ static void vertex_color(const ref_scene *scene, const ref_surface *s, float out
     }
     for (int c = 0; c < 3; c++) {
         float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
-        out[c] = mesh->colors_f32 ? interpolate(s, mesh->colors_f32, 4, c) : ref_dot3(s->barycentric, v);
+        out[c] = mesh->colors_f32 ? interpolate_attribute(s, mesh->colors_f32, 4, c) : interpolate(s, v);
     }
 }
 
@@ -154,8 +154,9 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
         s->albedo[c] = primitive->material->color[c];
     if (primitive->kind == REF_FACE && primitive->material->texture && mesh->uvs) {
         const e3d_texture_view *texture = e3d_texture_get_view(primitive->material->texture);
-        ref_texture_sample(texture, s->uv, s->uv_dx, s->uv_dy, factor);
-        multiply_color(s->albedo, factor);
+        float unit = ref_texture_sample(texture, s->uv, s->uv_dx, s->uv_dy, factor);
+        for (int c = 0; c < 3; c++)
+            s->albedo[c] = factor[c] * (s->albedo[c] * unit);
     }
     if (mesh->colors_u8 || mesh->colors_f32) {
         vertex_color(scene, s, factor);
@@ -173,9 +174,9 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, i
 {
     out->piece = piece;
     out->instance = &scene->instances[piece->primitive.instance];
-    float r = barycentrics_at(piece, x, y, out->barycentric);
+    find_weights(out, x, y);
     find_position(scene, out);
     find_normal(scene, out);
-    find_uv(out, r);
+    find_uv(out);
     find_albedo(scene, out);
 }

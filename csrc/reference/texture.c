@@ -1,7 +1,7 @@
 /* Texture: filtered texels at a place, in 8-bit fixed-point weights.
  *
  * In:  a texture's levels (linear RGBA, top row first), uv and its derivatives.
- * Out: the red, green and blue of the texture there, 0 .. 1.
+ * Out: the red, green and blue of the texture there, and their unit.
  * Rules: R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
  */
 #include "reference/arithmetic.h"
@@ -26,9 +26,9 @@ static int32_t level_of_detail(const e3d_texture_view *texture, const float uv_d
 /* R29: into [0, 1]. */
 static float wrap_coordinate(float s, e3d_wrap wrap)
 {
-    s = ref_clamp(s, -0x1p22f, 0x1p22f);
     if (wrap == E3D_REPEAT)
-        return s - ref_floor(s);
+        return ref_max(s - floorf(s), 0.0f);
+    s = ref_clamp(s, -0x1p22f, 0x1p22f);
     if (wrap == E3D_CLAMP)
         return ref_clamp(s, 0.0f, 1.0f);
     float half = s * 0.5f;
@@ -36,12 +36,13 @@ static float wrap_coordinate(float s, e3d_wrap wrap)
     return m > 1.0f ? 2.0f - m : m;
 }
 
-/* A channel in 16 bits. Levels have a border, which goes unused here. */
+/* A channel in as many bits as there are. Levels have a border, and 8-bit texels a copy of those below, which go unused here. */
 static uint32_t texel(const e3d_texture_view *texture, const e3d_level *level, int32_t column, int32_t row, int c)
 {
-    size_t at = 4 * ((size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1)) + (size_t)c;
-    return texture->texel_bytes == 4 ? ((const uint8_t *)level->texels)[at] * 257u
-                                     : ((const uint16_t *)level->texels)[at];
+    size_t at = (size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1);
+    if (texture->channel_bits == 8)
+        return (uint32_t)(((const int8_t *)level->texels)[8 * at + (size_t)c] + 128);
+    return ((const uint16_t *)level->texels)[4 * at + (size_t)c];
 }
 
 static void sample_nearest(const e3d_texture_view *texture, const e3d_level *level, float s, float t, uint32_t out[CHANNELS])
@@ -53,7 +54,7 @@ static void sample_nearest(const e3d_texture_view *texture, const e3d_level *lev
         out[c] = texel(texture, level, column, row, c);
 }
 
-/* The two neighbours along one axis and the weight, of 256, of the second. */
+/* The two neighbours along one axis and the weight of the second. */
 typedef struct neighbours {
     int32_t first, second;
     uint32_t weight;
@@ -74,19 +75,26 @@ static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
     return (neighbours){first, second, weight};
 }
 
+/* Weights of 255, exact; or of 256, rounded to 16 bits. */
+static uint32_t blend(const e3d_texture_view *texture, const uint32_t t[2][2], uint32_t fx, uint32_t fy)
+{
+    uint32_t whole = texture->channel_bits == 8 ? 255 : 256;
+    uint32_t h0 = t[0][0] * (whole - fx) + t[0][1] * fx;
+    uint32_t h1 = t[1][0] * (whole - fx) + t[1][1] * fx;
+    uint32_t sum = h0 * (whole - fy) + h1 * fy;
+    return texture->channel_bits == 8 ? sum : (sum + 32768) >> 16;
+}
+
 static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *level, float s, float t,
                             uint32_t out[CHANNELS])
 {
     neighbours x = find_neighbours(s, level->width, texture->wrap);
     neighbours y = find_neighbours(t, level->height, texture->wrap);
     for (int c = 0; c < CHANNELS; c++) {
-        uint32_t t00 = texel(texture, level, x.first, y.first, c);
-        uint32_t t10 = texel(texture, level, x.second, y.first, c);
-        uint32_t t01 = texel(texture, level, x.first, y.second, c);
-        uint32_t t11 = texel(texture, level, x.second, y.second, c);
-        uint32_t h0 = t00 * (256 - x.weight) + t10 * x.weight;
-        uint32_t h1 = t01 * (256 - x.weight) + t11 * x.weight;
-        out[c] = (h0 * (256 - y.weight) + h1 * y.weight + 32768) >> 16;
+        const uint32_t t[2][2] = {
+            {texel(texture, level, x.first, y.first, c), texel(texture, level, x.second, y.first, c)},
+            {texel(texture, level, x.first, y.second, c), texel(texture, level, x.second, y.second, c)}};
+        out[c] = blend(texture, t, x.weight, y.weight);
     }
 }
 
@@ -101,8 +109,8 @@ static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float
         out[c] = (a[c] * (256 - f) + b[c] * f + 128) >> 8;
 }
 
-void ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
-                        const float uv_dy[2], float out[3])
+float ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
+                         const float uv_dy[2], float out[3])
 {
     float s = wrap_coordinate(uv[0], texture->wrap);
     float t = wrap_coordinate(1.0f - uv[1], texture->wrap);
@@ -114,5 +122,8 @@ void ref_texture_sample(const e3d_texture_view *texture, const float uv[2], cons
     else
         sample_trilinear(texture, level_of_detail(texture, uv_dx, uv_dy), s, t, value);
     for (int c = 0; c < CHANNELS; c++)
-        out[c] = (float)(int32_t)value[c] * E3D_UNORM16;
+        out[c] = (float)(int32_t)value[c];
+    if (texture->channel_bits == 16)
+        return E3D_UNORM16;
+    return texture->filter == E3D_NEAREST ? E3D_UNORM8 : E3D_UNORM8_BLENDED;
 }

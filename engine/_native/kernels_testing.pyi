@@ -120,7 +120,7 @@ class Kernels:
         self,
         batch: _Bytes,
         texels: _Bytes,
-        texel_bytes: int,
+        channel_bits: int,
         sizes: _Integers,
         filter: int,
         wrap: int,

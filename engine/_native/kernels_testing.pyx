@@ -349,16 +349,16 @@ cdef class Kernels:
 
     def select_level(self, uint8_t[::1] batch, const uint8_t[::1] surfaces,
                      const uint8_t[::1] texels, const int32_t[:, ::1] sizes, int filter, int wrap):
-        cdef e3d_texture_view view = texture_view(texels, 8, sizes, filter, wrap)
+        cdef e3d_texture_view view = texture_view(texels, 16, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
         check_size(surfaces, sizeof(e3d_surfaces))
         for _ in range(self.rounds):
             self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], &view)
 
-    def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int texel_bytes,
+    def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int channel_bits,
                 const int32_t[:, ::1] sizes, int filter, int wrap, const float[::1] base):
-        """``texels``: the levels with their borders, of 4 or 8 bytes a texel."""
-        cdef e3d_texture_view view = texture_view(texels, texel_bytes, sizes, filter, wrap)
+        """``texels``: the levels with their borders, 8 bytes a texel."""
+        cdef e3d_texture_view view = texture_view(texels, channel_bits, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
             self.table.texture(<e3d_batch *>&batch[0], &view, &base[0])
@@ -426,8 +426,8 @@ cdef class Kernels:
         check_size(batch, sizeof(e3d_batch))
         check_size(surfaces, sizeof(e3d_surfaces))
         if texture is not None:
-            texels, texel_bytes, sizes, filter, wrap = texture
-            view = texture_view(texels, texel_bytes, sizes, filter, wrap)
+            texels, channel_bits, sizes, filter, wrap = texture
+            view = texture_view(texels, channel_bits, sizes, filter, wrap)
         if lighting is not None:
             of, reach, ambient, clamp, eye = lighting
             lights = lighting_of(of, reach, ambient, clamp, eye)
@@ -531,20 +531,20 @@ cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] rea
     return lighting
 
 
-cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int texel_bytes,
+cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
                                    const int32_t[:, ::1] sizes, int filter, int wrap):
     """The levels lie one after the other in `texels`; `sizes` is (levels, 2): width and height."""
     cdef e3d_texture_view view
     cdef Py_ssize_t start = 0, level
     view.level_count = <int32_t>sizes.shape[0]
-    view.texel_bytes = texel_bytes
+    view.channel_bits = channel_bits
     view.filter = <e3d_filter>filter
     view.wrap = <e3d_wrap>wrap
     for level in range(sizes.shape[0]):
         view.levels[level].texels = &texels[start]
         view.levels[level].width = sizes[level, 0]
         view.levels[level].height = sizes[level, 1]
-        start += texel_bytes * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
+        start += 8 * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
     return view
 
 

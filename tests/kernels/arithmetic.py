@@ -6,7 +6,9 @@ NumPy rounds every operation by itself, so that an expression written here gives
 import numpy as np
 
 ZERO, ONE = np.float32(0), np.float32(1)
+UNORM8 = np.float32(float.fromhex("0x1.010102p-8"))
 UNORM16 = np.float32(float.fromhex("0x1.0001p-16"))
+UNORM8_BLENDED = np.float32(float.fromhex("0x1.03060ap-24"))
 
 
 def _hexadecimal(text):
@@ -51,11 +53,9 @@ def dot(a, b):
 
 
 def unit(v):
-    """R22: three arrays, divided by their length, or zero where it is of no use."""
-    length2 = dot(v, v)
-    usable = (length2 > 0) & (length2 < np.inf)
-    inverse = ONE / np.sqrt(length2)
-    return [np.where(usable, component * inverse, ZERO) for component in v]
+    """R22: three arrays, divided by their length; zero, or no number, where it is of no use."""
+    inverse = ONE / np.sqrt(greatest(np.float32(2.0**-126), dot(v, v)))
+    return [component * inverse for component in v]
 
 
 def log2(q):

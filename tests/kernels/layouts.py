@@ -27,6 +27,7 @@ RECORD_SHIFT = 5
 
 # What interpolation is asked for.
 WANT_POSITION, WANT_NORMAL, WANT_UV, WANT_FLAT, WANT_LEVEL = 1, 2, 4, 8, 16
+WANT_SURFACE, WANT_WEIGHTS = 32, 64
 
 VIEWPORT = np.dtype(
     [
@@ -108,7 +109,7 @@ BATCH_RECORD = np.dtype(
     [
         ("sample", "i4", _LANES),
         ("surface", "i4", _LANES),
-        ("b", "f4", (3, _LANES)),
+        ("weight", "f4", (3, _LANES)),
         ("r", "f4", _LANES),
         ("position", "f4", (3, _LANES)),
         ("normal", "f4", (3, _LANES)),

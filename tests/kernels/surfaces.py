@@ -25,8 +25,8 @@ def random_surfaces(rng):
         values = [0, 5, 63, -1, -64, -1000, -65536]
         surfaces[name] = rng.choice(values, surfaces[name].shape)
     for name in ("p", "px", "py"):
-        surfaces[name][:, order[:3]] = 0  # no barycentrics at all
-    tiny = 2.0 ** rng.integers(-130, -123, (3, 20))  # sums around the least that has an inverse
+        surfaces[name][:, order[:3]] = 0  # no weights but the least
+    tiny = 2.0 ** rng.integers(-68, -60, (3, 20))  # weights around the least
     surfaces["p"][:, order[9:29]] = tiny
     for name in ("px", "py"):
         surfaces[name][:, order[9:29]] = 0

@@ -26,7 +26,7 @@ def expected_bytes(planes, srgb):
     if srgb:
         codes = [np.searchsorted(srgb_thresholds(), plane, side="right") for plane in planes]
     else:
-        codes = [np.trunc(np.float32(255) * plane + np.float32(0.5)) for plane in planes]
+        codes = [np.rint(np.float32(255) * plane) for plane in planes]
     red, green, blue = (code.astype(np.uint32) for code in codes)
     return red | green << 8 | blue << 16 | np.uint32(0xFF000000)
 

@@ -2,44 +2,57 @@
 
 import numpy as np
 import pytest
-from kernels.arithmetic import ONE, ZERO, dot, greatest, least, unit
+from kernels.arithmetic import ONE, ZERO, dot, greatest, unit
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
-from kernels.layouts import TILE, WANT_FLAT, WANT_NORMAL, WANT_POSITION, WANT_UV
+from kernels.layouts import (
+    TILE,
+    WANT_FLAT,
+    WANT_NORMAL,
+    WANT_POSITION,
+    WANT_SURFACE,
+    WANT_UV,
+    WANT_WEIGHTS,
+)
 from kernels.surfaces import ROUNDS, at, bytes_of, fill, planes, random_batches, random_surfaces
 
 WANTED = [
-    0,
+    WANT_SURFACE,
+    WANT_WEIGHTS,
     WANT_POSITION,
     WANT_NORMAL,
     WANT_UV,
     WANT_NORMAL | WANT_FLAT,
+    WANT_NORMAL | WANT_WEIGHTS,
     WANT_POSITION | WANT_NORMAL | WANT_UV,
-    WANT_POSITION | WANT_NORMAL | WANT_FLAT | WANT_UV,
+    WANT_POSITION | WANT_NORMAL | WANT_FLAT | WANT_UV | WANT_WEIGHTS,
 ]
+LEAST_WEIGHT = np.float32(2.0**-64)
 
 
-def barycentrics(surface, sample):
+def weights(surface, sample):
     """R19: three arrays, and r."""
     dx = (sample % TILE - surface["base_x"]).astype(np.float32)
     dy = (sample // TILE - surface["base_y"]).astype(np.float32)
-    p = []
+    w = []
     for k in range(3):
         plane = (surface["p"][..., k] + dx * surface["px"][..., k]) + dy * surface["py"][..., k]
-        p.append(greatest(plane, ZERO))
-    total = (p[0] + p[1]) + p[2]
-    usable = total >= np.float32(2.0**-126)
-    r = np.where(usable, ONE / total, ZERO)
-    nothing = (ONE, ZERO, ZERO)
-    return [np.where(usable, least(p[k] * r, ONE), nothing[k]) for k in range(3)], r
+        w.append(greatest(plane, ZERO if k else LEAST_WEIGHT))
+    return w, ONE / ((w[0] + w[1]) + w[2])
 
 
-def normals(surface, b, flat):
-    """R22"""
-    n = [
-        surface["normal"][..., k, 0] if flat else dot(b, planes_of(surface["normal"], k))
-        for k in range(3)
-    ]
-    return unit([np.where(surface["back"] != 0, ZERO - v, v) for v in n])
+def attribute(surface, name, component, w, r):
+    """R20"""
+    return dot(w, planes_of(surface[name], component)) * r
+
+
+def normals(surface, w, flat):
+    """R22, but for the turn."""
+    return unit(
+        [
+            surface["normal"][..., k, 0] if flat else dot(w, planes_of(surface["normal"], k))
+            for k in range(3)
+        ]
+    )
 
 
 def planes_of(words, component):
@@ -67,13 +80,15 @@ def check_interpolated(batches, surface, given, wanted):
     fields, counts = batches.fields, batches.fields["count"]
     assert np.array_equal(fields["sample"], given[0])
     assert np.array_equal(fields["surface"], given[1])
-    b, r = barycentrics(surface, given[0])
-    check_components("b", fields["b"], b, counts)
-    check_lanes("r", fields["r"], r, counts)
+    w, r = weights(surface, given[0])
     expected = {
-        "position": (WANT_POSITION, [dot(b, planes_of(surface["position"], k)) for k in range(3)]),
-        "uv": (WANT_UV, [dot(b, planes_of(surface["uv"], k)) for k in range(2)]),
+        "weight": (WANT_WEIGHTS, w),
+        "position": (WANT_POSITION, [attribute(surface, "position", k, w, r) for k in range(3)]),
+        "uv": (WANT_UV, [attribute(surface, "uv", k, w, r) for k in range(2)]),
     }
+    kept = (wanted & WANT_WEIGHTS) != 0
+    check_lanes("r", fields["r"][kept], r[kept], counts[kept])
+    check_poisoned(fields[~kept], ["r"])
     for name, (bit, values) in expected.items():
         asked = (wanted & bit) != 0
         check_components(name, fields[name][asked], [v[asked] for v in values], counts[asked])
@@ -81,7 +96,7 @@ def check_interpolated(batches, surface, given, wanted):
     for flat in (0, WANT_FLAT):
         asked = (wanted & (WANT_NORMAL | WANT_FLAT)) == WANT_NORMAL | flat
         chosen = {name: words[asked] for name, words in surface.items()}
-        values = normals(chosen, [v[asked] for v in b], flat)
+        values = normals(chosen, [v[asked] for v in w], flat)
         check_components("normal", fields["normal"][asked], values, counts[asked])
     check_poisoned(fields[(wanted & WANT_NORMAL) == 0], ["normal"])
     check_poisoned(fields, ["color", "lod", "energy", "shine"])
@@ -96,20 +111,22 @@ def test_tint(kernels, by_vertex, by_instance):
         rng = np.random.default_rng(seed)
         surfaces, batches = random_surfaces(rng), random_batches(rng)
         shape = batches.fields["color"].shape
-        color, b = hostile(rng, shape), hostile(rng, shape, 1.0, 0.03)
+        color, w = hostile(rng, shape), hostile(rng, shape, 1.0, 0.03)
+        r = hostile(rng, (shape[0], shape[2]), 1.0, 0.03)
         fill(batches, "color", color)
-        fill(batches, "b", b)
+        fill(batches, "weight", w)
+        fill(batches, "r", r)
         for row in batches.rows:
             kernels.tint(row, bytes_of(surfaces), by_vertex, by_instance)
         surface = at(surfaces, batches.fields["surface"])
         expected = planes(color)
         if by_vertex:
             expected = [
-                c * dot(planes(b), planes_of(surface["color"], k)) for k, c in enumerate(expected)
+                c * attribute(surface, "color", k, planes(w), r) for k, c in enumerate(expected)
             ]
         if by_instance:
             expected = [c * surface["instance_color"][..., k] for k, c in enumerate(expected)]
         check_components("color", batches.fields["color"], expected, batches.fields["count"])
-        unused = ["r", "position", "normal", "uv", "lod", "energy", "shine"]
+        unused = ["position", "normal", "uv", "lod", "energy", "shine"]
         check_poisoned(batches.fields, unused)
         batches.check_gaps()

@@ -115,7 +115,7 @@ def test_light(kernels, shininess):
         for k in range(3):
             check_lanes(f"energy[{k}]", batches.fields["energy"][:, k], energy[k], counts)
             check_lanes(f"shine[{k}]", batches.fields["shine"][:, k], shine[k], counts)
-        check_poisoned(batches.fields, ["b", "r", "uv", "color", "lod"])
+        check_poisoned(batches.fields, ["weight", "r", "uv", "color", "lod"])
         batches.check_gaps()
 
 
@@ -182,5 +182,5 @@ def test_combine(kernels, shiny):
             expected = expected + emissive[k]
             got = batches.fields["color"][:, k]
             check_lanes(f"color[{k}]", got, expected, batches.fields["count"])
-        check_poisoned(batches.fields, ["b", "r", "position", "normal", "uv", "lod"])
+        check_poisoned(batches.fields, ["weight", "r", "position", "normal", "uv", "lod"])
         batches.check_gaps()

@@ -15,12 +15,14 @@ from kernels.layouts import (
     WANT_LEVEL,
     WANT_NORMAL,
     WANT_POSITION,
+    WANT_SURFACE,
     WANT_UV,
+    WANT_WEIGHTS,
 )
 from kernels.surfaces import bytes_of, random_batches, random_surfaces
 from kernels.test_encode import expected_bytes
 from kernels.test_light import random_lights, reach_of
-from kernels.test_texture import bordered, chain_sizes
+from kernels.test_texture import chain_sizes, stored
 
 from engine3d._native.rasterizer import FILTERS, WRAPS
 
@@ -41,35 +43,39 @@ def random_samples(rng, batches):
         row["surface"] = row["surface"][last]
 
 
-def random_texture(rng, filter_name, texel_bytes):
+def random_texture(rng, filter_name, bits):
     sizes = chain_sizes(37, 50, levels=16 if filter_name == "trilinear" else 1)
     count = int((sizes[:, 0].astype(np.int64) * sizes[:, 1]).sum())
-    kind = np.uint8 if texel_bytes == 4 else np.uint16
-    texels = rng.integers(0, 256 if texel_bytes == 4 else 65536, (count, 4)).astype(kind)
+    texels = rng.integers(0, 2**bits, (count, 4)).astype(np.uint16)
     wrap = rng.choice(list(WRAPS))
-    stored = bordered(texels, sizes, wrap)
-    return stored, texel_bytes, sizes, FILTERS[filter_name], WRAPS[wrap]
+    return stored(texels, sizes, wrap, bits), bits, sizes, FILTERS[filter_name], WRAPS[wrap]
 
 
 def random_material(rng, texture, lit):
     """The arguments of paint from `wanted` to `srgb`, some of the choices at random."""
-    wanted = 32 | (WANT_UV if texture else 0)
+    wanted = WANT_SURFACE | (WANT_UV if texture else 0)
+    by_vertex, by_instance = (bool(rng.integers(2)) for _ in range(2))
+    if by_vertex:
+        wanted |= WANT_WEIGHTS
     if texture and texture[3] == FILTERS["trilinear"]:
-        wanted |= WANT_LEVEL
+        wanted |= WANT_LEVEL | WANT_WEIGHTS
     lighting, shiny = None, bool(rng.integers(2))
     if lit:
         wanted |= WANT_NORMAL | WANT_POSITION | (WANT_FLAT if rng.integers(2) else 0)
         lights = random_lights(rng, int(rng.integers(0, 5)))
+        grey = bool(rng.integers(2))
+        if grey:
+            lights["color"] = lights["color"][:, :1]
         eye = np.float32([(0.5, 2, 4, 1), (0, 0.6, 0.8, 0)][rng.integers(2)])
         clamp = np.float32([(0, np.inf), (0.1, 1)][rng.integers(2)])
-        ambient = rng.random(3).astype(np.float32)
+        ambient = rng.random(1 if grey else 3).astype(np.float32) * np.ones(3, np.float32)
         lighting = lights.view(np.uint8), reach_of(lights), ambient, clamp, eye
     return {
         "wanted": wanted,
         "texture": texture,
         "base": rng.random(3).astype(np.float32),
-        "by_vertex": bool(rng.integers(2)),
-        "by_instance": bool(rng.integers(2)),
+        "by_vertex": by_vertex,
+        "by_instance": by_instance,
         "lighting": lighting,
         "shininess": 20.0 if shiny else 0.0,
         "specular": rng.random(3).astype(np.float32) if shiny else None,
@@ -96,10 +102,10 @@ def step_by_step(kernels, row, batch, surfaces, m):
     kernels.interpolate(row, surfaces, m["wanted"])
     batch["color"] = m["base"][:, None]
     if m["texture"]:
-        stored, texel_bytes, sizes, filter_number, wrap = m["texture"]
+        texels, bits, sizes, filter_number, wrap = m["texture"]
         if filter_number == FILTERS["trilinear"]:
-            kernels.select_level(row, surfaces, stored, sizes, filter_number, wrap)
-        kernels.texture(row, stored, texel_bytes, sizes, filter_number, wrap, m["base"])
+            kernels.select_level(row, surfaces, texels, sizes, filter_number, wrap)
+        kernels.texture(row, texels, bits, sizes, filter_number, wrap, m["base"])
     if m["by_vertex"] or m["by_instance"]:
         kernels.tint(row, surfaces, m["by_vertex"], m["by_instance"])
     if m["lighting"]:
@@ -121,10 +127,11 @@ def test_paint(kernels, filter_name, lit):
     random_samples(rng, batches)
     surfaces = bytes_of(surfaces)
     differing = set()
-    for row, fields, texel_bytes in zip(
-        batches.rows, batches.fields, itertools.cycle([4, 8]), strict=False
+    depths = [16] if filter_name == "trilinear" else [8, 16]
+    for row, fields, channel_bits in zip(
+        batches.rows, batches.fields, itertools.cycle(depths), strict=False
     ):
-        texture = random_texture(rng, filter_name, texel_bytes) if filter_name else None
+        texture = random_texture(rng, filter_name, channel_bits) if filter_name else None
         material = random_material(rng, texture, lit)
         tile, planes = np.full(SAMPLES + PAD, UNTOUCHED, np.uint32), untouched()
         before = row.copy()

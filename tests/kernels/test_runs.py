@@ -94,5 +94,5 @@ def test_take_runs(kernels):
         for name, values in expected.items():
             got = fields[name][: count + PAD]
             assert np.array_equal(got, np.append(values, [values[-1]] * PAD)), name
-        check_poisoned(fields, ["b", "r", "position", "normal", "uv", "color", "lod"])
+        check_poisoned(fields, ["weight", "r", "position", "normal", "uv", "color", "lod"])
     batches.check_gaps()

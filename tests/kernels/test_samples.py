@@ -36,7 +36,7 @@ def averages(planes, axis, row, width, background, srgb):
     count = total[3]
     means = total[:3] * (ONE / np.maximum(count, ONE))
     means = np.where(count > 0, means, background[:, None])
-    alpha = np.floor(np.float32(255) * (count / np.float32(axis**2)) + np.float32(0.5))
+    alpha = np.rint(np.float32(255) * (count / np.float32(axis**2)))
     pixels = expected_bytes(list(means), srgb) & np.uint32(0xFFFFFF)
     return pixels | alpha.astype(np.uint32) << 24
 

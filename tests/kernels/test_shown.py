@@ -158,5 +158,5 @@ def test_take_shown(kernels):
             ):
                 got = batch[name][: taken + PAD]
                 assert np.array_equal(got, np.append(values, [values[-1]] * PAD)), name
-        check_poisoned(batch, ["b", "r", "position", "normal", "uv", "color", "lod"])
+        check_poisoned(batch, ["weight", "r", "position", "normal", "uv", "color", "lod"])
     batches.check_gaps()

@@ -44,6 +44,7 @@ def random_surfaces(rng, count):
     surfaces["x"], surfaces["y"] = random_triangles(rng)
     surfaces["iw"] = 2.0 ** rng.uniform(-20, 20, surfaces["iw"].shape)
     surfaces["swapped"] = rng.integers(0, 2, shape)
+    surfaces["back"] = rng.integers(0, 2, shape)
     surfaces["matrix"] = np.cumsum(rng.random(shape) < rng.choice([0, 0.1, 0.7]))
     surfaces["matrix"] -= surfaces["matrix"][0]
     surfaces["matrix"] = np.minimum(surfaces["matrix"], BATCH_SURFACES - 1)
@@ -91,6 +92,14 @@ def check(name, got, expected, count):
     assert same.all(), name
 
 
+def turned(normals, back, vertices):
+    """R22: negated where the face looks away."""
+    out, zero = normals.copy(), np.float32(0)
+    some = normals[:, :vertices]
+    out[:, :vertices] = np.where(back != 0, zero - some, zero + some)
+    return out
+
+
 @all_backends
 @pytest.mark.parametrize("flat", [0, WANT_FLAT])
 def test_surface(kernels, flat):
@@ -107,8 +116,10 @@ def test_surface(kernels, flat):
         expected = {"p": planes[0], "px": planes[1], "py": planes[2]}
         expected["base_x"], expected["base_y"] = base
         expected["position"] = transformed(given["world"][:, matrix], 4, given["position"], 3)
-        expected["normal"] = transformed(
-            given["normals"][:, matrix], 3, given["normal"], 1 if flat else 3
+        expected["normal"] = turned(
+            transformed(given["normals"][:, matrix], 3, given["normal"], 1 if flat else 3),
+            given["back"],
+            1 if flat else 3,
         )
         steps = [
             [(w[0] + w[1]) + w[2], dot(w, given["uv"][0]), dot(w, given["uv"][1])]

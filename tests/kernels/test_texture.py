@@ -2,7 +2,18 @@
 
 import numpy as np
 import pytest
-from kernels.arithmetic import ONE, UNORM16, clamp, floor, greatest, least, log2, round_even
+from kernels.arithmetic import (
+    ONE,
+    UNORM8,
+    UNORM8_BLENDED,
+    UNORM16,
+    clamp,
+    floor,
+    greatest,
+    least,
+    log2,
+    round_even,
+)
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
 from kernels.surfaces import (
     BATCHES,
@@ -68,16 +79,16 @@ def test_select_level(kernels):
         expected = level_of(surface, planes(uv), r, sizes)
         assert len(np.unique(expected)) > 100 or len(sizes) < 3
         check_lanes("lod", batches.fields["lod"], expected, batches.fields["count"])
-        unused = ["b", "position", "normal", "color", "energy", "shine"]
+        unused = ["weight", "position", "normal", "color", "energy", "shine"]
         check_poisoned(batches.fields, unused)
         batches.check_gaps()
 
 
 def wrapped(s, wrap):
     """R29"""
-    s = clamp(s, np.float32(-(2.0**22)), np.float32(2.0**22))
     if wrap == "repeat":
-        return s - floor(s)
+        return greatest(s - np.floor(s), np.float32(0))
+    s = clamp(s, np.float32(-(2.0**22)), np.float32(2.0**22))
     if wrap == "clamp":
         return clamp(s, np.float32(0), ONE)
     half = s * np.float32(0.5)
@@ -95,8 +106,9 @@ def taps(s, size, wrap):
     return low.clip(0, size - 1), high.clip(0, size - 1), weight
 
 
-def bilinear(texels, starts, sizes, level, s, t, wrap):
+def bilinear(texels, starts, sizes, level, s, t, wrap, bits):
     """R30 of a level for each lane; (…, 3) int64."""
+    whole = 255 if bits == 8 else 256
     width, height = (sizes[level, k].astype(np.int64) for k in range(2))
     left, right, fx = taps(s, width, wrap)
     top, bottom, fy = taps(t, height, wrap)
@@ -106,11 +118,11 @@ def bilinear(texels, starts, sizes, level, s, t, wrap):
         return texels[start + row * width + column, :3].astype(np.int64)
 
     def across(row):
-        return texel(row, left) * (256 - fx)[..., None] + texel(row, right) * fx[..., None]
+        return texel(row, left) * (whole - fx)[..., None] + texel(row, right) * fx[..., None]
 
-    blended = across(top) * (256 - fy)[..., None] + across(bottom) * fy[..., None] + 32768
-    assert blended.max() < 2**32
-    return blended >> 16
+    blended = across(top) * (whole - fy)[..., None] + across(bottom) * fy[..., None]
+    assert blended.max() < (2**24 if bits == 8 else 2**32)
+    return blended if bits == 8 else (blended + 32768) >> 16
 
 
 def nearest(texels, sizes, s, t):
@@ -120,29 +132,37 @@ def nearest(texels, sizes, s, t):
     return texels[row * width + column, :3].astype(np.int64)
 
 
-def sampled(texels, sizes, filter_name, wrap, uv, lod):
-    """R29 and R30: (…, 3) values of 16 bits."""
+def sampled(texels, sizes, filter_name, wrap, uv, lod, bits):
+    """R29 and R30: (…, 3) values, in the texture's unit."""
     s, t = wrapped(uv[0], wrap), wrapped(ONE - uv[1], wrap)
     if filter_name == "nearest":
         return nearest(texels, sizes, s, t)
     starts = np.concatenate([[0], np.cumsum(sizes[:, 0].astype(np.int64) * sizes[:, 1])])
     if filter_name == "bilinear":
-        return bilinear(texels, starts, sizes, np.zeros_like(lod), s, t, wrap)
+        return bilinear(texels, starts, sizes, np.zeros_like(lod), s, t, wrap, bits)
     level, f = lod >> 8, (lod & 255).astype(np.int64)[..., None]
-    near = bilinear(texels, starts, sizes, level, s, t, wrap)
-    far = bilinear(texels, starts, sizes, np.minimum(level + 1, len(sizes) - 1), s, t, wrap)
+    near = bilinear(texels, starts, sizes, level, s, t, wrap, bits)
+    coarse = np.minimum(level + 1, len(sizes) - 1)
+    far = bilinear(texels, starts, sizes, coarse, s, t, wrap, bits)
     return (near * (256 - f) + far * f + 128) >> 8
 
 
-def bordered(texels, sizes, wrap):
-    """The bytes of all levels as the kernels read them: within a border of one texel each."""
+def stored(texels, sizes, wrap, bits):
+    """The bytes of all levels as the kernels read them: within a border of one texel each.
+
+    Those of 8 bits are signed; beside each is the one below, which the last row does not need.
+    """
     pieces, start = [], 0
     for width, height in sizes.tolist():
         level = texels[start : start + width * height].reshape(height, width, 4)
         mode = "wrap" if wrap == "repeat" else "edge"
-        pieces.append(np.pad(level, ((1, 1), (1, 1), (0, 0)), mode).ravel())
+        level = np.pad(level, ((1, 1), (1, 1), (0, 0)), mode)
+        if bits == 8:
+            below = np.concatenate((level[1:], np.full_like(level[:1], 77)))
+            level = (np.stack((level, below), axis=2).astype(np.int16) - 128).astype(np.int8)
+        pieces.append(level.ravel().view(np.uint8))
         start += width * height
-    return np.concatenate(pieces).view(np.uint8)
+    return np.concatenate(pieces)
 
 
 def random_coordinates(rng, shape, sizes):
@@ -157,10 +177,13 @@ def random_coordinates(rng, shape, sizes):
 
 
 @all_backends
-@pytest.mark.parametrize("filter_name", FILTERS)
 @pytest.mark.parametrize("wrap", WRAPS)
-@pytest.mark.parametrize("texel_bytes", [4, 8])
-def test_texture(kernels, filter_name, wrap, texel_bytes):
+@pytest.mark.parametrize(
+    ("filter_name", "bits"),
+    [("nearest", 8), ("bilinear", 8), ("nearest", 16), ("bilinear", 16), ("trilinear", 16)],
+)
+def test_texture(kernels, filter_name, bits, wrap):
+    unit = UNORM16 if bits == 16 else UNORM8 if filter_name == "nearest" else UNORM8_BLENDED
     for seed in range(list(WRAPS).index(wrap), ROUNDS, len(WRAPS)):
         rng = np.random.default_rng(seed)
         batches = random_batches(rng)
@@ -168,11 +191,8 @@ def test_texture(kernels, filter_name, wrap, texel_bytes):
         count = int((sizes[:, 0].astype(np.int64) * sizes[:, 1]).sum())
         texels = rng.choice([0, 65535, 1, 32768], (count, 4)).astype(np.uint16)
         texels[::2] = rng.integers(0, 65536, texels[::2].shape)
-        stored = bordered(texels, sizes, wrap)
-        if texel_bytes == 4:
-            texels >>= 8
-            stored = bordered(texels.astype(np.uint8), sizes, wrap)
-            texels *= 257
+        texels >>= 16 - bits
+        given = stored(texels, sizes, wrap, bits)
         shape = batches.fields["uv"].shape
         uv = random_coordinates(rng, shape, sizes)
         base = hostile(rng, 3)
@@ -181,13 +201,11 @@ def test_texture(kernels, filter_name, wrap, texel_bytes):
         fill(batches, "uv", uv)
         batches.fields["lod"] = lod  # whole vectors look levels up
         for row in batches.rows:
-            kernels.texture(
-                row, stored, texel_bytes, sizes, FILTERS[filter_name], WRAPS[wrap], base
-            )
-        values = sampled(texels, sizes, filter_name, wrap, planes(uv), lod).astype(np.float32)
+            kernels.texture(row, given, bits, sizes, FILTERS[filter_name], WRAPS[wrap], base)
+        values = sampled(texels, sizes, filter_name, wrap, planes(uv), lod, bits)
         for k in range(3):
-            expected = base[k] * (values[..., k] * UNORM16)
+            expected = values[..., k].astype(np.float32) * (base[k] * unit)
             got = batches.fields["color"][:, k]
             check_lanes(f"color[{k}]", got, expected, batches.fields["count"])
-        check_poisoned(batches.fields, ["b", "r", "position", "normal", "energy", "shine"])
+        check_poisoned(batches.fields, ["weight", "r", "position", "normal", "energy", "shine"])
         batches.check_gaps()

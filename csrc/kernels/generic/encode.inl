@@ -5,10 +5,6 @@ static inline vi32 encode_bucket(vf32 v) { return v_maxi(v_subi(v_shr(v_asi(v), 
 static inline vi32 encode_code(vf32 v, vi32 sum) { return v_shr(v_addi(sum, v_andi(v_asi(v), v_seti(0xFFFF))), 17); }
 static inline vi32 encode_srgb(vf32 v) { return encode_code(v, v_gatheri(ENCODE_SUMS, encode_bucket(v))); }
 
-static inline vi32 encode_linear(vf32 v)
-{
-    return v_trunc(v_add(v_mul(v_setf(255.0f), v), v_setf(0.5f)));
-}
 
 /* Whether all samples are grey. */
 static inline int encode_is_grey(const vf32 color[3])
@@ -19,22 +15,28 @@ static inline int encode_is_grey(const vf32 color[3])
 
 static inline vf32 encode_clamp(vf32 v) { return v_min(v_max(v, v_setf(0.0f)), v_setf(1.0f)); }
 
-static inline vi32 encode_pack(const vi32 code[3])
+/* One vector of colours, which are not clamped yet. */
+static inline vi32 encode_vector_linear(const vf32 color[3])
 {
-    vi32 low = v_ori(code[0], v_shl(code[1], 8)), high = v_ori(v_shl(code[2], 16), v_seti((int32_t)0xFF000000));
-    return v_ori(low, high);
+    vf32 code[3];
+    for (int k = 0; k < 3; k++)
+        code[k] = v_mul(v_setf(255.0f), v_min(v_setf(1.0f), color[k])); /* of no number: no number */
+    return v_rgbaf(code);
 }
 
-/* One vector of colours. Looking up takes long, and white in white light is common. */
-static inline vi32 encode_vector(const vf32 color[3], int srgb)
+/* Looking up takes long, and white in white light is common. */
+static inline vi32 encode_vector_srgb(const vf32 color[3])
 {
     vi32 code[3];
-    int grey = srgb && encode_is_grey(color);
-    for (int k = 0; k < 3; k++) {
-        vf32 v = encode_clamp(color[k]);
-        code[k] = k > 0 && grey ? code[0] : srgb ? encode_srgb(v) : encode_linear(v);
-    }
-    return encode_pack(code);
+    int grey = encode_is_grey(color);
+    for (int k = 0; k < 3; k++)
+        code[k] = k > 0 && grey ? code[0] : encode_srgb(encode_clamp(color[k]));
+    return v_rgba(code);
+}
+
+static inline vi32 encode_vector(const vf32 color[3], int srgb)
+{
+    return srgb ? encode_vector_srgb(color) : encode_vector_linear(color);
 }
 
 static void kernel_encode(const float *red, const float *green, const float *blue, int count, int srgb,

@@ -1,54 +1,39 @@
-/* interpolate: barycentrics and attributes of a batch of samples (R19-R26).
+/* interpolate: attributes of a batch of samples (R19-R26).
  *
  * The surfaces of one vector's samples stand side by side, in order: a word of theirs is one load and one permutation, or one
  * broadcast where all samples are of one surface.
  */
 
-/* R19 */
-static inline vf32 interpolate_barycentric(const e3d_surfaces *s, const element_lanes *lanes, int same,
-                                           vi32 sample, vf32 b[3])
+/* R19: the corners' weights, in proportion to the barycentrics. */
+static ALWAYS_INLINE void interpolate_weights(const e3d_surfaces *s, const element_lanes *lanes, int same, vi32 sample, vf32 w[3])
 {
     vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT));
-    vf32 dx = v_sub(x, take(s->base_x, lanes, same)), dy = v_sub(y, take(s->base_y, lanes, same));
-    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), p[3], px[3], py[3];
-    take_three(s->p, lanes, same, p);
+    vf32 dx = v_sub(x, take(s->base_x, lanes, same)), dy = v_sub(y, take(s->base_y, lanes, same)), px[3], py[3];
+    take_three(s->p, lanes, same, w);
     take_three(s->px, lanes, same, px);
     take_three(s->py, lanes, same, py);
     for (int k = 0; k < 3; k++)
-        p[k] = v_max(v_add(v_add(p[k], v_mul(dx, px[k])), v_mul(dy, py[k])), zero);
-    vf32 sum = v_add(v_add(p[0], p[1]), p[2]);
-    vmask some = v_ge(sum, v_setf(0x1p-126f));
-    vf32 r = v_self(some, v_div(one, sum), zero);
-    for (int k = 0; k < 3; k++)
-        b[k] = v_self(some, v_min(v_mul(p[k], r), one), k ? zero : one);
-    return r;
+        w[k] = v_max(v_add(v_add(w[k], v_mul(dx, px[k])), v_mul(dy, py[k])), v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
 }
 
-/* R22: what has no usable length becomes zero. */
-static inline void unit_length(vf32 *x, vf32 *y, vf32 *z)
-{
-    vf32 zero = v_setf(0.0f);
-    vf32 length2 = v_add(v_add(v_mul(*x, *x), v_mul(*y, *y)), v_mul(*z, *z));
-    vmask some = v_mand(v_gt(length2, zero), v_lt(length2, v_setf(INFINITY)));
-    vf32 inverse = v_div(v_setf(1.0f), v_sqrt(length2));
-    *x = v_self(some, v_mul(*x, inverse), zero);
-    *y = v_self(some, v_mul(*y, inverse), zero);
-    *z = v_self(some, v_mul(*z, inverse), zero);
-}
-
-/* R20; `rows`: components of three corners each. */
-static inline vf32 interpolate_one(const e3d_surface_floats rows[3], const element_lanes *lanes, int same,
-                                   const vf32 b[3])
+/* The weighted sum of one component; `rows`: of three corners. */
+static ALWAYS_INLINE vf32 weighted_sum(const e3d_surface_floats rows[3], const element_lanes *lanes, int same, const vf32 w[3])
 {
     vf32 corner[3];
     take_three(rows, lanes, same, corner);
-    return dot_three(b, corner);
+    return dot_three(w, corner);
 }
 
-/* ---- stages: short ones, each over all vectors of a batch ----
- *
- * Processors look ahead some hundred operations: so they find several vectors to work on at a time.
- */
+/* R22: what has no usable length becomes zero, or no number. */
+static inline void unit_length(vf32 v[3])
+{
+    vf32 length2 = v_max(v_setf(E3D_LEAST_LENGTH2), dot_three(v, v)); /* of no number: no number */
+    vf32 inverse = v_div(v_setf(1.0f), v_sqrt(length2));
+    for (int k = 0; k < 3; k++)
+        v[k] = v_mul(v[k], inverse);
+}
+
+/* ---- stages: each over all vectors of a batch ---- */
 
 /* Of one vector: its first sample, the surfaces from that one's on, and whether all samples are of the same one. */
 typedef struct sample_vector {
@@ -57,8 +42,9 @@ typedef struct sample_vector {
     const e3d_surfaces *s;
 } sample_vector;
 
+/* `how`: what the stage is told. */
 static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surfaces,
-                                      void (*stage)(e3d_batch *, const sample_vector *))
+                                      void (*stage)(e3d_batch *, const sample_vector *, const void *), const void *how)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         sample_vector v = {.i = i, .elements = lanes_of(batch->surface + i)};
@@ -66,113 +52,100 @@ static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surf
         v.same = v.elements.same;
         if (v.same) {
             v.same = 1; /* known when compiled */
-            stage(batch, &v);
+            stage(batch, &v, how);
         } else {
-            stage(batch, &v);
+            stage(batch, &v, how);
         }
     }
 }
 
-static ALWAYS_INLINE void load_barycentric(const e3d_batch *batch, int i, vf32 b[3])
-{
-    for (int k = 0; k < 3; k++)
-        b[k] = v_loadf(batch->b[k] + i);
-}
-
-static ALWAYS_INLINE void interpolate_into(e3d_lane_array *out, int count, const e3d_surface_floats rows[][3],
-                                           const vf32 b[3], const sample_vector *v)
+/* R20 */
+static ALWAYS_INLINE void interpolate_into(e3d_lane_array *out, int count, const e3d_surface_floats rows[][3], const vf32 w[3],
+                                           vf32 r, const sample_vector *v)
 {
     for (int c = 0; c < count; c++)
-        v_storef(out[c] + v->i, interpolate_one(rows[c], &v->elements, v->same, b));
+        v_storef(out[c] + v->i, v_mul(weighted_sum(rows[c], &v->elements, v->same, w), r));
 }
 
-static ALWAYS_INLINE void find_barycentric(e3d_batch *batch, const sample_vector *v, vf32 b[3])
+static ALWAYS_INLINE void keep_weights(e3d_batch *batch, int i, const vf32 w[3], vf32 r)
 {
-    vf32 r = interpolate_barycentric(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), b);
-    v_storef(batch->r + v->i, r);
     for (int k = 0; k < 3; k++)
-        v_storef(batch->b[k] + v->i, b[k]);
-}
-
-static ALWAYS_INLINE void stage_barycentric(e3d_batch *batch, const sample_vector *v)
-{
-    vf32 b[3];
-    find_barycentric(batch, v, b);
-}
-
-/* Two short ones. */
-static ALWAYS_INLINE void stage_barycentric_uv(e3d_batch *batch, const sample_vector *v)
-{
-    vf32 b[3];
-    find_barycentric(batch, v, b);
-    interpolate_into(batch->uv, 2, v->s->uv, b, v);
-}
-
-static ALWAYS_INLINE void stage_position(e3d_batch *batch, const sample_vector *v)
-{
-    vf32 b[3];
-    load_barycentric(batch, v->i, b);
-    interpolate_into(batch->position, 3, v->s->position, b, v);
+        v_storef(batch->weight[k] + i, w[k]);
+    v_storef(batch->r + i, r);
 }
 
 /* R22 */
-static ALWAYS_INLINE void stage_normal(e3d_batch *batch, const sample_vector *v, int flat)
+static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], int flat, const sample_vector *v)
 {
-    vf32 b[3], n[3], zero = v_setf(0.0f);
-    vmask back = v_mnot(v_eqi(v_asi(take((const float *)v->s->back, &v->elements, v->same)), v_seti(0)));
-    load_barycentric(batch, v->i, b);
-    for (int c = 0; c < 3; c++) {
+    vf32 n[3];
+    for (int c = 0; c < 3; c++)
         n[c] = flat ? take(v->s->normal[c][0], &v->elements, v->same)
-                    : interpolate_one(v->s->normal[c], &v->elements, v->same, b);
-        n[c] = v_self(back, v_sub(zero, n[c]), n[c]);
-    }
-    unit_length(&n[0], &n[1], &n[2]);
+                    : weighted_sum(v->s->normal[c], &v->elements, v->same, w);
+    unit_length(n);
     for (int c = 0; c < 3; c++)
         v_storef(batch->normal[c] + v->i, n[c]);
 }
 
-static ALWAYS_INLINE void stage_smooth_normal(e3d_batch *batch, const sample_vector *v) { stage_normal(batch, v, 0); }
-static ALWAYS_INLINE void stage_flat_normal(e3d_batch *batch, const sample_vector *v) { stage_normal(batch, v, 1); }
+/* Quotients and roots take long: what needs none comes first. (Processors look ahead some hundred operations only.) */
+static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vector *v, const void *how)
+{
+    int wanted = *(const int *)how;
+    vf32 w[3], r = v_setf(0.0f);
+    interpolate_weights(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), w);
+    if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_POSITION))
+        r = v_div(v_setf(1.0f), v_add(v_add(w[0], w[1]), w[2]));
+    if (wanted & E3D_WANT_WEIGHTS)
+        keep_weights(batch, v->i, w, r);
+    if (wanted & E3D_WANT_UV)
+        interpolate_into(batch->uv, 2, v->s->uv, w, r, v);
+    if (wanted & E3D_WANT_POSITION)
+        interpolate_into(batch->position, 3, v->s->position, w, r, v);
+    if (wanted & E3D_WANT_NORMAL)
+        interpolate_normal(batch, w, wanted & E3D_WANT_FLAT, v);
+}
 
 static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
 {
-    if (wanted & E3D_WANT_UV)
-        each_vector(batch, surfaces, stage_barycentric_uv);
-    else
-        each_vector(batch, surfaces, stage_barycentric);
-    if (wanted & E3D_WANT_POSITION)
-        each_vector(batch, surfaces, stage_position);
-    if (wanted & E3D_WANT_NORMAL && wanted & E3D_WANT_FLAT)
-        each_vector(batch, surfaces, stage_flat_normal);
-    else if (wanted & E3D_WANT_NORMAL)
-        each_vector(batch, surfaces, stage_smooth_normal);
+    if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_POSITION | E3D_WANT_NORMAL))
+        each_vector(batch, surfaces, stage_interpolate, &wanted);
 }
 
 /* R24: color *= tint */
-static ALWAYS_INLINE void stage_vertex_color(e3d_batch *batch, const sample_vector *v)
+static ALWAYS_INLINE void stage_vertex_color(e3d_batch *batch, const sample_vector *v, const void *how)
 {
-    vf32 b[3];
-    load_barycentric(batch, v->i, b);
+    (void)how;
+    vf32 r = v_loadf(batch->r + v->i), w[3];
+    for (int k = 0; k < 3; k++)
+        w[k] = v_loadf(batch->weight[k] + v->i);
     for (int c = 0; c < 3; c++) {
-        vf32 tint = interpolate_one(v->s->color[c], &v->elements, v->same, b);
+        vf32 tint = v_mul(weighted_sum(v->s->color[c], &v->elements, v->same, w), r);
         v_storef(batch->color[c] + v->i, v_mul(v_loadf(batch->color[c] + v->i), tint));
     }
 }
 
-static ALWAYS_INLINE void stage_instance_color(e3d_batch *batch, const sample_vector *v)
+static ALWAYS_INLINE void stage_instance_color(e3d_batch *batch, const sample_vector *v, const void *how)
 {
+    (void)how;
     for (int c = 0; c < 3; c++) {
         vf32 tint = take(v->s->instance_color[c], &v->elements, v->same);
         v_storef(batch->color[c] + v->i, v_mul(v_loadf(batch->color[c] + v->i), tint));
     }
 }
 
+/* Of a constant. */
+static ALWAYS_INLINE void stage_instance_base(e3d_batch *batch, const sample_vector *v, const void *how)
+{
+    const float *base = how;
+    for (int c = 0; c < 3; c++)
+        v_storef(batch->color[c] + v->i, v_mul(v_setf(base[c]), take(v->s->instance_color[c], &v->elements, v->same)));
+}
+
 static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
 {
     if (by_vertex)
-        each_vector(batch, surfaces, stage_vertex_color);
+        each_vector(batch, surfaces, stage_vertex_color, NULL);
     if (by_instance)
-        each_vector(batch, surfaces, stage_instance_color);
+        each_vector(batch, surfaces, stage_instance_color, NULL);
 }
 
 /* R27 */

@@ -1,6 +1,6 @@
 /* light: Lambert and Blinn-Phong (Blinn 1977) sums of a batch over all lights, in their order (R31). */
 
-/* One vector of lit samples. */
+/* One vector of lit samples. Where all light is grey, one of three `channels` stands for all. */
 typedef struct lit_lanes {
     vf32 position[3], normal[3], view[3];
     vf32 energy[3], shine[3];
@@ -30,52 +30,52 @@ static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf3
 }
 
 /* near: lanes within range; NULL: all are. */
-static ALWAYS_INLINE void light_sum(vf32 sums[3], const float color[3], vf32 amount, const vmask *near)
+static ALWAYS_INLINE void light_sum(vf32 sums[3], int channels, const float color[3], vf32 amount, const vmask *near)
 {
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < channels; k++) {
         vf32 more = v_add(sums[k], v_mul(v_setf(color[k]), amount));
         sums[k] = near ? v_self(*near, more, sums[k]) : more;
     }
 }
 
-static inline void light_highlight(const e3d_light *light, const vf32 l[3], vf32 facing, vf32 attenuation, const vmask *near,
-                                   float shininess, lit_lanes *lit)
+static ALWAYS_INLINE void light_highlight(const e3d_light *light, int channels, const vf32 l[3], vf32 facing, vf32 attenuation,
+                                          const vmask *near, float shininess, lit_lanes *lit)
 {
     vf32 zero = v_setf(0.0f), h[3];
     for (int k = 0; k < 3; k++)
         h[k] = v_add(l[k], lit->view[k]);
-    unit_length(&h[0], &h[1], &h[2]);
+    unit_length(h);
     vf32 x = v_max(dot_three(lit->normal, h), zero);
     vmask some = v_mand(v_gt(facing, zero), v_ge(x, v_setf(0x1p-100f)));
     vf32 safe = v_self(some, x, v_setf(1.0f));
     vf32 power = v_self(some, exp2_poly(v_mul(v_setf(shininess), log2_poly(safe))), zero);
-    light_sum(lit->shine, light->color, v_mul(attenuation, power), near);
+    light_sum(lit->shine, channels, light->color, v_mul(attenuation, power), near);
 }
 
 /* From one direction l. */
-static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf32 attenuation, const vmask *near,
+static ALWAYS_INLINE void light_from(const e3d_light *light, int channels, const vf32 l[3], vf32 attenuation, const vmask *near,
                                      float shininess, lit_lanes *lit)
 {
     vf32 zero = v_setf(0.0f), facing = v_max(dot_three(lit->normal, l), zero);
-    light_sum(lit->energy, light->color, v_mul(attenuation, facing), near);
+    light_sum(lit->energy, channels, light->color, v_mul(attenuation, facing), near);
     vmask faces = v_gt(facing, zero);
     if (shininess > 0.0f && v_any(near ? v_mand(*near, faces) : faces)) /* else it would add 0 */
-        light_highlight(light, l, facing, attenuation, near, shininess, lit);
+        light_highlight(light, channels, l, facing, attenuation, near, shininess, lit);
 }
 
-static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, float shininess, lit_lanes *lit)
+static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, int channels, float shininess, lit_lanes *lit)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 l[3], attenuation = v_setf(1.0f);
     if (light->kind == E3D_LIGHT_DIRECTIONAL) {
         for (int k = 0; k < 3; k++)
             l[k] = v_setf(light->to_light[k]);
-        light_from(light, l, attenuation, NULL, shininess, lit);
+        light_from(light, channels, l, attenuation, NULL, shininess, lit);
         return;
     }
     vmask near = light_towards(lighting, n, lit->position, l, &attenuation);
     if (v_any(near))
-        light_from(light, l, attenuation, &near, shininess, lit);
+        light_from(light, channels, l, attenuation, &near, shininess, lit);
 }
 
 static inline void light_view(const e3d_lighting *lighting, lit_lanes *lit)
@@ -85,7 +85,7 @@ static inline void light_view(const e3d_lighting *lighting, lit_lanes *lit)
         lit->view[k] = lighting->eye[3] != 0.0f ? v_sub(eye, lit->position[k]) : eye;
     }
     if (lighting->eye[3] != 0.0f)
-        unit_length(&lit->view[0], &lit->view[1], &lit->view[2]);
+        unit_length(lit->view);
 }
 
 /* ---- lights that may reach a batch ---- */
@@ -185,7 +185,7 @@ static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, con
         if (shininess > 0.0f)
             light_view(lighting, &lit);
         for (int n = 0; n < count; n++)
-            light_one(lighting, chosen[n], shininess, &lit);
+            light_one(lighting, chosen[n], 3, shininess, &lit);
         for (int k = 0; k < 3; k++) {
             v_storef(batch->energy[k] + i, lit.energy[k]);
             v_storef(batch->shine[k] + i, lit.shine[k]);

@@ -71,7 +71,7 @@ static ALWAYS_INLINE void samples_average(const e3d_samples *samples, int axis, 
         vf32 scale = v_div(one, v_max(count, one));
         for (int k = 0; k < 3; k++)
             color[k] = v_self(some, v_mul(samples_sum(samples->color[k] + first, axis), scale), v_setf(background[k]));
-        vi32 alpha = encode_linear(v_mul(count, v_setf(1.0f / all)));
+        vi32 alpha = v_rint(v_mul(v_setf(255.0f), v_mul(count, v_setf(1.0f / all))));
         v_storei(rgba + x, v_ori(v_andi(encode_vector(color, srgb), v_seti(0xFFFFFF)), v_shl(alpha, 24)));
     }
 }

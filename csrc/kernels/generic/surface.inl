@@ -118,6 +118,17 @@ static inline vf32 dot_three(const vf32 a[3], const vf32 b[3])
     return v_add(v_add(v_mul(a[0], b[0]), v_mul(a[1], b[1])), v_mul(a[2], b[2]));
 }
 
+/* R22: normals of faces that look away; and no zero is negative. */
+static inline void surface_turn(e3d_surfaces *s, int vertices, int n)
+{
+    vmask front = v_eqi(v_loadi(s->back + n), v_seti(0));
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < vertices; k++) {
+            vf32 v = v_loadf(s->normal[c][k] + n), zero = v_setf(0.0f);
+            v_storef(s->normal[c][k] + n, v_self(front, v_add(zero, v), v_sub(zero, v)));
+        }
+}
+
 /* `columns`: 3, or 4 with an offset; `vertices`: as many of the three. */
 static inline void surface_transform(const e3d_surface_floats *matrix, int columns, const element_lanes *lanes,
                                      e3d_surface_floats vectors[3][3], int vertices, int n)
@@ -163,8 +174,10 @@ static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)
         surface_planes(s, n, tile_x, tile_y);
         if (wanted & E3D_WANT_POSITION)
             surface_transform(matrices->world, 4, &lanes, s->position, 3, n);
-        if (wanted & E3D_WANT_NORMAL)
+        if (wanted & E3D_WANT_NORMAL) {
             surface_transform(matrices->normals, 3, &lanes, s->normal, wanted & E3D_WANT_FLAT ? 1 : 3, n);
+            surface_turn(s, wanted & E3D_WANT_FLAT ? 1 : 3, n);
+        }
         if (wanted & E3D_WANT_LEVEL)
             surface_steps(s, n);
     }

@@ -1,4 +1,5 @@
-/* Neighbouring texels, by loads of their own and shuffles (SSE4.1 and up): what the words v_quads8 and v_pairs16 are made of.
+/* Channels in a pixel, by loads of their own and shuffles (SSE4.1 and up): what the words v_quads8, v_pairs16 and v_rgba are
+ * made of.
  *
  * Gathers are no faster anywhere, and much slower on some processors.
  */
@@ -10,13 +11,13 @@
 
 enum { PAIRS_EVEN = _MM_SHUFFLE(2, 0, 2, 0), PAIRS_ODD = _MM_SHUFFLE(3, 1, 3, 1) };
 
-/* Shuffles four 4-byte texels to each channel's bytes side by side: upper left, lower left, upper right, lower right. */
+/* Shuffles four pixels to each channel's bytes side by side, and the other way round. */
 static inline __m128i pairs_quad(void)
 {
-    return _mm_setr_epi8(0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15);
+    return _mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
 }
 
-/* A pair of 8-byte texels. */
+/* A pair of 8 bytes each. */
 static inline __m128i pairs_one(const void *texels, int32_t at)
 {
     return _mm_loadu_si128((const __m128i *)((const char *)texels + 8 * (intptr_t)at));

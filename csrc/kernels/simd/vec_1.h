@@ -2,7 +2,7 @@
  *
  * Every word means the same in each vec_*.h: see docs/exactness.md for min, max and the conversions.
  * v_min(a, b) = a < b ? a : b, v_max(a, b) = a > b ? a : b; v_rint is to nearest even, v_trunc
- * towards zero; both, and v_floor, take values that fit int32, and a zero of v_floor has either sign.
+ * towards zero; both take values that fit int32. A zero of v_floor has either sign.
  */
 #ifndef E3D_VEC_1_H
 #define E3D_VEC_1_H
@@ -10,6 +10,8 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+#include "core/always_inline.h"
 
 #define V_LANES 1
 
@@ -25,6 +27,8 @@ static inline vf32 v_loadf(const float *p) { return *p; }
 static inline vi32 v_loadi(const void *p) { int32_t v; memcpy(&v, p, 4); return v; }
 static inline void v_storef(float *p, vf32 a) { *p = a; }
 static inline void v_storei(void *p, vi32 a) { memcpy(p, &a, 4); }
+/* Each lane to its place, if that is done faster than one by one, as where places are neighbours; else 0, and nothing is. */
+static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a) { base[at[0]] = (uint32_t)a; return 1; }
 /* Past the caches; the place is aligned to a vector. */
 static inline void v_streami(void *p, vi32 a) { memcpy(p, &a, 4); }
 static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
@@ -94,7 +98,7 @@ static inline vi32 v_madd8(vi32 a, vi32 b) {
 static inline vf32 v_float(vi32 a) { return (float)a; }
 static inline vi32 v_rint(vf32 a) { return (int32_t)lrintf(a); }
 static inline vi32 v_trunc(vf32 a) { return (int32_t)a; }
-static inline vf32 v_floor(vf32 a) { vf32 whole = (vf32)(int32_t)a; return whole > a ? whole - 1.0f : whole; }
+static inline vf32 v_floor(vf32 a) { return floorf(a); }
 static inline vf32 v_asf(vi32 a) { float f; memcpy(&f, &a, 4); return f; }
 static inline vi32 v_asi(vf32 a) { int32_t i; memcpy(&i, &a, 4); return i; }
 
@@ -139,12 +143,22 @@ static inline vf32 v_pick(const void *base, vpick p) { float v; memcpy(&v, (cons
 /* Of the lanes of a, then b: the first, third and so on; the others. */
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) { *even = a; *odd = b; }
 
-/* Of quads of 8-bit texels (upper left, upper right, lower left, lower right): red, green and blue, in the bytes of a lane
- * upper left, lower left, upper right, lower right. Lane l is quad l % 4 * (V_LANES / 4) + l / 4. */
-static inline void v_quads8(const void *quads, vi32 out[3]) {
-    const uint8_t *t = (const uint8_t *)quads;
+/* Red, green and blue, of 0 .. 255, to bytes of one lane, with an alpha of 255. */
+static inline vi32 v_rgba(const vi32 c[3]) { return (vi32)((uint32_t)(c[0] | c[1] << 8 | c[2] << 16) | 0xFF000000u); }
+/* The same of what is at most 255, rounded to nearest even; what is below 0, or no number, counts as 0. */
+static inline vi32 v_rgbaf(const vf32 c[3]) {
+    vi32 code[3];
     for (int k = 0; k < 3; k++)
-        out[k] = (int32_t)(t[k] | (uint32_t)t[8 + k] << 8 | (uint32_t)t[4 + k] << 16 | (uint32_t)t[12 + k] << 24);
+        code[k] = c[k] > 0.0f ? (int32_t)lrintf(c[k]) : 0;
+    return v_rgba(code);
+}
+
+/* The texels of 8-bit channels at[lane] and at[lane] + 1 of each lane, each with the one below it: red, green and blue, in the
+ * bytes of a lane upper left, lower left, upper right, lower right. */
+static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) {
+    const uint8_t *t = (const uint8_t *)texels + 8 * (intptr_t)at[0];
+    for (int k = 0; k < 3; k++)
+        out[k] = (int32_t)(t[k] | (uint32_t)t[4 + k] << 8 | (uint32_t)t[8 + k] << 16 | (uint32_t)t[12 + k] << 24);
 }
 
 /* The texels of 16-bit channels at[lane] and at[lane] + 1 of each lane: red, green and blue, of the left texel in the low

@@ -5,6 +5,7 @@
 #include <immintrin.h>
 #include <stdint.h>
 
+#include "core/always_inline.h"
 #include "kernels/simd/rows_avx2.h"
 #include "kernels/simd/pack_sse.h"
 #include "kernels/simd/pairs_sse.h"
@@ -23,6 +24,13 @@ static inline vf32 v_loadf(const float *p) { return _mm256_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
 static inline void v_storef(float *p, vf32 a) { _mm256_storeu_ps(p, a); }
 static inline void v_storei(void *p, vi32 a) { _mm256_storeu_si256((__m256i *)p, a); }
+static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a) {
+    __m256i row = _mm256_add_epi32(_mm256_set1_epi32(at[0]), v_iota());
+    if (_mm256_movemask_epi8(_mm256_cmpeq_epi32(v_loadi(at), row)) != -1)
+        return 0;
+    v_storei(base + at[0], a);
+    return 1;
+}
 static inline void v_streami(void *p, vi32 a) { _mm256_stream_si256((__m256i *)p, a); }
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)p));
@@ -148,16 +156,25 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
     *odd = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_ODD));
 }
-static inline void v_quads8(const void *quads, vi32 out[3]) {
+static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) {
     __m256i q[4], order = _mm256_broadcastsi128_si256(pairs_quad());
     for (int i = 0; i < 4; i++)
-        q[i] = _mm256_shuffle_epi8(_mm256_loadu_si256((const __m256i *)quads + i), order);
+        q[i] = _mm256_shuffle_epi8(_mm256_set_m128i(pairs_one(texels, at[i + 4]), pairs_one(texels, at[i])), order);
     __m256i low01 = _mm256_unpacklo_epi32(q[0], q[1]), low23 = _mm256_unpacklo_epi32(q[2], q[3]);
     __m256i high01 = _mm256_unpackhi_epi32(q[0], q[1]), high23 = _mm256_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm256_unpacklo_epi64(low01, low23);
     out[1] = _mm256_unpackhi_epi64(low01, low23);
     out[2] = _mm256_unpacklo_epi64(high01, high23);
 }
+static inline vi32 v_rgba(const vi32 c[3]) {
+    __m256i low = _mm256_packs_epi32(c[0], c[1]), high = _mm256_packs_epi32(c[2], _mm256_set1_epi32(255));
+    return _mm256_shuffle_epi8(_mm256_packus_epi16(low, high), _mm256_broadcastsi128_si256(pairs_quad()));
+}
+static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
+    const vi32 code[3] = {_mm256_cvtps_epi32(c[0]), _mm256_cvtps_epi32(c[1]), _mm256_cvtps_epi32(c[2])};
+    return v_rgba(code);
+}
+
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m256i q[4], halves = _mm256_broadcastsi128_si256(pairs_halves());
     for (int i = 0; i < 4; i++)

@@ -5,6 +5,7 @@
 #include <immintrin.h>
 #include <stdint.h>
 
+#include "core/always_inline.h"
 #include "kernels/simd/rows_avx2.h"
 #include "kernels/simd/pairs_sse.h"
 
@@ -24,6 +25,20 @@ static inline vf32 v_loadf(const float *p) { return _mm512_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm512_loadu_si512(p); }
 static inline void v_storef(float *p, vf32 a) { _mm512_storeu_ps(p, a); }
 static inline void v_storei(void *p, vi32 a) { _mm512_storeu_si512(p, a); }
+static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a) {
+    enum { RUNS = 3 }; /* up to so many, a masked store each takes less */
+    __m512i row = _mm512_sub_epi32(v_loadi(at), v_iota());
+    uint32_t first = _mm512_mask_cmpneq_epi32_mask(0xFFFE, row, _mm512_alignr_epi32(row, row, 15)) | 1u;
+    if (__builtin_popcount(first) > RUNS)
+        return 0;
+    while (first) {
+        int lane = __builtin_ctz(first);
+        first &= first - 1;
+        uint32_t run = (first & -first) - (1u << lane); /* up to the next, or the last */
+        _mm512_mask_storeu_epi32(base + at[lane] - lane, (__mmask16)run, a);
+    }
+    return 1;
+}
 static inline void v_streami(void *p, vi32 a) { _mm512_stream_si512((__m512i *)p, a); }
 /* Lanes 0-7 and 8-15 by themselves. */
 static inline vi32 v_load_halves(const void *low, const void *high) {
@@ -187,22 +202,32 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
-static inline void v_quads8(const void *quads, vi32 out[3]) {
+/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
+static inline vi32 pairs_four(const void *texels, const int32_t *at) {
+    __m512i four = _mm512_castsi128_si512(pairs_one(texels, at[0]));
+    four = _mm512_inserti32x4(four, pairs_one(texels, at[4]), 1);
+    four = _mm512_inserti32x4(four, pairs_one(texels, at[8]), 2);
+    return _mm512_inserti32x4(four, pairs_one(texels, at[12]), 3);
+}
+static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) {
     __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
     for (int i = 0; i < 4; i++)
-        q[i] = _mm512_shuffle_epi8(_mm512_loadu_si512((const char *)quads + 64 * i), order);
+        q[i] = _mm512_shuffle_epi8(pairs_four(texels, at + i), order);
     __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
     __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm512_unpacklo_epi64(low01, low23);
     out[1] = _mm512_unpackhi_epi64(low01, low23);
     out[2] = _mm512_unpacklo_epi64(high01, high23);
 }
-/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
-static inline vi32 pairs_four(const void *texels, const int32_t *at) {
-    __m256i low = _mm256_set_m128i(pairs_one(texels, at[4]), pairs_one(texels, at[0]));
-    __m256i high = _mm256_set_m128i(pairs_one(texels, at[12]), pairs_one(texels, at[8]));
-    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+static inline vi32 v_rgba(const vi32 c[3]) {
+    __m512i low = _mm512_packs_epi32(c[0], c[1]), high = _mm512_packs_epi32(c[2], _mm512_set1_epi32(255));
+    return _mm512_shuffle_epi8(_mm512_packus_epi16(low, high), _mm512_broadcast_i32x4(pairs_quad()));
 }
+static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
+    const vi32 code[3] = {_mm512_cvtps_epi32(c[0]), _mm512_cvtps_epi32(c[1]), _mm512_cvtps_epi32(c[2])};
+    return v_rgba(code);
+}
+
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m512i q[4], halves = _mm512_broadcast_i32x4(pairs_halves());
     for (int i = 0; i < 4; i++)

@@ -17,7 +17,7 @@ from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..mesh import Mesh
 from ..scene import Node, Scene
-from .choosing import check_errors, check_limits, choose_levels, pixels_a_unit
+from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 from .impostors import Impostor, bounding_ball
 from .simplification import simplify
 
@@ -117,8 +117,12 @@ class DetailedInstances:
             World from camera.
         size : (int, int)
             Width and height of the picture in pixels.
+
+        Raises
+        ------
+        InvalidArgumentError
         """
-        pose = np.asarray(pose, np.float64)
+        pose, size = checked_view(camera, pose, size)
         errors = self._errors_on_screen(camera, pose, size)
         level = choose_levels(self.level, errors, self.pixels, self.hysteresis)
         drawn = level if self._impostor is None else self._with_cards(level, camera, pose, size)

@@ -15,7 +15,7 @@ from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
 from ..scene import Node, Scene
-from .choosing import check_errors, check_limits, choose_levels, pixels_a_unit
+from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 
 
 class DetailedMeshes:
@@ -87,9 +87,14 @@ class DetailedMeshes:
             World from camera.
         size : (int, int)
             Width and height of the picture in pixels.
+
+        Raises
+        ------
+        InvalidArgumentError
         """
+        pose, size = checked_view(camera, pose, size)
         world = np.eye(4) if self._group is None else self._group.world_pose
-        eye = linalg.transform_points(linalg.inverse(world), np.asarray(pose, np.float64)[:3, 3])
+        eye = linalg.transform_points(linalg.inverse(world), pose[:3, 3])
         nearest = np.clip(eye, self._boxes[:, 0], self._boxes[:, 1])
         scales = linalg.length(world[:3, :3].T)
         distances = linalg.length(nearest - eye) * scales.min()

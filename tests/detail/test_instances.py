@@ -108,7 +108,18 @@ def test_bad_levels():
             e3d.DetailedInstances(bad, [(0, 0, 0, 1.0)])
 
 
-def test_a_camera_that_is_none():
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((None, at(5.0), SIZE), "camera must be a Camera, not NoneType"),
+        ((e3d.PerspectiveCamera(), 5, SIZE), "pose must have shape"),
+        ((e3d.PerspectiveCamera(), at(5.0), 640), "size must be"),
+        ((e3d.PerspectiveCamera(), at(5.0), (640, 0)), "height must be"),
+    ],
+)
+def test_a_view_that_is_none(arguments, message):
     spheres = e3d.DetailedInstances(levels(), [(0, 0, 0, 1.0)])
-    with pytest.raises(InvalidArgumentError, match="camera must be a Camera"):
-        spheres.update(None, at(5.0), size=SIZE)
+    meshes = e3d.DetailedMeshes([([e3d.box()], 0.0)])
+    for detailed in (spheres, meshes):
+        with pytest.raises(InvalidArgumentError, match=message):
+            detailed.update(*arguments)

@@ -77,7 +77,10 @@ def _obey(arguments: list[str]) -> int:
     from .parser import make_parser
 
     try:
-        args = make_parser().parse_args(join_values(arguments))
+        args, unknown = make_parser().parse_known_args(join_values(arguments))
+        if unknown:
+            program = " ".join(filter(None, ("engine3d", args.command)))
+            raise UsageError(f"unknown arguments: {' '.join(unknown)} (see {program} --help)")
         return _load(args)(args)
     except UsageError as error:
         return _usage(str(error))

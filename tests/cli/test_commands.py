@@ -306,6 +306,16 @@ def test_a_folder_that_is_not_there_is_found_before_any_work(
     assert capsys.readouterr() == ("", expected)
 
 
+@pytest.mark.parametrize(
+    ("arguments", "program"),
+    [(["--versoin"], "engine3d"), (["info", "square.obj", "--jsn"], "engine3d info")],
+)
+def test_a_misspelt_option_leads_to_the_help_that_lists_it(model, capsys, arguments, program):
+    assert main(arguments) == 2
+    expected = f"engine3d: error: unknown arguments: {arguments[-1]} (see {program} --help)\n"
+    assert capsys.readouterr().err == expected
+
+
 def test_a_backend_that_the_machine_lacks_is_an_error(model, capsys, monkeypatch):
     monkeypatch.setenv("ENGINE3D_BACKEND", "abacus")
     assert main(["render", str(model), *SMALL, "-o", "out.png"]) == 1

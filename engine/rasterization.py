@@ -6,7 +6,6 @@ exactly which pixels, depths and barycentrics come out.
 
 from __future__ import annotations
 
-import numbers
 from typing import NamedTuple
 
 import numpy as np
@@ -15,8 +14,7 @@ from ._native import rasterizer as _native
 from .attributes import choose
 from .backend_selection import resolve_backend, resolve_threads
 from .errors import InvalidArgumentError
-
-MAX_SIZE = 16384
+from .image_size import check_side
 
 
 class RasterizeResult(NamedTuple):
@@ -70,7 +68,7 @@ def rasterize(
     ------
     InvalidArgumentError, BackendError, OutOfMemoryError
     """
-    width, height = check_size(width, "width"), check_size(height, "height")
+    width, height = check_side(width, "width"), check_side(height, "height")
     positions = _float_rows(clip)
     indices = _index_rows(faces, len(positions))
     culling = _native.CULLS[choose(cull, _native.CULLS, "cull")]
@@ -82,13 +80,6 @@ def rasterize(
     )
     _native.rasterize(positions, indices, culling, number, resolve_threads(threads), *result)
     return result
-
-
-def check_size(value, what: str) -> int:
-    """Return a side of an image, checked."""
-    if not isinstance(value, numbers.Integral) or not 1 <= value <= MAX_SIZE:
-        raise InvalidArgumentError(f"{what} must be a whole number in 1..{MAX_SIZE}, not {value!r}")
-    return int(value)
 
 
 def _float_rows(clip) -> np.ndarray:

@@ -22,8 +22,8 @@ from .errors import InvalidArgumentError, SceneChangedError
 from .frame import OUTPUTS, Frame
 from .frame_options import OptionsCache
 from .framing import frame_scene
+from .image_size import check_side, check_size
 from .output_pool import OutputPool
-from .rasterization import check_size
 from .scene import Scene
 from .view import View, find_camera
 
@@ -76,7 +76,7 @@ class Renderer(Closed):
         color_space: str = "srgb",
         samples: int = 1,
     ) -> None:
-        self._width, self._height = check_size(width, "width"), check_size(height, "height")
+        self._width, self._height = check_side(width, "width"), check_side(height, "height")
         self._color_space = choose(color_space, COLOR_SPACES, "color_space")
         self._samples = choose(samples, _SAMPLES, "samples")
         number = resolve_backend(backend)
@@ -113,7 +113,7 @@ class Renderer(Closed):
 
     def resize(self, width: int, height: int) -> None:
         """Change the size of the frames to come."""
-        width, height = check_size(width, "width"), check_size(height, "height")
+        width, height = check_side(width, "width"), check_side(height, "height")
         with self._lock:
             self._width, self._height = width, height
             self._pool.forget()
@@ -408,10 +408,7 @@ def render(
     ------
     InvalidArgumentError, BackendError, OutOfMemoryError
     """
-    try:
-        width, height = size
-    except (TypeError, ValueError):
-        raise InvalidArgumentError(f"size must be (width, height), not {size!r}") from None
+    width, height = check_size(size)
     settings = {"backend": backend, "threads": threads}
     settings.update(color_space=color_space, samples=samples)
     with Renderer(width, height, **settings) as renderer:

@@ -13,18 +13,14 @@ import numpy as np
 from ..attributes import matrix4
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
-from ..rasterization import check_size
+from ..image_size import check_size
 
 
 def checked_view(camera, pose, size) -> tuple[np.ndarray, tuple[int, int]]:
     """Return the pose and the size of whatever looks at things, or raise `InvalidArgumentError`."""
     if not isinstance(camera, Camera):
         raise InvalidArgumentError(f"camera must be a Camera, not {type(camera).__name__}")
-    try:
-        width, height = size
-    except (TypeError, ValueError):
-        raise InvalidArgumentError(f"size must be (width, height), not {size!r}") from None
-    return matrix4(pose, "pose"), (check_size(width, "width"), check_size(height, "height"))
+    return matrix4(pose, "pose"), check_size(size)
 
 
 def pixels_a_unit(camera: Camera, size: tuple[int, int], distances: np.ndarray) -> np.ndarray:

@@ -27,6 +27,7 @@ from .mesh_arrays import (
     ArrayAttribute,
     check_colors,
     check_flags3,
+    check_groups,
     check_indices,
     check_pairs,
     check_triples,
@@ -74,7 +75,7 @@ class Mesh(Closed):
         together must keep matching lengths.
     materials : list of Material
     groups : dict of str to (N,) int32
-        Face indices of named parts.
+        Face indices of named parts; none once the number of faces changes.
     warnings : list of str
         What the loader left out or replaced.
     version : int
@@ -87,7 +88,6 @@ class Mesh(Closed):
 
     name: str
     version: int
-    groups: dict[str, np.ndarray]
     warnings: list[str]
     positions = ArrayAttribute(check_vectors3)
     faces = ArrayAttribute(check_triples)
@@ -118,7 +118,7 @@ class Mesh(Closed):
     ) -> None:
         self.name = str(name)
         self.version = 0
-        self.groups = {}
+        self._groups: dict[str, np.ndarray] = {}  # loaders put checked ones here
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = {}
         self._derived: dict[str, np.ndarray] = {}
@@ -203,6 +203,15 @@ class Mesh(Closed):
         self._materials = materials
         self.version += 1
         tell(self)
+
+    @property
+    def groups(self) -> dict[str, np.ndarray]:
+        """Face indices of named parts, each (N,) int32."""
+        return self._groups
+
+    @groups.setter
+    def groups(self, value) -> None:
+        self._groups = check_groups(value, len(self.faces))
 
     @classmethod
     def concatenate(cls, meshes: Sequence[Mesh], name: str = "") -> Mesh:
@@ -302,7 +311,7 @@ class Mesh(Closed):
     def _become(self, other: Mesh) -> None:
         """Take over everything of another mesh but its name."""
         self._arrays, self._derived = dict(other._arrays), {}
-        self._materials, self.groups = list(other._materials), dict(other.groups)
+        self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
         self.version += 1
         tell(self)
@@ -321,12 +330,13 @@ class Mesh(Closed):
                 require_range(other, count, what, "vertices")
 
     def _check_new_faces(self, faces: np.ndarray) -> None:
-        """Flags must match; the material ids start again at zero when their number changes."""
+        """Flags must match; where the number changes, material ids are zero, groups are gone."""
         _check_length(self._arrays.get("edge_visible"), len(faces), "edge_visible", "faces")
         ids = self._arrays.get("material_ids")
         if ids is None or len(ids) != len(faces):
             # Pages of zeros that nobody reads never come.
             self._arrays["material_ids"] = check_indices(frozen(np.zeros(len(faces), np.int32)), "")
+            self._groups = {}
 
 
 def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:

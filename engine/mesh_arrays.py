@@ -6,7 +6,7 @@ shares no memory that anybody can write to, or an `InvalidArgumentError` that sa
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -84,6 +84,20 @@ def check_flags3(value, what: str) -> np.ndarray:
     if array.dtype.kind not in "biu" and array.size:
         raise InvalidArgumentError(f"{what} must be bool, got {array.dtype}")
     return _frozen(array, np.bool_)
+
+
+def check_groups(value, faces: int) -> dict[str, np.ndarray]:
+    """dict of str to (N,) int32, indices of that many faces."""
+    if not isinstance(value, Mapping):
+        raise InvalidArgumentError(f"groups must be a dict of names to indices, not {value!r}")
+    groups = {}
+    for name, indices in value.items():
+        if not isinstance(name, str):
+            raise InvalidArgumentError(f"the name of a group must be a str, not {name!r}")
+        what = f"group {name!r}"
+        groups[name] = check_indices(indices, what)
+        require_range(groups[name], faces, what, "faces")
+    return groups
 
 
 def require_range(indices: np.ndarray, count: int, what: str, of_what: str) -> None:

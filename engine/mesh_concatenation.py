@@ -36,7 +36,7 @@ def concatenate(mesh_type: type, meshes: list, name: str):
         position_ids=_joined_position_ids(meshes),
         name=name,
     )
-    joined.groups = _joined_groups(meshes)
+    joined._groups = _joined_groups(meshes)
     joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
     return joined
 

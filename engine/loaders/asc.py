@@ -431,7 +431,7 @@ def _mesh(record: _MeshRecord, materials: list[Material]) -> Mesh:
     )
     chosen = [materials[k] if k >= 0 else Material() for k in found[order].tolist()]
     mesh = build_mesh(geometry, chosen, record.name)
-    mesh.groups = {record.name: np.arange(len(corners), dtype=np.int32)}
+    mesh._groups = {record.name: np.arange(len(corners), dtype=np.int32)}
     return mesh
 
 

@@ -119,7 +119,7 @@ class ObjParts(NamedTuple):
         mesh = build_mesh(geometry, self.materials, name)
         if not mesh.has_normals:
             join_seams(mesh)
-        mesh.groups = self._groups(starts, chosen)
+        mesh._groups = self._groups(starts, chosen)
         return DocumentObject(name, mesh)
 
     def _starts(self) -> np.ndarray:

@@ -90,7 +90,7 @@ def read_stl(source: Source, split: bool = False) -> Document:
         name=source.stem,
     )
     groups = [] if facets.polygons is None else _groups(facets.solids, facets.polygons)
-    whole.groups = {name: indices for name, indices in groups if name}
+    whole._groups = {name: indices for name, indices in groups if name}
     objects = [DocumentObject(source.stem, whole)]
     if split and 1 < len(groups) <= _MAX_OBJECTS:
         named = [(name or source.stem, indices) for name, indices in groups]

@@ -272,3 +272,18 @@ def test_an_optional_package_that_is_missing_is_named(monkeypatch, package, extr
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(ImportError, match=rf"engine3d\[{extra}\]"):
         use(square())
+
+
+def test_groups_are_names_and_indices_of_faces():
+    mesh = square()
+    mesh.groups = {"half": [1], "none": ()}
+    assert mesh.groups["half"].tolist() == [1] and mesh.groups["half"].dtype == np.int32
+    wrong = [5, [], {"half": [2]}, {"half": [-1]}, {"half": [0.5]}, {"half": "a"}, {3: [0]}]
+    for groups in wrong:
+        with pytest.raises(InvalidArgumentError, match="group"):
+            mesh.groups = groups
+    assert list(mesh.groups) == ["half", "none"]
+    mesh.faces = mesh.faces[:, [1, 2, 0]]
+    assert list(mesh.groups) == ["half", "none"]
+    mesh.faces = mesh.faces[:1]
+    assert mesh.groups == {}

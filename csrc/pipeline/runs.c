@@ -38,12 +38,26 @@ static digit next_digit(uint32_t differ)
 
 static inline uint32_t digit_of(const e3d_run *run, digit d) { return (uint32_t)run->owner >> d.shift & ((1u << d.bits) - 1); }
 
+/* Counts to the places before which so many are; of one value, all four in a word. */
+static void place(uint16_t next[][PARTS], uint32_t values)
+{
+    const uint64_t each = 0x0001000100010001;
+    uint64_t first = 0, here;
+    _Static_assert(sizeof *next == sizeof here, "a value's counts are a word");
+    for (uint32_t v = 0; v < values; v++) {
+        memcpy(&here, next[v], sizeof here);
+        uint64_t sums = here * each, before = first + (sums - here);
+        memcpy(next[v], &before, sizeof before);
+        first += (sums >> 48) * each;
+    }
+}
+
 /* Neighbours often have the same digit, whose counter then is waited for: so parts of the runs take turns, each with
  * counters of its own. */
 static void sort_by_digit(const e3d_run *from, e3d_run *to, int32_t count, digit d)
 {
     uint16_t next[1 << MOST_BITS][PARTS];
-    uint32_t first = 0, values = 1u << d.bits;
+    uint32_t values = 1u << d.bits;
     int32_t part = count / PARTS;
     memset(next, 0, values * sizeof *next);
     for (int32_t i = 0; i < part; i++)
@@ -51,12 +65,7 @@ static void sort_by_digit(const e3d_run *from, e3d_run *to, int32_t count, digit
             next[digit_of(&from[p * part + i], d)][p]++;
     for (int32_t i = PARTS * part; i < count; i++)
         next[digit_of(&from[i], d)][PARTS - 1]++;
-    for (uint32_t v = 0; v < values; v++)
-        for (int p = 0; p < PARTS; p++) {
-            uint32_t here = next[v][p];
-            next[v][p] = (uint16_t)first;
-            first += here;
-        }
+    place(next, values);
     for (int32_t i = 0; i < part; i++)
         for (int p = 0; p < PARTS; p++)
             to[next[digit_of(&from[p * part + i], d)][p]++] = from[p * part + i];

@@ -156,7 +156,8 @@ typedef struct e3d_tile_memory {
     e3d_samples samples;                       /* of several */
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
-    e3d_run spare[E3D_TILE_SAMPLES];      /* while runs are sorted */
+    char apart[2048]; /* at a like place in its page, a store holds up loads: sorting reads one and writes the other */
+    e3d_run spare[E3D_TILE_SAMPLES]; /* while runs are sorted */
     _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
     _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */

@@ -376,8 +376,9 @@ typedef struct e3d_kernels {
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Finds, of each block that isn't noted, zmax and the farthest depth of each column. */
     void (*raster_measure)(e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
-    /* The runs of the first width x height samples of a tile that show something, row by row; their number. */
-    int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out);
+    /* The runs of the first width x height samples of a tile that show something, those of a row in order; their number. `gaps`:
+     * whether some samples show nothing. Of noted blocks, which stay noted, IDs are written where that helps. */
+    int (*find_runs)(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps);
     /* Adds the samples that bear the IDs of records to the list; records, in this order, are pieces. */
     void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
     /* The same of fragments; those of one triangle that follow each other are a piece. */

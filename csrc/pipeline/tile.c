@@ -196,6 +196,7 @@ static void clear_samples(e3d_visible_tile *visible)
         visible->z[i] = E3D_BEYOND_FAR;
         visible->id[i] = E3D_NO_SLOT;
     }
+    visible->noted = 0;
 }
 
 static void clear_marks(e3d_tile_memory *memory)
@@ -204,21 +205,21 @@ static void clear_marks(e3d_tile_memory *memory)
         memory->mark[i] = 0;
 }
 
-/* The runs of what shows in the tile; how many. */
-static int32_t find_runs(const tile_job *job)
+/* The runs of what shows in the tile, and whether there are gaps between them; how many. */
+static int32_t find_runs(const tile_job *job, int *gaps)
 {
-    return job->context->kernels->find_runs(job->worker->visible->id, job->tile.width, job->tile.height,
-                                            job->worker->tile->runs);
+    return job->context->kernels->find_runs(job->worker->visible, job->tile.width, job->tile.height,
+                                            job->worker->tile->runs, gaps);
 }
 
-/* What the tile's samples are before they are shaded: nothing, where all of them will be. */
-static void begin(const tile_job *job)
+/* What the tile's samples are before they are shaded: anything, where all of them will be. */
+static void begin(const tile_job *job, int all)
 {
     const e3d_context *context = job->context;
-    int covered = context->round.finished && context->depths[job->number].most < E3D_BEYOND_FAR;
+    int counted = context->targets->color && context->frame->mode == E3D_MODE_OVERDRAW; /* instead of shaded */
     if (job->again)
         e3d_resolve_again(context, job->worker, &job->tile);
-    else if (!covered)
+    else if (counted || !all)
         e3d_resolve_begin(context, job->worker);
 }
 
@@ -235,13 +236,14 @@ static int draw_pieces(tile_job *job)
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
     int forward = is_forward(context);
-    begin(job);
+    begin(job, 0);
     clear_samples(worker->visible);
     if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
         return 0;
     e3d_lap(worker, &worker->counters.ns_raster);
     if (context->wants && !forward) {
-        int32_t count = find_runs(job);
+        int gaps;
+        int32_t count = find_runs(job, &gaps);
         slots_to_ids(worker, count);
         if (!e3d_shade_runs(context, worker, &job->tile, count))
             return 0;
@@ -301,11 +303,15 @@ static int shade_visible(tile_job *job)
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
     if (shows_pieces(job)) {
+        context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], 0);
         clear_outside(job);
         e3d_visible_show(context, worker, job->number);
+        begin(job, worker->tile->shown.count == job->tile.width * job->tile.height);
         return e3d_shade_shown(context, worker, &job->tile);
     }
-    int32_t count = find_runs(job);
+    int gaps;
+    int32_t count = find_runs(job, &gaps);
+    begin(job, !gaps);
     count = job->again ? leave_out_shaded(job, count) : count;
     return e3d_shade_runs(context, worker, &job->tile, count);
 }
@@ -320,10 +326,12 @@ static int draw_visible(tile_job *job)
     if (context->round.finished)
         e3d_note_depths(context, worker->visible, job->number);
     int depths = context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
-    context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], depths);
-    begin(job);
+    if (depths)
+        context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], 1);
     e3d_lap(worker, &worker->counters.ns_raster);
-    if (context->wants && !shade_visible(job))
+    if (!context->wants)
+        begin(job, 0);
+    else if (!shade_visible(job))
         return 0;
     e3d_lap(worker, &worker->counters.ns_shade);
     return 1;
@@ -342,7 +350,7 @@ static int draw_marks(tile_job *job)
         return 1;
     if (frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE)
         return 1;
-    if (edges_are_tested(frame))
+    if (frame->wireframe != E3D_WIRE_NONE && edges_are_tested(frame))
         find_edge_limits(job); /* while the slots are the scene's */
     if (frame->mode == E3D_MODE_OVERDRAW && frame->wireframe != E3D_WIRE_ONLY) {
         clear_marks(job->worker->tile);

@@ -172,7 +172,7 @@ cdef extern from "kernels/kernels.h" nogil:
                                  const e3d_fragment_block *block)
         void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths)
         void (*raster_measure)(e3d_visible_tile *tile, float (*columns)[E3D_BLOCK])
-        int (*find_runs)(const int32_t *slot, int width, int height, e3d_run *out)
+        int (*find_runs)(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps)
         void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table,
                              const uint32_t *ids, int count, e3d_shown *out)
         void (*show_fragments)(const e3d_visible_tile *tile, const e3d_fragment_block *block,

@@ -279,13 +279,14 @@ cdef class Kernels:
             self.table.raster_measure(<e3d_visible_tile *>&tile[0],
                                       <float (*)[E3D_BLOCK]>&columns[0, 0])
 
-    def find_runs(self, const int32_t[::1] slot, int width, int height, uint8_t[::1] out):
-        """``out`` has room for as many runs as the tile has samples, and one; returns how many."""
-        cdef int count = 0
+    def find_runs(self, uint8_t[::1] tile, int width, int height, uint8_t[::1] out):
+        """``out`` has room for as many runs as the tile has samples, and one; returns how many, and if there are gaps."""
+        cdef int count = 0, gaps = 0
+        check_size(tile, sizeof(e3d_visible_tile))
         check_size(out, (E3D_TILE_SAMPLES + 1) * sizeof(e3d_run))
         for _ in range(self.rounds):
-            count = self.table.find_runs(&slot[0], width, height, <e3d_run *>&out[0])
-        return count
+            count = self.table.find_runs(<e3d_visible_tile *>&tile[0], width, height, <e3d_run *>&out[0], &gaps)
+        return count, gaps != 0
 
     def show_records(self, const uint8_t[::1] tile, const uint8_t[:, ::1] records,
                      const uint32_t[::1] ids, uint8_t[::1] shown):

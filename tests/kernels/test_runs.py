@@ -4,9 +4,11 @@ import itertools
 
 import numpy as np
 from kernels.harness import POISON, Records, all_backends, check_poisoned
-from kernels.layouts import BATCH, BATCH_RECORD, PAD, RUN, TILE
+from kernels.layouts import BATCH, BATCH_RECORD, BLOCK, PAD, RUN, TILE, VISIBLE_TILE
 
 TILES = 250  # of 4096 samples: 10^6 and more
+BLOCKS = (TILE // BLOCK, TILE // BLOCK)
+NOTHING_NOTED = np.zeros(BLOCKS, bool), np.zeros(BLOCKS, np.int32)
 ROOM = np.dtype([("runs", RUN, TILE * TILE + 1)])
 
 
@@ -16,6 +18,28 @@ def random_slots(rng):
     owners = rng.choice([-1, 0, 1, 2**31 - 1], TILE * TILE)
     slots = np.repeat(owners, lengths)[: TILE * TILE].astype(np.int32)
     return np.append(slots, np.full(PAD, POISON, np.uint32).view(np.int32))
+
+
+def random_notes(rng):
+    """Which blocks are noted, those of whole rows more often than not, and for what."""
+    rows = rng.choice([0.0, 0.5, 0.9, 1.0], (BLOCKS[0], 1))
+    noted = rng.random(BLOCKS) < rows
+    changes = rng.random(noted.size) < rng.choice([0.0, 0.3, 1.0])
+    ids = rng.choice([-1, 0, 1, 2**31 - 1], noted.size)[np.cumsum(changes) % noted.size]
+    return noted, ids.reshape(noted.shape).astype(np.int32)
+
+
+def tile_of(slots, noted, ids):
+    """A tile whose noted blocks' samples are poison, and what all of its samples show."""
+    tile = Records(VISIBLE_TILE, 1)
+    samples = np.repeat(np.repeat(noted, BLOCK, 0), BLOCK, 1).ravel()
+    shown = np.repeat(np.repeat(ids, BLOCK, 0), BLOCK, 1).ravel()
+    kept = tile.fields["id"][0]
+    kept[TILE * TILE :] = slots[TILE * TILE :]
+    kept[: TILE * TILE][~samples] = slots[: TILE * TILE][~samples]
+    tile.fields["noted_id"] = ids.ravel()
+    tile.fields["noted"] = np.packbits(noted.ravel(), bitorder="little").view(np.uint64)
+    return tile, np.where(samples, shown, slots[: TILE * TILE])
 
 
 def expected_runs(slots, width, height):
@@ -31,16 +55,24 @@ def expected_runs(slots, width, height):
     return np.array(runs, RUN)
 
 
-def check(kernels, slots, width, height):
+def check(kernels, slots, width, height, notes=NOTHING_NOTED):
+    tile, shown = tile_of(slots, *notes)
+    before = tile.fields.copy()
     out = Records(ROOM, 1)
     poison = out.rows[0].copy()
-    count = kernels.find_runs(slots, width, height, out.rows[0])
-    expected = expected_runs(slots, width, height)
+    count, gaps = kernels.find_runs(tile.rows[0], width, height, out.rows[0])
+    expected, got = expected_runs(shown, width, height), out.fields["runs"][0, :count]
     assert count == len(expected)
-    assert np.array_equal(out.fields["runs"][0, :count], expected)
+    assert gaps == (expected["length"].sum() < width * height)
+    assert np.array_equal(got[np.argsort(got["sample"] // TILE, kind="stable")], expected)
     end = (count + 1) * RUN.itemsize  # the next one may be started
     assert np.array_equal(out.rows[0][end:], poison[end:])
+    written = tile.fields["id"][0] != before["id"][0]
+    assert np.array_equal(tile.fields["id"][0][written], np.append(shown, np.zeros(PAD))[written])
+    for name in set(VISIBLE_TILE.names) - {"id"}:
+        assert tile.fields[name].tobytes() == before[name].tobytes(), name
     out.check_gaps()
+    tile.check_gaps()
 
 
 @all_backends
@@ -52,12 +84,24 @@ def test_random_tiles(kernels):
 
 
 @all_backends
+def test_noted_blocks(kernels):
+    """In rows of nothing else, and beside others."""
+    rng = np.random.default_rng(2)
+    for number in range(TILES):
+        width, height = (TILE, TILE) if number % 2 else rng.integers(1, TILE + 1, 2)
+        check(kernels, random_slots(rng), int(width), int(height), random_notes(rng))
+
+
+@all_backends
 def test_every_width(kernels):
-    """One run over the whole tile, none at all, and runs of one sample each."""
+    """One run over the whole tile, none at all (noted or not), and runs of one sample each."""
     alternating = np.arange(TILE * TILE + PAD, dtype=np.int32) % 2
     for slots in (np.full_like(alternating, 7), np.full_like(alternating, -1), alternating):
         for width in range(1, TILE + 1):
             check(kernels, slots, width, 3)
+    for owner in (7, -1):
+        for width in range(1, TILE + 1):
+            check(kernels, alternating, width, 11, (~NOTHING_NOTED[0], np.full(BLOCKS, owner)))
 
 
 def random_runs(rng):

@@ -487,6 +487,17 @@ def test_one_renderer_draws_several_scenes(renderer, front):
             np.testing.assert_array_equal(renderer.render(scene, front).color, picture)
 
 
+def test_faces_that_are_neither_shaded_nor_counted_leave_the_background(renderer, front):
+    """They cover all of the picture, and another output shows them."""
+    scene = e3d.Scene(background=(0, 0, 255))
+    scene.add(square(), scale=8.0, translation=(2.5, 0, 0))  # its edges are out of the picture
+    renderer.render(scene, front, mode="unlit")
+    outputs = ("color", "object_id")
+    frame = renderer.render(scene, front, mode="overdraw", wireframe="only", outputs=outputs)
+    assert (frame.object_id >= 0).all()
+    assert (frame.color == (0, 0, 255, 255)).all()
+
+
 # ---- Arrays -------------------------------------------------------------------------------------
 
 

@@ -1,4 +1,6 @@
-/* runs: neighbouring samples of a row that show the same slot, found and spread out again a vector at a time. */
+/* runs: neighbouring samples of a row that show the same slot, found and spread out again a vector at a time. Where all blocks side
+ * by side are noted, no sample is looked at: eight rows are alike.
+ */
 
 /* Bit x: sample x differs from sample x + 1, or is the row's last. */
 static inline uint64_t runs_ends(const int32_t *row, int width)
@@ -12,20 +14,60 @@ static inline uint64_t runs_ends(const int32_t *row, int width)
     return (ends & (last - 1)) | last;
 }
 
-static int kernel_find_runs(const int32_t *slot, int width, int height, e3d_run *out)
+/* Bit b: all blocks of the row that b is in are noted. */
+static inline uint64_t runs_noted(uint64_t noted)
+{
+    for (int step = 1; step < VISIBLE_BLOCKS; step *= 2)
+        noted &= noted >> step;
+    return (noted & 0x0101010101010101) * 0xFF;
+}
+
+/* So many rows of blocks that are noted, from one side of the tile to the other: all are alike. */
+static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
     int count = 0;
-    for (int y = 0; y < height; y++) {
-        const int32_t *row = slot + y * E3D_TILE;
+    for (int x = 0, end; x < width; x = end) {
+        int32_t id = ids[x / RASTER_BLOCK];
+        for (end = x + RASTER_BLOCK; end < width && ids[end / RASTER_BLOCK] == id;)
+            end += RASTER_BLOCK;
+        int length = (end < width ? end : width) - x;
+        for (int y = 0; y < rows && id >= 0; y++)
+            out[count++] = (e3d_run){id, (uint16_t)(sample + y * E3D_TILE + x), (uint16_t)length};
+        *owners |= id;
+    }
+    return count;
+}
+
+static inline int runs_of_rows(const int32_t *row, int width, int rows, int sample, e3d_run *out, int32_t *owners)
+{
+    int count = 0;
+    for (int end = sample + rows * E3D_TILE; sample < end; sample += E3D_TILE, row += E3D_TILE) {
         int first = 0;
         for (uint64_t ends = runs_ends(row, width); ends; ends &= ends - 1) {
             int last = __builtin_ctzll(ends);
-            out[count] = (e3d_run){row[first], (uint16_t)(y * E3D_TILE + first),
-                                   (uint16_t)(last - first + 1)};
-            count += row[first] >= 0;
+            int32_t owner = row[first];
+            out[count] = (e3d_run){owner, (uint16_t)(sample + first), (uint16_t)(last - first + 1)};
+            count += owner >= 0;
+            *owners |= owner;
             first = last + 1;
         }
     }
+    return count;
+}
+
+static int kernel_find_runs(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps)
+{
+    uint64_t noted = runs_noted(tile->noted);
+    int32_t owners = 0; /* of all, as bits: the sign tells of gaps */
+    int count = 0;
+    for (uint64_t left = tile->noted & ~noted; left; left &= left - 1)
+        visible_unfold_ids(tile, __builtin_ctzll(left));
+    for (int y = 0; y < height; y += RASTER_BLOCK) {
+        int block = y / RASTER_BLOCK * VISIBLE_BLOCKS, rows = height - y < RASTER_BLOCK ? height - y : RASTER_BLOCK, at = y * E3D_TILE;
+        count += noted >> block & 1 ? runs_of_blocks(tile->noted_id + block, width, rows, at, out + count, &owners)
+                                    : runs_of_rows(tile->id + at, width, rows, at, out + count, &owners);
+    }
+    *gaps = owners < 0;
     return count;
 }
 

@@ -1,9 +1,7 @@
 """Threads, forks and signals: many renderers at once, undisturbed. test_leaks has long lives."""
 
-import contextlib
 import os
 import signal
-import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -152,26 +150,3 @@ def test_a_scene_that_changes_meanwhile_is_named_as_the_cause(scene, change):
         assert error.match("out of range" if change is None else "from another thread")
         fresh = e3d.render(scene, size=SIZE)
         assert np.array_equal(renderer.render(scene).color, fresh.color)
-
-
-def test_frames_beside_nodes_that_come_and_go_fail_of_nothing_else(scene):
-    done, rest = threading.Event(), sys.getswitchinterval()
-
-    def come_and_go():
-        while not done.is_set():
-            nodes = [scene.add(obj) for obj in (e3d.box(), e3d.PointLight(), None) for _ in "12345"]
-            for node in nodes:
-                scene.remove(node)
-
-    thread = threading.Thread(target=come_and_go)
-    sys.setswitchinterval(1e-5)
-    try:
-        thread.start()
-        with e3d.Renderer(16, 16, threads=1) as renderer:
-            for _ in range(200):
-                with contextlib.suppress(e3d.SceneChangedError):
-                    renderer.render(scene)
-    finally:
-        done.set()
-        thread.join()
-        sys.setswitchinterval(rest)

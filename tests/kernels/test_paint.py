@@ -60,6 +60,9 @@ def random_material(rng, texture, lit):
     if texture and texture[3] == FILTERS["trilinear"]:
         wanted |= WANT_LEVEL | WANT_WEIGHTS
     lighting, shiny = None, bool(rng.integers(2))
+    base, emissive = rng.random(3).astype(np.float32), hostile(rng, 3, 0.2, finite=True)
+    if rng.integers(2):
+        base, emissive = (np.repeat(v[:1], 3) for v in (base, emissive))
     if lit:
         wanted |= WANT_NORMAL | WANT_POSITION | (WANT_FLAT if rng.integers(2) else 0)
         lights = random_lights(rng, int(rng.integers(0, 5)))
@@ -73,13 +76,13 @@ def random_material(rng, texture, lit):
     return {
         "wanted": wanted,
         "texture": texture,
-        "base": rng.random(3).astype(np.float32),
+        "base": base,
         "by_vertex": by_vertex,
         "by_instance": by_instance,
         "lighting": lighting,
         "shininess": 20.0 if shiny else 0.0,
         "specular": rng.random(3).astype(np.float32) if shiny else None,
-        "emissive": hostile(rng, 3, 0.2, finite=True),
+        "emissive": emissive,
         "srgb": bool(rng.integers(2)),
     }
 

@@ -216,10 +216,10 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
 }
 
 /* R31: color = (color * energy + specular * shine) + emissive */
-static inline void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
-                                  const float emissive[3], vf32 color[3])
+static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
+                                         const float emissive[3], int channels, vf32 color[3])
 {
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < channels; k++) {
         color[k] = v_mul(color[k], energy[k]);
         if (specular)
             color[k] = v_add(color[k], v_mul(v_setf(specular[k]), shine[k]));
@@ -236,7 +236,7 @@ static void kernel_combine(e3d_batch *batch, const float specular[3], const floa
             energy[k] = v_loadf(batch->energy[k] + i);
             shine[k] = v_loadf(batch->shine[k] + i);
         }
-        combine_vector(energy, shine, specular, emissive, color);
+        combine_vector(energy, shine, specular, emissive, 3, color);
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }

@@ -13,21 +13,29 @@ typedef struct paint_plan {
 
 /* ---- light ---- */
 
+/* Of grey surfaces in grey light, and of any: there, and of grey light, one channel stands for three. */
+typedef enum paint_kind { PAINT_UNLIT, PAINT_GREY, PAINT_GREY_LIGHT, PAINT_LIT } paint_kind;
+
+static ALWAYS_INLINE int paint_lights(paint_kind kind) { return kind == PAINT_LIT ? 3 : 1; }
+static ALWAYS_INLINE int paint_colors(paint_kind kind) { return kind == PAINT_GREY ? 1 : 3; }
+
 static inline int is_grey(const float c[3]) { return c[0] == c[1] && c[0] == c[2]; }
 
-/* 1, where all light is grey, or 3; 0: unlit. */
-static inline int paint_channels(const e3d_lighting *lighting)
+static inline paint_kind paint_kind_of(const e3d_paint *paint, paint_source source)
 {
+    const e3d_lighting *lighting = paint->lighting;
     if (!lighting)
-        return 0;
+        return PAINT_UNLIT;
     int grey = is_grey(lighting->ambient);
     for (int n = 0; n < lighting->light_count; n++)
         grey &= is_grey(lighting->lights[n].color);
-    return grey ? 1 : 3;
+    if (!grey || paint->shininess > 0.0f)
+        return PAINT_LIT;
+    return source == PAINT_BASE && is_grey(paint->base) && is_grey(paint->emissive) ? PAINT_GREY : PAINT_GREY_LIGHT;
 }
 
-/* R31 of all lights: there are few. `channels` and whether there are highlights are known when compiled. */
-static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, int channels, float shininess,
+/* R31 of all lights: there are few. The kind and whether there are highlights are known when compiled. */
+static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, paint_kind kind, float shininess,
                                       vf32 color[3])
 {
     const e3d_lighting *lighting = paint->lighting;
@@ -42,14 +50,12 @@ static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_p
     if (shininess > 0.0f)
         light_view(lighting, &lit);
     for (int n = 0; n < lighting->light_count; n++)
-        light_one(lighting, n, channels, shininess, &lit);
-    for (int k = 0; k < channels; k++)
-        lit.energy[k] = light_clamp(lighting, lit.energy[k]);
-    for (int k = channels; k < 3; k++) {
-        lit.energy[k] = lit.energy[0];
-        lit.shine[k] = lit.shine[0];
-    }
-    combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, color);
+        light_one(lighting, n, paint_lights(kind), shininess, &lit);
+    for (int k = 0; k < 3; k++)
+        lit.energy[k] = k < paint_lights(kind) ? light_clamp(lighting, lit.energy[k]) : lit.energy[0];
+    combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, paint_colors(kind), color);
+    for (int k = paint_colors(kind); k < 3; k++)
+        color[k] = color[0];
 }
 
 /* The first lanes of a vector: all, where those past the batch's end are the last sample again. */
@@ -107,7 +113,7 @@ static ALWAYS_INLINE void paint_load(const e3d_batch *batch, int i, vf32 color[3
 /* ---- pixels ---- */
 
 /* The colours of one vector. */
-static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint_plan *plan, int channels, float shininess,
+static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint_plan *plan, paint_kind kind, float shininess,
                                       vf32 color[3])
 {
     if (plan->source == PAINT_TEXELS)
@@ -116,78 +122,73 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint
         paint_load(batch, i, color);
     for (int k = 0; k < 3 && plan->source == PAINT_BASE; k++)
         color[k] = v_setf(plan->paint->base[k]);
-    if (channels)
-        paint_light(batch, i, plan->paint, channels, shininess, color);
+    if (kind != PAINT_UNLIT)
+        paint_light(batch, i, plan->paint, kind, shininess, color);
 }
 
-static ALWAYS_INLINE void paint_linear(const e3d_batch *batch, const paint_plan *plan, int channels, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_linear(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
-        paint_color(batch, i, plan, channels, shininess, color);
+        paint_color(batch, i, plan, kind, shininess, color);
         paint_store(batch->sample + i, encode_vector_linear(color), V_LANES, rgba);
     }
 }
 
-/* What a batch looks up in the table of R34. */
-typedef struct paint_sums {
-    _Alignas(64) int32_t of[3][E3D_BATCH + E3D_PAD]; /* the places, then what is there */
-    int grey; /* of one channel, for all three */
-} paint_sums;
+/* What a batch looks up in the table of R34: the places, then what is there. */
+typedef int32_t paint_sums[3][E3D_BATCH + E3D_PAD];
 
-static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, int channels, float shininess, paint_sums *sums)
+static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, paint_sums sums)
 {
-    sums->grey = 1;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
-        paint_color(batch, i, plan, channels, shininess, color);
-        sums->grey &= encode_is_grey(color);
-        for (int k = 0; k < 3; k++) {
+        paint_color(batch, i, plan, kind, shininess, color);
+        for (int k = 0; k < paint_colors(kind); k++) {
             color[k] = encode_clamp(color[k]);
             v_storef(batch->color[k] + i, color[k]);
-            v_storei(sums->of[k] + i, encode_bucket(color[k]));
+            v_storei(sums[k] + i, encode_bucket(color[k]));
         }
     }
 }
 
 /* One after the other: loads and stores alone take less than gathering. */
-static inline void paint_look_up(int count, paint_sums *sums)
+static inline void paint_look_up(int count, int colors, paint_sums sums)
 {
-    for (int k = 0; k < (sums->grey ? 1 : 3); k++)
+    for (int k = 0; k < colors; k++)
         for (int i = 0; i < count; i++)
-            sums->of[k][i] = ENCODE_SUMS[sums->of[k][i]];
+            sums[k][i] = ENCODE_SUMS[sums[k][i]];
 }
 
-static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const paint_plan *plan, int channels, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
 {
-    paint_sums sums;
-    paint_find(batch, plan, channels, shininess, &sums);
-    paint_look_up((batch->count + V_LANES - 1) / V_LANES * V_LANES, &sums);
+    _Alignas(64) paint_sums sums;
+    paint_find(batch, plan, kind, shininess, sums);
+    paint_look_up((batch->count + V_LANES - 1) / V_LANES * V_LANES, paint_colors(kind), sums);
     for (int i = 0; i < batch->count; i += V_LANES) {
         vi32 code[3];
         for (int k = 0; k < 3; k++)
-            code[k] = encode_code(v_loadf(batch->color[k] + i), v_loadi(sums.of[sums.grey ? 0 : k] + i));
+            code[k] = k < paint_colors(kind) ? encode_code(v_loadf(batch->color[k] + i), v_loadi(sums[k] + i)) : code[0];
         paint_store(batch->sample + i, v_rgba(code), V_LANES, rgba);
     }
 }
 
-static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const paint_plan *plan, int channels, float shininess)
+static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
-        paint_color(batch, i, plan, channels, shininess, color);
+        paint_color(batch, i, plan, kind, shininess, color);
         samples_keep(batch->sample + i, color, V_LANES, plan->paint->samples);
     }
 }
 
-static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const paint_plan *plan, int channels, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
 {
     if (plan->paint->samples)
-        paint_samples(batch, plan, channels, shininess);
+        paint_samples(batch, plan, kind, shininess);
     else if (plan->paint->srgb)
-        paint_srgb(batch, plan, channels, shininess, rgba);
+        paint_srgb(batch, plan, kind, shininess, rgba);
     else
-        paint_linear(batch, plan, channels, shininess, rgba);
+        paint_linear(batch, plan, kind, shininess, rgba);
 }
 
 static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)
@@ -204,16 +205,18 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
 {
     texture_plan texture;
     paint_plan plan = {.paint = paint, .texture = &texture};
-    int channels = paint_channels(paint->lighting);
     if (paint->wanted & E3D_WANT_SURFACE)
         kernel_interpolate(batch, surfaces, paint->wanted);
     plan.source = paint->texture ? paint_textured(batch, surfaces, paint, &texture) : paint_untextured(batch, surfaces, paint);
-    if (!channels)
-        paint_pixels(batch, &plan, 0, 0.0f, rgba);
-    else if (paint->shininess > 0.0f)
-        paint_pixels(batch, &plan, 3, paint->shininess, rgba);
-    else if (channels == 1)
-        paint_pixels(batch, &plan, 1, 0.0f, rgba);
-    else
-        paint_pixels(batch, &plan, 3, 0.0f, rgba);
+    switch (paint_kind_of(paint, plan.source)) {
+    case PAINT_UNLIT: paint_pixels(batch, &plan, PAINT_UNLIT, 0.0f, rgba); break;
+    case PAINT_GREY: paint_pixels(batch, &plan, PAINT_GREY, 0.0f, rgba); break;
+    case PAINT_GREY_LIGHT: paint_pixels(batch, &plan, PAINT_GREY_LIGHT, 0.0f, rgba); break;
+    case PAINT_LIT:
+        if (paint->shininess > 0.0f)
+            paint_pixels(batch, &plan, PAINT_LIT, paint->shininess, rgba);
+        else
+            paint_pixels(batch, &plan, PAINT_LIT, 0.0f, rgba);
+        break;
+    }
 }

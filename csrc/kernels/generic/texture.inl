@@ -92,7 +92,7 @@ static inline texel_lanes texture_mix16(const void *texels, const int32_t *top, 
 }
 
 /* Texels are signed, for v_madd8 and v_madd16 are of signed bytes and halves: the sum is shifted back. */
-static inline texel_lanes texture_mix8(const void *texels, const int32_t *at, vi32 across, vi32 down)
+static ALWAYS_INLINE texel_lanes texture_mix8(const void *texels, const int32_t *at, vi32 across, vi32 down)
 {
     texel_lanes t;
     vi32 four[3], twice = v_madd16(down, v_seti(0x0101)); /* in both bytes of the lower half */

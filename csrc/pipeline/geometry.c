@@ -386,6 +386,12 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
 /* What was seen is drawn untried, so it is tried in turn whether it still is: a share of it in each frame. */
 enum { FRAMES_A_TRIAL = 4 };
 
+/* Other threads may look at it meanwhile, to see what to fetch. */
+static void set_seen(const e3d_context *context, const e3d_item *item, unsigned seen)
+{
+    __atomic_store_n(&context->seen[item->unit], (uint8_t)seen, __ATOMIC_RELAXED);
+}
+
 static void run_item(walker *w, const e3d_item *item)
 {
     e3d_context *context = w->context;
@@ -396,7 +402,7 @@ static void run_item(walker *w, const e3d_item *item)
     if (context->round.choice == E3D_ALL_ITEMS) {
         unsigned shown = draw_group(w, item, group, all, all);
         if (context->kept)
-            context->seen[item->unit] = (uint8_t)shown;
+            set_seen(context, item, shown);
         return;
     }
     unsigned seen = context->seen[item->unit];
@@ -408,7 +414,7 @@ static void run_item(walker *w, const e3d_item *item)
     int tried = context->renderer->doubts || (item->unit + context->renderer->trials) % FRAMES_A_TRIAL == 0;
     unsigned trusted = tried ? 0 : seen;
     if (trusted != all)
-        context->seen[item->unit] = (uint8_t)(trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));
+        set_seen(context, item, trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));
 }
 
 /* ---- the walk ---- */
@@ -418,7 +424,7 @@ static void fetch_item(const e3d_context *context, const e3d_item *item)
 {
     enum { LINE = 64 };
     const char *instance = (const char *)&context->instances[item->instance];
-    if (context->round.choice == E3D_ALL_ITEMS || context->seen[item->unit])
+    if (context->round.choice == E3D_ALL_ITEMS || __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED))
         for (size_t at = 0; at < sizeof(e3d_instance); at += LINE)
             __builtin_prefetch(instance + at);
     if (context->round.tested)

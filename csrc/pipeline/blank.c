@@ -2,9 +2,10 @@
  * them in while the core computes. */
 #include "pipeline/frame.h"
 
+/* Bins first: of a tile that has some, its owner may be writing the depths, which tell whether it was kept. */
 int e3d_is_blank(const e3d_context *context, int64_t tile)
 {
-    return !e3d_is_kept(context, tile) && !e3d_has_bin(context, E3D_PASS_SCENE, tile) && !e3d_has_bin(context, E3D_PASS_WIRE, tile);
+    return !e3d_has_bin(context, E3D_PASS_SCENE, tile) && !e3d_has_bin(context, E3D_PASS_WIRE, tile) && !e3d_is_kept(context, tile);
 }
 
 /* Looks at a few tiles for the next blank one; whether there may be more. */

@@ -5,7 +5,8 @@
 /* ---- a vector of records in a tile ---- */
 
 enum { RECORDS_DOWN = 16 }; /* of two numbers in a word, one of columns and one of rows, the latter's place */
-enum { RECORDS_FEW = 1024 }; /* samples in strips: drawing them takes less than finding which blocks are met, and how */
+enum { RECORDS_FEW = 1024 }; /* samples in strips: to look at all for what shows takes less than to leave out blocks */
+enum { RECORDS_WIDER = 3 }; /* of so many records of a vector, one that is no narrower than a block */
 enum { RECORDS_STRIPS = E3D_TILE / ROW_LANES };
 
 /* Of each lane's record, relative to the tile: its box of samples; its edges at the tile's first sample, and what a step changes;
@@ -15,10 +16,13 @@ typedef struct records_lanes {
     int32_t e[3][V_LANES], steps[3][V_LANES], down[3][V_LANES];
     uint32_t start[V_LANES];
     int32_t strips[V_LANES];
-    int32_t first[RECORDS_STRIPS][V_LANES], last[RECORDS_STRIPS][V_LANES]; /* rows of each strip that may be covered */
-    float dx[V_LANES], dy[V_LANES]; /* of the start, and of the tile's first row, from the plane's base */
-    /* Sides no longer than a tile, so that edges fit 32 bits and steps 16; of these, few samples in strips; of these, narrower than a
-     * block. */
+    float dx[V_LANES], dy[V_LANES]; /* of the start, from the plane's base */
+    /* Of each strip, only the rows that may be covered: its first vector, how far down from the plane's base, how many vectors. */
+    uint32_t from[RECORDS_STRIPS][V_LANES];
+    float row[RECORDS_STRIPS][V_LANES];
+    int32_t vectors[RECORDS_STRIPS][V_LANES];
+    /* Sides no longer than a tile, so that edges fit 32 bits and steps 16: these are drawn in strips; of these, few samples; of these,
+     * narrower than a block. */
     uint32_t small, few, narrow;
 } records_lanes;
 
@@ -59,18 +63,8 @@ static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_vis
     v_storei(out->x1, x1);
     v_storei(out->y1, y1);
     v_storei(out->start, v_ori(start_x, v_shl(start_y, RECORDS_DOWN)));
-    v_storei(out->strips, v_sra(wide, ROW_SHIFT));
     v_storef(out->dx, v_float(v_subi(start_x, base_x)));
-    v_storef(out->dy, v_float(v_subi(v_seti(0), base_y)));
-}
-
-/* All rows of what is narrower than a block: to find which may be covered takes longer. */
-static inline void records_all_rows(records_lanes *out)
-{
-    for (int s = 0; s < RASTER_BLOCK / ROW_LANES; s++) {
-        v_storei(out->first[s], v_andi(v_loadi(out->y0), v_seti(-ROWS)));
-        v_storei(out->last[s], v_loadi(out->y1));
-    }
+    v_storef(out->dy, v_float(v_subi(start_y, base_y)));
 }
 
 /* An edge function where it is greatest in a strip: in row 0, and how far its zero lies below that, by a unit of it. The rows from
@@ -97,22 +91,29 @@ static inline void records_clip(const records_bound *b, vf32 *first, vf32 *last)
     *last = v_self(b->to, v_min(v_add(row, v_setf(room)), *last), *last);
 }
 
+/* All rows of the box, where few records are wider than a block: to find which may be covered takes longer. */
 static inline void records_rows(const record_edge e[3], records_lanes *out)
 {
     records_bound bounds[3];
-    uint32_t wider = out->few;
-    vi32 start_x = v_andi(v_loadi(out->start), v_seti(0xFFFF));
-    for (int k = 0; k < 3; k++)
-        bounds[k] = records_bound_of(&e[k], start_x);
+    uint32_t wider = out->small;
+    int edges = RECORDS_WIDER * __builtin_popcount(wider & ~out->narrow) > V_LANES ? 3 : 0;
+    vi32 start = v_loadi(out->start), start_y = v_shr(start, RECORDS_DOWN);
+    vi32 strips = v_sra(v_subi(v_loadi(out->x1), v_loadi(out->x0)), ROW_SHIFT);
+    for (int k = 0; k < edges; k++)
+        bounds[k] = records_bound_of(&e[k], v_andi(start, v_seti(0xFFFF)));
+    v_storei(out->strips, strips);
     for (int s = 0; s < RECORDS_STRIPS && wider; s++) {
-        vf32 first = v_float(v_loadi(out->y0)), last = v_float(v_loadi(out->y1));
-        for (int k = 0; k < 3; k++) {
+        vf32 first = v_float(start_y), last = v_float(v_loadi(out->y1));
+        for (int k = 0; k < edges; k++) {
             records_clip(&bounds[k], &first, &last);
             bounds[k].most = v_addi(bounds[k].most, bounds[k].step);
         }
-        v_storei(out->first[s], v_andi(v_trunc(v_min(first, v_setf(E3D_TILE))), v_seti(-ROWS)));
-        v_storei(out->last[s], v_trunc(v_max(last, v_setf(-1))));
-        wider = out->few & v_bits(v_gti(v_loadi(out->strips), v_seti(s)));
+        vi32 left_out = v_andi(v_subi(v_trunc(v_min(first, v_setf(E3D_TILE))), start_y), v_seti(-ROWS));
+        vi32 below = v_subi(v_trunc(v_max(last, v_setf(-1))), v_addi(start_y, left_out));
+        v_storei(out->from[s], v_addi(v_addi(start, v_seti(s * ROW_LANES)), v_shl(left_out, RECORDS_DOWN)));
+        v_storef(out->row[s], v_add(v_loadf(out->dy), v_float(left_out)));
+        v_storei(out->vectors[s], v_addi(v_sra(below, ROWS - 1), v_seti(1)));
+        wider = out->small & v_bits(v_gti(strips, v_seti(s)));
     }
 }
 
@@ -124,10 +125,7 @@ static inline void records_find(const e3d_record *const r[V_LANES], const e3d_vi
     records_boxes(corners, corners + 3, tile, first, out);
     for (int k = 0; k < 3; k++)
         e[k] = records_edge(corners, corners + 3, k, first[0], first[1], tile, out);
-    if (out->few & ~out->narrow)
-        records_rows(e, out);
-    else
-        records_all_rows(out);
+    records_rows(e, out);
 }
 
 /* The first vector of so many records, repeated where there are fewer; how many. The next one is asked for. */
@@ -161,6 +159,8 @@ static inline uint64_t records_behind(float near, const e3d_visible_tile *tile)
     return behind;
 }
 
+static inline size_t records_sample(uint32_t from) { return (from >> RECORDS_DOWN) * E3D_TILE + (from & 0xFFFF); }
+
 /* Whether what is written in the strips is nearer, all of it; the sample in the box's middle mostly tells that it isn't. Beside the
  * box, where nothing may be written yet, what is no number is not taken. */
 static inline int records_hidden(const records_lanes *in, int lane, float near, const e3d_visible_tile *tile)
@@ -170,9 +170,9 @@ static inline int records_hidden(const records_lanes *in, int lane, float near, 
     if (!(near > middle))
         return 0;
     for (int s = 0; s <= in->strips[lane]; s++) {
-        const float *z = tile->z + (in->start[lane] & 0xFFFF) + s * ROW_LANES;
-        for (int y = in->first[s][lane]; y <= in->last[s][lane]; y += ROWS)
-            far = v_max(rows_loadf(z + y * E3D_TILE), far);
+        const float *z = tile->z + records_sample(in->from[s][lane]);
+        for (int32_t left = in->vectors[s][lane]; left > 0; left--, z += ROWS * E3D_TILE)
+            far = v_max(rows_loadf(z), far);
     }
     return !v_any(v_mnot(v_gt(v_setf(near), far)));
 }
@@ -199,18 +199,18 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
     raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
     vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])); /* whole numbers: sums are exact */
     for (int s = 0; s <= in->strips[lane]; s++) {
-        int x = (int)(in->start[lane] & 0xFFFF) + s * ROW_LANES, y = in->first[s][lane], last = in->last[s][lane];
-        vi32 at = v_addi(v_seti(x | y << RECORDS_DOWN), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
-        vf32 row = v_add(v_float(rows_y()), v_setf((float)y + in->dy[lane])), column = v_add(c.z0, v_mul(along, c.gx));
+        size_t i = records_sample(in->from[s][lane]);
+        vi32 at = v_addi(v_seti((int32_t)in->from[s][lane]), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
+        vf32 row = v_add(v_float(rows_y()), v_setf(in->row[s][lane])), column = v_add(c.z0, v_mul(along, c.gx));
         vi32 e[3], down[3];
         for (int k = 0; k < 3; k++) {
             e[k] = v_addi(v_seti(in->e[k][lane]), v_madd16(v_seti(in->steps[k][lane]), at));
             down[k] = v_seti(in->down[k][lane]);
         }
-        for (; y <= last; y += ROWS) {
+        for (int32_t left = in->vectors[s][lane]; left > 0; left--, i += ROWS * E3D_TILE) {
             vmask inside = visible_inside(e);
             vf32 z = v_min(v_max(v_add(column, v_mul(row, c.gy)), c.zmin), c.zmax);
-            visible_write(inside, z, (size_t)(y * E3D_TILE + x), r, id, tile, table);
+            visible_write(inside, z, i, r, id, tile, table);
             for (int k = 0; k < 3; k++)
                 e[k] = v_addi(e[k], down[k]);
             row = v_add(row, v_setf(ROWS));
@@ -254,13 +254,8 @@ static inline void records_wide(const records_lanes *in, int lane, const e3d_rec
     e3d_piece p = {.x0 = (int32_t)in->x0[lane], .y0 = (int32_t)in->y0[lane], .x1 = (int32_t)in->x1[lane], .y1 = (int32_t)in->y1[lane],
                    .slot = (uint32_t)id};
     for (int k = 0; k < 3; k++)
-        if (in->small >> lane & 1) {
-            p.e[k] = in->e[k][lane];
-            p.a[k] = (int16_t)in->steps[k][lane];
-            p.b[k] = in->steps[k][lane] >> RECORDS_DOWN;
-        } else if (!e3d_piece_edge(r, k, tile->x, tile->y, &p)) {
+        if (!e3d_piece_edge(r, k, tile->x, tile->y, &p))
             return;
-        }
     p.base_x = visible_first(r->x) - tile->x;
     p.base_y = visible_first(r->y) - tile->y;
     p.gx = r->gx;
@@ -274,7 +269,7 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
                                 records_touched *touched, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     uint64_t met = records_met(in, lane);
-    int strips = in->narrow >> lane & 1 || (in->few >> lane & 1 && !(met & ~open)); /* blocks that hide it are left out */
+    int strips = in->small >> lane & 1;
     if (!(strips && met & open) && !(met & ~records_behind(r->zmin, tile)))
         return;
     if (!strips) {

@@ -122,6 +122,7 @@ static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t wi
                          int decode_srgb)
 {
     uint8_t *texels = texture->texels;
+    size_t total = 4 * chain_texels(width, height, texture->view.level_count);
     for (int l = 0; l < texture->view.level_count; l++) {
         e3d_level *level = &texture->view.levels[l];
         *level = (e3d_level){texels, width, height};
@@ -136,6 +137,9 @@ static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t wi
         width = width > 1 ? width >> 1 : 1;
         height = height > 1 ? height >> 1 : 1;
     }
+    uint16_t *channels = (uint16_t *)texture->texels;
+    for (size_t i = 0; i < total && texture->view.channel_bits == 16; i++)
+        channels[i] ^= 0x8000; /* levels were averaged unsigned */
 }
 
 e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height, int decode_srgb,

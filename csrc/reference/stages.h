@@ -132,8 +132,7 @@ void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[
 
 /* texture.c */
 /* Returns the unit. */
-float ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
-                         const float uv_dy[2], float out[3]);
+float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, float out[3]);
 
 /* light.c */
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);

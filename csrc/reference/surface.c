@@ -94,7 +94,7 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
         s->view_normal[r] = ref_dot3(scene->view_from_world[r], n);
 }
 
-/* R25: uv, and its derivatives along the rows and columns of samples. */
+/* R25: uv, and its derivatives along the rows and columns of samples, before they are divided (times r). */
 static void find_uv(ref_surface *s)
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
@@ -107,8 +107,8 @@ static void find_uv(ref_surface *s)
             if (mesh->uvs && piece->primitive.vertices[k] >= 0)
                 v[k] = mesh->uvs[2 * (size_t)piece->primitive.vertices[k] + c];
         s->uv[c] = interpolate(s, v);
-        s->uv_dx[c] = (ref_dot3(piece->bary_dx, v) - s->uv[c] * sum_dx) * s->r;
-        s->uv_dy[c] = (ref_dot3(piece->bary_dy, v) - s->uv[c] * sum_dy) * s->r;
+        s->uv_dx[c] = ref_dot3(piece->bary_dx, v) - s->uv[c] * sum_dx;
+        s->uv_dy[c] = ref_dot3(piece->bary_dy, v) - s->uv[c] * sum_dy;
     }
 }
 
@@ -154,7 +154,7 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
         s->albedo[c] = primitive->material->color[c];
     if (primitive->kind == REF_FACE && primitive->material->texture && mesh->uvs) {
         const e3d_texture_view *texture = e3d_texture_get_view(primitive->material->texture);
-        float unit = ref_texture_sample(texture, s->uv, s->uv_dx, s->uv_dy, factor);
+        float unit = ref_texture_sample(texture, s, factor);
         for (int c = 0; c < 3; c++)
             s->albedo[c] = factor[c] * (s->albedo[c] * unit);
     }

@@ -10,15 +10,13 @@
 enum { CHANNELS = 3 };
 
 /* R26, in 1/256 level. */
-static int32_t level_of_detail(const e3d_texture_view *texture, const float uv_dx[2], const float uv_dy[2])
+static int32_t level_of_detail(const e3d_texture_view *texture, const ref_surface *s)
 {
     float width = (float)texture->levels[0].width, height = (float)texture->levels[0].height;
-    float ax = uv_dx[0] * width, ay = uv_dx[1] * height;
-    float bx = uv_dy[0] * width, by = uv_dy[1] * height;
-    float q = ref_max(ax * ax + ay * ay, bx * bx + by * by);
-    if (!(q > 1.0f))
-        return 0;
-    int32_t lod = ref_rint(ref_log2(ref_min(q, 0x1p100f)) * 128.0f);
+    float ax = s->uv_dx[0] * width, ay = s->uv_dx[1] * height;
+    float bx = s->uv_dy[0] * width, by = s->uv_dy[1] * height;
+    float q = ref_max(ax * ax + ay * ay, bx * bx + by * by) * (s->r * s->r);
+    int32_t lod = ref_rint(ref_log2_level(ref_clamp(q, 1.0f, 0x1p100f)) * 128.0f);
     int32_t coarsest = (texture->level_count - 1) * 256;
     return lod < coarsest ? lod : coarsest;
 }
@@ -36,22 +34,23 @@ static float wrap_coordinate(float s, e3d_wrap wrap)
     return m > 1.0f ? 2.0f - m : m;
 }
 
-/* A channel in as many bits as there are. Levels have a border, and 8-bit texels a copy of those below, which go unused here. */
+/* A channel in as many bits as there are. Levels have a border, and 8-bit texels a copy of those below, which go unused here;
+ * both are stored as signed numbers. */
 static uint32_t texel(const e3d_texture_view *texture, const e3d_level *level, int32_t column, int32_t row, int c)
 {
     size_t at = (size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1);
     if (texture->channel_bits == 8)
         return (uint32_t)(((const int8_t *)level->texels)[8 * at + (size_t)c] + 128);
-    return ((const uint16_t *)level->texels)[4 * at + (size_t)c];
+    return (uint32_t)(((const int16_t *)level->texels)[4 * at + (size_t)c] + 32768);
 }
 
-static void sample_nearest(const e3d_texture_view *texture, const e3d_level *level, float s, float t, uint32_t out[CHANNELS])
+static void sample_nearest(const e3d_texture_view *texture, const e3d_level *level, float s, float t, float out[CHANNELS])
 {
     int32_t column = (int32_t)(s * (float)level->width), row = (int32_t)(t * (float)level->height);
     column = column < level->width ? column : level->width - 1;
     row = row < level->height ? row : level->height - 1;
     for (int c = 0; c < CHANNELS; c++)
-        out[c] = texel(texture, level, column, row, c);
+        out[c] = (float)(int32_t)texel(texture, level, column, row, c);
 }
 
 /* The two neighbours along one axis and the weight of the second. */
@@ -75,18 +74,19 @@ static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
     return (neighbours){first, second, weight};
 }
 
-/* Weights of 255, exact; or of 256, rounded to 16 bits. */
+/* Weights of 255, exact; or of 256, with rows of 16 bits. */
 static uint32_t blend(const e3d_texture_view *texture, const uint32_t t[2][2], uint32_t fx, uint32_t fy)
 {
-    uint32_t whole = texture->channel_bits == 8 ? 255 : 256;
-    uint32_t h0 = t[0][0] * (whole - fx) + t[0][1] * fx;
-    uint32_t h1 = t[1][0] * (whole - fx) + t[1][1] * fx;
-    uint32_t sum = h0 * (whole - fy) + h1 * fy;
-    return texture->channel_bits == 8 ? sum : (sum + 32768) >> 16;
+    uint32_t whole = texture->channel_bits == 8 ? 255 : 256, row[2];
+    for (int k = 0; k < 2; k++) {
+        row[k] = t[k][0] * (whole - fx) + t[k][1] * fx;
+        row[k] = texture->channel_bits == 8 ? row[k] : row[k] / 256;
+    }
+    return row[0] * (whole - fy) + row[1] * fy;
 }
 
 static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *level, float s, float t,
-                            uint32_t out[CHANNELS])
+                            float out[CHANNELS])
 {
     neighbours x = find_neighbours(s, level->width, texture->wrap);
     neighbours y = find_neighbours(t, level->height, texture->wrap);
@@ -94,36 +94,32 @@ static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *le
         const uint32_t t[2][2] = {
             {texel(texture, level, x.first, y.first, c), texel(texture, level, x.second, y.first, c)},
             {texel(texture, level, x.first, y.second, c), texel(texture, level, x.second, y.second, c)}};
-        out[c] = blend(texture, t, x.weight, y.weight);
+        out[c] = (float)(int32_t)blend(texture, t, x.weight, y.weight);
     }
 }
 
-static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float s, float t,
-                             uint32_t out[CHANNELS])
+static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float s, float t, float out[CHANNELS])
 {
     int32_t fine = lod / 256, coarse = fine + 1 < texture->level_count ? fine + 1 : fine;
-    uint32_t f = (uint32_t)(lod % 256), a[CHANNELS], b[CHANNELS];
-    sample_bilinear(texture, &texture->levels[fine], s, t, a);
-    sample_bilinear(texture, &texture->levels[coarse], s, t, b);
+    float f = (float)(lod % 256) * 0x1p-8f, coarser[CHANNELS];
+    sample_bilinear(texture, &texture->levels[fine], s, t, out);
+    sample_bilinear(texture, &texture->levels[coarse], s, t, coarser);
     for (int c = 0; c < CHANNELS; c++)
-        out[c] = (a[c] * (256 - f) + b[c] * f + 128) >> 8;
+        out[c] = out[c] + (coarser[c] - out[c]) * f;
 }
 
-float ref_texture_sample(const e3d_texture_view *texture, const float uv[2], const float uv_dx[2],
-                         const float uv_dy[2], float out[3])
+float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, float out[CHANNELS])
 {
-    float s = wrap_coordinate(uv[0], texture->wrap);
-    float t = wrap_coordinate(1.0f - uv[1], texture->wrap);
-    uint32_t value[CHANNELS];
+    float s = wrap_coordinate(surface->uv[0], texture->wrap);
+    float t = wrap_coordinate(1.0f - surface->uv[1], texture->wrap);
     if (texture->filter == E3D_NEAREST)
-        sample_nearest(texture, &texture->levels[0], s, t, value);
+        sample_nearest(texture, &texture->levels[0], s, t, out);
     else if (texture->filter == E3D_BILINEAR)
-        sample_bilinear(texture, &texture->levels[0], s, t, value);
+        sample_bilinear(texture, &texture->levels[0], s, t, out);
     else
-        sample_trilinear(texture, level_of_detail(texture, uv_dx, uv_dy), s, t, value);
-    for (int c = 0; c < CHANNELS; c++)
-        out[c] = (float)(int32_t)value[c];
+        sample_trilinear(texture, level_of_detail(texture, surface), s, t, out);
+    int nearest = texture->filter == E3D_NEAREST;
     if (texture->channel_bits == 16)
-        return E3D_UNORM16;
-    return texture->filter == E3D_NEAREST ? E3D_UNORM8 : E3D_UNORM8_BLENDED;
+        return nearest ? E3D_UNORM16 : E3D_UNORM16_BLENDED;
+    return nearest ? E3D_UNORM8 : E3D_UNORM8_BLENDED;
 }

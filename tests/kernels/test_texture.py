@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 from kernels.arithmetic import (
+    LOG2_LEVEL,
     ONE,
     UNORM8,
     UNORM8_BLENDED,
     UNORM16,
+    UNORM16_BLENDED,
     clamp,
     floor,
     greatest,
-    least,
     log2,
     round_even,
 )
@@ -29,6 +30,12 @@ from kernels.surfaces import (
 
 from engine3d._native.rasterizer import FILTERS, WRAPS
 
+UNITS = {
+    (True, 8): UNORM8,
+    (True, 16): UNORM16,
+    (False, 8): UNORM8_BLENDED,
+    (False, 16): UNORM16_BLENDED,
+}
 SIZES = [(1, 1), (2, 3), (16, 16), (37, 5), (1, 300), (256, 1), (1000, 3), (33, 64), (4099, 2)]
 LARGE_SIZES = [(32768, 32768), (32768, 1), (1, 16384), (512, 300)]
 
@@ -41,23 +48,21 @@ def chain_sizes(width, height, levels=16):
     return np.array(sizes, np.int32)
 
 
-def length2(step, uv, r, size):
+def length2(step, uv, size):
     """R25 and R26 along one screen axis, squared."""
     squares = []
     for k in range(2):
-        texels = ((step[..., 1 + k] - uv[k] * step[..., 0]) * r) * np.float32(size[k])
+        texels = (step[..., 1 + k] - uv[k] * step[..., 0]) * np.float32(size[k])
         squares.append(texels * texels)
     return squares[0] + squares[1]
 
 
 def level_of(surface, uv, r, sizes):
     """R26"""
-    rx, ry = (length2(surface["step"][..., axis, :], uv, r, sizes[0]) for axis in range(2))
-    q = greatest(rx, ry)
-    smaller = q > 1
-    q = least(np.where(smaller, q, ONE), np.float32(2.0**100))
-    lod = round_even(log2(q) * np.float32(128))
-    return np.minimum(np.where(smaller, lod, 0), (len(sizes) - 1) * 256).astype(np.int32)
+    rx, ry = (length2(surface["step"][..., axis, :], uv, sizes[0]) for axis in range(2))
+    q = clamp(greatest(rx, ry) * (r * r), ONE, np.float32(2.0**100))
+    lod = round_even(log2(q, LOG2_LEVEL) * np.float32(128))
+    return np.minimum(lod, (len(sizes) - 1) * 256).astype(np.int32)
 
 
 @all_backends
@@ -107,7 +112,7 @@ def taps(s, size, wrap):
 
 
 def bilinear(texels, starts, sizes, level, s, t, wrap, bits):
-    """R30 of a level for each lane; (…, 3) int64."""
+    """R30 of a level for each lane; (…, 3)."""
     whole = 255 if bits == 8 else 256
     width, height = (sizes[level, k].astype(np.int64) for k in range(2))
     left, right, fx = taps(s, width, wrap)
@@ -118,11 +123,12 @@ def bilinear(texels, starts, sizes, level, s, t, wrap, bits):
         return texels[start + row * width + column, :3].astype(np.int64)
 
     def across(row):
-        return texel(row, left) * (whole - fx)[..., None] + texel(row, right) * fx[..., None]
+        values = texel(row, left) * (whole - fx)[..., None] + texel(row, right) * fx[..., None]
+        return values if bits == 8 else values >> 8
 
     blended = across(top) * (whole - fy)[..., None] + across(bottom) * fy[..., None]
-    assert blended.max() < (2**24 if bits == 8 else 2**32)
-    return blended if bits == 8 else (blended + 32768) >> 16
+    assert blended.max() < 2**24
+    return blended.astype(np.float32)
 
 
 def nearest(texels, sizes, s, t):
@@ -140,17 +146,17 @@ def sampled(texels, sizes, filter_name, wrap, uv, lod, bits):
     starts = np.concatenate([[0], np.cumsum(sizes[:, 0].astype(np.int64) * sizes[:, 1])])
     if filter_name == "bilinear":
         return bilinear(texels, starts, sizes, np.zeros_like(lod), s, t, wrap, bits)
-    level, f = lod >> 8, (lod & 255).astype(np.int64)[..., None]
+    level, f = lod >> 8, (lod & 255).astype(np.float32)[..., None] * np.float32(2.0**-8)
     near = bilinear(texels, starts, sizes, level, s, t, wrap, bits)
     coarse = np.minimum(level + 1, len(sizes) - 1)
     far = bilinear(texels, starts, sizes, coarse, s, t, wrap, bits)
-    return (near * (256 - f) + far * f + 128) >> 8
+    return near + (far - near) * f
 
 
 def stored(texels, sizes, wrap, bits):
     """The bytes of all levels as the kernels read them: within a border of one texel each.
 
-    Those of 8 bits are signed; beside each is the one below, which the last row does not need.
+    They are signed; beside each of 8 bits is the one below, which the last row does not need.
     """
     pieces, start = [], 0
     for width, height in sizes.tolist():
@@ -159,7 +165,9 @@ def stored(texels, sizes, wrap, bits):
         level = np.pad(level, ((1, 1), (1, 1), (0, 0)), mode)
         if bits == 8:
             below = np.concatenate((level[1:], np.full_like(level[:1], 77)))
-            level = (np.stack((level, below), axis=2).astype(np.int16) - 128).astype(np.int8)
+            level = np.stack((level, below), axis=2)
+        kind = np.int8 if bits == 8 else np.int16
+        level = (level.astype(np.int32) - 2 ** (bits - 1)).astype(kind)
         pieces.append(level.ravel().view(np.uint8))
         start += width * height
     return np.concatenate(pieces)
@@ -183,7 +191,7 @@ def random_coordinates(rng, shape, sizes):
     [("nearest", 8), ("bilinear", 8), ("nearest", 16), ("bilinear", 16), ("trilinear", 16)],
 )
 def test_texture(kernels, filter_name, bits, wrap):
-    unit = UNORM16 if bits == 16 else UNORM8 if filter_name == "nearest" else UNORM8_BLENDED
+    unit = UNITS[filter_name == "nearest", bits]
     for seed in range(list(WRAPS).index(wrap), ROUNDS, len(WRAPS)):
         rng = np.random.default_rng(seed)
         batches = random_batches(rng)

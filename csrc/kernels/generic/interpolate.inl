@@ -148,19 +148,24 @@ static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_v
         each_vector(batch, surfaces, stage_instance_color, NULL);
 }
 
-/* R27 */
-static inline vf32 log2_poly(vf32 q)
+/* R27; c: `count` coefficients. */
+static ALWAYS_INLINE vf32 log2_by(vf32 q, const float *c, int count)
 {
-    static const float c[7] = {0x1.c5507p-2f,  -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
-                               0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
     vi32 bits = v_asi(q);
     vf32 exponent = v_float(v_subi(v_shr(bits, 23), v_seti(127)));
     vf32 one = v_setf(1.0f);
     vf32 t = v_sub(v_asf(v_ori(v_andi(bits, v_seti(0x7FFFFF)), v_seti(0x3F800000))), one);
-    vf32 sum = v_setf(c[6]);
-    for (int k = 5; k >= 0; k--)
+    vf32 sum = v_setf(c[count - 1]);
+    for (int k = count - 2; k >= 0; k--)
         sum = v_add(v_mul(sum, t), v_setf(c[k]));
     return v_add(exponent, v_add(t, v_mul(v_mul(t, v_sub(one, t)), sum)));
+}
+
+static inline vf32 log2_poly(vf32 q)
+{
+    static const float c[7] = {0x1.c5507p-2f,  -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
+                               0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
+    return log2_by(q, c, 7);
 }
 
 static inline vf32 exp2_poly(vf32 y)
@@ -178,18 +183,22 @@ static inline vf32 exp2_poly(vf32 y)
     return v_mul(fraction, v_asf(v_shl(v_addi(whole, v_seti(127)), 23)));
 }
 
-/* R25 and R26: squared length, in texels, of the step of both coordinates along one screen axis. */
-static inline vf32 level_length2(const e3d_surface_floats step[3], const element_lanes *lanes,
-                                 const vf32 value[2], vf32 r, const vf32 size[2])
+/* R26: squared length, in texels and before it is divided, of the step of both coordinates along one screen axis. */
+static inline vf32 level_length2(const e3d_surface_floats step[3], const element_lanes *lanes, const vf32 value[2], const vf32 size[2])
 {
     vf32 s[3], square[2];
     take_three(step, lanes, lanes->same, s);
     for (int k = 0; k < 2; k++) {
-        vf32 derivative = v_mul(v_sub(s[1 + k], v_mul(value[k], s[0])), r);
-        vf32 texels = v_mul(derivative, size[k]);
+        vf32 texels = v_mul(v_sub(s[1 + k], v_mul(value[k], s[0])), size[k]);
         square[k] = v_mul(texels, texels);
     }
     return v_add(square[0], square[1]);
+}
+
+static inline vf32 level_log2(vf32 q)
+{
+    static const float c[3] = {0x1.c14136p-2f, -0x1.e9967ep-3f, 0x1.5066dap-4f};
+    return log2_by(q, c, 3);
 }
 
 /* R26: 256 levels a level. */
@@ -197,12 +206,9 @@ static inline vi32 level_of(const e3d_surfaces *s, const element_lanes *lanes, c
                             const e3d_texture_view *texture)
 {
     const vf32 size[2] = {v_setf((float)texture->levels[0].width), v_setf((float)texture->levels[0].height)};
-    vf32 one = v_setf(1.0f);
-    vf32 q = v_max(level_length2(s->step[0], lanes, uv, r, size), level_length2(s->step[1], lanes, uv, r, size));
-    vmask minified = v_gt(q, one);
-    q = v_min(v_self(minified, q, one), v_setf(0x1p100f));
-    vi32 lod = v_rint(v_mul(log2_poly(q), v_setf(128.0f)));
-    return v_mini(v_seli(minified, lod, v_seti(0)), v_seti((texture->level_count - 1) * 256));
+    vf32 longest = v_max(level_length2(s->step[0], lanes, uv, size), level_length2(s->step[1], lanes, uv, size));
+    vf32 q = v_min(v_max(v_mul(longest, v_mul(r, r)), v_setf(1.0f)), v_setf(0x1p100f));
+    return v_mini(v_rint(v_mul(level_log2(q), v_setf(128.0f))), v_seti((texture->level_count - 1) * 256));
 }
 
 static void kernel_select_level(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture)

@@ -58,13 +58,17 @@ static ALWAYS_INLINE void texture_place(const level_lanes *level, int bits, vf32
 
 /* Channels of one vector of texels, in units of texture_unit. */
 typedef struct texel_lanes {
-    vi32 c[3];
+    vf32 c[3];
 } texel_lanes;
 
 static inline float texture_unit(const e3d_texture_view *view)
 {
-    return view->channel_bits == 16 ? E3D_UNORM16 : view->filter == E3D_NEAREST ? E3D_UNORM8 : E3D_UNORM8_BLENDED;
+    if (view->filter == E3D_NEAREST)
+        return view->channel_bits == 16 ? E3D_UNORM16 : E3D_UNORM8;
+    return view->channel_bits == 16 ? E3D_UNORM16_BLENDED : E3D_UNORM8_BLENDED;
 }
+
+/* Texels are signed, for v_madd8 and v_madd16 are of signed bytes and halves: sums are shifted back. */
 
 /* 256 - weight in the low half, weight in the high one. */
 static inline vi32 texture_weights(vi32 weight)
@@ -72,26 +76,23 @@ static inline vi32 texture_weights(vi32 weight)
     return v_addi(v_subi(v_shl(weight, 16), weight), v_seti(256));
 }
 
-/* The products of v_madd16 are of signed 16 bits: channels are shifted down by 32768 before, the sum up by 256 * 32768. */
-static inline vi32 texture_signed(vi32 pair) { return v_xori(pair, v_seti((int32_t)0x80008000)); }
-
-static inline texel_lanes texture_mix16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 across, vi32 down)
+/* Rows are rounded down to 16 bits, which the shift down, a multiple of 256, doesn't change. */
+static ALWAYS_INLINE texel_lanes texture_mix16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 across, vi32 down)
 {
-    enum { BIAS = 256 * 32768 };
     texel_lanes t;
-    vi32 upper[3], lower[3], weights = texture_weights(across);
+    vi32 upper[3], lower[3], low = v_seti(0xFFFF);
+    across = texture_weights(across);
+    down = texture_weights(down);
     v_pairs16(texels, top, upper);
     v_pairs16(texels, bottom, lower);
-    for (int k = 0; k < 3; k++) { /* h0 (256 - f) + h1 f = 256 h0 + (h1 - h0) f, and the bias stays in h0 */
-        vi32 h0 = v_madd16(texture_signed(upper[k]), weights);
-        vi32 h1 = v_madd16(texture_signed(lower[k]), weights);
-        vi32 sum = v_addi(v_shl(h0, 8), v_muli(v_subi(h1, h0), down));
-        t.c[k] = v_shr(v_addi(sum, v_seti((int32_t)(256u * BIAS + 32768u))), 16);
+    for (int k = 0; k < 3; k++) {
+        vi32 h0 = v_shr(v_madd16(upper[k], across), 8), h1 = v_shl(v_madd16(lower[k], across), 8);
+        vi32 rows = v_ori(v_andi(h0, low), v_andi(h1, v_seti((int32_t)0xFFFF0000)));
+        t.c[k] = v_float(v_addi(v_madd16(rows, down), v_seti(256 * 32768)));
     }
     return t;
 }
 
-/* Texels are signed, for v_madd8 and v_madd16 are of signed bytes and halves: the sum is shifted back. */
 static ALWAYS_INLINE texel_lanes texture_mix8(const void *texels, const int32_t *at, vi32 across, vi32 down)
 {
     texel_lanes t;
@@ -100,7 +101,7 @@ static ALWAYS_INLINE texel_lanes texture_mix8(const void *texels, const int32_t 
     down = v_xori(v_ori(twice, v_shl(twice, 16)), v_seti(0x00FF00FF));
     v_quads8(texels, at, four);
     for (int k = 0; k < 3; k++)
-        t.c[k] = v_addi(v_madd16(v_madd8(down, four[k]), across), v_seti(128 * 255 * 255));
+        t.c[k] = v_float(v_addi(v_madd16(v_madd8(down, four[k]), across), v_seti(128 * 255 * 255)));
     return t;
 }
 
@@ -109,11 +110,6 @@ static ALWAYS_INLINE texel_lanes texture_mix(const void *texels, int bits, const
     vi32 across = v_loadi(places->across + i), down = v_loadi(places->down + i);
     return bits == 8 ? texture_mix8(texels, places->top + i, across, down)
                      : texture_mix16(texels, places->top + i, places->bottom + i, across, down);
-}
-
-static inline vi32 texture_blend(vi32 a, vi32 b, vi32 weight)
-{
-    return v_addi(v_muli(a, v_subi(v_seti(256), weight)), v_muli(b, weight));
 }
 
 /* All levels, to look up by lane. */
@@ -163,10 +159,13 @@ static inline texel_lanes texture_take(const void *texels, int bits, vi32 at)
     vi32 first = v_gatheri(texels, v_shl(at, 1));
     if (bits == 8) {
         vi32 texel = v_xori(first, v_seti((int32_t)0x80808080)), byte = v_seti(255);
-        return (texel_lanes){{v_andi(texel, byte), v_andi(v_shr(texel, 8), byte), v_andi(v_shr(texel, 16), byte)}};
+        return (texel_lanes){{v_float(v_andi(texel, byte)), v_float(v_andi(v_shr(texel, 8), byte)),
+                              v_float(v_andi(v_shr(texel, 16), byte))}};
     }
-    vi32 second = v_gatheri(texels, v_addi(v_shl(at, 1), v_seti(1))), low = v_seti(0xFFFF);
-    return (texel_lanes){{v_andi(first, low), v_shr(first, 16), v_andi(second, low)}};
+    vi32 second = v_gatheri(texels, v_addi(v_shl(at, 1), v_seti(1))), low = v_seti(0xFFFF), shift = v_seti((int32_t)0x80008000);
+    first = v_xori(first, shift);
+    second = v_xori(second, shift);
+    return (texel_lanes){{v_float(v_andi(first, low)), v_float(v_shr(first, 16)), v_float(v_andi(second, low))}};
 }
 
 /* Lanes after the last sample hold levels of an earlier batch, perhaps of a texture with more of them:
@@ -184,7 +183,7 @@ typedef struct texture_plan {
     const e3d_texture_view *view;
     float scale[3]; /* of what is read: the texture's unit, times the material's colour */
     texture_levels levels;
-    _Alignas(64) texture_places near, far; /* far only where its weight isn't 0: (256 a + 128) >> 8 = a */
+    _Alignas(64) texture_places near, far; /* far only where its weight isn't 0 */
     _Alignas(64) int32_t lod[E3D_BATCH + E3D_PAD]; /* trilinear */
 } texture_plan;
 
@@ -256,11 +255,12 @@ static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filt
     texel_lanes a = texture_mix(texels, bits, &plan->near, i);
     if (filter == E3D_BILINEAR)
         return a;
-    vi32 weight = v_andi(v_loadi(plan->lod + i), v_seti(255));
-    if (v_any(v_gti(weight, v_seti(0)))) { /* some samples are between two levels */
+    vi32 between = v_andi(v_loadi(plan->lod + i), v_seti(255));
+    if (v_any(v_gti(between, v_seti(0)))) { /* some samples are between two levels */
         texel_lanes b = texture_mix(texels, bits, &plan->far, i);
+        vf32 weight = v_mul(v_float(between), v_setf(0x1p-8f));
         for (int k = 0; k < 3; k++)
-            a.c[k] = v_shr(v_addi(texture_blend(a.c[k], b.c[k], weight), v_seti(128)), 8);
+            a.c[k] = v_add(a.c[k], v_mul(v_sub(b.c[k], a.c[k]), weight));
     }
     return a;
 }
@@ -270,7 +270,7 @@ static ALWAYS_INLINE void texture_color(const texture_plan *plan, int filter, in
 {
     texel_lanes texel = texture_read(plan, filter, bits, i);
     for (int k = 0; k < 3; k++)
-        color[k] = v_mul(v_float(texel.c[k]), v_setf(plan->scale[k]));
+        color[k] = v_mul(texel.c[k], v_setf(plan->scale[k]));
 }
 
 static ALWAYS_INLINE void texture_color_all(const texture_plan *plan, int filter, int bits, e3d_batch *batch)

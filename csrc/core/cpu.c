@@ -4,10 +4,15 @@
  * because a container's quota does not show in the mask.
  */
 #define _GNU_SOURCE
+#ifdef E3D_HAVE_X86
+#include <cpuid.h>
+#endif
 #include <sched.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <unistd.h>
 
+#include "core/cpu.h"
 #include "core/limits.h"
 #include "e3d.h"
 
@@ -41,6 +46,29 @@ e3d_backend e3d_backend_best(void)
         if (e3d_backend_available((e3d_backend)b))
             return (e3d_backend)b;
     return E3D_BACKEND_PORTABLE;
+}
+
+#ifdef E3D_HAVE_X86
+static int has_fp16(void)
+{
+    unsigned a, b, c, d;
+    return __get_cpuid_count(7, 0, &a, &b, &c, &d) && d >> 23 & 1;
+}
+#endif
+
+int e3d_cpu_gathers(void)
+{
+#ifdef E3D_HAVE_X86
+    static atomic_int known = -1; /* asking takes long in a virtual machine */
+    int gathers = atomic_load_explicit(&known, memory_order_relaxed);
+    if (gathers < 0) {
+        gathers = has_fp16();
+        atomic_store_explicit(&known, gathers, memory_order_relaxed);
+    }
+    return gathers;
+#else
+    return 0;
+#endif
 }
 
 static int affinity_count(void)

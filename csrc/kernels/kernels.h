@@ -331,6 +331,7 @@ typedef struct e3d_paint {
     float shininess;
     const float *specular, *emissive; /* of lit samples; specular may be NULL */
     int srgb;
+    int gathers;          /* what e3d_cpu_gathers says */
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
 } e3d_paint;
 

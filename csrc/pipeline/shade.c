@@ -1,6 +1,7 @@
 /* shade, second half: visible samples, group by group and batch by batch, to colours and outputs (R20-R32). */
 #include <string.h>
 
+#include "core/cpu.h"
 #include "pipeline/frame.h"
 
 /* ---- display modes (R32) ---- */
@@ -155,6 +156,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .specular = shiny ? m->specular : NULL,
         .emissive = m->emissive,
         .srgb = context->srgb,
+        .gathers = e3d_cpu_gathers(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
     };
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);

@@ -146,6 +146,7 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *specular
         const float *emissive
         int srgb
+        int gathers
         e3d_samples *samples
 
     ctypedef struct e3d_kernels:

@@ -173,6 +173,7 @@ class Kernels:
         specular: _Floats | None,
         emissive: _Floats,
         srgb: bool,
+        gathers: bool,
         rgba: _Words,
         samples: _Floats | None = ...,
     ) -> None: ...

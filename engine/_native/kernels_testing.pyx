@@ -414,7 +414,7 @@ cdef class Kernels:
 
     def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
-              const float[::1] specular, const float[::1] emissive, bint srgb, uint32_t[::1] rgba,
+              const float[::1] specular, const float[::1] emissive, bint srgb, bint gathers, uint32_t[::1] rgba,
               float[:, ::1] samples=None):
         """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
 
@@ -442,6 +442,7 @@ cdef class Kernels:
         paint.specular = NULL if specular is None else &specular[0]
         paint.emissive = &emissive[0]
         paint.srgb = srgb
+        paint.gathers = gathers
         paint.samples = NULL if samples is None else samples_of(samples)
         for _ in range(self.rounds):
             self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],

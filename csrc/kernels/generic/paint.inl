@@ -151,12 +151,25 @@ static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, p
     }
 }
 
-/* One after the other: loads and stores alone take less than gathering. */
+/* One after the other: on most processors, loads and stores alone take less than gathering. */
 static inline void paint_look_up(int count, int colors, paint_sums sums)
 {
     for (int k = 0; k < colors; k++)
         for (int i = 0; i < count; i++)
             sums[k][i] = ENCODE_SUMS[sums[k][i]];
+}
+
+static ALWAYS_INLINE void paint_srgb_at_once(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess,
+                                             uint32_t *rgba)
+{
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vf32 color[3];
+        vi32 code[3];
+        paint_color(batch, i, plan, kind, shininess, color);
+        for (int k = 0; k < 3; k++)
+            code[k] = k < paint_colors(kind) ? encode_srgb(encode_clamp(color[k])) : code[0];
+        paint_store(batch->sample + i, v_rgba(code), V_LANES, rgba);
+    }
 }
 
 static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
@@ -185,6 +198,8 @@ static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const paint_plan *plan,
 {
     if (plan->paint->samples)
         paint_samples(batch, plan, kind, shininess);
+    else if (plan->paint->srgb && plan->paint->gathers && V_LANES == 16) /* narrower, it makes no difference */
+        paint_srgb_at_once(batch, plan, kind, shininess, rgba);
     else if (plan->paint->srgb)
         paint_srgb(batch, plan, kind, shininess, rgba);
     else

@@ -1,7 +1,7 @@
 /* Textures: 8-bit pixels become the texels that filters read, once, and their mip levels with them.
  *
- * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels have 16 bits a
- * channel, of linear light; without sRGB and mip levels 8, and then the texel below stands beside each.
+ * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels are 16-bit
+ * linear light; without sRGB and mip levels they are the 8-bit c, half the memory to fetch.
  * Each level has a border of one texel, by its wrap: the neighbours that a filter blends always stand side by side.
  */
 #include <stdlib.h>
@@ -15,7 +15,9 @@ struct e3d_texture {
     uint8_t *texels; /* of all levels */
 };
 
-enum { TEXEL = 8 }; /* bytes: four of 16 bits, or four of 8 and those below */
+enum { PAST = 16 }; /* bytes that kernels may read past the last texel */
+
+static size_t texel_bytes(const e3d_texture *texture) { return (size_t)texture->view.channel_bits / 2; }
 
 static size_t bordered(int32_t width, int32_t height) { return ((size_t)width + 2) * ((size_t)height + 2); }
 
@@ -42,10 +44,10 @@ static int chain_levels(int32_t width, int32_t height)
 }
 
 /* The first texel of a row inside the border. */
-static uint8_t *row_of(const e3d_level *level, int32_t y)
+static uint8_t *row_of(const e3d_texture *texture, const e3d_level *level, int32_t y)
 {
     size_t texel = ((size_t)y + 1) * ((size_t)level->width + 2) + 1;
-    return (uint8_t *)level->texels + TEXEL * texel;
+    return (uint8_t *)level->texels + texel * texel_bytes(texture);
 }
 
 static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t table[256], uint16_t *out)
@@ -57,14 +59,6 @@ static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t tabl
     }
 }
 
-/* Signed: what blends them multiplies signed bytes. */
-static void shift_row(const uint8_t *pixels, int32_t width, uint8_t *out)
-{
-    for (int32_t x = 0; x < width; x++, pixels += 4, out += TEXEL)
-        for (int k = 0; k < 4; k++)
-            out[k] = pixels[k] ^ 0x80;
-}
-
 static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode_srgb)
 {
     const e3d_level *level = &texture->view.levels[0];
@@ -74,20 +68,20 @@ static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode
         table[c] = decode_srgb ? SRGB_TO_LINEAR16[c] : (uint16_t)(c * 257);
     for (int32_t y = 0; y < level->height; y++, pixels += row_bytes) {
         if (texture->view.channel_bits == 8)
-            shift_row(pixels, level->width, row_of(level, y));
+            memcpy(row_of(texture, level, y), pixels, row_bytes);
         else
-            decode_row(pixels, level->width, table, (uint16_t *)row_of(level, y));
+            decode_row(pixels, level->width, table, (uint16_t *)row_of(texture, level, y));
     }
 }
 
 /* 16-bit texels only. */
-static void halve(const e3d_level *fine, const e3d_level *coarse)
+static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_level *coarse)
 {
     for (int32_t y = 0; y < coarse->height; y++) {
         int32_t y1 = 2 * y + 1 < fine->height ? 2 * y + 1 : fine->height - 1;
-        const uint16_t *top = (const uint16_t *)row_of(fine, 2 * y);
-        const uint16_t *bottom = (const uint16_t *)row_of(fine, y1);
-        uint16_t *out = (uint16_t *)row_of(coarse, y);
+        const uint16_t *top = (const uint16_t *)row_of(texture, fine, 2 * y);
+        const uint16_t *bottom = (const uint16_t *)row_of(texture, fine, y1);
+        uint16_t *out = (uint16_t *)row_of(texture, coarse, y);
         for (int32_t x = 0; x < coarse->width; x++) {
             size_t x0 = 8 * (size_t)x, x1 = 2 * x + 1 < fine->width ? x0 + 4 : 4 * (size_t)fine->width - 4;
             for (int k = 0; k < 4; k++)
@@ -96,50 +90,45 @@ static void halve(const e3d_level *fine, const e3d_level *coarse)
     }
 }
 
-static void fill_border(const e3d_level *level, int repeat)
+static void fill_border(const e3d_texture *texture, const e3d_level *level)
 {
-    size_t row_bytes = TEXEL * ((size_t)level->width + 2);
+    size_t texel = texel_bytes(texture), row_bytes = ((size_t)level->width + 2) * texel;
     int32_t last = level->height - 1;
+    int repeat = texture->view.wrap == E3D_REPEAT;
     for (int32_t y = 0; y <= last; y++) {
-        uint8_t *first = row_of(level, y), *end = first + TEXEL * (size_t)level->width;
-        memcpy(first - TEXEL, repeat ? end - TEXEL : first, TEXEL);
-        memcpy(end, repeat ? first : end - TEXEL, TEXEL);
+        uint8_t *first = row_of(texture, level, y), *end = first + (size_t)level->width * texel;
+        memcpy(first - texel, repeat ? end - texel : first, texel);
+        memcpy(end, repeat ? first : end - texel, texel);
     }
-    memcpy(row_of(level, -1) - TEXEL, row_of(level, repeat ? last : 0) - TEXEL, row_bytes);
-    memcpy(row_of(level, last + 1) - TEXEL, row_of(level, repeat ? 0 : last) - TEXEL, row_bytes);
-}
-
-/* 8-bit texels only: to each, the one below it; to the last row's, itself. */
-static void pair_rows(const e3d_level *level)
-{
-    size_t across = (size_t)level->width + 2, count = across * ((size_t)level->height + 2);
-    uint8_t *texel = (uint8_t *)level->texels;
-    for (size_t i = 0; i < count; i++, texel += TEXEL)
-        memcpy(texel + 4, i + across < count ? texel + TEXEL * across : texel, 4);
+    memcpy(row_of(texture, level, -1) - texel, row_of(texture, level, repeat ? last : 0) - texel, row_bytes);
+    memcpy(row_of(texture, level, last + 1) - texel, row_of(texture, level, repeat ? 0 : last) - texel,
+           row_bytes);
 }
 
 static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t width, int32_t height,
                          int decode_srgb)
 {
     uint8_t *texels = texture->texels;
-    size_t total = 4 * chain_texels(width, height, texture->view.level_count);
     for (int l = 0; l < texture->view.level_count; l++) {
         e3d_level *level = &texture->view.levels[l];
         *level = (e3d_level){texels, width, height};
         if (l)
-            halve(level - 1, level);
+            halve(texture, level - 1, level);
         else
             decode(texture, pixels, decode_srgb);
-        fill_border(level, texture->view.wrap == E3D_REPEAT);
-        if (texture->view.channel_bits == 8)
-            pair_rows(level);
-        texels += TEXEL * bordered(width, height);
+        fill_border(texture, level);
+        texels += bordered(width, height) * texel_bytes(texture);
         width = width > 1 ? width >> 1 : 1;
         height = height > 1 ? height >> 1 : 1;
     }
-    uint16_t *channels = (uint16_t *)texture->texels;
-    for (size_t i = 0; i < total && texture->view.channel_bits == 16; i++)
-        channels[i] ^= 0x8000; /* levels were averaged unsigned */
+}
+
+/* As what blends them takes them; levels were averaged before. */
+static void make_signed(e3d_texture *texture, size_t bytes)
+{
+    size_t channel = texel_bytes(texture) / 4;
+    for (size_t i = channel - 1; i < bytes; i += channel)
+        texture->texels[i] ^= 0x80;
 }
 
 e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height, int decode_srgb,
@@ -158,12 +147,14 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     texture->view.channel_bits = decode_srgb || levels > 1 ? 16 : 8;
     texture->view.filter = filter;
     texture->view.wrap = wrap;
-    texture->texels = malloc(TEXEL * chain_texels(width, height, levels));
+    size_t bytes = chain_texels(width, height, levels) * texel_bytes(texture);
+    texture->texels = malloc(bytes + PAST);
     if (!texture->texels) {
         free(texture);
         return E3D_OUT_OF_MEMORY;
     }
     build_levels(texture, pixels, width, height, decode_srgb);
+    make_signed(texture, bytes);
     *out = texture;
     return E3D_OK;
 }

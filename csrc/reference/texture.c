@@ -34,14 +34,13 @@ static float wrap_coordinate(float s, e3d_wrap wrap)
     return m > 1.0f ? 2.0f - m : m;
 }
 
-/* A channel in as many bits as there are. Levels have a border, and 8-bit texels a copy of those below, which go unused here;
- * both are stored as signed numbers. */
+/* A channel in as many bits as there are, which are stored signed. Levels have a border, which goes unused here. */
 static uint32_t texel(const e3d_texture_view *texture, const e3d_level *level, int32_t column, int32_t row, int c)
 {
-    size_t at = (size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1);
+    size_t at = 4 * ((size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1)) + (size_t)c;
     if (texture->channel_bits == 8)
-        return (uint32_t)(((const int8_t *)level->texels)[8 * at + (size_t)c] + 128);
-    return (uint32_t)(((const int16_t *)level->texels)[4 * at + (size_t)c] + 32768);
+        return (uint32_t)(((const int8_t *)level->texels)[at] + 128);
+    return (uint32_t)(((const int16_t *)level->texels)[at] + 32768);
 }
 
 static void sample_nearest(const e3d_texture_view *texture, const e3d_level *level, float s, float t, float out[CHANNELS])

@@ -358,7 +358,7 @@ cdef class Kernels:
 
     def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int channel_bits,
                 const int32_t[:, ::1] sizes, int filter, int wrap, const float[::1] base):
-        """``texels``: the levels with their borders, 8 bytes a texel."""
+        """``texels``: the levels with their borders, and 16 bytes more."""
         cdef e3d_texture_view view = texture_view(texels, channel_bits, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
@@ -546,7 +546,7 @@ cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
         view.levels[level].texels = &texels[start]
         view.levels[level].width = sizes[level, 0]
         view.levels[level].height = sizes[level, 1]
-        start += 8 * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
+        start += channel_bits // 2 * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
     return view
 
 

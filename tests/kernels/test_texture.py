@@ -156,21 +156,18 @@ def sampled(texels, sizes, filter_name, wrap, uv, lod, bits):
 def stored(texels, sizes, wrap, bits):
     """The bytes of all levels as the kernels read them: within a border of one texel each.
 
-    They are signed; beside each of 8 bits is the one below, which the last row does not need.
+    They are signed; what stands behind them may be read.
     """
     pieces, start = [], 0
     for width, height in sizes.tolist():
         level = texels[start : start + width * height].reshape(height, width, 4)
         mode = "wrap" if wrap == "repeat" else "edge"
         level = np.pad(level, ((1, 1), (1, 1), (0, 0)), mode)
-        if bits == 8:
-            below = np.concatenate((level[1:], np.full_like(level[:1], 77)))
-            level = np.stack((level, below), axis=2)
         kind = np.int8 if bits == 8 else np.int16
         level = (level.astype(np.int32) - 2 ** (bits - 1)).astype(kind)
         pieces.append(level.ravel().view(np.uint8))
         start += width * height
-    return np.concatenate(pieces)
+    return np.concatenate([*pieces, np.full(16, 77, np.uint8)])
 
 
 def random_coordinates(rng, shape, sizes):

@@ -1,7 +1,6 @@
 /* texture: samples of one texture, filtered with 8-bit weights (R28-R30).
  *
- * Texels have a border (core/texture.c): the second of two neighbours always is the next in memory. Those of 8 bits have the
- * one below beside them: what a filter blends is one load.
+ * Texels have a border (core/texture.c): the second of two neighbours always is the next in memory.
  */
 
 /* R29: a texture coordinate in [0, 1]. */
@@ -93,23 +92,17 @@ static ALWAYS_INLINE texel_lanes texture_mix16(const void *texels, const int32_t
     return t;
 }
 
-static ALWAYS_INLINE texel_lanes texture_mix8(const void *texels, const int32_t *at, vi32 across, vi32 down)
+/* `stride`: from row to row. (Rows in pairs would be one load, but texels of twice the size don't fit a core's caches as well.) */
+static ALWAYS_INLINE texel_lanes texture_mix8(const char *texels, int32_t stride, const int32_t *at, vi32 across, vi32 down)
 {
     texel_lanes t;
     vi32 four[3], twice = v_madd16(down, v_seti(0x0101)); /* in both bytes of the lower half */
     across = v_xori(v_ori(across, v_shl(across, 16)), v_seti(0x000000FF)); /* 255 - weight, weight */
     down = v_xori(v_ori(twice, v_shl(twice, 16)), v_seti(0x00FF00FF));
-    v_quads8(texels, at, four);
+    v_quads8(texels, texels + 4 * (intptr_t)stride, at, four);
     for (int k = 0; k < 3; k++)
         t.c[k] = v_float(v_addi(v_madd16(v_madd8(down, four[k]), across), v_seti(128 * 255 * 255)));
     return t;
-}
-
-static ALWAYS_INLINE texel_lanes texture_mix(const void *texels, int bits, const texture_places *places, int i)
-{
-    vi32 across = v_loadi(places->across + i), down = v_loadi(places->down + i);
-    return bits == 8 ? texture_mix8(texels, places->top + i, across, down)
-                     : texture_mix16(texels, places->top + i, places->bottom + i, across, down);
 }
 
 /* All levels, to look up by lane. */
@@ -156,12 +149,12 @@ static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)
 
 static inline texel_lanes texture_take(const void *texels, int bits, vi32 at)
 {
-    vi32 first = v_gatheri(texels, v_shl(at, 1));
     if (bits == 8) {
-        vi32 texel = v_xori(first, v_seti((int32_t)0x80808080)), byte = v_seti(255);
+        vi32 texel = v_xori(v_gatheri(texels, at), v_seti((int32_t)0x80808080)), byte = v_seti(255);
         return (texel_lanes){{v_float(v_andi(texel, byte)), v_float(v_andi(v_shr(texel, 8), byte)),
                               v_float(v_andi(v_shr(texel, 16), byte))}};
     }
+    vi32 first = v_gatheri(texels, v_shl(at, 1));
     vi32 second = v_gatheri(texels, v_addi(v_shl(at, 1), v_seti(1))), low = v_seti(0xFFFF), shift = v_seti((int32_t)0x80008000);
     first = v_xori(first, shift);
     second = v_xori(second, shift);
@@ -229,35 +222,44 @@ static ALWAYS_INLINE void texture_find_all(texture_plan *plan, int filter, int b
                      filter == E3D_TRILINEAR ? load_level(batch, i, plan->view->level_count) : v_seti(0));
 }
 
-static ALWAYS_INLINE void texture_ask(const char *texels, int filter, int bits, const texture_places *places, int i)
+static ALWAYS_INLINE void texture_ask(const texture_plan *plan, int filter, int bits, const texture_places *places, int i)
 {
-    __builtin_prefetch(texels + 8 * (intptr_t)places->top[i]);
-    if (bits == 16 && filter != E3D_NEAREST)
-        __builtin_prefetch(texels + 8 * (intptr_t)places->bottom[i]);
+    const char *texels = plan->view->levels[0].texels;
+    intptr_t size = bits / 2, top = places->top[i];
+    __builtin_prefetch(texels + size * top);
+    if (filter != E3D_NEAREST)
+        __builtin_prefetch(texels + size * (bits == 8 ? top + plan->levels.stride[0] : places->bottom[i]));
 }
 
 /* Neighbours mostly share a line of the cache: every fourth will do. */
 static ALWAYS_INLINE void texture_ask_all(const texture_plan *plan, int filter, int bits, int count)
 {
-    const char *texels = plan->view->levels[0].texels;
     for (int i = 0; i < count; i += 4) {
-        texture_ask(texels, filter, bits, &plan->near, i);
+        texture_ask(plan, filter, bits, &plan->near, i);
         if (filter == E3D_TRILINEAR && plan->lod[i] & 255)
-            texture_ask(texels, filter, bits, &plan->far, i);
+            texture_ask(plan, filter, bits, &plan->far, i);
     }
+}
+
+/* Of 8-bit texels there is one level. */
+static ALWAYS_INLINE texel_lanes texture_mix(const texture_plan *plan, int bits, const texture_places *places, int i)
+{
+    const void *texels = plan->view->levels[0].texels;
+    vi32 across = v_loadi(places->across + i), down = v_loadi(places->down + i);
+    return bits == 8 ? texture_mix8(texels, plan->levels.stride[0], places->top + i, across, down)
+                     : texture_mix16(texels, places->top + i, places->bottom + i, across, down);
 }
 
 static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filter, int bits, int i)
 {
-    const void *texels = plan->view->levels[0].texels;
     if (filter == E3D_NEAREST)
-        return texture_take(texels, bits, v_loadi(plan->near.top + i));
-    texel_lanes a = texture_mix(texels, bits, &plan->near, i);
+        return texture_take(plan->view->levels[0].texels, bits, v_loadi(plan->near.top + i));
+    texel_lanes a = texture_mix(plan, bits, &plan->near, i);
     if (filter == E3D_BILINEAR)
         return a;
     vi32 between = v_andi(v_loadi(plan->lod + i), v_seti(255));
     if (v_any(v_gti(between, v_seti(0)))) { /* some samples are between two levels */
-        texel_lanes b = texture_mix(texels, bits, &plan->far, i);
+        texel_lanes b = texture_mix(plan, bits, &plan->far, i);
         vf32 weight = v_mul(v_float(between), v_setf(0x1p-8f));
         for (int k = 0; k < 3; k++)
             a.c[k] = v_add(a.c[k], v_mul(v_sub(b.c[k], a.c[k]), weight));

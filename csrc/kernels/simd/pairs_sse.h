@@ -11,13 +11,25 @@
 
 enum { PAIRS_EVEN = _MM_SHUFFLE(2, 0, 2, 0), PAIRS_ODD = _MM_SHUFFLE(3, 1, 3, 1) };
 
-/* Shuffles four pixels to each channel's bytes side by side, and the other way round. */
+/* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
 static inline __m128i pairs_quad(void)
+{
+    return _mm_setr_epi8(0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15);
+}
+
+/* Shuffles each channel's bytes to four pixels. */
+static inline __m128i pairs_pixels(void)
 {
     return _mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
 }
 
-/* A pair of 8 bytes each. */
+/* A pair of 4-byte texels, and the two after it. */
+static inline __m128i pairs_eight(const void *texels, int32_t at)
+{
+    return _mm_loadu_si128((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
+}
+
+/* A pair of 8-byte texels. */
 static inline __m128i pairs_one(const void *texels, int32_t at)
 {
     return _mm_loadu_si128((const __m128i *)((const char *)texels + 8 * (intptr_t)at));

@@ -153,12 +153,12 @@ static inline vi32 v_rgbaf(const vf32 c[3]) {
     return v_rgba(code);
 }
 
-/* The texels of 8-bit channels at[lane] and at[lane] + 1 of each lane, each with the one below it: red, green and blue, in the
- * bytes of a lane upper left, lower left, upper right, lower right. */
-static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) {
-    const uint8_t *t = (const uint8_t *)texels + 8 * (intptr_t)at[0];
+/* The texels of 8-bit channels at[lane] and at[lane] + 1 of each lane, and those below: red, green and blue, in the bytes of a
+ * lane upper left, lower left, upper right, lower right. Sixteen bytes are read from each left one on. */
+static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
+    const uint8_t *t = (const uint8_t *)texels + 4 * (intptr_t)at[0], *b = (const uint8_t *)below + 4 * (intptr_t)at[0];
     for (int k = 0; k < 3; k++)
-        out[k] = (int32_t)(t[k] | (uint32_t)t[4 + k] << 8 | (uint32_t)t[8 + k] << 16 | (uint32_t)t[12 + k] << 24);
+        out[k] = (int32_t)(t[k] | (uint32_t)b[k] << 8 | (uint32_t)t[4 + k] << 16 | (uint32_t)b[4 + k] << 24);
 }
 
 /* The texels of 16-bit channels at[lane] and at[lane] + 1 of each lane: red, green and blue, of the left texel in the low

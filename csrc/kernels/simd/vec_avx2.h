@@ -156,10 +156,13 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
     *odd = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_ODD));
 }
-static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) {
+static inline __m256i pairs_two(const void *texels, const int32_t *at) {
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_eight(texels, at[0])), pairs_eight(texels, at[4]), 1);
+}
+static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m256i q[4], order = _mm256_broadcastsi128_si256(pairs_quad());
     for (int i = 0; i < 4; i++)
-        q[i] = _mm256_shuffle_epi8(_mm256_set_m128i(pairs_one(texels, at[i + 4]), pairs_one(texels, at[i])), order);
+        q[i] = _mm256_shuffle_epi8(_mm256_unpacklo_epi64(pairs_two(texels, at + i), pairs_two(below, at + i)), order);
     __m256i low01 = _mm256_unpacklo_epi32(q[0], q[1]), low23 = _mm256_unpacklo_epi32(q[2], q[3]);
     __m256i high01 = _mm256_unpackhi_epi32(q[0], q[1]), high23 = _mm256_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm256_unpacklo_epi64(low01, low23);
@@ -168,7 +171,7 @@ static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) 
 }
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m256i low = _mm256_packs_epi32(c[0], c[1]), high = _mm256_packs_epi32(c[2], _mm256_set1_epi32(255));
-    return _mm256_shuffle_epi8(_mm256_packus_epi16(low, high), _mm256_broadcastsi128_si256(pairs_quad()));
+    return _mm256_shuffle_epi8(_mm256_packus_epi16(low, high), _mm256_broadcastsi128_si256(pairs_pixels()));
 }
 static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
     const vi32 code[3] = {_mm256_cvtps_epi32(c[0]), _mm256_cvtps_epi32(c[1]), _mm256_cvtps_epi32(c[2])};

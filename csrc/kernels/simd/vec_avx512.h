@@ -203,16 +203,20 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
 }
 
 /* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
-static inline vi32 pairs_four(const void *texels, const int32_t *at) {
-    __m512i four = _mm512_castsi128_si512(pairs_one(texels, at[0]));
-    four = _mm512_inserti32x4(four, pairs_one(texels, at[4]), 1);
-    four = _mm512_inserti32x4(four, pairs_one(texels, at[8]), 2);
-    return _mm512_inserti32x4(four, pairs_one(texels, at[12]), 3);
+static inline vi32 pairs_join(__m128i a, __m128i b, __m128i c, __m128i d) {
+    __m512i four = _mm512_inserti32x4(_mm512_castsi128_si512(a), b, 1);
+    return _mm512_inserti32x4(_mm512_inserti32x4(four, c, 2), d, 3);
 }
-static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) {
+static inline vi32 pairs_four(const void *texels, const int32_t *at) {
+    return pairs_join(pairs_one(texels, at[0]), pairs_one(texels, at[4]), pairs_one(texels, at[8]), pairs_one(texels, at[12]));
+}
+static inline vi32 pairs_four8(const void *texels, const int32_t *at) {
+    return pairs_join(pairs_eight(texels, at[0]), pairs_eight(texels, at[4]), pairs_eight(texels, at[8]), pairs_eight(texels, at[12]));
+}
+static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
     for (int i = 0; i < 4; i++)
-        q[i] = _mm512_shuffle_epi8(pairs_four(texels, at + i), order);
+        q[i] = _mm512_shuffle_epi8(_mm512_unpacklo_epi64(pairs_four8(texels, at + i), pairs_four8(below, at + i)), order);
     __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
     __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm512_unpacklo_epi64(low01, low23);
@@ -221,7 +225,7 @@ static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) 
 }
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m512i low = _mm512_packs_epi32(c[0], c[1]), high = _mm512_packs_epi32(c[2], _mm512_set1_epi32(255));
-    return _mm512_shuffle_epi8(_mm512_packus_epi16(low, high), _mm512_broadcast_i32x4(pairs_quad()));
+    return _mm512_shuffle_epi8(_mm512_packus_epi16(low, high), _mm512_broadcast_i32x4(pairs_pixels()));
 }
 static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
     const vi32 code[3] = {_mm512_cvtps_epi32(c[0]), _mm512_cvtps_epi32(c[1]), _mm512_cvtps_epi32(c[2])};

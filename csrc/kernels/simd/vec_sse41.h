@@ -163,10 +163,10 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = _mm_shuffle_ps(a, b, PAIRS_EVEN);
     *odd = _mm_shuffle_ps(a, b, PAIRS_ODD);
 }
-static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) {
+static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m128i q[4];
     for (int i = 0; i < 4; i++)
-        q[i] = _mm_shuffle_epi8(pairs_one(texels, at[i]), pairs_quad());
+        q[i] = _mm_shuffle_epi8(_mm_unpacklo_epi64(pairs_eight(texels, at[i]), pairs_eight(below, at[i])), pairs_quad());
     __m128i low01 = _mm_unpacklo_epi32(q[0], q[1]), low23 = _mm_unpacklo_epi32(q[2], q[3]);
     __m128i high01 = _mm_unpackhi_epi32(q[0], q[1]), high23 = _mm_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm_unpacklo_epi64(low01, low23);
@@ -175,7 +175,7 @@ static inline void v_quads8(const void *texels, const int32_t *at, vi32 out[3]) 
 }
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m128i low = _mm_packs_epi32(c[0], c[1]), high = _mm_packs_epi32(c[2], _mm_set1_epi32(255));
-    return _mm_shuffle_epi8(_mm_packus_epi16(low, high), pairs_quad());
+    return _mm_shuffle_epi8(_mm_packus_epi16(low, high), pairs_pixels());
 }
 static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
     const vi32 code[3] = {_mm_cvtps_epi32(c[0]), _mm_cvtps_epi32(c[1]), _mm_cvtps_epi32(c[2])};

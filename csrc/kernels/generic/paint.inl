@@ -58,16 +58,7 @@ static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_p
         color[k] = color[0];
 }
 
-/* The first lanes of a vector: all, where those past the batch's end are the last sample again. */
-static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int lanes, uint32_t *rgba)
-{
-    if (lanes == V_LANES && v_store_runs(rgba, sample, pixels))
-        return;
-    uint32_t pixel[V_LANES];
-    v_storei(pixel, pixels);
-    for (int lane = 0; lane < lanes; lane++)
-        rgba[sample[lane]] = pixel[lane];
-}
+/* ---- albedo ---- */
 
 static inline void paint_base(e3d_batch *batch, const float base[3])
 {
@@ -75,8 +66,6 @@ static inline void paint_base(e3d_batch *batch, const float base[3])
         for (int i = 0; i < batch->count; i += V_LANES)
             v_storef(batch->color[k] + i, v_setf(base[k]));
 }
-
-/* ---- albedo ---- */
 
 static inline paint_source paint_untextured(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint)
 {
@@ -111,6 +100,17 @@ static ALWAYS_INLINE void paint_load(const e3d_batch *batch, int i, vf32 color[3
 }
 
 /* ---- pixels ---- */
+
+/* The first lanes of a vector: all, where those past the batch's end are the last sample again. */
+static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int lanes, uint32_t *rgba)
+{
+    if (lanes == V_LANES && v_store_runs(rgba, sample, pixels))
+        return;
+    uint32_t pixel[V_LANES];
+    v_storei(pixel, pixels);
+    for (int lane = 0; lane < lanes; lane++)
+        rgba[sample[lane]] = pixel[lane];
+}
 
 /* The colours of one vector. */
 static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint_plan *plan, paint_kind kind, float shininess,

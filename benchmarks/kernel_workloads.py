@@ -136,9 +136,10 @@ def visible(extent, least, count, counted):
 
 def find_runs():
     rng = np.random.default_rng(3)
-    slot = np.repeat(rng.integers(-1, 9, 700), 6)[: TILE * TILE + PAD].astype(np.int32)
-    out = np.zeros(TILE * TILE + 1, RUN).view(np.uint8)
-    return TILE * TILE, lambda kernels: kernels.find_runs(slot, TILE, TILE, out)
+    tile, out = np.zeros(1, VISIBLE_TILE), np.zeros(TILE * TILE + 1, RUN).view(np.uint8)
+    tile["id"] = np.repeat(rng.integers(-1, 9, 700), 6)[: TILE * TILE + PAD]
+    tile = tile.view(np.uint8)
+    return TILE * TILE, lambda kernels: kernels.find_runs(tile, TILE, TILE, out)
 
 
 def shading_inputs():

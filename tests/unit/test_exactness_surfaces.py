@@ -130,14 +130,14 @@ def test_minified_by_a_power_of_two_shows_the_mip_level(backend, level):
 
 
 def test_bilinear_halfway_between_texels_is_the_average(backend):
-    """One pixel over 2 x 2 texels: weights of 128/256 each, rounded at the end."""
+    """One pixel over 2 x 2 texels: weights of 128/256 each, rows rounded down."""
     pixels = np.array(
         [[[0, 9, 255, 255], [3, 10, 255, 255]], [[200, 11, 0, 255], [1, 12, 254, 255]]]
     )
     mesh = square(texture=e3d.Texture(pixels.astype(np.uint8), filter="bilinear", wrap="clamp"))
     frame = draw([mesh], (1, 1), backend, outputs=("albedo",))
-    total = LINEAR16[pixels[..., :3]].sum(axis=(0, 1)) * 128 * 128
-    expected = ((total + 32768) >> 16).astype(np.float32) * UNORM16
+    rows = (LINEAR16[pixels[..., :3]].sum(axis=1) * 128) >> 8
+    expected = (rows.sum(axis=0) * 128).astype(np.float32) * (UNORM16 / np.float32(256))
     assert np.array_equal(frame.albedo[0, 0], expected)
 
 

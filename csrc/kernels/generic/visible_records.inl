@@ -170,9 +170,9 @@ static inline int records_hidden(const records_lanes *in, int lane, float near, 
     if (!(near > middle))
         return 0;
     for (int s = 0; s <= in->strips[lane]; s++) {
-        const float *z = tile->z + records_sample(in->from[s][lane]);
-        for (int32_t left = in->vectors[s][lane]; left > 0; left--, z += ROWS * E3D_TILE)
-            far = v_max(rows_loadf(z), far);
+        size_t i = records_sample(in->from[s][lane]); /* behind the tile, where no rows are left */
+        for (int32_t left = in->vectors[s][lane]; left > 0; left--, i += ROWS * E3D_TILE)
+            far = v_max(rows_loadf(tile->z + i), far);
     }
     return !v_any(v_mnot(v_gt(v_setf(near), far)));
 }

@@ -5,7 +5,6 @@ static inline vi32 encode_bucket(vf32 v) { return v_maxi(v_subi(v_shr(v_asi(v), 
 static inline vi32 encode_code(vf32 v, vi32 sum) { return v_shr(v_addi(sum, v_andi(v_asi(v), v_seti(0xFFFF))), 17); }
 static inline vi32 encode_srgb(vf32 v) { return encode_code(v, v_gatheri(ENCODE_SUMS, encode_bucket(v))); }
 
-
 /* Whether all samples are grey. */
 static inline int encode_is_grey(const vf32 color[3])
 {
@@ -18,10 +17,10 @@ static inline vf32 encode_clamp(vf32 v) { return v_min(v_max(v, v_setf(0.0f)), v
 /* One vector of colours, which are not clamped yet. */
 static inline vi32 encode_vector_linear(const vf32 color[3])
 {
-    vf32 code[3];
+    vi32 code[3];
     for (int k = 0; k < 3; k++)
-        code[k] = v_mul(v_setf(255.0f), v_min(v_setf(1.0f), color[k])); /* of no number: no number */
-    return v_rgbaf(code);
+        code[k] = v_rint(v_mul(v_setf(255.0f), v_min(v_setf(1.0f), color[k]))); /* of no number: below 0 */
+    return v_rgba(code);
 }
 
 /* Looking up takes long, and white in white light is common. */

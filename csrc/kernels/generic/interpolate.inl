@@ -86,7 +86,7 @@ static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], 
         v_storef(batch->normal[c] + v->i, n[c]);
 }
 
-/* Quotients and roots take long: what needs none comes first. (Processors look ahead some hundred operations only.) */
+/* What nothing needs is not divided: quotients and roots take long. */
 static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vector *v, const void *how)
 {
     int wanted = *(const int *)how;

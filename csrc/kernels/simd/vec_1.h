@@ -2,7 +2,7 @@
  *
  * Every word means the same in each vec_*.h: see docs/exactness.md for min, max and the conversions.
  * v_min(a, b) = a < b ? a : b, v_max(a, b) = a > b ? a : b; v_rint is to nearest even, v_trunc
- * towards zero; both take values that fit int32. A zero of v_floor has either sign.
+ * towards zero, of values that fit int32; of others v_rint gives INT32_MIN. A zero of v_floor has either sign.
  */
 #ifndef E3D_VEC_1_H
 #define E3D_VEC_1_H
@@ -96,7 +96,7 @@ static inline vi32 v_madd8(vi32 a, vi32 b) {
 #define v_sra(a, n) ((int32_t)(a) >> (n))
 
 static inline vf32 v_float(vi32 a) { return (float)a; }
-static inline vi32 v_rint(vf32 a) { return (int32_t)lrintf(a); }
+static inline vi32 v_rint(vf32 a) { return a >= -0x1p31f && a < 0x1p31f ? (int32_t)lrintf(a) : INT32_MIN; }
 static inline vi32 v_trunc(vf32 a) { return (int32_t)a; }
 static inline vf32 v_floor(vf32 a) { return floorf(a); }
 static inline vf32 v_asf(vi32 a) { float f; memcpy(&f, &a, 4); return f; }
@@ -143,14 +143,12 @@ static inline vf32 v_pick(const void *base, vpick p) { float v; memcpy(&v, (cons
 /* Of the lanes of a, then b: the first, third and so on; the others. */
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) { *even = a; *odd = b; }
 
-/* Red, green and blue, of 0 .. 255, to bytes of one lane, with an alpha of 255. */
-static inline vi32 v_rgba(const vi32 c[3]) { return (vi32)((uint32_t)(c[0] | c[1] << 8 | c[2] << 16) | 0xFF000000u); }
-/* The same of what is at most 255, rounded to nearest even; what is below 0, or no number, counts as 0. */
-static inline vi32 v_rgbaf(const vf32 c[3]) {
-    vi32 code[3];
+/* Red, green and blue, at most 255, to bytes of one lane, with an alpha of 255; what is below 0 counts as 0. */
+static inline vi32 v_rgba(const vi32 c[3]) {
+    uint32_t pixel = 0xFF000000u;
     for (int k = 0; k < 3; k++)
-        code[k] = c[k] > 0.0f ? (int32_t)lrintf(c[k]) : 0;
-    return v_rgba(code);
+        pixel |= (uint32_t)(c[k] > 0 ? c[k] : 0) << (8 * k);
+    return (vi32)pixel;
 }
 
 /* The texels of 8-bit channels at[lane] and at[lane] + 1 of each lane, and those below: red, green and blue, in the bytes of a

@@ -173,10 +173,6 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     __m256i low = _mm256_packs_epi32(c[0], c[1]), high = _mm256_packs_epi32(c[2], _mm256_set1_epi32(255));
     return _mm256_shuffle_epi8(_mm256_packus_epi16(low, high), _mm256_broadcastsi128_si256(pairs_pixels()));
 }
-static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
-    const vi32 code[3] = {_mm256_cvtps_epi32(c[0]), _mm256_cvtps_epi32(c[1]), _mm256_cvtps_epi32(c[2])};
-    return v_rgba(code);
-}
 
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m256i q[4], halves = _mm256_broadcastsi128_si256(pairs_halves());

@@ -227,10 +227,6 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     __m512i low = _mm512_packs_epi32(c[0], c[1]), high = _mm512_packs_epi32(c[2], _mm512_set1_epi32(255));
     return _mm512_shuffle_epi8(_mm512_packus_epi16(low, high), _mm512_broadcast_i32x4(pairs_pixels()));
 }
-static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
-    const vi32 code[3] = {_mm512_cvtps_epi32(c[0]), _mm512_cvtps_epi32(c[1]), _mm512_cvtps_epi32(c[2])};
-    return v_rgba(code);
-}
 
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m512i q[4], halves = _mm512_broadcast_i32x4(pairs_halves());

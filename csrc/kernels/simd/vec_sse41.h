@@ -177,10 +177,6 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     __m128i low = _mm_packs_epi32(c[0], c[1]), high = _mm_packs_epi32(c[2], _mm_set1_epi32(255));
     return _mm_shuffle_epi8(_mm_packus_epi16(low, high), pairs_pixels());
 }
-static inline vi32 v_rgbaf(const vf32 c[3]) { /* what doesn't fit becomes INT32_MIN, and that is packed as 0 */
-    const vi32 code[3] = {_mm_cvtps_epi32(c[0]), _mm_cvtps_epi32(c[1]), _mm_cvtps_epi32(c[2])};
-    return v_rgba(code);
-}
 
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m128i q[4];

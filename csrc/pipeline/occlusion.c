@@ -11,8 +11,8 @@
 #include "core/vectors.h"
 #include "pipeline/frame.h"
 
-/* Keeping tiles and trying boxes costs about what drawing a third of the clusters does (measured). */
-enum { FRAMES_BETWEEN_TRIALS = 32 };
+/* Trying boxes costs about what drawing a third of the clusters does, and keeping a tile what drawing one does (measured). */
+enum { FRAMES_BETWEEN_TRIALS = 64 };
 
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };
 _Static_assert(BLOCKS == 8 && E3D_BLOCK == 8, "a row of blocks and the columns of a block are compared eight at a time");
@@ -77,10 +77,26 @@ int e3d_occlusion_pays(const e3d_context *context)
     return covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 
+/* The clusters that showed when they were last tried. */
+static int64_t count_seen(const e3d_context *context)
+{
+    int64_t seen = 0;
+    for (int64_t unit = 0; unit < context->groups; unit++)
+        seen += __builtin_popcount(context->seen[unit]);
+    return seen;
+}
+
+/* Whether few of the clusters that were tried are hidden. A frame that remembers nothing draws much before it knows what hides
+ * it: the next one tries all of that, and tells. */
+static int hides_little(const e3d_context *context, const e3d_stats *stats)
+{
+    int64_t tried = stats->clusters_drawn + stats->clusters_occluded, hidden = tried - count_seen(context);
+    return context->renderer->remembers && 10 * (hidden - e3d_tile_count(context)) < 3 * tried;
+}
+
 void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats)
 {
-    int64_t tried = stats->clusters_drawn + stats->clusters_occluded;
-    context->renderer->frames_without_rounds = 10 * stats->clusters_occluded < 3 * tried ? FRAMES_BETWEEN_TRIALS : 0;
+    context->renderer->frames_without_rounds = hides_little(context, stats) ? FRAMES_BETWEEN_TRIALS : 0;
 }
 
 /* ---- a box against what is drawn ---- */

@@ -47,7 +47,8 @@ typedef struct e3d_viewport {
     float guard_x, guard_y;
 } e3d_viewport;
 
-/* A cluster's vertices in clip space and on the screen. */
+/* A cluster's vertices in clip space and on the screen. (All arrays are whole lines of the cache, where the struct is aligned to
+ * one: vectors that lie across two take twice as long.) */
 typedef struct e3d_vertices {
     float x[E3D_CLUSTER_VERTICES], y[E3D_CLUSTER_VERTICES], z[E3D_CLUSTER_VERTICES],
         w[E3D_CLUSTER_VERTICES];
@@ -55,7 +56,10 @@ typedef struct e3d_vertices {
     int32_t sx[E3D_CLUSTER_VERTICES], sy[E3D_CLUSTER_VERTICES]; /* snapped, 1/256 sample */
     int32_t code[E3D_CLUSTER_VERTICES]; /* outcodes, where `special`; else all are in the frustum, and x, y, z, w may be missing */
     int32_t count, special;
+    int32_t unused[14]; /* the next one begins with a line of the cache, too */
 } e3d_vertices;
+
+_Static_assert(sizeof(e3d_vertices) % 64 == 0, "vertices are whole lines of the cache");
 
 /* ---- setup ---- */
 
@@ -113,12 +117,13 @@ typedef struct e3d_tile_span {
 
 enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES, E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };
 
-/* Small triangles of some clusters, with area and a sample in their boxes: snapped corners, and the ID of the fragments. */
+/* Small triangles of some clusters, with area and a sample in their boxes: snapped corners, and the ID of the fragments. (Arrays
+ * are whole lines of the cache, as those of e3d_vertices.) */
 typedef int32_t e3d_small_words[E3D_SMALLS + E3D_PAD];
 typedef struct e3d_small_triangles {
-    int32_t count;
     e3d_small_words x[3], y[3], id;
     float zn[3][E3D_SMALLS + E3D_PAD];
+    int32_t count;
 } e3d_small_triangles;
 
 /* A chain of blocks; without any, both are E3D_NO_BLOCK. */

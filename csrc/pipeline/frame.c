@@ -11,12 +11,12 @@
 
 static e3d_worker *create_worker(uint32_t number)
 {
-    void *memory = NULL;
-    e3d_worker *worker = calloc(1, sizeof *worker);
-    if (!worker || posix_memalign(&memory, 64, sizeof(e3d_tile_memory))) {
-        free(worker);
+    void *own = NULL, *memory = NULL;
+    if (posix_memalign(&own, 64, sizeof(e3d_worker)) || posix_memalign(&memory, 64, sizeof(e3d_tile_memory))) {
+        free(own);
         return NULL;
     }
+    e3d_worker *worker = memset(own, 0, sizeof *worker);
     worker->number = number;
     worker->tile = memory;
     memset(worker->tile, 0, sizeof *worker->tile); /* padding is read, never used */

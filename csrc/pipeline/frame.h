@@ -76,7 +76,7 @@ typedef struct e3d_fragment_set {
     e3d_array earlier; /* the same, of the round that finished the tiles */
     e3d_array drawn;  /* e3d_drawn_cluster: of the whole frame, since IDs tell of them */
     size_t earlier_drawn; /* how many there were when the tiles were finished */
-    e3d_small_triangles triangles; /* that are fragments soon */
+    _Alignas(64) e3d_small_triangles triangles; /* that are fragments soon */
 } e3d_fragment_set;
 
 /* A box as the camera sees it. */
@@ -178,7 +178,7 @@ typedef struct e3d_places {
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
     e3d_fragment_set fragments;
-    e3d_vertices vertices[2]; /* of the cluster that is drawn, and of the next */
+    _Alignas(64) e3d_vertices vertices[2]; /* of the cluster that is drawn, and of the next */
     e3d_survivors survivors;
     e3d_tile_memory *tile;
     e3d_visible_tile *visible; /* of the tile that is being drawn */

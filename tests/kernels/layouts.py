@@ -49,7 +49,7 @@ FACING = np.dtype([("eye", "f4", 3), ("sign", "i4"), ("length", "f4", 4), ("scal
 VERTICES = np.dtype(
     [(name, "f4", CLUSTER_VERTICES) for name in ("x", "y", "z", "w", "iw", "zn")]
     + [(name, "i4", CLUSTER_VERTICES) for name in ("sx", "sy", "code")]
-    + [("count", "i4"), ("special", "i4")]
+    + [("count", "i4"), ("special", "i4"), ("unused", "i4", 14)]
 )
 SURVIVORS = np.dtype([("draw", "u8"), ("small", "u8"), ("clip", "u8")])
 RECORD = np.dtype(
@@ -59,8 +59,8 @@ RECORD = np.dtype(
 )
 TILE_SPAN = np.dtype([("first", "u4"), ("last", "u4")])
 SMALL_TRIANGLES = np.dtype(
-    [("count", "i4"), ("x", "i4", (3, SMALLS + PAD)), ("y", "i4", (3, SMALLS + PAD))]
-    + [("id", "i4", SMALLS + PAD), ("zn", "f4", (3, SMALLS + PAD))]
+    [("x", "i4", (3, SMALLS + PAD)), ("y", "i4", (3, SMALLS + PAD)), ("id", "i4", SMALLS + PAD)]
+    + [("zn", "f4", (3, SMALLS + PAD)), ("count", "i4")]
 )
 BIN = np.dtype([("first", "u4"), ("last", "u4")])
 FRAGMENT_BLOCK = np.dtype(

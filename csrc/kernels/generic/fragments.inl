@@ -228,9 +228,9 @@ static inline int fragment_wide(const e3d_small_triangles *triangles, const e3d_
 
 enum { FRAGMENT_MANY = 512, FRAGMENT_ROOM = FRAGMENT_MANY + V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD };
 typedef struct fragment_buffer {
-    int count;
     float z[FRAGMENT_ROOM];
     int32_t id[FRAGMENT_ROOM], at[FRAGMENT_ROOM]; /* the number of a tile, and in E3D_TILE_SAMPLES of one that of a sample */
+    int count;
 } fragment_buffer;
 
 /* A vector of places, of which `count` are of fragments. */
@@ -323,9 +323,9 @@ static inline void fragment_finish(const fragment_vector *vectors, int triangles
 
 static void kernel_fragments(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out)
 {
-    e3d_small_triangles wide;
+    _Alignas(64) e3d_small_triangles wide;
     fragment_vector vectors[E3D_SMALLS / V_LANES];
-    fragment_buffer buffer;
+    _Alignas(64) fragment_buffer buffer;
     uint8_t covers[E3D_SMALLS + E3D_PAD];
     int count = triangles->count;
     wide.count = triangles->count = buffer.count = out->fragments = 0;

@@ -38,21 +38,29 @@ static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sa
     return count;
 }
 
+/* Of at most a block's rows: where runs end is found for all of them first, so that a row whose number of runs was not foreseen
+ * doesn't wait for that. */
 static inline int runs_of_rows(const int32_t *row, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
-    int count = 0;
-    for (int end = sample + rows * E3D_TILE; sample < end; sample += E3D_TILE, row += E3D_TILE) {
-        int first = 0;
-        for (uint64_t ends = runs_ends(row, width); ends; ends &= ends - 1) {
-            int last = __builtin_ctzll(ends);
-            int32_t owner = row[first];
-            out[count] = (e3d_run){owner, (uint16_t)(sample + first), (uint16_t)(last - first + 1)};
-            count += owner >= 0;
-            *owners |= owner;
-            first = last + 1;
+    uint64_t ends_of[RASTER_BLOCK];
+    int32_t all = 0;
+    e3d_run *next = out;
+    for (int y = 0; y < rows; y++)
+        ends_of[y] = runs_ends(row + y * E3D_TILE, width);
+    for (int y = 0; y < rows; y++, row += E3D_TILE, sample += E3D_TILE) {
+        uint32_t first = (uint32_t)sample;
+        for (uint64_t ends = ends_of[y]; ends; ends &= ends - 1) {
+            size_t last = (size_t)__builtin_ctzll(ends);
+            uint32_t end = (uint32_t)sample + (uint32_t)last + 1;
+            int32_t owner = row[last];
+            *next = (e3d_run){owner, (uint16_t)first, (uint16_t)(end - first)};
+            next += owner >= 0;
+            all |= owner;
+            first = end;
         }
     }
-    return count;
+    *owners |= all;
+    return (int)(next - out);
 }
 
 static int kernel_find_runs(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps)

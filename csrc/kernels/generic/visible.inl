@@ -392,6 +392,10 @@ static void kernel_raster_settle(e3d_visible_tile *tile, const e3d_record_table 
 
 static void kernel_raster_measure(e3d_visible_tile *tile, float columns[][E3D_BLOCK])
 {
+#ifdef E3D_NARROW_TABLE /* of eight lanes, each is a column */
+    E3D_NARROW_TABLE.raster_measure(tile, columns);
+    return;
+#endif
     for (uint64_t left = ~tile->noted; left; left &= left - 1) {
         int block = __builtin_ctzll(left);
         visible_columns(tile, block, columns[block]);

@@ -27,6 +27,7 @@ from kernels.pieces import Triangle, meta_of, plane_through
 from kernels.test_raster import BEYOND_FAR, LARGEST, random_corners, random_tile
 
 RECORDS = 60  # a tile
+STRIPS = 127  # the longest side of what is drawn in strips
 TILES = 40
 TILE_BLOCKS = (TILE // BLOCK) ** 2
 GUARD = 256  # bytes of poison around a tile
@@ -45,8 +46,8 @@ def corners_of(rng, kind, tile_x, tile_y):
         return (centre + rng.uniform(-1, 1, (3, 2)) * rng.choice([256, 380])).astype(np.int64)
     if kind == "whole":  # most of the tile's blocks, or all
         return (centre + rng.uniform(-1, 1, (3, 2)) * 256 * rng.choice([150, 900])).astype(np.int64)
-    if kind == "limit":  # sides of a tile or several: where 32 bits stop to hold an edge at once
-        side = 256 * TILE * rng.choice([1, 1, 4, 20], 2) + rng.integers(-1, 2, 2)
+    if kind == "limit":  # sides of a tile or several: where 16 bits stop to hold a step, or 32 an edge
+        side = 256 * rng.choice([TILE, STRIPS, STRIPS, 4 * TILE, 20 * TILE], 2) + rng.integers(-1, 2, 2)
         place = (centre - side * rng.random(2)).astype(np.int64)
         half = rng.permutation([(0, 0), (1, 0), (1, 1), (0, 1)])[:3]
         return place + half * side

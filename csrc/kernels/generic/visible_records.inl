@@ -7,6 +7,7 @@
 enum { RECORDS_DOWN = 16 }; /* of two numbers in a word, one of columns and one of rows, the latter's place */
 enum { RECORDS_FEW = 1024 }; /* samples in strips: to look at all for what shows takes less than to leave out blocks */
 enum { RECORDS_WIDER = 3 }; /* of so many records of a vector, one that is no narrower than a block */
+enum { RECORDS_SIDE = 127 }; /* samples: what is no longer is drawn in strips; steps of its edges fit 16 bits, twice its area 31 */
 enum { RECORDS_STRIPS = E3D_TILE / ROW_LANES };
 
 /* Of each lane's record, relative to the tile: its box of samples; its edges at the tile's first sample, and what a step changes;
@@ -21,8 +22,7 @@ typedef struct records_lanes {
     uint32_t from[RECORDS_STRIPS][V_LANES];
     float row[RECORDS_STRIPS][V_LANES];
     int32_t vectors[RECORDS_STRIPS][V_LANES];
-    /* Sides no longer than a tile, so that edges fit 32 bits and steps 16: these are drawn in strips; of these, few samples; of these,
-     * narrower than a block. */
+    /* Sides of RECORDS_SIDE at most: these are drawn in strips; of these, few samples; of these, narrower than a block. */
     uint32_t small, few, narrow;
 } records_lanes;
 
@@ -45,7 +45,7 @@ static inline record_edge records_edge(const vi32 x[3], const vi32 y[3], int k, 
 /* R10. Strips of vectors start at the box's first column, or as far to the right as the tile allows. */
 static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_visible_tile *tile, vi32 first[2], records_lanes *out)
 {
-    vi32 zero = v_seti(0), up = v_seti(127), down = v_seti(128), side = v_seti(256 * E3D_TILE);
+    vi32 zero = v_seti(0), up = v_seti(127), down = v_seti(128), side = v_seti(256 * RECORDS_SIDE);
     vi32 left = setup_min3(x[0], x[1], x[2]), right = setup_max3(x[0], x[1], x[2]);
     vi32 top = setup_min3(y[0], y[1], y[2]), bottom = setup_max3(y[0], y[1], y[2]);
     vi32 base_x = v_subi(v_maxi(v_sra(v_addi(left, up), 8), zero), v_seti(tile->x));

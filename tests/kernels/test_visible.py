@@ -46,8 +46,9 @@ def corners_of(rng, kind, tile_x, tile_y):
         return (centre + rng.uniform(-1, 1, (3, 2)) * rng.choice([256, 380])).astype(np.int64)
     if kind == "whole":  # most of the tile's blocks, or all
         return (centre + rng.uniform(-1, 1, (3, 2)) * 256 * rng.choice([150, 900])).astype(np.int64)
-    if kind == "limit":  # sides of a tile or several: where 16 bits stop to hold a step, or 32 an edge
-        side = 256 * rng.choice([TILE, STRIPS, STRIPS, 4 * TILE, 20 * TILE], 2) + rng.integers(-1, 2, 2)
+    if kind == "limit":  # where 16 bits stop to hold a step, or 32 an edge
+        samples = rng.choice([TILE, STRIPS, STRIPS, 4 * TILE, 20 * TILE], 2)
+        side = 256 * samples + rng.integers(-1, 2, 2)
         place = (centre - side * rng.random(2)).astype(np.int64)
         half = rng.permutation([(0, 0), (1, 0), (1, 1), (0, 1)])[:3]
         return place + half * side

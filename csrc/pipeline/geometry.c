@@ -20,6 +20,8 @@ typedef struct walker {
     const e3d_instance *instance;
     uint32_t order; /* of the instance's first primitive */
     const e3d_vertices *vertices; /* of the cluster that is drawn */
+    const e3d_cluster *next;      /* of the next item, */
+    unsigned next_left;           /* and those of them that are to be fetched: a bit each */
 } walker;
 
 /* ---- triangles ---- */
@@ -317,6 +319,18 @@ static ALWAYS_INLINE void fetch_cluster(const e3d_cluster *c, int32_t components
         __builtin_prefetch(from);
 }
 
+/* The next one of a group, or behind its last ones those of the next item: all at once would wait for each other. */
+static void fetch_next(walker *w, const e3d_cluster *clusters, unsigned left)
+{
+    const e3d_mesh *mesh = w->draw->mesh;
+    if (left) {
+        fetch_cluster(&clusters[__builtin_ctz(left)], mesh->desc.components);
+    } else if (w->next_left) {
+        fetch_cluster(&w->next[__builtin_ctz(w->next_left)], 3);
+        w->next_left &= w->next_left - 1;
+    }
+}
+
 static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_fate fate)
 {
     w->worker->counters.clusters[fate]++;
@@ -359,15 +373,12 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
         shown = find_fates(w, item, group, asked, fates);
     int closely = w->context->round.tested && is_wide(&item->view.samples);
     unsigned left = closely ? shown : shown & wanted;
-    if (left & (left - 1))
-        fetch_cluster(&clusters[__builtin_ctz(left & (left - 1))], mesh->desc.components);
     if (left)
         transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->vertices[0]);
     for (int turn = 0; left; left &= left - 1, turn ^= 1) {
         int k = __builtin_ctz(left);
         unsigned after = left & (left - 1);
-        if (after & (after - 1))
-            fetch_cluster(&clusters[__builtin_ctz(after & (after - 1))], mesh->desc.components);
+        fetch_next(w, clusters, after & (after - 1));
         if (after) /* before this one is drawn: neither waits for the other */
             transform_cluster(w, item, &clusters[__builtin_ctz(after)], &w->worker->vertices[!turn]);
         w->vertices = &w->worker->vertices[turn];
@@ -438,6 +449,26 @@ static void fetch_seen(const e3d_context *context, const e3d_item *item)
         __builtin_prefetch(&context->seen[item->unit]);
 }
 
+/* The first two clusters of the next item that may be drawn, as far as one can tell yet; what tells of all of them is fetched. */
+static void set_next(walker *w, const e3d_item *item)
+{
+    const e3d_context *context = w->context;
+    const e3d_mesh *mesh = context->draws[item->draw].mesh;
+    size_t first = (size_t)item->group * E3D_GROUP_CLUSTERS, count = (size_t)mesh->cluster_count;
+    unsigned may = context->round.choice == E3D_ALL_ITEMS    ? ~0u
+                   : context->round.choice == E3D_SEEN_ITEMS ? __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED)
+                                                             : 0;
+    w->next_left = 0;
+    if (mesh->desc.components != 3 || count <= E3D_GROUP_CLUSTERS)
+        return;
+    w->next = &mesh->clusters[first];
+    for (size_t k = 0; k < E3D_GROUP_CLUSTERS && first + k < count; k++) {
+        __builtin_prefetch(&w->next[k]);
+        if (may >> k & 1 && !(w->next_left & (w->next_left - 1)))
+            w->next_left |= 1u << k;
+    }
+}
+
 static int64_t items_of(const e3d_round *round) { return round->end - round->first; }
 
 /* As many that threads seldom ask for more, and few enough that none waits long for another's last ones. */
@@ -462,6 +493,9 @@ static void walk_items(walker *w)
                 fetch_seen(context, &context->items[i + 2 * AHEAD]);
             if (i + AHEAD < round->end)
                 fetch_item(context, &context->items[i + AHEAD]);
+            w->next_left = 0;
+            if (i + 1 < round->end)
+                set_next(w, &context->items[i + 1]);
             run_item(w, &context->items[i]);
         }
     }

@@ -74,34 +74,47 @@ static inline int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
     return 1;
 }
 
-static int misses_tile(const e3d_record *record, int32_t x, int32_t y)
+/* Edge functions where they are greatest in a tile: one that is negative rejects it. And what the next tile changes. */
+typedef struct tile_edges {
+    int64_t most[3], across[3], down[3];
+} tile_edges;
+
+static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile_edges *out)
 {
     for (int k = 0; k < 3; k++) {
         e3d_edge edge = e3d_edge_at(record, k, x, y);
-        int64_t most = edge.e + (edge.a > 0 ? (int64_t)edge.a * (E3D_TILE - 1) : 0) +
-                       (edge.b > 0 ? (int64_t)edge.b * (E3D_TILE - 1) : 0);
-        if (most < 0)
-            return 1;
+        int64_t a = edge.a, b = edge.b;
+        out->most[k] = edge.e + (a > 0 ? a * (E3D_TILE - 1) : 0) + (b > 0 ? b * (E3D_TILE - 1) : 0);
+        out->across[k] = a * E3D_TILE;
+        out->down[k] = b * E3D_TILE;
     }
-    return 0;
 }
 
 /* To the tiles of a span that the record does not miss. Within the picture it meets each of a single row or column. */
 static int bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
                     e3d_tile_span span, uint32_t id)
 {
-    const e3d_record *record = (const e3d_record *)set->records.data + number;
     e3d_bin *bins = set->bins.data;
     int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
     int32_t x1 = (int32_t)(span.last & 0xFFFF), y1 = (int32_t)(span.last >> 16);
-    for (int32_t ty = y0; ty <= y1; ty++)
+    tile_edges edges = {{0}, {0}, {0}};
+    if (x0 < x1 && y0 < y1)
+        find_tile_edges((const e3d_record *)set->records.data + number, x0 * E3D_TILE, y0 * E3D_TILE, &edges);
+    for (int32_t ty = y0; ty <= y1; ty++) {
+        int64_t most[3] = {edges.most[0], edges.most[1], edges.most[2]};
         for (int32_t tx = x0; tx <= x1; tx++) {
-            if (x0 < x1 && y0 < y1 && misses_tile(record, tx * E3D_TILE, ty * E3D_TILE))
+            int misses = (most[0] | most[1] | most[2]) < 0;
+            for (int k = 0; k < 3; k++)
+                most[k] += edges.across[k];
+            if (misses)
                 continue;
             if (!push(set, &bins[(int64_t)ty * context->tiles_x + tx], id))
                 return 0;
             worker->counters.bin_entries++;
         }
+        for (int k = 0; k < 3; k++)
+            edges.most[k] += edges.down[k];
+    }
     return 1;
 }
 

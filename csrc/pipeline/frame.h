@@ -17,16 +17,17 @@ enum { E3D_LINES_A_UNIT = 256 }; /* lines, points or edges in one unit of work *
 
 /* ---- prepared once a frame ---- */
 
-/* One instance's matrices (R1, R2). */
+/* One instance's matrices (R1, R2). What is found of all of them comes first: few of those that are many are seen. */
 typedef struct e3d_instance {
-    float clip[16], world[12], normal[9];
-    e3d_facing facing;
-    float frozen[16]; /* clip matrix of the camera that culls, where another one draws */
-    int32_t mirrored;
+    float clip[16];
     int32_t draw;
     int32_t shows; /* its mesh's box may be in view */
     int32_t ready; /* not only its clip matrix is known */
     uint32_t order; /* of its first primitive */
+    int32_t mirrored;
+    float world[12], normal[9];
+    e3d_facing facing;
+    float frozen[16]; /* clip matrix of the camera that culls, where another one draws */
 } e3d_instance;
 
 /* A draw in the frame: where its instances and units of work start. */

@@ -80,11 +80,30 @@ static void select_run(const e3d_tree *t, int32_t block, int level, uint64_t *bi
     }
 }
 
+/* The same, without asking what is inside. */
+static int surely_outside(const plane *p, const e3d_block *b)
+{
+    e3d_v4 m[3];
+    for (int k = 0; k < 3; k++)
+        m[k] = p->p[k] * (p->positive[k] ? b->high[k] : b->low[k]);
+    return lanes_of(((m[0] + m[1]) + m[2]) + p->p[3] < -(p->slack[0] * b->reach + p->slack[1]));
+}
+
+static void visit_leaf(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits)
+{
+    const e3d_block *b = e3d_tree_level(t, 0) + at.block;
+    const int32_t *items = (const int32_t *)t->items.data + 4 * (size_t)at.block;
+    int there = lanes_of(b->low[0] <= b->high[0]);
+    for (int left = at.planes; left; left &= left - 1)
+        there &= ~surely_outside(&planes[__builtin_ctz(left)], b);
+    for (; there; there &= there - 1)
+        select_item(items[__builtin_ctz(there)], bits);
+}
+
 static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits, entry *stack,
                   int *top)
 {
     const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
-    const int32_t *items = t->items.data;
     int out = ~lanes_of(b->low[0] <= b->high[0]), within[4] = {0}, inside;
     for (int i = 0; i < 6; i++)
         if (at.planes >> i & 1) {
@@ -96,12 +115,14 @@ static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *
         int left = at.planes & ~within[lane];
         if (out >> lane & 1)
             continue;
-        if (at.level == 0)
-            select_item(items[4 * at.block + lane], bits);
-        else if (left == 0)
+        if (left == 0)
             select_run(t, 4 * at.block + lane, at.level - 1, bits);
-        else
+        else {
+            const char *next = (const char *)(e3d_tree_level(t, at.level - 1) + 4 * at.block + lane);
+            __builtin_prefetch(next);
+            __builtin_prefetch(next + 64);
             stack[(*top)++] = (entry){4 * at.block + lane, at.level - 1, left};
+        }
     }
 }
 
@@ -130,8 +151,13 @@ void e3d_tree_select(const e3d_tree *t, const double *boxes, const double clip_f
     set_planes(planes, clip_from_world, widen);
     if (t->levels)
         stack[top++] = (entry){0, t->levels - 1, 63};
-    while (top)
-        visit(t, planes, stack[--top], bits, stack, &top);
+    while (top) {
+        entry at = stack[--top];
+        if (at.level == 0)
+            visit_leaf(t, planes, at, bits);
+        else
+            visit(t, planes, at, bits, stack, &top);
+    }
     select_loose(t, planes, boxes, bits);
     e3d_fpenv_leave(saved);
 }

@@ -2,28 +2,53 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/always_inline.h"
 #include "core/pool.h"
 #include "core/srgb_tables.h"
 #include "pipeline/frame.h"
 
-static void multiply(const double a[16], const double b[16], double out[16])
+/* Two columns of a row. */
+typedef double double2 __attribute__((vector_size(16)));
+
+static inline double2 load2(const double *p)
 {
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            out[4 * r + c] = ((a[4 * r] * b[c] + a[4 * r + 1] * b[4 + c]) + a[4 * r + 2] * b[8 + c]) +
-                             a[4 * r + 3] * b[12 + c];
+    double2 v;
+    memcpy(&v, p, sizeof v);
+    return v;
 }
 
-static void pose_matrix(const e3d_draw *draw, int32_t instance, double out[16])
+/* b: rows, in registers: what is stored by ones is waited for when it is loaded by twos. */
+static ALWAYS_INLINE void multiply_rows(const double a[16], const double2 b[4][2], double out[16])
+{
+    for (int r = 0; r < 4; r++)
+        for (int h = 0; h < 2; h++) {
+            const double *m = a + 4 * r;
+            double2 sum = ((m[0] * b[0][h] + m[1] * b[1][h]) + m[2] * b[2][h]) + m[3] * b[3][h];
+            memcpy(out + 4 * r + 2 * h, &sum, sizeof sum);
+        }
+}
+
+static inline void multiply(const double a[16], const double b[16], double out[16])
+{
+    double2 rows[4][2];
+    for (int r = 0; r < 4; r++)
+        for (int h = 0; h < 2; h++)
+            rows[r][h] = load2(b + 4 * r + 2 * h);
+    multiply_rows(a, rows, out);
+}
+
+static void multiply_pose(const double a[16], const e3d_draw *draw, int32_t instance, double out[16])
 {
     if (draw->pose_kind == E3D_POSE_MATRIX) {
+        double pose[16];
         for (int k = 0; k < 16; k++)
-            out[k] = draw->poses[16 * (size_t)instance + k];
+            pose[k] = draw->poses[16 * (size_t)instance + k];
+        multiply(a, pose, out);
         return;
     }
     const float *p = draw->poses + 4 * (size_t)instance;
-    const double matrix[16] = {p[3], 0, 0, p[0], 0, p[3], 0, p[1], 0, 0, p[3], p[2], 0, 0, 0, 1};
-    memcpy(out, matrix, sizeof matrix);
+    const double2 rows[4][2] = {{{p[3], 0}, {0, p[0]}}, {{0, p[3]}, {0, p[1]}}, {{0, 0}, {p[3], p[2]}}, {{0, 0}, {0, 1}}};
+    multiply_rows(a, rows, out);
 }
 
 /* R2 */
@@ -59,15 +84,13 @@ static const double LAST_ROW[4] = {0, 0, 0, 1};
 
 static void world_matrix(const e3d_draw *draw, int32_t instance, double out[16])
 {
-    double pose[16];
     if (draw->pose_kind == E3D_POSE_NONE) {
         memcpy(out, draw->world_from_node, 16 * sizeof *out);
     } else if (draw->pose_kind == E3D_POSE_NODES) {
         memcpy(out, draw->node_worlds + 12 * (size_t)instance, 12 * sizeof *out);
         memcpy(out + 12, LAST_ROW, sizeof LAST_ROW);
     } else {
-        pose_matrix(draw, instance, pose);
-        multiply(draw->world_from_node, pose, out);
+        multiply_pose(draw->world_from_node, draw, instance, out);
     }
 }
 

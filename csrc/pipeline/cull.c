@@ -34,11 +34,16 @@ static void find_corners(const float clip[16], const float lo[3], const float hi
     out->slack = size * splat(0x1p-20f); /* some f32 roundings here, some in the kernels */
 }
 
-static int32_t sample_of(float sample, int32_t samples)
+/* Left, top, right and bottom of what lies from lo to hi: samples whose centres are within, and a quarter of a sample more for the
+ * snapping. */
+static e3d_box samples_of(const e3d_viewport *viewport, float4 lo, float4 hi)
 {
-    float last = (float)(samples - 1);
-    sample = sample > 0.0f ? sample : 0.0f; /* a NaN, too */
-    return (int32_t)(sample < last ? sample : last);
+    float half_x = 0.5f * (float)viewport->width, half_y = 0.5f * (float)viewport->height;
+    float last_x = (float)(viewport->width - 1), last_y = (float)(viewport->height - 1);
+    const float4 sides = {lo[0], hi[1], hi[0], lo[1]}, scale = {half_x, -half_y, half_x, -half_y};
+    const float4 centre = {half_x, half_y, half_x, half_y}, before = {0.75f, 0.75f, 0.25f, 0.25f}, last = {last_x, last_y, last_x, last_y};
+    int4 at = __builtin_convertvector(less_of(more_of(centre + sides * scale - before, splat(0.0f)), last), int4); /* a NaN: 0 */
+    return (e3d_box){at[0], at[1], at[2], at[3]};
 }
 
 /* Rectangle of samples and nearest depth; the whole picture and the nearest of all where the box reaches the eye. */
@@ -60,13 +65,8 @@ static void project(const e3d_viewport *viewport, const corners *c, e3d_box_view
     float4 moved = (c->slack + most * splat(c->slack[3])) / splat(w);
     lo -= moved;
     hi += moved;
-    float half_x = 0.5f * (float)viewport->width, half_y = 0.5f * (float)viewport->height;
     out->near = lo[2] > E3D_NEAREST ? lo[2] : E3D_NEAREST;
-    /* Samples whose centres are within, and a quarter of a sample more for the snapping. */
-    out->samples = (e3d_box){sample_of(lo[0] * half_x + half_x - 0.75f, viewport->width),
-                            sample_of(half_y - hi[1] * half_y - 0.75f, viewport->height),
-                            sample_of(hi[0] * half_x + half_x - 0.25f, viewport->width),
-                            sample_of(half_y - lo[1] * half_y - 0.25f, viewport->height)};
+    out->samples = samples_of(viewport, lo, hi);
 }
 
 /* 0: all corners are beyond one plane; E3D_BOX_INSIDE: none is beyond any. */
@@ -83,13 +83,11 @@ static int state_of(const corners *c)
         least_high = less_of(least_high, high);
     }
     float4 slack = c->slack + splat(c->slack[3]);
-    int inside = 1;
-    for (int k = 0; k < 3; k++) {
-        if (most_low[k] < -slack[k] || most_high[k] < -slack[k])
-            return E3D_BOX_OUTSIDE;
-        inside &= least_low[k] > slack[k] && least_high[k] > slack[k];
-    }
-    return inside ? E3D_BOX_INSIDE : E3D_BOX_CROSSES;
+    const int three = 7; /* w is compared, too, but doesn't count */
+    if ((lanes_of(most_low < -slack) | lanes_of(most_high < -slack)) & three)
+        return E3D_BOX_OUTSIDE;
+    int inside = lanes_of(least_low > slack) & lanes_of(least_high > slack) & three;
+    return inside == three ? E3D_BOX_INSIDE : E3D_BOX_CROSSES;
 }
 
 int e3d_box_state(const float clip[16], const float lo[3], const float hi[3])

@@ -6,6 +6,7 @@
  * lost. Every sum grows with the box, so that no box is lost for its parent's rounding either.
  */
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "core/fpenv.h"
@@ -69,10 +70,12 @@ static void select_item(int32_t item, uint64_t *bits) { bits[item >> 6] |= (uint
 /* Everything below a box: a run of leaves, without those that have no box now. */
 static void select_run(const e3d_tree *t, int32_t block, int level, uint64_t *bits)
 {
+    enum { AHEAD = 8 };
     int64_t first = (int64_t)block << 2 * level, end = first + ((int64_t)1 << 2 * level);
     const e3d_block *leaves = e3d_tree_level(t, 0);
     const int32_t *items = t->items.data;
     for (int64_t b = first; b < end && b < t->blocks_in[0]; b++) {
+        __builtin_prefetch((const void *)((uintptr_t)leaves + (uintptr_t)(b + AHEAD) * sizeof *leaves));
         int there = lanes_of(leaves[b].low[0] <= leaves[b].high[0]);
         for (int lane = 0; lane < 4; lane++)
             if (there >> lane & 1)
@@ -100,10 +103,20 @@ static void visit_leaf(const e3d_tree *t, const plane planes[6], entry at, uint6
         select_item(items[__builtin_ctz(there)], bits);
 }
 
+/* The blocks below one, side by side, ahead of their use; the last may not be there, which does no harm. */
+static void fetch_below(const e3d_tree *t, entry at)
+{
+    enum { LINE = 64 };
+    uintptr_t first = (uintptr_t)e3d_tree_level(t, at.level - 1) + 4 * (uintptr_t)at.block * sizeof(e3d_block);
+    for (uintptr_t line = 0; line < 4 * sizeof(e3d_block); line += LINE)
+        __builtin_prefetch((const void *)(first + line));
+}
+
 static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits, entry *stack,
                   int *top)
 {
     const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
+    fetch_below(t, at);
     int out = ~lanes_of(b->low[0] <= b->high[0]), within[4] = {0}, inside;
     for (int i = 0; i < 6; i++)
         if (at.planes >> i & 1) {
@@ -117,12 +130,8 @@ static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *
             continue;
         if (left == 0)
             select_run(t, 4 * at.block + lane, at.level - 1, bits);
-        else {
-            const char *next = (const char *)(e3d_tree_level(t, at.level - 1) + 4 * at.block + lane);
-            __builtin_prefetch(next);
-            __builtin_prefetch(next + 64);
+        else
             stack[(*top)++] = (entry){4 * at.block + lane, at.level - 1, left};
-        }
     }
 }
 

@@ -261,13 +261,14 @@ static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster
     return view->state == E3D_BOX_OUTSIDE ? E3D_FATE_OUTSIDE : E3D_FATE_DRAWN;
 }
 
-/* The fates of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. */
+/* The fates of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. What
+ * was seen faced the viewer, and is tried again in turn. */
 static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked,
                            e3d_fate fates[E3D_GROUP_CLUSTERS])
 {
     const e3d_context *context = w->context;
     e3d_box_view views[E3D_GROUP_CLUSTERS];
-    unsigned shown = 0, away = find_away(w, group);
+    unsigned shown = 0, away = context->round.choice == E3D_SEEN_ITEMS ? 0 : find_away(w, group);
     for (unsigned left = asked; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         fates[k] = fate_of(w, item, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1, &views[k]);

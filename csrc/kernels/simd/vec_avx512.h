@@ -25,18 +25,18 @@ static inline vf32 v_loadf(const float *p) { return _mm512_loadu_ps(p); }
 static inline vi32 v_loadi(const void *p) { return _mm512_loadu_si512(p); }
 static inline void v_storef(float *p, vf32 a) { _mm512_storeu_ps(p, a); }
 static inline void v_storei(void *p, vi32 a) { _mm512_storeu_si512(p, a); }
+/* The run of one lane, and others that would be in their places too. */
+static ALWAYS_INLINE __mmask16 run_of(const int32_t *at, int lane, vi32 row) {
+    return _mm512_cmpeq_epi32_mask(row, _mm512_set1_epi32(at[lane] - lane));
+}
+/* Most vectors have the first and the last run and none between, how many could hardly be foreseen: it isn't asked further. */
 static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a) {
-    enum { RUNS = 3 }; /* up to so many, a masked store each takes less */
     __m512i row = _mm512_sub_epi32(v_loadi(at), v_iota());
-    uint32_t first = _mm512_mask_cmpneq_epi32_mask(0xFFFE, row, _mm512_alignr_epi32(row, row, 15)) | 1u;
-    if (__builtin_popcount(first) > RUNS)
+    __mmask16 first = run_of(at, 0, row), last = run_of(at, 15, row);
+    if ((__mmask16)(first | last) != 0xFFFF)
         return 0;
-    while (first) {
-        int lane = __builtin_ctz(first);
-        first &= first - 1;
-        uint32_t run = (first & -first) - (1u << lane); /* up to the next, or the last */
-        _mm512_mask_storeu_epi32(base + at[lane] - lane, (__mmask16)run, a);
-    }
+    _mm512_mask_storeu_epi32(base + at[0], first, a);
+    _mm512_mask_storeu_epi32(base + at[15] - 15, last, a);
     return 1;
 }
 static inline void v_streami(void *p, vi32 a) { _mm512_stream_si512((__m512i *)p, a); }
@@ -210,13 +210,22 @@ static inline vi32 pairs_join(__m128i a, __m128i b, __m128i c, __m128i d) {
 static inline vi32 pairs_four(const void *texels, const int32_t *at) {
     return pairs_join(pairs_one(texels, at[0]), pairs_one(texels, at[4]), pairs_one(texels, at[8]), pairs_one(texels, at[12]));
 }
-static inline vi32 pairs_four8(const void *texels, const int32_t *at) {
-    return pairs_join(pairs_eight(texels, at[0]), pairs_eight(texels, at[4]), pairs_eight(texels, at[8]), pairs_eight(texels, at[12]));
+/* Pairs of both rows of lanes 0 and 4. Masked broadcasts are loads and blends, which more units do than shuffles. */
+static inline __m128i pairs_low(const void *texels, int32_t at) {
+    return _mm_loadl_epi64((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
+}
+static inline __m256i quads_two(const void *texels, const void *below, const int32_t *at) {
+    __m256i two = _mm256_castsi128_si256(pairs_low(texels, at[0]));
+    two = _mm256_mask_broadcastq_epi64(two, 2, pairs_low(below, at[0]));
+    two = _mm256_mask_broadcastq_epi64(two, 4, pairs_low(texels, at[4]));
+    return _mm256_mask_broadcastq_epi64(two, 8, pairs_low(below, at[4]));
 }
 static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
-    for (int i = 0; i < 4; i++)
-        q[i] = _mm512_shuffle_epi8(_mm512_unpacklo_epi64(pairs_four8(texels, at + i), pairs_four8(below, at + i)), order);
+    for (int i = 0; i < 4; i++) {
+        __m512i low = _mm512_castsi256_si512(quads_two(texels, below, at + i));
+        q[i] = _mm512_shuffle_epi8(_mm512_inserti64x4(low, quads_two(texels, below, at + i + 8), 1), order);
+    }
     __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
     __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm512_unpacklo_epi64(low01, low23);

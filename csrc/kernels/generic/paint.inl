@@ -135,10 +135,10 @@ static ALWAYS_INLINE void paint_linear(const e3d_batch *batch, const paint_plan 
     }
 }
 
-/* What a batch looks up in the table of R34: the places, then what is there. */
-typedef int32_t paint_sums[3][E3D_BATCH + E3D_PAD];
+/* Where a batch looks in the table of R34. */
+typedef int32_t paint_buckets[3][E3D_BATCH + E3D_PAD];
 
-static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, paint_sums sums)
+static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, paint_buckets buckets)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
@@ -146,17 +146,9 @@ static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, p
         for (int k = 0; k < paint_colors(kind); k++) {
             color[k] = encode_clamp(color[k]);
             v_storef(batch->color[k] + i, color[k]);
-            v_storei(sums[k] + i, encode_bucket(color[k]));
+            v_storei(buckets[k] + i, encode_bucket(color[k]));
         }
     }
-}
-
-/* One after the other: on most processors, loads and stores alone take less than gathering. */
-static inline void paint_look_up(int count, int colors, paint_sums sums)
-{
-    for (int k = 0; k < colors; k++)
-        for (int i = 0; i < count; i++)
-            sums[k][i] = ENCODE_SUMS[sums[k][i]];
 }
 
 static ALWAYS_INLINE void paint_srgb_at_once(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess,
@@ -174,13 +166,12 @@ static ALWAYS_INLINE void paint_srgb_at_once(const e3d_batch *batch, const paint
 
 static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
 {
-    _Alignas(64) paint_sums sums;
-    paint_find(batch, plan, kind, shininess, sums);
-    paint_look_up((batch->count + V_LANES - 1) / V_LANES * V_LANES, paint_colors(kind), sums);
+    _Alignas(64) paint_buckets buckets;
+    paint_find(batch, plan, kind, shininess, buckets);
     for (int i = 0; i < batch->count; i += V_LANES) {
         vi32 code[3];
         for (int k = 0; k < 3; k++)
-            code[k] = k < paint_colors(kind) ? encode_code(v_loadf(batch->color[k] + i), v_loadi(sums[k] + i)) : code[0];
+            code[k] = k < paint_colors(kind) ? encode_code(v_loadf(batch->color[k] + i), v_fetch(ENCODE_SUMS, buckets[k] + i)) : code[0];
         paint_store(batch->sample + i, v_rgba(code), V_LANES, rgba);
     }
 }

@@ -1,7 +1,7 @@
-/* Channels in a pixel, by loads of their own and shuffles (SSE4.1 and up): what the words v_quads8, v_pairs16 and v_rgba are
- * made of.
+/* Numbers from here and there and channels in a pixel, by loads of their own and shuffles (SSE4.1 and up): what the words
+ * v_fetch, v_quads8, v_pairs16 and v_rgba are made of.
  *
- * Gathers are no faster anywhere, and much slower on some processors.
+ * Gathers are seldom faster, and much slower on some processors.
  */
 #ifndef E3D_PAIRS_SSE_H
 #define E3D_PAIRS_SSE_H
@@ -10,6 +10,11 @@
 #include <stdint.h>
 
 enum { PAIRS_EVEN = _MM_SHUFFLE(2, 0, 2, 0), PAIRS_ODD = _MM_SHUFFLE(3, 1, 3, 1) };
+
+static inline __m128i fetch_four(const int32_t *table, const int32_t *at)
+{
+    return _mm_setr_epi32(table[at[0]], table[at[1]], table[at[2]], table[at[3]]);
+}
 
 /* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
 static inline __m128i pairs_quad(void)

@@ -202,13 +202,21 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
+/* By halves of eight lanes: a vector of them takes half as long to join, on processors that work on halves. */
+static inline vi32 halves_join(__m256i low, __m256i high) { return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1); }
+static inline __m256i fetch_eight(const int32_t *table, const int32_t *at) {
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(fetch_four(table, at)), fetch_four(table, at + 4), 1);
+}
+static inline vi32 v_fetch(const int32_t *table, const int32_t *at) {
+    return halves_join(fetch_eight(table, at), fetch_eight(table, at + 8));
+}
+
 /* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
-static inline vi32 pairs_join(__m128i a, __m128i b, __m128i c, __m128i d) {
-    __m512i four = _mm512_inserti32x4(_mm512_castsi128_si512(a), b, 1);
-    return _mm512_inserti32x4(_mm512_inserti32x4(four, c, 2), d, 3);
+static inline __m256i pairs_two(const void *texels, const int32_t *at) {
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_one(texels, at[0])), pairs_one(texels, at[4]), 1);
 }
 static inline vi32 pairs_four(const void *texels, const int32_t *at) {
-    return pairs_join(pairs_one(texels, at[0]), pairs_one(texels, at[4]), pairs_one(texels, at[8]), pairs_one(texels, at[12]));
+    return halves_join(pairs_two(texels, at), pairs_two(texels, at + 8));
 }
 /* Pairs of both rows of lanes 0 and 4. Masked broadcasts are loads and blends, which more units do than shuffles. */
 static inline __m128i pairs_low(const void *texels, int32_t at) {
@@ -222,10 +230,8 @@ static inline __m256i quads_two(const void *texels, const void *below, const int
 }
 static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
-    for (int i = 0; i < 4; i++) {
-        __m512i low = _mm512_castsi256_si512(quads_two(texels, below, at + i));
-        q[i] = _mm512_shuffle_epi8(_mm512_inserti64x4(low, quads_two(texels, below, at + i + 8), 1), order);
-    }
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm512_shuffle_epi8(halves_join(quads_two(texels, below, at + i), quads_two(texels, below, at + i + 8)), order);
     __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
     __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm512_unpacklo_epi64(low01, low23);

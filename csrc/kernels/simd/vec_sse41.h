@@ -42,6 +42,7 @@ static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
 }
+static inline vi32 v_fetch(const int32_t *table, const int32_t *at) { return fetch_four(table, at); }
 static inline vi32 v_gatheru8(const uint8_t *b, vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);

@@ -8,12 +8,24 @@
 
 #include <smmintrin.h>
 #include <stdint.h>
+#include <string.h>
 
 enum { PAIRS_EVEN = _MM_SHUFFLE(2, 0, 2, 0), PAIRS_ODD = _MM_SHUFFLE(3, 1, 3, 1) };
 
+/* Two indices, which are not negative, by one load: a core has fewer units for loads than for arithmetic. */
+static inline uint64_t index_two(const int32_t *at)
+{
+    uint64_t two;
+    memcpy(&two, at, sizeof two);
+    return two;
+}
+static inline uint64_t index_first(uint64_t two) { return (uint32_t)two; }
+static inline uint64_t index_second(uint64_t two) { return two >> 32; }
+
 static inline __m128i fetch_four(const int32_t *table, const int32_t *at)
 {
-    return _mm_setr_epi32(table[at[0]], table[at[1]], table[at[2]], table[at[3]]);
+    uint64_t low = index_two(at), high = index_two(at + 2);
+    return _mm_setr_epi32(table[index_first(low)], table[index_second(low)], table[index_first(high)], table[index_second(high)]);
 }
 
 /* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
@@ -35,9 +47,9 @@ static inline __m128i pairs_eight(const void *texels, int32_t at)
 }
 
 /* A pair of 8-byte texels. */
-static inline __m128i pairs_one(const void *texels, int32_t at)
+static inline __m128i pairs_one(const void *texels, uint64_t at)
 {
-    return _mm_loadu_si128((const __m128i *)((const char *)texels + 8 * (intptr_t)at));
+    return _mm_loadu_si128((const __m128i *)((const char *)texels + 8 * at));
 }
 
 /* Shuffles such a pair to left and right of each channel side by side. */

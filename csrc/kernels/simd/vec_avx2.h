@@ -181,7 +181,7 @@ static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3])
     __m256i q[4], halves = _mm256_broadcastsi128_si256(pairs_halves());
     for (int i = 0; i < 4; i++)
         q[i] = _mm256_shuffle_epi8(
-            _mm256_set_m128i(pairs_one(texels, at[i + 4]), pairs_one(texels, at[i])), halves);
+            _mm256_set_m128i(pairs_one(texels, (uint32_t)at[i + 4]), pairs_one(texels, (uint32_t)at[i])), halves);
     __m256i low01 = _mm256_unpacklo_epi32(q[0], q[1]), low23 = _mm256_unpacklo_epi32(q[2], q[3]);
     __m256i high01 = _mm256_unpackhi_epi32(q[0], q[1]), high23 = _mm256_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm256_unpacklo_epi64(low01, low23);

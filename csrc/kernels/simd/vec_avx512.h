@@ -211,14 +211,7 @@ static inline vi32 v_fetch(const int32_t *table, const int32_t *at) {
     return halves_join(fetch_eight(table, at), fetch_eight(table, at + 8));
 }
 
-/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. */
-static inline __m256i pairs_two(const void *texels, const int32_t *at) {
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_one(texels, at[0])), pairs_one(texels, at[4]), 1);
-}
-static inline vi32 pairs_four(const void *texels, const int32_t *at) {
-    return halves_join(pairs_two(texels, at), pairs_two(texels, at + 8));
-}
-/* Pairs of both rows of lanes 0 and 4. Masked broadcasts are loads and blends, which more units do than shuffles. */
+/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. Pairs of both rows of lanes 0 and 4. Masked broadcasts are loads and blends, which more units do than shuffles. */
 static inline __m128i pairs_low(const void *texels, int32_t at) {
     return _mm_loadl_epi64((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
 }
@@ -243,10 +236,18 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     return _mm512_shuffle_epi8(_mm512_packus_epi16(low, high), _mm512_broadcast_i32x4(pairs_pixels()));
 }
 
+static inline __m256i pairs_two(const void *texels, uint64_t a, uint64_t b) {
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_one(texels, a)), pairs_one(texels, b), 1);
+}
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m512i q[4], halves = _mm512_broadcast_i32x4(pairs_halves());
-    for (int i = 0; i < 4; i++)
-        q[i] = _mm512_shuffle_epi8(pairs_four(texels, at + i), halves);
+    for (int i = 0; i < 4; i += 2) { /* lanes i, i + 4 and so on, and those after them */
+        uint64_t a = index_two(at + i), b = index_two(at + i + 4), c = index_two(at + i + 8), d = index_two(at + i + 12);
+        __m256i low = pairs_two(texels, index_first(a), index_first(b)), high = pairs_two(texels, index_first(c), index_first(d));
+        __m256i low1 = pairs_two(texels, index_second(a), index_second(b)), high1 = pairs_two(texels, index_second(c), index_second(d));
+        q[i] = _mm512_shuffle_epi8(halves_join(low, high), halves);
+        q[i + 1] = _mm512_shuffle_epi8(halves_join(low1, high1), halves);
+    }
     __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
     __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm512_unpacklo_epi64(low01, low23);

@@ -182,7 +182,7 @@ static inline vi32 v_rgba(const vi32 c[3]) {
 static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m128i q[4];
     for (int i = 0; i < 4; i++)
-        q[i] = _mm_shuffle_epi8(pairs_one(texels, at[i]), pairs_halves());
+        q[i] = _mm_shuffle_epi8(pairs_one(texels, (uint32_t)at[i]), pairs_halves());
     __m128i low01 = _mm_unpacklo_epi32(q[0], q[1]), low23 = _mm_unpacklo_epi32(q[2], q[3]);
     __m128i high01 = _mm_unpackhi_epi32(q[0], q[1]), high23 = _mm_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm_unpacklo_epi64(low01, low23);

@@ -228,7 +228,8 @@ struct e3d_renderer {
     int remembers;                  /* this frame */
     int doubts;                     /* that what the last frame saw still shows: it drew it before it knew what hides it */
     int32_t frames_without_rounds; /* still to come: lately rounds did not pay, */
-    int64_t covered_at_trial;      /* with so many blocks covered; where many more are, they may */
+    int64_t covered_at_trial;      /* with so many blocks covered */
+    int64_t items_at_trial;        /* by so many items; where either are many more, rounds may pay */
     int64_t tiles_changed;         /* by what the frame before had not shown */
     int (*poll)(void *);
     void *poll_user;

@@ -68,12 +68,14 @@ int e3d_occlusion_pays(const e3d_context *context)
     e3d_renderer *renderer = context->renderer;
     for (int32_t w = 0; w < renderer->threads; w++)
         covered += renderer->workers[w]->counters.blocks;
-    if (renderer->frames_without_rounds > 0 && 2 * covered <= 3 * renderer->covered_at_trial) {
+    if (renderer->frames_without_rounds > 0 && 2 * covered <= 3 * renderer->covered_at_trial &&
+        2 * context->item_count <= 3 * renderer->items_at_trial) {
         renderer->frames_without_rounds--;
         renderer->rows.count = 0; /* what was seen is of another view when the next trial comes */
         return 0;
     }
     renderer->covered_at_trial = covered;
+    renderer->items_at_trial = context->item_count;
     return covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 

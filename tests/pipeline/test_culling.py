@@ -288,6 +288,24 @@ def test_occlusion_is_judged_by_what_the_second_frame_finds():
     assert stats[2]["clusters_occluded"] > 0.3 * tried[2]
 
 
+def field(side, spacing):
+    """Spheres side by side on a square field."""
+    x, z = spacing * (np.indices((side, side)) - (side - 1) / 2)
+    poses = np.stack([x, 0 * x, z, 0.5 * spacing + 0 * x], axis=-1).reshape(-1, 4)
+    scene = e3d.Scene(ambient=(0.3, 0.3, 0.3))
+    scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.9, (16, 9)), poses))
+    return scene
+
+
+def test_occlusion_is_tried_again_in_a_scene_of_many_more_items():
+    """They cover hardly more of the picture than the fewer before, which hid little of it."""
+    view = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=500.0), e3d.look_at((0, 75, 60), (0, 0, 0))
+    few, many = field(28, 2.9), field(40, 2.0)
+    with e3d.Renderer(320, 180, threads=1) as renderer:
+        assert [renderer.render(few, view).stats["rounds"] for _ in range(4)] == [5, 2, 1, 1]
+        assert [renderer.render(many, view).stats["rounds"] for _ in range(4)] == [5, 2, 1, 1]
+
+
 def test_occlusion_is_tried_again_in_another_view():
     """A crowd from above hides nothing of itself; from its edge most of it."""
     x, z = np.meshgrid(np.arange(40) - 19.5, np.arange(40) - 19.5)

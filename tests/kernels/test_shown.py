@@ -119,7 +119,7 @@ def test_show_fragments(kernels):
 def test_neighbours_stay_neighbours(kernels):
     """The samples of a record that shows on a large box are listed row by row."""
     large = 0
-    for seed in range(TILES):
+    for seed in range(2 * TILES):  # few records are as large
         some = scene(seed)
         tile, row = settled_tile(kernels, some, np.random.default_rng(seed)), Records(SHOWN, 1)
         row.fields["count"] = row.fields["pieces"] = 0
@@ -131,7 +131,7 @@ def test_neighbours_stay_neighbours(kernels):
             if columns >= 8 and columns * rows > FEW:
                 assert np.array_equal(row.fields["sample"][0, first : first + len(own)], own)
                 large += 1
-    assert large > 40
+    assert large > 50
 
 
 @all_backends

@@ -308,10 +308,7 @@ def test_occlusion_is_tried_again_in_a_scene_of_many_more_items():
 
 def test_occlusion_is_tried_again_in_another_view():
     """A crowd from above hides nothing of itself; from its edge most of it."""
-    x, z = np.meshgrid(np.arange(40) - 19.5, np.arange(40) - 19.5)
-    poses = np.stack([2 * x, 0 * x, 2 * z, 1 + 0 * x], axis=-1).reshape(-1, 4)
-    scene = e3d.Scene(ambient=(0.3, 0.3, 0.3))
-    scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.9, (16, 9)), poses))
+    scene = field(40, 2.0)
     camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=500.0)
     above = camera, e3d.look_at((0, 75, 60), (0, 0, 0))
     along = camera, e3d.look_at((0, 0.5, 44), (0, 0, 0))

@@ -49,21 +49,21 @@ static void set_planes(plane planes[6], const double m[16], double widen)
     }
 }
 
-/* Lanes that are outside of the plane; *inside: lanes that are wholly inside. */
-static int outside(const plane *p, const e3d_block *b, int *inside)
+/* The plane's value at the corners farthest on its inner side, or at those nearest. */
+static inline e3d_v4 value_at(const plane *p, const e3d_block *b, int farthest)
 {
-    e3d_v4 most = p->p[3], least = p->p[3];
-    e3d_v4 limit = -(p->slack[0] * b->reach + p->slack[1]);
-    e3d_v4 m[3], l[3];
-    for (int k = 0; k < 3; k++) {
-        m[k] = p->p[k] * (p->positive[k] ? b->high[k] : b->low[k]);
-        l[k] = p->p[k] * (p->positive[k] ? b->low[k] : b->high[k]);
-    }
-    most = ((m[0] + m[1]) + m[2]) + most;
-    least = ((l[0] + l[1]) + l[2]) + least;
-    *inside = lanes_of(least >= 0);
-    return lanes_of(most < limit); /* false for NaN: kept */
+    e3d_v4 m[3];
+    for (int k = 0; k < 3; k++)
+        m[k] = p->p[k] * (p->positive[k] == farthest ? b->high[k] : b->low[k]);
+    return ((m[0] + m[1]) + m[2]) + p->p[3];
 }
+
+/* Lanes that are outside of the plane; and those that are wholly inside. */
+static inline int outside(const plane *p, const e3d_block *b)
+{
+    return lanes_of(value_at(p, b, 1) < -(p->slack[0] * b->reach + p->slack[1])); /* false for NaN: kept */
+}
+static inline int inside(const plane *p, const e3d_block *b) { return lanes_of(value_at(p, b, 0) >= 0); }
 
 static void select_item(int32_t item, uint64_t *bits) { bits[item >> 6] |= (uint64_t)1 << (item & 63); }
 
@@ -83,22 +83,13 @@ static void select_run(const e3d_tree *t, int32_t block, int level, uint64_t *bi
     }
 }
 
-/* The same, without asking what is inside. */
-static int surely_outside(const plane *p, const e3d_block *b)
-{
-    e3d_v4 m[3];
-    for (int k = 0; k < 3; k++)
-        m[k] = p->p[k] * (p->positive[k] ? b->high[k] : b->low[k]);
-    return lanes_of(((m[0] + m[1]) + m[2]) + p->p[3] < -(p->slack[0] * b->reach + p->slack[1]));
-}
-
 static void visit_leaf(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits)
 {
     const e3d_block *b = e3d_tree_level(t, 0) + at.block;
     const int32_t *items = (const int32_t *)t->items.data + 4 * (size_t)at.block;
     int there = lanes_of(b->low[0] <= b->high[0]);
     for (int left = at.planes; left; left &= left - 1)
-        there &= ~surely_outside(&planes[__builtin_ctz(left)], b);
+        there &= ~outside(&planes[__builtin_ctz(left)], b);
     for (; there; there &= there - 1)
         select_item(items[__builtin_ctz(there)], bits);
 }
@@ -117,12 +108,13 @@ static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *
 {
     const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
     fetch_below(t, at);
-    int out = ~lanes_of(b->low[0] <= b->high[0]), within[4] = {0}, inside;
+    int out = ~lanes_of(b->low[0] <= b->high[0]), within[4] = {0};
     for (int i = 0; i < 6; i++)
         if (at.planes >> i & 1) {
-            out |= outside(&planes[i], b, &inside);
+            int whole = inside(&planes[i], b);
+            out |= outside(&planes[i], b);
             for (int lane = 0; lane < 4; lane++)
-                within[lane] |= (inside >> lane & 1) << i;
+                within[lane] |= (whole >> lane & 1) << i;
         }
     for (int lane = 0; lane < 4; lane++) {
         int left = at.planes & ~within[lane];
@@ -140,11 +132,11 @@ static void select_loose(const e3d_tree *t, const plane planes[6], const double 
     const int32_t *loose = t->loose.data;
     for (size_t i = 0; i < t->loose.count; i++) {
         e3d_block b;
-        int out = 0, inside;
+        int out = 0;
         for (int lane = 0; lane < 4; lane++)
             e3d_block_set(&b, lane, boxes + E3D_BOX * (size_t)loose[i]);
         for (int k = 0; k < 6; k++)
-            out |= outside(&planes[k], &b, &inside);
+            out |= outside(&planes[k], &b);
         if (!(out & 1) && b.low[0][0] <= b.high[0][0])
             select_item(loose[i], bits);
     }

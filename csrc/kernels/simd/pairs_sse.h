@@ -6,7 +6,7 @@
 #ifndef E3D_PAIRS_SSE_H
 #define E3D_PAIRS_SSE_H
 
-#include <smmintrin.h>
+#include <immintrin.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -27,6 +27,13 @@ static inline __m128i fetch_four(const int32_t *table, const int32_t *at)
     uint64_t low = index_two(at), high = index_two(at + 2);
     return _mm_setr_epi32(table[index_first(low)], table[index_second(low)], table[index_first(high)], table[index_second(high)]);
 }
+
+#ifdef __AVX2__
+static inline __m256i fetch_eight(const int32_t *table, const int32_t *at)
+{
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(fetch_four(table, at)), fetch_four(table, at + 4), 1);
+}
+#endif
 
 /* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
 static inline __m128i pairs_quad(void)

@@ -156,9 +156,7 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
     *odd = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_ODD));
 }
-static inline vi32 v_fetch(const int32_t *table, const int32_t *at) {
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(fetch_four(table, at)), fetch_four(table, at + 4), 1);
-}
+static inline vi32 v_fetch(const int32_t *table, const int32_t *at) { return fetch_eight(table, at); }
 static inline __m256i pairs_two(const void *texels, const int32_t *at) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_eight(texels, at[0])), pairs_eight(texels, at[4]), 1);
 }

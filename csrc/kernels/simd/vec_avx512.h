@@ -40,10 +40,11 @@ static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a)
     return 1;
 }
 static inline void v_streami(void *p, vi32 a) { _mm512_stream_si512((__m512i *)p, a); }
+/* By halves of eight lanes: a vector of them takes half as long to join, on processors that work on halves. */
+static inline vi32 halves_join(__m256i low, __m256i high) { return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1); }
 /* Lanes 0-7 and 8-15 by themselves. */
 static inline vi32 v_load_halves(const void *low, const void *high) {
-    __m256i first = _mm256_loadu_si256((const __m256i *)low);
-    return _mm512_inserti32x8(_mm512_castsi256_si512(first), _mm256_loadu_si256((const __m256i *)high), 1);
+    return halves_join(_mm256_loadu_si256((const __m256i *)low), _mm256_loadu_si256((const __m256i *)high));
 }
 static inline void v_store_halves(void *low, void *high, vi32 a) {
     _mm256_storeu_si256((__m256i *)low, _mm512_castsi512_si256(a));
@@ -163,7 +164,7 @@ static inline void v_load_rows(const void *const row[16], vi32 c[8]) {
     rows_load8(row, low);
     rows_load8(row + 8, high);
     for (int i = 0; i < 8; i++)
-        c[i] = _mm512_inserti32x8(_mm512_castsi256_si512(low[i]), high[i], 1);
+        c[i] = halves_join(low[i], high[i]);
 }
 static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     for (int part = 0; part < 2; part++) { /* eight lanes */
@@ -202,16 +203,12 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
-/* By halves of eight lanes: a vector of them takes half as long to join, on processors that work on halves. */
-static inline vi32 halves_join(__m256i low, __m256i high) { return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1); }
-static inline __m256i fetch_eight(const int32_t *table, const int32_t *at) {
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(fetch_four(table, at)), fetch_four(table, at + 4), 1);
-}
 static inline vi32 v_fetch(const int32_t *table, const int32_t *at) {
     return halves_join(fetch_eight(table, at), fetch_eight(table, at + 8));
 }
 
-/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. Pairs of both rows of lanes 0 and 4. Masked broadcasts are loads and blends, which more units do than shuffles. */
+/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. These are both rows of two of them, by masked broadcasts:
+ * loads and blends, which more units do than shuffles. */
 static inline __m128i pairs_low(const void *texels, int32_t at) {
     return _mm_loadl_epi64((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
 }

@@ -450,8 +450,9 @@ static void fetch_seen(const e3d_context *context, const e3d_item *item)
         __builtin_prefetch(&context->seen[item->unit]);
 }
 
-/* The first two clusters of the next item that may be drawn, as far as one can tell yet; what tells of all of them is fetched. */
-static void set_next(walker *w, const e3d_item *item)
+/* The first two clusters of the next item that may be drawn, as far as one can tell yet: a bit each. What tells of all of them is
+ * fetched. */
+static unsigned find_next(walker *w, const e3d_item *item)
 {
     const e3d_context *context = w->context;
     const e3d_mesh *mesh = context->draws[item->draw].mesh;
@@ -459,15 +460,16 @@ static void set_next(walker *w, const e3d_item *item)
     unsigned may = context->round.choice == E3D_ALL_ITEMS    ? ~0u
                    : context->round.choice == E3D_SEEN_ITEMS ? __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED)
                                                              : 0;
-    w->next_left = 0;
+    unsigned found = 0;
     if (mesh->desc.components != 3 || count <= E3D_GROUP_CLUSTERS)
-        return;
+        return 0;
     w->next = &mesh->clusters[first];
     for (size_t k = 0; k < E3D_GROUP_CLUSTERS && first + k < count; k++) {
         __builtin_prefetch(&w->next[k]);
-        if (may >> k & 1 && !(w->next_left & (w->next_left - 1)))
-            w->next_left |= 1u << k;
+        if (may >> k & 1 && !(found & (found - 1)))
+            found |= 1u << k;
     }
+    return found;
 }
 
 static int64_t items_of(const e3d_round *round) { return round->end - round->first; }
@@ -494,9 +496,7 @@ static void walk_items(walker *w)
                 fetch_seen(context, &context->items[i + 2 * AHEAD]);
             if (i + AHEAD < round->end)
                 fetch_item(context, &context->items[i + AHEAD]);
-            w->next_left = 0;
-            if (i + 1 < round->end)
-                set_next(w, &context->items[i + 1]);
+            w->next_left = i + 1 < round->end ? find_next(w, &context->items[i + 1]) : 0;
             run_item(w, &context->items[i]);
         }
     }

@@ -92,8 +92,10 @@ static int64_t count_seen(const e3d_context *context)
  * it: the next one tries all of that, and tells. */
 static int hides_little(const e3d_context *context, const e3d_stats *stats)
 {
+    if (!context->renderer->remembers)
+        return 0;
     int64_t tried = stats->clusters_drawn + stats->clusters_occluded, hidden = tried - count_seen(context);
-    return context->renderer->remembers && 10 * (hidden - e3d_tile_count(context)) < 3 * tried;
+    return 10 * (hidden - e3d_tile_count(context)) < 3 * tried;
 }
 
 void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats)

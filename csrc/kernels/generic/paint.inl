@@ -1,5 +1,5 @@
-/* paint: a batch of samples to pixels at once (R19-R34): the other kernels one after the other, but texels and light go to
- * pixels through registers, and only where they are to be seen.
+/* paint: a batch of samples to pixels at once (R19-R34): the other kernels one after the other, but light goes to pixels through
+ * registers, on some processors texels too, and only where they are to be seen.
  */
 
 /* Where a vector's albedo is. */

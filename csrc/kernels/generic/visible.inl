@@ -394,11 +394,11 @@ static void kernel_raster_measure(e3d_visible_tile *tile, float columns[][E3D_BL
 {
 #ifdef E3D_NARROW_TABLE /* of eight lanes, each is a column */
     E3D_NARROW_TABLE.raster_measure(tile, columns);
-    return;
-#endif
+#else
     for (uint64_t left = ~tile->noted; left; left &= left - 1) {
         int block = __builtin_ctzll(left);
         visible_columns(tile, block, columns[block]);
         visible_bound(tile, block, columns[block]);
     }
+#endif
 }

@@ -153,11 +153,15 @@ static e3d_status draw_scene(const void *data, e3d_backend backend, int32_t thre
     e3d_stats stats;
     for (int times = threads > 3 ? 2 : 1; status == E3D_OK && times > 0; times--)
         status = e3d_render(renderer, &frame, targets, &stats);
-    /* Alone, colour takes a shorter way. (Faces are not drawn at all for the lines of a wireframe alone.) */
-    if (status == E3D_OK && threads % 2 == 0 && targets->color && frame.wireframe != E3D_WIRE_ONLY) {
-        const e3d_targets color = {.color = targets->color};
-        memset(color.color, 0x5A, 4 * (size_t)frame.width * (size_t)frame.height);
-        status = e3d_render(renderer, &frame, &color, &stats);
+    /* Colour alone takes a shorter way, and so does whatever needs no depths. (Faces are not drawn at all for the lines of a
+     * wireframe alone.) */
+    if (status == E3D_OK && threads > 1 && targets->color && frame.wireframe != E3D_WIRE_ONLY) {
+        e3d_targets fewer = {.color = targets->color};
+        if (threads % 2 == 1)
+            fewer = *targets;
+        fewer.ndc_depth = NULL;
+        memset(fewer.color, 0x5A, 4 * (size_t)frame.width * (size_t)frame.height);
+        status = e3d_render(renderer, &frame, &fewer, &stats);
     }
     e3d_renderer_destroy(renderer);
     return status;

@@ -15,7 +15,7 @@ static const float HOSTILE[] = {
     0.0f, -0.0f, 1e-45f, -1e-39f, 1e-20f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN, 32768.0f, 0.5f,
 };
 
-enum { GRID = 9, SOUP_TRIANGLES = 80 };
+enum { MOST_GRID = 9, SOUP_TRIANGLES = 80 };
 
 /* Mostly one of the larger ones. */
 static const int32_t *random_size(random_stream *r)
@@ -85,18 +85,18 @@ static void poison(float *values, int32_t count, random_stream *r, int32_t odds)
 }
 
 /* A closed-looking wavy sheet: shared vertices, so that a crack would show as background. */
-static void grid_positions(float *positions, int32_t *faces, random_stream *r)
+static void grid_positions(float *positions, int32_t *faces, int32_t side, random_stream *r)
 {
-    for (int32_t i = 0; i < GRID * GRID; i++) {
-        positions[3 * i] = (float)(i % GRID) / (GRID - 1) * 2.0f - 1.0f;
-        positions[3 * i + 1] = (float)(i / GRID) / (GRID - 1) * 2.0f - 1.0f;
+    for (int32_t i = 0; i < side * side; i++) {
+        positions[3 * i] = (float)(i % side) / (float)(side - 1) * 2.0f - 1.0f;
+        positions[3 * i + 1] = (float)(i / side) / (float)(side - 1) * 2.0f - 1.0f;
         positions[3 * i + 2] = random_float(r, -0.2f, 0.2f);
     }
-    for (int32_t y = 0; y < GRID - 1; y++)
-        for (int32_t x = 0; x < GRID - 1; x++, faces += 6) {
-            int32_t corner = y * GRID + x;
-            int32_t quad[6] = {corner,     corner + 1,        corner + GRID + 1,
-                               corner,     corner + GRID + 1, corner + GRID};
+    for (int32_t y = 0; y < side - 1; y++)
+        for (int32_t x = 0; x < side - 1; x++, faces += 6) {
+            int32_t corner = y * side + x;
+            int32_t quad[6] = {corner,     corner + 1,        corner + side + 1,
+                               corner,     corner + side + 1, corner + side};
             memcpy(faces, quad, sizeof quad);
         }
 }
@@ -104,12 +104,13 @@ static void grid_positions(float *positions, int32_t *faces, random_stream *r)
 static void describe_shape(scene *s, random_stream *r, e3d_mesh_desc *desc)
 {
     desc->components = 3;
-    if (random_once_in(r, 2)) {
-        desc->vertices = GRID * GRID;
-        desc->faces_count = 2 * (GRID - 1) * (GRID - 1);
+    if (s->calm || random_once_in(r, 2)) {
+        int32_t side = s->calm ? 3 + random_below(r, MOST_GRID - 2) : MOST_GRID;
+        desc->vertices = side * side;
+        desc->faces_count = 2 * (side - 1) * (side - 1);
         float *positions = random_floats(s, r, 3 * desc->vertices, 0.0f, 0.0f);
         int32_t *faces = random_indices(s, r, 3 * desc->faces_count, 1);
-        grid_positions(positions, faces, r);
+        grid_positions(positions, faces, side, r);
         desc->positions = positions;
         desc->faces = faces;
         return;
@@ -310,9 +311,10 @@ static void add_lights(scene *s, random_stream *r)
 }
 
 /* The eye is at (0, 0, distance) and looks down -Z; a small distance puts triangles behind it. */
-static void aim_camera(e3d_frame *frame, random_stream *r)
+static void aim_camera(scene *s, random_stream *r)
 {
-    double distance = random_once_in(r, 3) ? 0.5 : 4.0;
+    e3d_frame *frame = &s->frame;
+    double distance = !s->calm && random_once_in(r, 3) ? 0.5 : 4.0;
     double near = 0.05, far = random_once_in(r, 4) ? 4.5 : 100.0;
     double aspect = (double)frame->width / frame->height;
     int orthographic = random_once_in(r, 4);
@@ -365,7 +367,8 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     s->frame.width = limited(size[0], most_side);
     s->frame.height = limited(size[1], most_side);
     choose_look(&s->frame, r);
-    aim_camera(&s->frame, r);
+    s->calm = random_once_in(r, 3);
+    aim_camera(s, r);
     add_lights(s, r);
     e3d_status status = add_materials(s, r);
     return status == E3D_OK ? add_draws(s, r) : status;

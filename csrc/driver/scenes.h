@@ -27,6 +27,7 @@ typedef struct scene {
     e3d_light lights[SCENE_MAX_LIGHTS];
     void *arrays[SCENE_MAX_ARRAYS]; /* freed with the scene: what the meshes and draws borrow */
     int32_t array_count;
+    int calm; /* nothing but sheets, some way off: few triangles, none of them large */
 } scene;
 
 /* Arrays for e3d_rasterize. */

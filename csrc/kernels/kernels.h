@@ -250,12 +250,20 @@ typedef struct e3d_shown_piece {
 
 /* What shows in a tile, piece after piece: samples, or runs. */
 typedef struct e3d_shown {
-    const e3d_run *runs; /* owned by pieces; or NULL: */
-    int32_t sample[E3D_TILE_SAMPLES + 2 * E3D_PAD]; /* y * E3D_TILE + x */
+    int32_t sample[E3D_TILE_SAMPLES + 2 * E3D_PAD]; /* y * E3D_TILE + x; of a run the first, and its length << E3D_RUN_LENGTH */
     int32_t of[E3D_TILE_SAMPLES + 2 * E3D_PAD];     /* whose: the piece's number */
     e3d_shown_piece piece[E3D_TILE_SAMPLES + 1];
     int32_t count, pieces; /* of samples or runs, and of pieces */
+    int runs;              /* not samples */
 } e3d_shown;
+
+enum { E3D_RUN_LENGTH = 16 };
+
+/* Which samples of a tile records cover, a bit each, row by row, and which more than one covers. */
+typedef struct e3d_cover {
+    uint64_t once[E3D_TILE + E3D_PAD], twice[E3D_TILE + E3D_PAD];
+    int32_t x, y, width, height; /* of the tile: its first sample, and samples inside the viewport */
+} e3d_cover;
 
 enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 
@@ -389,9 +397,15 @@ typedef struct e3d_kernels {
     void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
     /* The same of fragments; those of one triangle that follow each other are a piece. */
     void (*show_fragments)(const e3d_visible_tile *tile, const e3d_fragment_block *block, e3d_shown *out);
-    /* Adds as many runs, which are owned by pieces, or samples from `first` on as the batch has room for; how many. A batch of none
-     * takes one at least. Piece `piece` is surface 0, the others follow. */
-    int (*take_runs)(const e3d_run *runs, int count, int32_t piece, e3d_batch *batch);
+    /* Adds the runs of what records cover to the list, hidden or not; records, in this order, are pieces. 0 where one is too large,
+     * or may be beyond the far plane, or the list is full. */
+    int (*cover_records)(e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
+    /* The same of records that others don't meet; of all of a tile it is known what they cover. Lists the rest; how many. */
+    int (*show_alone)(const e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out,
+                      uint32_t *rest);
+    /* Adds as many runs or samples from `first` on as the batch has room for; how many. A batch of none takes one at least. Piece
+     * `piece` is surface 0, the others follow. */
+    int (*take_runs)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);
     int (*take_shown)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);
     /* The corners on the screen (R3, R8, R9) of pieces that have no record. */
     void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport);

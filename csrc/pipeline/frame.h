@@ -125,6 +125,8 @@ typedef struct e3d_counters {
 
 /* ---- one tile at a time, a thread ---- */
 
+enum { E3D_MOST_SPANS = 256 }; /* records of a tile that are drawn without depths: of more, most are small, and take longer so */
+
 typedef struct e3d_tile {
     int32_t x, y;          /* first sample */
     int32_t width, height; /* samples inside the viewport */
@@ -159,6 +161,8 @@ typedef struct e3d_tile_memory {
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
     char apart[2048]; /* at a like place in its page, a store holds up loads: sorting reads one and writes the other */
     e3d_run spare[E3D_TILE_SAMPLES]; /* while runs are sorted */
+    _Alignas(64) e3d_cover cover;
+    uint32_t ids[E3D_MOST_SPANS], rest[E3D_MOST_SPANS]; /* of the tile's records, and of those that others meet */
     _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
     _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */
@@ -477,9 +481,16 @@ void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t ti
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
 /* Shades the list of what shows; 0 when memory is out. */
 int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* spans.c */
+/* Makes the list of what shows of few records; 0 where they are too large for that, or meet too much. */
+int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number);
+/* Whether they left no gap. */
+int e3d_spans_cover_all(const e3d_cover *cover);
 /* runs.c */
 /* Sorts runs by owner; where they are afterwards. */
 e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
+/* Adds sorted runs to what shows, as pieces. */
+void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out);
 /* surface.c */
 /* The pieces of what shows, chained by group; 0 when memory is out. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker);

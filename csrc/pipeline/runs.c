@@ -90,3 +90,21 @@ e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
     }
     return runs;
 }
+
+/* Runs of one owner are side by side. (Where one begins could not be foreseen: nothing is asked.) */
+void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out)
+{
+    int32_t pieces = out->pieces, before = E3D_NO_SLOT;
+    int32_t *sample = out->sample + out->count, *of = out->of + out->count;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t owner = runs[i].owner;
+        out->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, out->count + i};
+        pieces += owner != before;
+        before = owner;
+        sample[i] = runs[i].sample | runs[i].length << E3D_RUN_LENGTH;
+        of[i] = pieces - 1;
+    }
+    out->runs = 1;
+    out->count += count;
+    out->pieces = pieces;
+}

@@ -218,10 +218,8 @@ static void take(const e3d_context *context, e3d_worker *worker, int32_t piece, 
 {
     const e3d_shown *shown = &worker->tile->shown;
     e3d_batch *batch = &worker->tile->batch;
-    if (shown->runs)
-        s->at += context->kernels->take_runs(shown->runs + s->at, s->behind - s->at, piece, batch);
-    else
-        s->at += context->kernels->take_shown(shown, s->at, s->behind - s->at, piece, batch);
+    const e3d_kernels *kernels = context->kernels;
+    s->at += (shown->runs ? kernels->take_runs : kernels->take_shown)(shown, s->at, s->behind - s->at, piece, batch);
 }
 
 /* The samples of pieces whose surfaces, 0 and so on, are known. */
@@ -267,26 +265,10 @@ int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_ti
     return 1;
 }
 
-/* Gives runs of one owner, which are side by side, to a piece. (Where one begins could not be foreseen: nothing is asked.) */
-static void number_pieces(e3d_run *runs, int32_t count, e3d_shown *out)
-{
-    int32_t pieces = 0, before = E3D_NO_SLOT;
-    for (int32_t i = 0; i < count; i++) {
-        int32_t owner = runs[i].owner;
-        out->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, i};
-        pieces += owner != before;
-        before = owner;
-        runs[i].owner = pieces - 1;
-    }
-    out->runs = runs;
-    out->count = count;
-    out->pieces = pieces;
-}
-
 static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs, int32_t count)
 {
-    e3d_run *sorted = e3d_sort_runs(runs, worker->tile->spare, count);
-    number_pieces(sorted, count, &worker->tile->shown);
+    worker->tile->shown.count = worker->tile->shown.pieces = 0;
+    e3d_show_runs(e3d_sort_runs(runs, worker->tile->spare, count), count, &worker->tile->shown);
     return e3d_shade_shown(context, worker, tile);
 }
 

@@ -316,25 +316,51 @@ static int shade_visible(tile_job *job)
     return e3d_shade_runs(context, worker, &job->tile, count);
 }
 
-static int draw_visible(tile_job *job)
+static int needs_depths(const e3d_context *context)
+{
+    return context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
+}
+
+/* What shows of few records is found without depths, where these are not needed for anything else. */
+static int shows_spans(const tile_job *job)
+{
+    const e3d_context *context = job->context;
+    return context->wants && !context->kept && !context->blockwise && !needs_depths(context) &&
+           e3d_show_spans(context, job->worker, &job->tile, job->number);
+}
+
+static int shade_spans(tile_job *job)
+{
+    begin(job, e3d_spans_cover_all(&job->worker->tile->cover));
+    return e3d_shade_shown(job->context, job->worker, &job->tile);
+}
+
+static void raster_visible(tile_job *job)
 {
     e3d_context *context = job->context;
-    e3d_worker *worker = job->worker;
+    e3d_visible_tile *visible = job->worker->visible;
     if (!job->kept)
-        e3d_visible_clear(worker->visible, &job->tile);
-    e3d_visible_draw(context, worker->visible, job->number);
+        e3d_visible_clear(visible, &job->tile);
+    e3d_visible_draw(context, visible, job->number);
     if (context->round.finished)
-        e3d_note_depths(context, worker->visible, job->number);
-    int depths = context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
-    if (depths)
-        context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], 1);
+        e3d_note_depths(context, visible, job->number);
+    if (needs_depths(context))
+        context->kernels->raster_settle(visible, &context->tables[E3D_PASS_SCENE], 1);
+}
+
+static int draw_visible(tile_job *job)
+{
+    e3d_worker *worker = job->worker;
+    int spans = shows_spans(job), shaded = 1;
+    if (!spans)
+        raster_visible(job);
     e3d_lap(worker, &worker->counters.ns_raster);
-    if (!context->wants)
+    if (!job->context->wants)
         begin(job, 0);
-    else if (!shade_visible(job))
-        return 0;
+    else
+        shaded = spans ? shade_spans(job) : shade_visible(job);
     e3d_lap(worker, &worker->counters.ns_shade);
-    return 1;
+    return shaded;
 }
 
 static int draw_scene(tile_job *job)

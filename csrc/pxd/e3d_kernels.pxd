@@ -109,6 +109,8 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_run:
         pass
 
+    ctypedef struct e3d_cover:
+        pass
     ctypedef struct e3d_shown:
         pass
 
@@ -178,7 +180,12 @@ cdef extern from "kernels/kernels.h" nogil:
                              const uint32_t *ids, int count, e3d_shown *out)
         void (*show_fragments)(const e3d_visible_tile *tile, const e3d_fragment_block *block,
                                e3d_shown *out)
-        int (*take_runs)(const e3d_run *runs, int count, int32_t piece, e3d_batch *batch)
+        int (*cover_records)(e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids,
+                             int count, e3d_shown *out)
+        int (*show_alone)(const e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids,
+                          int count, e3d_shown *out, uint32_t *rest)
+        int (*take_runs)(const e3d_shown *shown, int first, int count, int32_t piece,
+                         e3d_batch *batch)
         int (*take_shown)(const e3d_shown *shown, int first, int count, int32_t piece,
                           e3d_batch *batch)
         void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport)

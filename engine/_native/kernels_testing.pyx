@@ -61,6 +61,7 @@ STRUCT_SIZES = {
     "piece": sizeof(e3d_piece),
     "visible_tile": sizeof(e3d_visible_tile),
     "run": sizeof(e3d_run),
+    "cover": sizeof(e3d_cover),
     "shown": sizeof(e3d_shown),
     "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
@@ -309,13 +310,44 @@ cdef class Kernels:
             self.table.show_fragments(<const e3d_visible_tile *>&tile[0],
                                       <const e3d_fragment_block *>&block[0], <e3d_shown *>&shown[0])
 
-    def take_runs(self, const uint8_t[::1] runs, int32_t piece, uint8_t[::1] batch):
+    def cover_records(self, uint8_t[::1] cover, const uint8_t[:, ::1] records, const uint32_t[::1] ids,
+                      uint8_t[::1] shown):
+        """With several rounds, they meet themselves."""
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        cdef int fits = 1
+        check_size(cover, sizeof(e3d_cover))
+        check_size(shown, sizeof(e3d_shown))
+        fill_table(&table, rows, records)
+        for _ in range(self.rounds):
+            fits &= self.table.cover_records(<e3d_cover *>&cover[0], &table, &ids[0], <int>ids.shape[0],
+                                             <e3d_shown *>&shown[0])
+        return fits != 0
+
+    def show_alone(self, const uint8_t[::1] cover, const uint8_t[:, ::1] records, const uint32_t[::1] ids,
+                   uint8_t[::1] shown, uint32_t[::1] rest):
+        """Returns how many are left; with several rounds, the others are listed as often."""
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        cdef int left = 0
+        check_size(cover, sizeof(e3d_cover))
+        check_size(shown, sizeof(e3d_shown))
+        if rest.shape[0] < ids.shape[0]:
+            raise ValueError("rest must have room for all")
+        fill_table(&table, rows, records)
+        for _ in range(self.rounds):
+            left = self.table.show_alone(<const e3d_cover *>&cover[0], &table, &ids[0], <int>ids.shape[0],
+                                         <e3d_shown *>&shown[0], &rest[0])
+        return left
+
+    def take_runs(self, const uint8_t[::1] shown, int first, int count, int32_t piece,
+                  uint8_t[::1] batch):
         """Returns how many; with several rounds, the batch is filled further."""
         cdef int taken = 0
+        check_size(shown, sizeof(e3d_shown))
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
-            taken = self.table.take_runs(<const e3d_run *>&runs[0],
-                                         <int>(runs.shape[0] // sizeof(e3d_run)), piece,
+            taken = self.table.take_runs(<const e3d_shown *>&shown[0], first, count, piece,
                                          <e3d_batch *>&batch[0])
         return taken
 

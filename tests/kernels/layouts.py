@@ -84,9 +84,14 @@ VISIBLE_TILE = np.dtype(
 )
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
 SHOWN = np.dtype(
-    [("runs", "u8"), ("sample", "i4", TILE * TILE + 2 * PAD), ("of", "i4", TILE * TILE + 2 * PAD)]
+    [("sample", "i4", TILE * TILE + 2 * PAD), ("of", "i4", TILE * TILE + 2 * PAD)]
     + [("piece", [("id", "u4"), ("first", "i4")], TILE * TILE + 1)]
-    + [("count", "i4"), ("pieces", "i4")]
+    + [("count", "i4"), ("pieces", "i4"), ("runs", "i4")]
+)
+RUN_LENGTH = 16  # of a run in that list: the bit that its length begins at
+COVER = np.dtype(
+    [("once", "u8", TILE + PAD), ("twice", "u8", TILE + PAD)]
+    + [(name, "i4") for name in ("x", "y", "width", "height")]
 )
 _ELEMENTS = BATCH_SURFACES + PAD
 SURFACES = np.dtype(
@@ -146,6 +151,7 @@ STRUCTS = {
     "piece": PIECE,
     "visible_tile": VISIBLE_TILE,
     "run": RUN,
+    "cover": COVER,
     "shown": SHOWN,
     "surfaces": SURFACES,
     "batch": BATCH_RECORD,

@@ -4,7 +4,17 @@ import itertools
 
 import numpy as np
 from kernels.harness import POISON, Records, all_backends, check_poisoned
-from kernels.layouts import BATCH, BATCH_RECORD, BLOCK, PAD, RUN, TILE, VISIBLE_TILE
+from kernels.layouts import (
+    BATCH,
+    BATCH_RECORD,
+    BLOCK,
+    PAD,
+    RUN,
+    RUN_LENGTH,
+    SHOWN,
+    TILE,
+    VISIBLE_TILE,
+)
 
 TILES = 250  # of 4096 samples: 10^6 and more
 BLOCKS = (TILE // BLOCK, TILE // BLOCK)
@@ -104,39 +114,38 @@ def test_every_width(kernels):
             check(kernels, alternating, width, 11, (~NOTHING_NOTED[0], np.full(BLOCKS, owner)))
 
 
-def random_runs(rng):
-    """Runs of about twice as many samples as a batch holds."""
+def random_runs(rng, shown):
+    """Runs of about twice as many samples as a batch holds, to a list; their lengths."""
     lengths = rng.choice([1, 2, 3, 7, 8, 9, 15, 16, 17, 63, 64], 2 * BATCH)
     lengths = lengths[np.cumsum(lengths) <= 2 * BATCH]
-    runs = np.zeros(len(lengths), RUN)
-    runs["owner"], runs["length"] = np.arange(len(runs)) // 2, lengths
-    runs["sample"] = rng.integers(0, TILE * TILE - 64, len(runs))
-    return runs
+    samples = rng.integers(0, TILE * TILE - 64, len(lengths))
+    shown["sample"][: len(lengths)] = samples | lengths << RUN_LENGTH
+    shown["of"][: len(lengths)] = np.arange(len(lengths)) // 2
+    return samples, lengths
 
 
 @all_backends
 def test_take_runs(kernels):
     """Some at a time: those that fit, in order, and the last sample again behind them."""
     rng = np.random.default_rng(1)
-    batches = Records(BATCH_RECORD, 500)
+    batches, lists = Records(BATCH_RECORD, 500), Records(SHOWN, 1)
     for row, fields in zip(batches.rows, batches.fields, strict=True):
-        runs, taken, fields["count"] = random_runs(rng), 0, 0
-        first = int(rng.integers(-5, 6))
-        fitting = int(np.searchsorted(np.cumsum(runs["length"]), BATCH, "right"))
+        (samples, lengths), taken = random_runs(rng, lists.fields[0]), 0
+        piece, fields["count"] = int(rng.integers(-5, 6)), 0
+        fitting = int(np.searchsorted(np.cumsum(lengths), BATCH, "right"))
         while taken < fitting:
-            some = runs[taken : taken + rng.integers(1, len(runs))]
-            more = kernels.take_runs(some.view(np.uint8), first, row)
-            assert more == min(len(some), fitting - taken)
+            some = int(min(rng.integers(1, len(lengths)), len(lengths) - taken))
+            more = kernels.take_runs(lists.rows[0], taken, some, piece, row)
+            assert more == min(some, fitting - taken)
             taken += more
-        assert kernels.take_runs(runs[taken:].view(np.uint8), first, row) == 0
-        runs = runs[:taken]
-        count = int(runs["length"].sum())
-        samples = np.concatenate([run["sample"] + np.arange(run["length"]) for run in runs])
-        surfaces = np.repeat(runs["owner"] - first, runs["length"])
-        expected = {"sample": samples, "surface": surfaces}
-        assert fields["count"] == count
-        for name, values in expected.items():
-            got = fields[name][: count + PAD]
+        left = len(lengths) - taken
+        assert kernels.take_runs(lists.rows[0], taken, left, piece, row) == 0
+        runs = list(zip(samples[:taken], lengths[:taken], strict=True))
+        samples = np.concatenate([first + np.arange(length) for first, length in runs])
+        surfaces = np.repeat(np.arange(taken) // 2 - piece, lengths[:taken])
+        assert fields["count"] == len(samples)
+        for name, values in (("sample", samples), ("surface", surfaces)):
+            got = fields[name][: len(samples) + PAD]
             assert np.array_equal(got, np.append(values, [values[-1]] * PAD)), name
         check_poisoned(fields, ["weight", "r", "position", "normal", "uv", "color", "lod"])
     batches.check_gaps()

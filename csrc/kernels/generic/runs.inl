@@ -80,12 +80,12 @@ static int kernel_find_runs(e3d_visible_tile *tile, int width, int height, e3d_r
 }
 
 /* Whole vectors are written past the end of a run. */
-static inline void runs_spread(const e3d_run *run, vi32 owner, int32_t *sample, int32_t *owners)
+static inline void runs_spread(int32_t sample, int32_t length, vi32 surface, int n, e3d_batch *batch)
 {
-    vi32 at = v_addi(v_seti(run->sample), v_iota());
-    for (int i = 0; i < run->length; i += V_LANES) {
-        v_storei(sample + i, at);
-        v_storei(owners + i, owner);
+    vi32 at = v_addi(v_seti(sample), v_iota());
+    for (int i = n; i < n + length; i += V_LANES) {
+        v_storei(batch->sample + i, at);
+        v_storei(batch->surface + i, surface);
         at = v_addi(at, v_seti(V_LANES));
     }
 }
@@ -99,13 +99,16 @@ static inline void batch_pad(e3d_batch *batch, int count)
     batch->count = count;
 }
 
-static int kernel_take_runs(const e3d_run *runs, int count, int32_t piece, e3d_batch *batch)
+static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
 {
-    int n = batch->count, r = 0;
-    for (; r < count && n + runs[r].length <= E3D_BATCH; r++) {
-        runs_spread(&runs[r], v_seti(runs[r].owner - piece), batch->sample + n, batch->surface + n);
-        n += runs[r].length;
+    int n = batch->count, r = first;
+    for (; r < first + count; r++) {
+        int32_t run = shown->sample[r], length = run >> E3D_RUN_LENGTH;
+        if (n + length > E3D_BATCH)
+            break;
+        runs_spread(run & (E3D_TILE_SAMPLES - 1), length, v_seti(shown->of[r] - piece), n, batch);
+        n += length;
     }
     batch_pad(batch, n);
-    return r;
+    return r - first;
 }

@@ -21,6 +21,7 @@
 #include "kernels/generic/visible_records.inl"
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/shown.inl"
+#include "kernels/generic/spans.inl"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/project.inl"
 #include "kernels/generic/interpolate.inl"
@@ -51,6 +52,8 @@ const e3d_kernels E3D_TABLE = {
     .take_runs = kernel_take_runs,
     .show_records = kernel_show_records,
     .show_fragments = kernel_show_fragments,
+    .cover_records = kernel_cover_records,
+    .show_alone = kernel_show_alone,
     .take_shown = kernel_take_shown,
     .project = kernel_project,
     .surface = kernel_surface,

@@ -131,6 +131,16 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c,
 static inline void v_load_rows(const void *const row[1], vi32 c[8]) { memcpy(c, row[0], 32); }
 
 /* The lanes whose bits are set, one after the other; returns how many. A whole vector is written. */
+/* `length` bits from bit `at` on of each lane's word; at most 64 in all, and none past the word's end. */
+static inline uint64_t span_of(int32_t at, int32_t length) { return length ? ~(uint64_t)0 >> (64 - length) << at : 0; }
+/* Sets them in `once`, and those that were set already in `twice`, too. */
+static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
+    uint64_t bits = span_of(at, length);
+    *twice |= *once & bits;
+    *once |= bits;
+}
+/* Whether one of them is set. */
+static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) { return (*words & span_of(at, length)) != 0; }
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { memcpy(out, &a, 4); return (int)bits; }
 /* The same, of numbers below 256 to bytes. */
 static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { *out = (uint8_t)a; return (int)bits; }
@@ -155,7 +165,7 @@ static inline vi32 v_rgba(const vi32 c[3]) {
 
 /* The texels of 8-bit channels at[lane] and at[lane] + 1 of each lane, and those below: red, green and blue, in the bytes of a
  * lane upper left, lower left, upper right, lower right. Sixteen bytes are read from each left one on. */
-static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     const uint8_t *t = (const uint8_t *)texels + 4 * (intptr_t)at[0], *b = (const uint8_t *)below + 4 * (intptr_t)at[0];
     for (int k = 0; k < 3; k++)
         out[k] = (int32_t)(t[k] | (uint32_t)b[k] << 8 | (uint32_t)t[4 + k] << 16 | (uint32_t)b[4 + k] << 24);
@@ -163,7 +173,7 @@ static inline void v_quads8(const void *texels, const void *below, const int32_t
 
 /* The texels of 16-bit channels at[lane] and at[lane] + 1 of each lane: red, green and blue, of the left texel in the low
  * half, of the right one in the high half. */
-static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     const uint16_t *t = (const uint16_t *)texels + 4 * (intptr_t)at[0];
     for (int k = 0; k < 3; k++)
         out[k] = (int32_t)(t[k] | (uint32_t)t[4 + k] << 16);

@@ -129,6 +129,24 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     rows_store8(c + 8, out + 8, 16);
 }
 
+static inline __m256i spans_four(vi32 at, vi32 length, int half) {
+    __m128i at4 = half ? _mm256_extracti128_si256(at, 1) : _mm256_castsi256_si128(at);
+    __m128i length4 = half ? _mm256_extracti128_si256(length, 1) : _mm256_castsi256_si128(length);
+    __m256i none = _mm256_sub_epi64(_mm256_set1_epi64x(64), _mm256_cvtepu32_epi64(length4));
+    return _mm256_sllv_epi64(_mm256_srlv_epi64(_mm256_set1_epi64x(-1), none), _mm256_cvtepu32_epi64(at4));
+}
+static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
+    for (int half = 0; half < 2; half++, once += 4, twice += 4) {
+        __m256i bits = spans_four(at, length, half), before = v_loadi(once);
+        v_storei(twice, _mm256_or_si256(v_loadi(twice), _mm256_and_si256(before, bits)));
+        v_storei(once, _mm256_or_si256(before, bits));
+    }
+}
+static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) {
+    __m256i low = _mm256_and_si256(v_loadi(words), spans_four(at, length, 0));
+    __m256i high = _mm256_and_si256(v_loadi(words + 4), spans_four(at, length, 1)), both = _mm256_or_si256(low, high);
+    return !_mm256_testz_si256(both, both);
+}
 static inline int v_pack(void *out, vi32 a, uint32_t bits) {
     int low = pack_four(out, _mm256_castsi256_si128(a), bits & 15);
     return low + pack_four((int32_t *)out + low, _mm256_extracti128_si256(a, 1), bits >> 4);
@@ -160,7 +178,7 @@ static inline vi32 v_fetch(const int32_t *table, const int32_t *at) { return fet
 static inline __m256i pairs_two(const void *texels, const int32_t *at) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_eight(texels, at[0])), pairs_eight(texels, at[4]), 1);
 }
-static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m256i q[4], order = _mm256_broadcastsi128_si256(pairs_quad());
     for (int i = 0; i < 4; i++)
         q[i] = _mm256_shuffle_epi8(_mm256_unpacklo_epi64(pairs_two(texels, at + i), pairs_two(below, at + i)), order);
@@ -175,7 +193,7 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     return _mm256_shuffle_epi8(_mm256_packus_epi16(low, high), _mm256_broadcastsi128_si256(pairs_pixels()));
 }
 
-static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m256i q[4], halves = _mm256_broadcastsi128_si256(pairs_halves());
     for (int i = 0; i < 4; i++)
         q[i] = _mm256_shuffle_epi8(

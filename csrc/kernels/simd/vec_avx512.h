@@ -176,6 +176,23 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
+static inline __m512i spans_eight(vi32 at, vi32 length, int half) {
+    __m256i at8 = half ? _mm512_extracti32x8_epi32(at, 1) : _mm512_castsi512_si256(at);
+    __m256i length8 = half ? _mm512_extracti32x8_epi32(length, 1) : _mm512_castsi512_si256(length);
+    __m512i none = _mm512_sub_epi64(_mm512_set1_epi64(64), _mm512_cvtepu32_epi64(length8));
+    return _mm512_sllv_epi64(_mm512_srlv_epi64(_mm512_set1_epi64(-1), none), _mm512_cvtepu32_epi64(at8));
+}
+static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
+    for (int half = 0; half < 2; half++, once += 8, twice += 8) {
+        __m512i bits = spans_eight(at, length, half), before = v_loadi(once);
+        v_storei(twice, _mm512_or_si512(v_loadi(twice), _mm512_and_si512(before, bits)));
+        v_storei(once, _mm512_or_si512(before, bits));
+    }
+}
+static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) {
+    __mmask8 low = _mm512_test_epi64_mask(v_loadi(words), spans_eight(at, length, 0));
+    return (low | _mm512_test_epi64_mask(v_loadi(words + 8), spans_eight(at, length, 1))) != 0;
+}
 static inline int v_pack(void *out, vi32 a, uint32_t bits) {
     v_storei(out, _mm512_maskz_compress_epi32((__mmask16)bits, a));
     return __builtin_popcount(bits);
@@ -218,7 +235,7 @@ static inline __m256i quads_two(const void *texels, const void *below, const int
     two = _mm256_mask_broadcastq_epi64(two, 4, pairs_low(texels, at[4]));
     return _mm256_mask_broadcastq_epi64(two, 8, pairs_low(below, at[4]));
 }
-static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
     for (int i = 0; i < 4; i++)
         q[i] = _mm512_shuffle_epi8(halves_join(quads_two(texels, below, at + i), quads_two(texels, below, at + i + 8)), order);
@@ -236,7 +253,7 @@ static inline vi32 v_rgba(const vi32 c[3]) {
 static inline __m256i pairs_two(const void *texels, uint64_t a, uint64_t b) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_one(texels, a)), pairs_one(texels, b), 1);
 }
-static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m512i q[4], halves = _mm512_broadcast_i32x4(pairs_halves());
     for (int i = 0; i < 4; i += 2) { /* lanes i, i + 4 and so on, and those after them */
         uint64_t a = index_two(at + i), b = index_two(at + i + 4), c = index_two(at + i + 8), d = index_two(at + i + 12);

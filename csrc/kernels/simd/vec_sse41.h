@@ -148,6 +148,28 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
+static inline void spans_four(uint64_t bits[4], vi32 at, vi32 length) {
+    int32_t first[4], count[4];
+    v_storei(first, at);
+    v_storei(count, length);
+    for (int lane = 0; lane < 4; lane++)
+        bits[lane] = count[lane] ? ~(uint64_t)0 >> (64 - count[lane]) << first[lane] : 0;
+}
+static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
+    uint64_t bits[4];
+    spans_four(bits, at, length);
+    for (int lane = 0; lane < 4; lane++) {
+        twice[lane] |= once[lane] & bits[lane];
+        once[lane] |= bits[lane];
+    }
+}
+static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) {
+    uint64_t bits[4], both = 0;
+    spans_four(bits, at, length);
+    for (int lane = 0; lane < 4; lane++)
+        both |= words[lane] & bits[lane];
+    return both != 0;
+}
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { return pack_four(out, a, bits); }
 static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { return pack_bytes(out, a, bits); }
 static inline int v_pack16(uint16_t *out, vi32 a, uint32_t bits) { return pack_halves(out, a, bits); }
@@ -164,7 +186,7 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = _mm_shuffle_ps(a, b, PAIRS_EVEN);
     *odd = _mm_shuffle_ps(a, b, PAIRS_ODD);
 }
-static inline void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
     __m128i q[4];
     for (int i = 0; i < 4; i++)
         q[i] = _mm_shuffle_epi8(_mm_unpacklo_epi64(pairs_eight(texels, at[i]), pairs_eight(below, at[i])), pairs_quad());
@@ -179,7 +201,7 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     return _mm_shuffle_epi8(_mm_packus_epi16(low, high), pairs_pixels());
 }
 
-static inline void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
+static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
     __m128i q[4];
     for (int i = 0; i < 4; i++)
         q[i] = _mm_shuffle_epi8(pairs_one(texels, (uint32_t)at[i]), pairs_halves());

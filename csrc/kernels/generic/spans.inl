@@ -1,0 +1,159 @@
+/* spans: which samples each record covers, row by row and without depths (R12). Where none is covered twice, that is what shows.
+ *
+ * In a row, edge function k is n + |a| * x or n - |a| * x: it isn't negative from x = -floor(n / |a|) on, or up to floor(n / |a|).
+ * Of records of at most RECORDS_SIDE samples a side, |a| is at most 127 * 256, and n and all that it is the sum of are whole numbers
+ * below 2^24: exact in single precision. So is n + 1/2 below 2^23; where |n| is greater, the quotient is far outside of the tile.
+ * (n + 1/2) / |a| is more than 2^-16 away from whole numbers, and within the tile two roundings move it by 2^-17 at most: its floor
+ * is that of n / |a|.
+ */
+
+enum { SPANS_LEVEL = 256 }; /* by which an edge function that is the same along a row is multiplied: it bounds the whole row, or not */
+
+/* Of each lane's record: edge k is (first + y * down) * scale, where it bounds rows on the left, and where on the right; a scale of
+ * 0 doesn't bound, on the right beside the `past`. */
+typedef struct spans_lanes {
+    float first[3][V_LANES], down[3][V_LANES], left[3][V_LANES], right[3][V_LANES], past[3][V_LANES];
+    int32_t y0[V_LANES], y1[V_LANES];
+} spans_lanes;
+
+/* Which records are too large, or may lie beyond the far plane. */
+static inline uint32_t spans_refused(const e3d_record *const r[V_LANES])
+{
+    vi32 corners[8];
+    float far[V_LANES];
+    v_load_rows((const void *const *)r, corners);
+    const vi32 *x = corners, *y = corners + 3;
+    vi32 side = v_seti(256 * RECORDS_SIDE);
+    vi32 wide = v_subi(setup_max3(x[0], x[1], x[2]), setup_min3(x[0], x[1], x[2]));
+    vi32 tall = v_subi(setup_max3(y[0], y[1], y[2]), setup_min3(y[0], y[1], y[2]));
+    for (int l = 0; l < V_LANES; l++)
+        far[l] = r[l]->zmax;
+    vmask within = v_gt(v_setf(E3D_BEYOND_FAR), v_loadf(far));
+    return v_bits(v_mor(v_mor(v_gti(wide, side), v_gti(tall, side)), v_mnot(within)));
+}
+
+static inline void spans_edge(const record_edge *e, int k, spans_lanes *out)
+{
+    vf32 a = v_float(e->a), none = v_setf(0.0f);
+    vf32 scale = v_div(v_setf(1.0f), v_max(a, v_sub(none, a)));
+    vmask on_right = v_gti(v_seti(0), e->a), level = v_eqi(e->a, v_seti(0));
+    v_storef(out->first[k], v_add(v_float(e->c), v_setf(0.5f)));
+    v_storef(out->down[k], v_float(e->b));
+    v_storef(out->left[k], v_self(level, v_setf(SPANS_LEVEL), v_self(on_right, none, scale)));
+    v_storef(out->right[k], v_self(on_right, scale, none));
+    v_storef(out->past[k], v_self(on_right, none, v_setf(E3D_TILE)));
+}
+
+static inline void spans_find(const e3d_record *const r[V_LANES], const e3d_cover *cover, spans_lanes *out)
+{
+    vi32 corners[8];
+    v_load_rows((const void *const *)r, corners);
+    const vi32 *x = corners, *y = corners + 3;
+    vi32 up = v_seti(127), half = v_seti(128), zero = v_seti(0), tile_x = v_seti(cover->x), tile_y = v_seti(cover->y);
+    vi32 x0 = records_in_tile(v_subi(v_sra(v_addi(setup_min3(x[0], x[1], x[2]), up), 8), tile_x));
+    vi32 y0 = records_in_tile(v_subi(v_sra(v_addi(setup_min3(y[0], y[1], y[2]), up), 8), tile_y));
+    vi32 y1 = v_subi(v_sra(v_subi(setup_max3(y[0], y[1], y[2]), half), 8), tile_y);
+    v_storei(out->y0, y0);
+    v_storei(out->y1, v_mini(y1, v_seti(cover->height - 1)));
+    vi32 px = v_addi(v_shl(v_addi(x0, tile_x), 8), half), py = v_addi(v_shl(v_addi(y0, tile_y), 8), half);
+    for (int k = 0; k < 3; k++) {
+        record_edge e = record_edge_of(x, y, k, zero, px, py);
+        e.c = v_subi(v_sra(e.c, 8), v_addi(v_muli(e.a, x0), v_muli(e.b, y0)));
+        spans_edge(&e, k, out);
+    }
+}
+
+/* The spans of a record in V_LANES rows from y on: first sample in the tile, and length << 16. */
+static inline vi32 spans_of_rows(const spans_lanes *in, int lane, int32_t y, const e3d_cover *cover)
+{
+    vi32 row = v_addi(v_seti(y), v_iota());
+    vf32 at = v_float(row), none = v_setf(0.0f), near = none, far = v_setf((float)(cover->width - 1));
+    for (int k = 0; k < 3; k++) {
+        vf32 n = v_add(v_setf(in->first[k][lane]), v_mul(v_setf(in->down[k][lane]), at));
+        near = v_min(near, v_mul(n, v_setf(in->left[k][lane])));
+        far = v_min(far, v_add(v_mul(n, v_setf(in->right[k][lane])), v_setf(in->past[k][lane])));
+    }
+    near = v_max(v_floor(near), v_setf(-E3D_TILE));
+    vf32 length = v_max(v_add(v_add(v_floor(far), near), v_setf(1.0f)), none);
+    vf32 place = v_add(v_sub(v_mul(at, v_setf(E3D_TILE)), near), v_mul(length, v_setf(65536.0f)));
+    return v_seli(v_gti(row, v_seti(in->y1[lane])), v_seti(0), v_trunc(place));
+}
+
+static inline vi32 spans_first(vi32 spans) { return v_andi(spans, v_seti(E3D_TILE - 1)); }
+static inline vi32 spans_length(vi32 spans) { return v_shr(spans, E3D_RUN_LENGTH); }
+
+/* The runs of a vector of spans, behind those of the piece that comes next. */
+static inline void spans_add(vi32 spans, e3d_shown *out)
+{
+    v_storei(out->of + out->count, v_seti(out->pieces));
+    out->count += v_pack(out->sample + out->count, spans, v_bits(v_gti(spans_length(spans), v_seti(0))));
+}
+
+/* Those from `first` on are a piece's, if there are any. */
+static inline void spans_name(uint32_t id, int32_t first, e3d_shown *out)
+{
+    out->piece[out->pieces] = (e3d_shown_piece){id, first};
+    out->pieces += out->count > first;
+}
+
+/* A piece, and what it covers. */
+static inline void spans_cover(const spans_lanes *in, int lane, uint32_t id, e3d_cover *cover, e3d_shown *out)
+{
+    int32_t first = out->count;
+    for (int32_t y = in->y0[lane]; y <= in->y1[lane]; y += V_LANES) {
+        vi32 spans = spans_of_rows(in, lane, y, cover);
+        v_cover(cover->once + y, cover->twice + y, spans_first(spans), spans_length(spans));
+        spans_add(spans, out);
+    }
+    spans_name(id, first, out);
+}
+
+/* A piece, unless others meet it; whether they do. */
+static inline int spans_alone(const spans_lanes *in, int lane, uint32_t id, const e3d_cover *cover, e3d_shown *out)
+{
+    int32_t first = out->count;
+    int met = 0;
+    for (int32_t y = in->y0[lane]; y <= in->y1[lane]; y += V_LANES) {
+        vi32 spans = spans_of_rows(in, lane, y, cover);
+        met |= v_meets(cover->twice + y, spans_first(spans), spans_length(spans));
+        spans_add(spans, out);
+    }
+    out->count = met ? first : out->count;
+    spans_name(id, first, out);
+    return met;
+}
+
+static int kernel_cover_records(e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out)
+{
+    const e3d_record *r[V_LANES];
+    spans_lanes in;
+    for (int i = 0; i < count; i += V_LANES) {
+        int some = records_take(table, ids + i, count - i, r);
+        if (spans_refused(r))
+            return 0;
+        spans_find(r, cover, &in);
+        for (int lane = 0; lane < some; lane++) {
+            if (out->count > E3D_TILE_SAMPLES - E3D_TILE)
+                return 0;
+            spans_cover(&in, lane, ids[i + lane], cover, out);
+        }
+    }
+    return 1;
+}
+
+static int kernel_show_alone(const e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out,
+                             uint32_t *rest)
+{
+    const e3d_record *r[V_LANES];
+    spans_lanes in;
+    int left = 0;
+    for (int i = 0; i < count; i += V_LANES) {
+        int some = records_take(table, ids + i, count - i, r);
+        spans_find(r, cover, &in);
+        for (int lane = 0; lane < some; lane++) {
+            rest[left] = ids[i + lane];
+            left += spans_alone(&in, lane, ids[i + lane], cover, out);
+        }
+    }
+    return left;
+}

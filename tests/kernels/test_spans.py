@@ -1,0 +1,184 @@
+"""cover_records, show_alone: what records cover, row by row and without depths (R10, R12).
+
+The oracle asks each edge function in 64 bits at every sample.
+"""
+
+import functools
+
+import numpy as np
+from kernels.harness import Records, all_backends, check_poisoned
+from kernels.layouts import COVER, PAD, RECORD, RUN_LENGTH, SHOWN, TILE
+from kernels.pieces import Triangle, meta_of
+from kernels.test_raster import random_tile
+from kernels.test_visible import STRIPS, corners_of
+
+SIDE = 256 * STRIPS
+SCENES = 60
+KINDS = ["tiny", "small", "small", "medium", "centers", "sliver", "level", "limit"]
+NEXT_AFTER_1 = np.nextafter(np.float32(1), np.float32(2))
+
+
+def level_corners(rng, place):
+    """An edge along a row of samples, or beside it: it bounds the row, or not."""
+    corners = corners_of(rng, "small", *place[2:])
+    corners[1, 1] = corners[0, 1] = corners[0, 1] // 256 * 256 + rng.choice([127, 128, 129])
+    return corners
+
+
+def triangle_of(rng, place):
+    """One of sides that are short enough, which touches the tile; or None."""
+    kind = rng.choice(KINDS)
+    corners = level_corners(rng, place) if kind == "level" else corners_of(rng, kind, *place[2:])
+    triangle = Triangle(corners[:, 0], corners[:, 1], *place[:2])
+    fits = (np.ptp(corners, axis=0) <= SIDE).all()
+    if not fits or triangle.empty or triangle.right < place[2] or triangle.bottom < place[3]:
+        return None
+    if triangle.left >= place[2] + TILE or triangle.top >= place[3] + TILE:
+        return None
+    return triangle
+
+
+class Scene:
+    """Records of a tile, as bins list them, and the samples of the viewport that each covers."""
+
+    def __init__(self, seed):
+        rng = np.random.default_rng(seed)
+        self.place = random_tile(rng, "small")
+        width, height, tile_x, tile_y = self.place
+        self.size = min(width - tile_x, TILE), min(height - tile_y, TILE)
+        most, self.triangles = int(rng.choice([1, 5, 20, 60])), []
+        for _ in range(20 * most):
+            triangle = triangle_of(rng, self.place)
+            if triangle and meta_of(triangle) is not None and len(self.triangles) < most:
+                self.triangles.append(triangle)
+        self.records = np.zeros(len(self.triangles), RECORD)
+        for record, triangle in zip(self.records, self.triangles, strict=True):
+            record["x"], record["y"] = triangle.x, triangle.y
+        self.records["zmax"] = rng.choice(np.float32([-1, 0.5, 1]), len(self.triangles))
+        self.ids = np.arange(len(self.triangles), dtype=np.uint32)
+        rows, columns = np.mgrid[0:TILE, 0:TILE]
+        inside = (columns < self.size[0]) & (rows < self.size[1])
+        self.covers = [t.covers(tile_x + columns, tile_y + rows) & inside for t in self.triangles]
+
+    @property
+    def layers(self):
+        return np.sum(self.covers, axis=0)
+
+    @property
+    def alone(self):
+        """Whether each covers only what no other covers."""
+        return np.array([self.layers[covers].max(initial=0) < 2 for covers in self.covers])
+
+
+@functools.cache
+def scenes():
+    made = [Scene(seed) for seed in range(SCENES)]
+    return [scene for scene in made if len(scene.ids)]
+
+
+def cover_of(scene):
+    cover = np.zeros(1, COVER)
+    cover["x"], cover["y"] = scene.place[2:]
+    cover["width"], cover["height"] = scene.size
+    return cover
+
+
+def empty_lists(count):
+    lists = Records(SHOWN, count)
+    lists.fields["count"] = lists.fields["pieces"] = 0
+    return lists
+
+
+def runs_of(covers):
+    """(runs,): of each row that is covered, the first sample and how many: all side by side."""
+    rows = np.flatnonzero(covers.any(axis=1))
+    first, length = covers[rows].argmax(axis=1), covers[rows].sum(axis=1)
+    for row, start, count in zip(rows, first, length, strict=True):
+        assert covers[row, start : start + count].all()
+    return rows * TILE + first | length << RUN_LENGTH
+
+
+def check_list(fields, scene, numbers):
+    """The pieces are those records that show anything, in order, each with its runs."""
+    numbers = [number for number in numbers if scene.covers[number].any()]
+    runs = [runs_of(scene.covers[number]) for number in numbers]
+    count = sum(map(len, runs))
+    assert (fields["count"], fields["pieces"]) == (count, len(numbers))
+    assert np.array_equal(fields["sample"][:count], np.concatenate([[], *runs]))
+    pieces = np.repeat(np.arange(len(numbers)), list(map(len, runs)))
+    assert np.array_equal(fields["of"][:count], pieces)
+    named = fields["piece"][: len(numbers)]
+    assert np.array_equal(named["id"], scene.ids[numbers])
+    assert np.array_equal(named["first"], np.searchsorted(pieces, np.arange(len(numbers))))
+    for name in ("sample", "of"):
+        check_poisoned({name: fields[name][count + TILE + PAD :]}, [name])
+
+
+def bits_of(samples):
+    """(rows,) uint64: bit x of sample x."""
+    return np.packbits(samples, axis=1, bitorder="little").view(np.uint64)[:, 0]
+
+
+@all_backends
+def test_cover_records(kernels):
+    """Runs of every record, hidden or not, and the samples that one, and more than one, cover."""
+    lists = empty_lists(len(scenes()))
+    for row, fields, scene in zip(lists.rows, lists.fields, scenes(), strict=True):
+        cover, table = cover_of(scene), scene.records.view(np.uint8)[None]
+        for part in np.array_split(scene.ids, 3):
+            if len(part):
+                assert kernels.cover_records(cover.view(np.uint8), table, part, row)
+        check_list(fields, scene, scene.ids)
+        assert np.array_equal(cover["once"][0, :TILE], bits_of(scene.layers > 0))
+        assert np.array_equal(cover["twice"][0, :TILE], bits_of(scene.layers > 1))
+        assert not cover["once"][0, TILE:].any()
+    lists.check_gaps()
+
+
+@all_backends
+def test_show_alone(kernels):
+    """Those that nobody meets are listed; the others are the rest, in order."""
+    lists, met = empty_lists(len(scenes())), 0
+    for row, fields, scene in zip(lists.rows, lists.fields, scenes(), strict=True):
+        cover, table = cover_of(scene), scene.records.view(np.uint8)[None]
+        cover["twice"][0, :TILE] = bits_of(scene.layers > 1)
+        before, rest = cover.copy(), np.zeros(len(scene.ids), np.uint32)
+        left = kernels.show_alone(cover.view(np.uint8), table, scene.ids, row, rest)
+        assert np.array_equal(rest[:left], scene.ids[~scene.alone])
+        check_list(fields, scene, np.flatnonzero(scene.alone))
+        assert np.array_equal(cover, before)
+        met += left
+    assert met > len(scenes())  # or nobody met anybody
+    lists.check_gaps()
+
+
+@all_backends
+def test_what_needs_depths_is_refused(kernels):
+    """A side too long for single precision, and what may lie beyond the far plane."""
+    scene = next(scene for scene in scenes() if len(scene.ids) >= 20)
+    for number in (0, 7, len(scene.ids) - 1):
+        for change in ("x", "y", "far", "nan"):
+            records = scene.records.copy()
+            if change in "xy":
+                least = records[change][number].min()
+                records[change][number, records[change][number].argmax()] = least + SIDE + 1
+            else:
+                records["zmax"][number] = NEXT_AFTER_1 if change == "far" else np.nan
+            table, lists = records.view(np.uint8)[None], empty_lists(1)
+            cover = cover_of(scene).view(np.uint8)
+            assert not kernels.cover_records(cover, table, scene.ids, lists.rows[0]), change
+
+
+@all_backends
+def test_a_full_list_is_refused(kernels):
+    """More rows than a tile has samples, of records that meet; nothing is written past the list."""
+    record = np.zeros(1, RECORD)
+    record["x"], record["y"] = [0, SIDE, 0], [0, 0, SIDE]
+    lists, cover = empty_lists(1), np.zeros(1, COVER)
+    cover["width"] = cover["height"] = TILE
+    ids = np.zeros(TILE + 1, np.uint32)
+    table = record.view(np.uint8)[None]
+    assert kernels.cover_records(cover.view(np.uint8), table, ids[:TILE], lists.rows[0])
+    assert lists.fields["count"][0] == TILE * TILE
+    assert not kernels.cover_records(cover.view(np.uint8), table, ids[:1], lists.rows[0])
+    lists.check_gaps()

@@ -342,7 +342,7 @@ typedef struct e3d_paint {
     int by_vertex, by_instance;      /* colours to multiply with */
     const e3d_lighting *lighting;    /* NULL: unlit */
     float shininess;
-    const float *specular, *emissive; /* of lit samples; specular may be NULL */
+    const float *specular, *emissive; /* of lit samples; NULL where all are 0 */
     int srgb;
     int gathers;          /* what e3d_cpu_gathers says */
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */

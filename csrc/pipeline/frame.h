@@ -528,6 +528,11 @@ static inline int e3d_is_shiny(const e3d_material *m)
     return m->specular[0] != 0.0f || m->specular[1] != 0.0f || m->specular[2] != 0.0f;
 }
 
+static inline int e3d_glows(const e3d_material *m)
+{
+    return m->emissive[0] != 0.0f || m->emissive[1] != 0.0f || m->emissive[2] != 0.0f;
+}
+
 /* What object_id and instance_id output. */
 static inline int32_t e3d_object_id(const e3d_draw *draw, int32_t instance)
 {

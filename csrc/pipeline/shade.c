@@ -144,7 +144,7 @@ static int is_painted(const e3d_context *context, const e3d_group *group)
 static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
 {
     const e3d_material *m = group->material;
-    int lit = context->frame->mode == E3D_MODE_LIT && group->face, shiny = e3d_is_shiny(m);
+    int lit = context->frame->mode == E3D_MODE_LIT && group->face, shiny = e3d_is_shiny(m), glows = e3d_glows(m);
     const e3d_paint paint = {
         .wanted = wanted,
         .texture = group->textured ? e3d_texture_get_view(m->texture) : NULL,
@@ -154,7 +154,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .lighting = lit ? &context->lighting : NULL,
         .shininess = shiny ? m->shininess : 0.0f,
         .specular = shiny ? m->specular : NULL,
-        .emissive = m->emissive,
+        .emissive = glows ? m->emissive : NULL,
         .srgb = context->srgb,
         .gathers = e3d_cpu_gathers(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,

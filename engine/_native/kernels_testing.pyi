@@ -171,7 +171,7 @@ class Kernels:
         lighting: tuple[_Bytes, _Floats, _Floats, _Floats, _Floats] | None,
         shininess: float,
         specular: _Floats | None,
-        emissive: _Floats,
+        emissive: _Floats | None,
         srgb: bool,
         gathers: bool,
         rgba: _Words,

@@ -450,7 +450,7 @@ cdef class Kernels:
               float[:, ::1] samples=None):
         """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
 
-        ``specular`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements. ``samples``,
+        ``specular`` and ``emissive`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements. ``samples``,
         as for `keep`: these are written instead.
         """
         cdef e3d_paint paint
@@ -472,7 +472,7 @@ cdef class Kernels:
         paint.lighting = NULL if lighting is None else &lights
         paint.shininess = shininess
         paint.specular = NULL if specular is None else &specular[0]
-        paint.emissive = &emissive[0]
+        paint.emissive = NULL if emissive is None else &emissive[0]
         paint.srgb = srgb
         paint.gathers = gathers
         paint.samples = NULL if samples is None else samples_of(samples)

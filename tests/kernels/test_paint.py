@@ -82,7 +82,7 @@ def random_material(rng, texture, lit):
         "lighting": lighting,
         "shininess": 20.0 if shiny else 0.0,
         "specular": rng.random(3).astype(np.float32) if shiny else None,
-        "emissive": emissive,
+        "emissive": emissive if rng.integers(2) else None,
         "srgb": bool(rng.integers(2)),
         "gathers": bool(rng.integers(2)),
     }
@@ -114,7 +114,8 @@ def step_by_step(kernels, row, batch, surfaces, m):
         kernels.tint(row, surfaces, m["by_vertex"], m["by_instance"])
     if m["lighting"]:
         kernels.light(row, *m["lighting"], m["shininess"])
-        kernels.combine(row, m["specular"], m["emissive"])
+        nothing = np.zeros(3, np.float32)
+        kernels.combine(row, m["specular"], nothing if m["emissive"] is None else m["emissive"])
     pixels, tile = np.zeros(BATCH + PAD, np.uint32), np.full(SAMPLES + PAD, UNTOUCHED, np.uint32)
     count = int(batch["count"])
     kernels.encode(*(np.ascontiguousarray(c) for c in batch["color"]), count, m["srgb"], pixels)

@@ -215,7 +215,7 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
             v_storef(batch->energy[k] + i, light_clamp(lighting, v_loadf(batch->energy[k] + i)));
 }
 
-/* R31: color = (color * energy + specular * shine) + emissive */
+/* R31: color = (color * energy + specular * shine) + emissive; what is NULL is 0. */
 static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
                                          const float emissive[3], int channels, vf32 color[3])
 {
@@ -223,7 +223,8 @@ static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[
         color[k] = v_mul(color[k], energy[k]);
         if (specular)
             color[k] = v_add(color[k], v_mul(v_setf(specular[k]), shine[k]));
-        color[k] = v_add(color[k], v_setf(emissive[k]));
+        if (emissive)
+            color[k] = v_add(color[k], v_setf(emissive[k]));
     }
 }
 

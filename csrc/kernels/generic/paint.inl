@@ -31,7 +31,7 @@ static inline paint_kind paint_kind_of(const e3d_paint *paint, paint_source sour
         grey &= is_grey(lighting->lights[n].color);
     if (!grey || paint->shininess > 0.0f)
         return PAINT_LIT;
-    return source == PAINT_BASE && is_grey(paint->base) && is_grey(paint->emissive) ? PAINT_GREY : PAINT_GREY_LIGHT;
+    return source == PAINT_BASE && is_grey(paint->base) && (!paint->emissive || is_grey(paint->emissive)) ? PAINT_GREY : PAINT_GREY_LIGHT;
 }
 
 /* R31 of all lights: there are few. The kind and whether there are highlights are known when compiled. */

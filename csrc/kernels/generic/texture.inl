@@ -199,6 +199,7 @@ static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int bits,
     }
     if (filter == E3D_BILINEAR) {
         level_lanes level = texture_one_level(&plan->levels, 0);
+        level.start = v_seti(0); /* known when compiled */
         texture_place(&level, bits, s, t, &plan->near, i);
         return;
     }

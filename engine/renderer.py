@@ -86,6 +86,7 @@ class Renderer(Closed):
         self._draw_list = DrawList(self._color_space, threads)
         self._options = OptionsCache(self._color_space)
         self._pool = OutputPool()
+        self._asked, self._wanted = (), {}
         self._view: View | None = None
         self._framing: tuple[Camera, np.ndarray] | None = None
         self._framed = ()
@@ -322,6 +323,13 @@ class Renderer(Closed):
         return View(camera, pose, self._width, self._height).clip_from_world
 
     def _new_frame(self, outputs: Iterable[str]) -> Frame:
+        asked = outputs, self._width, self._height
+        if type(outputs) is not tuple or asked != self._asked:
+            self._wanted, self._asked = self._arrays_of(outputs), asked
+        return Frame(self._width, self._height, self._pool.take(self._wanted))
+
+    def _arrays_of(self, outputs: Iterable[str]) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
+        """Shape and dtype of each output."""
         wanted = {}
         for name in _names_of(outputs):
             dtype, channels = OUTPUTS[name]
@@ -329,7 +337,7 @@ class Renderer(Closed):
             wanted[name] = (shape if channels else shape[:2], dtype)
         if not wanted:
             raise InvalidArgumentError('outputs must name at least one output, such as "color"')
-        return Frame(self._width, self._height, self._pool.take(wanted))
+        return wanted
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):

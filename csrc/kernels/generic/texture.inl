@@ -292,6 +292,12 @@ static inline int texture_is_bilinear8(const e3d_texture_view *view)
     return view->filter == E3D_BILINEAR && view->channel_bits == 8;
 }
 
+/* And of what is drawn by default. */
+static inline int texture_is_trilinear16(const e3d_texture_view *view)
+{
+    return view->filter == E3D_TRILINEAR && view->channel_bits == 16;
+}
+
 /* Up to where texture_color follows. */
 static void texture_prepare(texture_plan *plan, const e3d_texture_view *view, const float base[3], const e3d_batch *batch)
 {
@@ -299,6 +305,9 @@ static void texture_prepare(texture_plan *plan, const e3d_texture_view *view, co
     if (texture_is_bilinear8(view)) {
         texture_find_all(plan, E3D_BILINEAR, 8, batch);
         texture_ask_all(plan, E3D_BILINEAR, 8, batch->count);
+    } else if (texture_is_trilinear16(view)) {
+        texture_find_all(plan, E3D_TRILINEAR, 16, batch);
+        texture_ask_all(plan, E3D_TRILINEAR, 16, batch->count);
     } else {
         texture_find_all(plan, view->filter, view->channel_bits, batch);
         texture_ask_all(plan, view->filter, view->channel_bits, batch->count);
@@ -311,6 +320,8 @@ static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const
     texture_prepare(&plan, view, base, batch);
     if (texture_is_bilinear8(view))
         texture_color_all(&plan, E3D_BILINEAR, 8, batch);
+    else if (texture_is_trilinear16(view))
+        texture_color_all(&plan, E3D_TRILINEAR, 16, batch);
     else
         texture_color_all(&plan, view->filter, view->channel_bits, batch);
 }

@@ -180,6 +180,11 @@ typedef struct e3d_places {
     int64_t next, end;
 } e3d_places;
 
+/* How many tiles go without spans since these did not pay, and how many of these are left. */
+typedef struct e3d_spans_trial {
+    int32_t without, left;
+} e3d_spans_trial;
+
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
     e3d_fragment_set fragments;
@@ -194,6 +199,7 @@ typedef struct e3d_worker {
     e3d_array groups;       /* e3d_group of the tile */
     e3d_array outputs;      /* int32_t or float: the tile's, one output after the other */
     e3d_counters counters;
+    e3d_spans_trial trial;
     e3d_places taken[E3D_TO_DO];
     e3d_tile blank;         /* what is left of the one that is being cleared */
     int blanks;             /* whether there may be more */

@@ -57,26 +57,47 @@ static void show_rest(const e3d_context *context, e3d_worker *worker, const e3d_
     e3d_show_runs(e3d_sort_runs(memory->runs, memory->spare, runs), runs, &memory->shown);
 }
 
-int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number)
+/* Makes the list of what shows of records; how many of them others meet, or -1 where spans will not do. */
+static int show(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int count)
 {
     const e3d_kernels *kernels = context->kernels;
     const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
     e3d_tile_memory *memory = worker->tile;
-    int count = list_records(context, number, memory->ids);
-    if (count <= 0)
-        return 0;
     begin(memory, tile);
     clear(&memory->shown);
     if (!kernels->cover_records(&memory->cover, table, memory->ids, count, &memory->shown))
-        return 0;
+        return -1;
     int64_t twice = samples_of(memory->cover.twice);
     if (!twice)
-        return 1;
-    if (2 * twice > samples_of(memory->cover.once))
         return 0;
+    if (2 * twice > samples_of(memory->cover.once))
+        return -1;
     clear(&memory->shown);
-    show_rest(context, worker, tile, kernels->show_alone(&memory->cover, table, memory->ids, count, &memory->shown, memory->rest));
-    return 1;
+    int rest = kernels->show_alone(&memory->cover, table, memory->ids, count, &memory->shown, memory->rest);
+    show_rest(context, worker, tile, rest);
+    return rest;
+}
+
+/* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
+static void judge(e3d_spans_trial *trial, int pays)
+{
+    enum { MOST = 15 };
+    trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1 : MOST;
+    trial->left = trial->without;
+}
+
+int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number)
+{
+    if (worker->trial.left > 0) {
+        worker->trial.left--;
+        return 0;
+    }
+    int count = list_records(context, number, worker->tile->ids);
+    if (count <= 0)
+        return 0;
+    int rest = show(context, worker, tile, count);
+    judge(&worker->trial, rest >= 0 && 2 * rest <= count);
+    return rest >= 0;
 }
 
 int e3d_spans_cover_all(const e3d_cover *cover)

@@ -86,7 +86,7 @@ class Renderer(Closed):
         self._draw_list = DrawList(self._color_space, threads)
         self._options = OptionsCache(self._color_space)
         self._pool = OutputPool()
-        self._asked, self._wanted = (), {}
+        self._asked, self._wanted = None, {}
         self._view: View | None = None
         self._framing: tuple[Camera, np.ndarray] | None = None
         self._framed = ()
@@ -117,6 +117,7 @@ class Renderer(Closed):
         width, height = check_side(width, "width"), check_side(height, "height")
         with self._lock:
             self._width, self._height = width, height
+            self._asked = None
             self._pool.forget()
 
     def close(self) -> None:
@@ -323,9 +324,8 @@ class Renderer(Closed):
         return View(camera, pose, self._width, self._height).clip_from_world
 
     def _new_frame(self, outputs: Iterable[str]) -> Frame:
-        asked = outputs, self._width, self._height
-        if type(outputs) is not tuple or asked != self._asked:
-            self._wanted, self._asked = self._arrays_of(outputs), asked
+        if type(outputs) is not tuple or outputs is not self._asked:
+            self._wanted, self._asked = self._arrays_of(outputs), outputs
         return Frame(self._width, self._height, self._pool.take(self._wanted))
 
     def _arrays_of(self, outputs: Iterable[str]) -> dict[str, tuple[tuple[int, ...], np.dtype]]:

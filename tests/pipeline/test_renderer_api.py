@@ -101,6 +101,29 @@ def test_only_what_is_asked_for(renderer, front):
         _ = frame.color
 
 
+BAD_OUTPUTS = (), (None,), (1,), ([],), (np.array(["a", "b"]),), (np.array(["color"]),), "color"
+
+
+@pytest.mark.parametrize("outputs", BAD_OUTPUTS, ids=repr)
+def test_outputs_that_are_no_names_are_refused_by_every_frame(front, outputs):
+    scene = scene_of(square())
+    with e3d.Renderer(SIZE, SIZE) as renderer:
+        for _ in range(2):
+            with pytest.raises(e3d.InvalidArgumentError, match="outputs"):
+                renderer.render(scene, front, outputs=outputs)
+            renderer.render(scene, front)
+
+
+def test_outputs_may_change_between_frames_and_so_may_their_size(front):
+    scene, names = scene_of(square()), ["depth"]
+    with e3d.Renderer(SIZE, SIZE) as renderer:
+        renderer.render(scene, front, outputs=names)
+        names[0] = "uv"
+        assert renderer.render(scene, front, outputs=names).uv.shape == (SIZE, SIZE, 2)
+        renderer.resize(SIZE, 2 * SIZE)
+        assert renderer.render(scene, front).color.shape[:2] == (2 * SIZE, SIZE)
+
+
 def test_ids_tell_nodes_instances_and_materials_apart(renderer, front):
     red, blue = e3d.Material(color=(1, 0, 0)), e3d.Material(color=(0, 0, 1))
     mesh = square(materials=[red, blue], material_ids=[1, 0])

@@ -49,21 +49,19 @@ static inline void spans_find(const e3d_record *const r[V_LANES], const e3d_cove
     vi32 corners[8];
     v_load_rows((const void *const *)r, corners);
     const vi32 *x = corners, *y = corners + 3;
-    vi32 up = v_seti(127), half = v_seti(128), zero = v_seti(0), tile_x = v_seti(cover->x), tile_y = v_seti(cover->y);
+    vi32 up = v_seti(127), half = v_seti(128), tile_x = v_seti(cover->x), tile_y = v_seti(cover->y);
     vi32 x0 = records_in_tile(v_subi(v_sra(v_addi(setup_min3(x[0], x[1], x[2]), up), 8), tile_x));
     vi32 y0 = records_in_tile(v_subi(v_sra(v_addi(setup_min3(y[0], y[1], y[2]), up), 8), tile_y));
     vi32 y1 = v_subi(v_sra(v_subi(setup_max3(y[0], y[1], y[2]), half), 8), tile_y);
     v_storei(out->y0, y0);
     v_storei(out->y1, v_mini(y1, v_seti(cover->height - 1)));
-    vi32 px = v_addi(v_shl(v_addi(x0, tile_x), 8), half), py = v_addi(v_shl(v_addi(y0, tile_y), 8), half);
     for (int k = 0; k < 3; k++) {
-        record_edge e = record_edge_of(x, y, k, zero, px, py);
-        e.c = v_subi(v_sra(e.c, 8), v_addi(v_muli(e.a, x0), v_muli(e.b, y0)));
+        record_edge e = records_edge_of(x, y, k, x0, y0, tile_x, tile_y);
         spans_edge(&e, k, out);
     }
 }
 
-/* The spans of a record in V_LANES rows from y on: first sample in the tile, and length << 16. */
+/* The spans of a record in V_LANES rows from y on, as runs: first sample in the tile, and length << E3D_RUN_LENGTH. */
 static inline vi32 spans_of_rows(const spans_lanes *in, int lane, int32_t y, const e3d_cover *cover)
 {
     vi32 row = v_addi(v_seti(y), v_iota());
@@ -75,12 +73,31 @@ static inline vi32 spans_of_rows(const spans_lanes *in, int lane, int32_t y, con
     }
     near = v_max(v_floor(near), v_setf(-E3D_TILE));
     vf32 length = v_max(v_add(v_add(v_floor(far), near), v_setf(1.0f)), none);
-    vf32 place = v_add(v_sub(v_mul(at, v_setf(E3D_TILE)), near), v_mul(length, v_setf(65536.0f)));
+    vf32 place = v_add(v_sub(v_mul(at, v_setf(E3D_TILE)), near), v_mul(length, v_setf(1 << E3D_RUN_LENGTH)));
     return v_seli(v_gti(row, v_seti(in->y1[lane])), v_seti(0), v_trunc(place));
 }
 
 static inline vi32 spans_first(vi32 spans) { return v_andi(spans, v_seti(E3D_TILE - 1)); }
 static inline vi32 spans_length(vi32 spans) { return v_shr(spans, E3D_RUN_LENGTH); }
+
+/* V_LANES rows, a bit a sample, are two vectors: adds the samples of spans to those that are covered once, or twice. */
+static inline void spans_mark(vi32 spans, uint64_t *once_rows, uint64_t *twice_rows)
+{
+    int32_t *once = (int32_t *)once_rows, *twice = (int32_t *)twice_rows;
+    for (int half = 0; half < 2; half++, once += V_LANES, twice += V_LANES) {
+        vi32 bits = v_span(spans_first(spans), spans_length(spans), half), before = v_loadi(once);
+        v_storei(twice, v_ori(v_loadi(twice), v_andi(before, bits)));
+        v_storei(once, v_ori(before, bits));
+    }
+}
+
+/* Those of them that spans hold too; not zero where there is one. */
+static inline vi32 spans_marked(vi32 spans, const uint64_t *rows)
+{
+    const int32_t *words = (const int32_t *)rows;
+    vi32 low = v_andi(v_loadi(words), v_span(spans_first(spans), spans_length(spans), 0));
+    return v_ori(low, v_andi(v_loadi(words + V_LANES), v_span(spans_first(spans), spans_length(spans), 1)));
+}
 
 /* The runs of a vector of spans, behind those of the piece that comes next. */
 static inline void spans_add(vi32 spans, e3d_shown *out)
@@ -102,7 +119,7 @@ static inline void spans_cover(const spans_lanes *in, int lane, uint32_t id, e3d
     int32_t first = out->count;
     for (int32_t y = in->y0[lane]; y <= in->y1[lane]; y += V_LANES) {
         vi32 spans = spans_of_rows(in, lane, y, cover);
-        v_cover(cover->once + y, cover->twice + y, spans_first(spans), spans_length(spans));
+        spans_mark(spans, cover->once + y, cover->twice + y);
         spans_add(spans, out);
     }
     spans_name(id, first, out);
@@ -112,12 +129,13 @@ static inline void spans_cover(const spans_lanes *in, int lane, uint32_t id, e3d
 static inline int spans_alone(const spans_lanes *in, int lane, uint32_t id, const e3d_cover *cover, e3d_shown *out)
 {
     int32_t first = out->count;
-    int met = 0;
+    vi32 marked = v_seti(0);
     for (int32_t y = in->y0[lane]; y <= in->y1[lane]; y += V_LANES) {
         vi32 spans = spans_of_rows(in, lane, y, cover);
-        met |= v_meets(cover->twice + y, spans_first(spans), spans_length(spans));
+        marked = v_ori(marked, spans_marked(spans, cover->twice + y));
         spans_add(spans, out);
     }
+    int met = v_any(v_mnot(v_eqi(marked, v_seti(0))));
     out->count = met ? first : out->count;
     spans_name(id, first, out);
     return met;

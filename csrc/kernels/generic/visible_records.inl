@@ -28,18 +28,21 @@ typedef struct records_lanes {
 
 static inline vi32 records_in_tile(vi32 sample) { return v_maxi(v_mini(sample, v_seti(E3D_TILE - 1)), v_seti(0)); }
 
-/* R12 */
-static inline record_edge records_edge(const vi32 x[3], const vi32 y[3], int k, vi32 x0, vi32 y0, const e3d_visible_tile *tile,
-                                       records_lanes *out)
+/* R12: an edge function at the tile's first sample, by way of the box's, which is near enough. */
+static inline record_edge records_edge_of(const vi32 x[3], const vi32 y[3], int k, vi32 x0, vi32 y0, vi32 tile_x, vi32 tile_y)
 {
     vi32 half = v_seti(128);
-    vi32 px = v_addi(v_shl(v_addi(x0, v_seti(tile->x)), 8), half), py = v_addi(v_shl(v_addi(y0, v_seti(tile->y)), 8), half);
+    vi32 px = v_addi(v_shl(v_addi(x0, tile_x), 8), half), py = v_addi(v_shl(v_addi(y0, tile_y), 8), half);
     record_edge e = record_edge_of(x, y, k, v_seti(0), px, py);
     e.c = v_subi(v_sra(e.c, 8), v_addi(v_muli(e.a, x0), v_muli(e.b, y0)));
-    v_storei(out->e[k], e.c);
-    v_storei(out->down[k], v_muli(e.b, v_seti(ROWS)));
-    v_storei(out->steps[k], v_ori(v_andi(e.a, v_seti(0xFFFF)), v_shl(e.b, RECORDS_DOWN)));
     return e;
+}
+
+static inline void records_keep_edge(const record_edge *e, int k, records_lanes *out)
+{
+    v_storei(out->e[k], e->c);
+    v_storei(out->down[k], v_muli(e->b, v_seti(ROWS)));
+    v_storei(out->steps[k], v_ori(v_andi(e->a, v_seti(0xFFFF)), v_shl(e->b, RECORDS_DOWN)));
 }
 
 /* R10. Strips of vectors start at the box's first column, or as far to the right as the tile allows. */
@@ -123,8 +126,10 @@ static inline void records_find(const e3d_record *const r[V_LANES], const e3d_vi
     record_edge e[3];
     v_load_rows((const void *const *)r, corners);
     records_boxes(corners, corners + 3, tile, first, out);
-    for (int k = 0; k < 3; k++)
-        e[k] = records_edge(corners, corners + 3, k, first[0], first[1], tile, out);
+    for (int k = 0; k < 3; k++) {
+        e[k] = records_edge_of(corners, corners + 3, k, first[0], first[1], v_seti(tile->x), v_seti(tile->y));
+        records_keep_edge(&e[k], k, out);
+    }
     records_rows(e, out);
 }
 

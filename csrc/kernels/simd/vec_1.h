@@ -130,17 +130,15 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) { memcpy(out, c,
 /* Word c of row[l] to lane l of column c, of eight. */
 static inline void v_load_rows(const void *const row[1], vi32 c[8]) { memcpy(c, row[0], 32); }
 
-/* The lanes whose bits are set, one after the other; returns how many. A whole vector is written. */
-/* `length` bits from bit `at` on of each lane's word; at most 64 in all, and none past the word's end. */
-static inline uint64_t span_of(int32_t at, int32_t length) { return length ? ~(uint64_t)0 >> (64 - length) << at : 0; }
-/* Sets them in `once`, and those that were set already in `twice`, too. */
-static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
-    uint64_t bits = span_of(at, length);
-    *twice |= *once & bits;
-    *once |= bits;
+/* `length` bits from bit `at` on of each lane's 64-bit word; at most 64 in all, and none past the word's end. Those of all lanes,
+ * one after the other, are two vectors: half h. */
+static inline vi32 v_span(vi32 at, vi32 length, int h) {
+    uint64_t bits = length ? ~(uint64_t)0 >> (64 - length) << at : 0;
+    vi32 words[2];
+    memcpy(words, &bits, sizeof bits);
+    return words[h];
 }
-/* Whether one of them is set. */
-static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) { return (*words & span_of(at, length)) != 0; }
+/* The lanes whose bits are set, one after the other; returns how many. A whole vector is written. */
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { memcpy(out, &a, 4); return (int)bits; }
 /* The same, of numbers below 256 to bytes. */
 static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { *out = (uint8_t)a; return (int)bits; }

@@ -129,23 +129,11 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     rows_store8(c + 8, out + 8, 16);
 }
 
-static inline __m256i spans_four(vi32 at, vi32 length, int half) {
-    __m128i at4 = half ? _mm256_extracti128_si256(at, 1) : _mm256_castsi256_si128(at);
-    __m128i length4 = half ? _mm256_extracti128_si256(length, 1) : _mm256_castsi256_si128(length);
+static inline vi32 v_span(vi32 at, vi32 length, int h) {
+    __m128i at4 = h ? _mm256_extracti128_si256(at, 1) : _mm256_castsi256_si128(at);
+    __m128i length4 = h ? _mm256_extracti128_si256(length, 1) : _mm256_castsi256_si128(length);
     __m256i none = _mm256_sub_epi64(_mm256_set1_epi64x(64), _mm256_cvtepu32_epi64(length4));
     return _mm256_sllv_epi64(_mm256_srlv_epi64(_mm256_set1_epi64x(-1), none), _mm256_cvtepu32_epi64(at4));
-}
-static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
-    for (int half = 0; half < 2; half++, once += 4, twice += 4) {
-        __m256i bits = spans_four(at, length, half), before = v_loadi(once);
-        v_storei(twice, _mm256_or_si256(v_loadi(twice), _mm256_and_si256(before, bits)));
-        v_storei(once, _mm256_or_si256(before, bits));
-    }
-}
-static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) {
-    __m256i low = _mm256_and_si256(v_loadi(words), spans_four(at, length, 0));
-    __m256i high = _mm256_and_si256(v_loadi(words + 4), spans_four(at, length, 1)), both = _mm256_or_si256(low, high);
-    return !_mm256_testz_si256(both, both);
 }
 static inline int v_pack(void *out, vi32 a, uint32_t bits) {
     int low = pack_four(out, _mm256_castsi256_si128(a), bits & 15);

@@ -176,22 +176,11 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
-static inline __m512i spans_eight(vi32 at, vi32 length, int half) {
-    __m256i at8 = half ? _mm512_extracti32x8_epi32(at, 1) : _mm512_castsi512_si256(at);
-    __m256i length8 = half ? _mm512_extracti32x8_epi32(length, 1) : _mm512_castsi512_si256(length);
+static inline vi32 v_span(vi32 at, vi32 length, int h) {
+    __m256i at8 = h ? _mm512_extracti32x8_epi32(at, 1) : _mm512_castsi512_si256(at);
+    __m256i length8 = h ? _mm512_extracti32x8_epi32(length, 1) : _mm512_castsi512_si256(length);
     __m512i none = _mm512_sub_epi64(_mm512_set1_epi64(64), _mm512_cvtepu32_epi64(length8));
     return _mm512_sllv_epi64(_mm512_srlv_epi64(_mm512_set1_epi64(-1), none), _mm512_cvtepu32_epi64(at8));
-}
-static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
-    for (int half = 0; half < 2; half++, once += 8, twice += 8) {
-        __m512i bits = spans_eight(at, length, half), before = v_loadi(once);
-        v_storei(twice, _mm512_or_si512(v_loadi(twice), _mm512_and_si512(before, bits)));
-        v_storei(once, _mm512_or_si512(before, bits));
-    }
-}
-static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) {
-    __mmask8 low = _mm512_test_epi64_mask(v_loadi(words), spans_eight(at, length, 0));
-    return (low | _mm512_test_epi64_mask(v_loadi(words + 8), spans_eight(at, length, 1))) != 0;
 }
 static inline int v_pack(void *out, vi32 a, uint32_t bits) {
     v_storei(out, _mm512_maskz_compress_epi32((__mmask16)bits, a));

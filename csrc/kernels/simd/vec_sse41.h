@@ -148,27 +148,16 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
-static inline void spans_four(uint64_t bits[4], vi32 at, vi32 length) {
+/* Whole vectors are shifted by one number. */
+static inline __m128i span_one(int32_t at, int32_t length) {
+    __m128i ones = _mm_srl_epi64(_mm_set1_epi64x(-1), _mm_cvtsi32_si128(64 - length));
+    return _mm_sll_epi64(ones, _mm_cvtsi32_si128(at));
+}
+static inline vi32 v_span(vi32 at, vi32 length, int h) {
     int32_t first[4], count[4];
     v_storei(first, at);
     v_storei(count, length);
-    for (int lane = 0; lane < 4; lane++)
-        bits[lane] = count[lane] ? ~(uint64_t)0 >> (64 - count[lane]) << first[lane] : 0;
-}
-static inline void v_cover(uint64_t *once, uint64_t *twice, vi32 at, vi32 length) {
-    uint64_t bits[4];
-    spans_four(bits, at, length);
-    for (int lane = 0; lane < 4; lane++) {
-        twice[lane] |= once[lane] & bits[lane];
-        once[lane] |= bits[lane];
-    }
-}
-static inline int v_meets(const uint64_t *words, vi32 at, vi32 length) {
-    uint64_t bits[4], both = 0;
-    spans_four(bits, at, length);
-    for (int lane = 0; lane < 4; lane++)
-        both |= words[lane] & bits[lane];
-    return both != 0;
+    return _mm_unpacklo_epi64(span_one(first[2 * h], count[2 * h]), span_one(first[2 * h + 1], count[2 * h + 1]));
 }
 static inline int v_pack(void *out, vi32 a, uint32_t bits) { return pack_four(out, a, bits); }
 static inline int v_pack8(uint8_t *out, vi32 a, uint32_t bits) { return pack_bytes(out, a, bits); }

@@ -487,6 +487,12 @@ void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t ti
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
 /* Shades the list of what shows; 0 when memory is out. */
 int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* Begins a list of what shows, of runs or of samples. */
+static inline void e3d_shown_begin(e3d_shown *shown, int runs)
+{
+    shown->runs = runs;
+    shown->count = shown->pieces = 0;
+}
 /* spans.c */
 /* Makes the list of what shows of few records; 0 where they are too large for that, or meet too much. */
 int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number);
@@ -529,15 +535,8 @@ void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const
 /* The whole tile is background. */
 void e3d_outputs_blank(const e3d_context *context, const e3d_tile *tile);
 
-static inline int e3d_is_shiny(const e3d_material *m)
-{
-    return m->specular[0] != 0.0f || m->specular[1] != 0.0f || m->specular[2] != 0.0f;
-}
-
-static inline int e3d_glows(const e3d_material *m)
-{
-    return m->emissive[0] != 0.0f || m->emissive[1] != 0.0f || m->emissive[2] != 0.0f;
-}
+/* Whether a material's specular or emissive colour adds anything. */
+static inline int e3d_adds(const float color[3]) { return color[0] != 0.0f || color[1] != 0.0f || color[2] != 0.0f; }
 
 /* What object_id and instance_id output. */
 static inline int32_t e3d_object_id(const e3d_draw *draw, int32_t instance)

@@ -336,7 +336,7 @@ static int lights_by_position(const e3d_frame *frame)
         if (frame->lights[n].kind == E3D_LIGHT_POINT)
             return 1;
     for (int32_t m = 0; m < frame->material_count; m++)
-        if (e3d_is_shiny(&frame->materials[m]))
+        if (e3d_adds(frame->materials[m].specular))
             return 1;
     return 0;
 }

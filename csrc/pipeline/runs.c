@@ -104,7 +104,6 @@ void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out)
         sample[i] = runs[i].sample | runs[i].length << E3D_RUN_LENGTH;
         of[i] = pieces - 1;
     }
-    out->runs = 1;
     out->count += count;
     out->pieces = pieces;
 }

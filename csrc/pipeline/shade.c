@@ -90,7 +90,7 @@ static void find_albedo(const e3d_context *context, const e3d_group *group, e3d_
 static void light(const e3d_context *context, const e3d_group *group, e3d_batch *batch)
 {
     const e3d_material *m = group->material;
-    int shiny = e3d_is_shiny(m);
+    int shiny = e3d_adds(m->specular);
     context->kernels->light(batch, &context->lighting, shiny ? m->shininess : 0.0f);
     context->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive);
 }
@@ -144,7 +144,7 @@ static int is_painted(const e3d_context *context, const e3d_group *group)
 static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
 {
     const e3d_material *m = group->material;
-    int lit = context->frame->mode == E3D_MODE_LIT && group->face, shiny = e3d_is_shiny(m), glows = e3d_glows(m);
+    int lit = context->frame->mode == E3D_MODE_LIT && group->face, shiny = e3d_adds(m->specular);
     const e3d_paint paint = {
         .wanted = wanted,
         .texture = group->textured ? e3d_texture_get_view(m->texture) : NULL,
@@ -154,7 +154,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .lighting = lit ? &context->lighting : NULL,
         .shininess = shiny ? m->shininess : 0.0f,
         .specular = shiny ? m->specular : NULL,
-        .emissive = glows ? m->emissive : NULL,
+        .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = context->srgb,
         .gathers = e3d_cpu_gathers(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
@@ -267,7 +267,7 @@ int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_ti
 
 static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs, int32_t count)
 {
-    worker->tile->shown.count = worker->tile->shown.pieces = 0;
+    e3d_shown_begin(&worker->tile->shown, 1);
     e3d_show_runs(e3d_sort_runs(runs, worker->tile->spare, count), count, &worker->tile->shown);
     return e3d_shade_shown(context, worker, tile);
 }

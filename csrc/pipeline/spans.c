@@ -32,12 +32,6 @@ static void begin(e3d_tile_memory *memory, const e3d_tile *tile)
     memory->cover.height = tile->height;
 }
 
-static void clear(e3d_shown *shown)
-{
-    shown->runs = 1;
-    shown->count = shown->pieces = 0;
-}
-
 static int64_t samples_of(const uint64_t rows[E3D_TILE])
 {
     int64_t count = 0;
@@ -64,7 +58,7 @@ static int show(const e3d_context *context, e3d_worker *worker, const e3d_tile *
     const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
     e3d_tile_memory *memory = worker->tile;
     begin(memory, tile);
-    clear(&memory->shown);
+    e3d_shown_begin(&memory->shown, 1);
     if (!kernels->cover_records(&memory->cover, table, memory->ids, count, &memory->shown))
         return -1;
     int64_t twice = samples_of(memory->cover.twice);
@@ -72,7 +66,7 @@ static int show(const e3d_context *context, e3d_worker *worker, const e3d_tile *
         return 0;
     if (2 * twice > samples_of(memory->cover.once))
         return -1;
-    clear(&memory->shown);
+    e3d_shown_begin(&memory->shown, 1);
     int rest = kernels->show_alone(&memory->cover, table, memory->ids, count, &memory->shown, memory->rest);
     show_rest(context, worker, tile, rest);
     return rest;

@@ -55,8 +55,7 @@ static void show_records(const e3d_context *context, const e3d_record_set *set, 
 
 void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t tile_number)
 {
-    worker->tile->shown.runs = 0;
-    worker->tile->shown.count = worker->tile->shown.pieces = 0;
+    e3d_shown_begin(&worker->tile->shown, 0);
     for (int32_t w = 0; w < context->renderer->threads; w++) {
         const e3d_worker *from = context->renderer->workers[w];
         show_records(context, &from->pass[E3D_PASS_SCENE], worker, tile_number);

@@ -115,7 +115,7 @@ def test_every_width(kernels):
 
 
 def random_runs(rng, shown):
-    """Runs of about twice as many samples as a batch holds, to a list; first samples and lengths."""
+    """Runs of about twice as many samples as a batch holds; first samples and lengths."""
     lengths = rng.choice([1, 2, 3, 7, 8, 9, 15, 16, 17, 63, 64], 2 * BATCH)
     lengths = lengths[np.cumsum(lengths) <= 2 * BATCH]
     samples = rng.integers(0, TILE * TILE - 64, len(lengths))

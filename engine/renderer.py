@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterable
+from operator import is_
 
 import numpy as np
 
@@ -86,7 +87,7 @@ class Renderer(Closed):
         self._draw_list = DrawList(self._color_space, threads)
         self._options = OptionsCache(self._color_space)
         self._pool = OutputPool()
-        self._asked, self._wanted = None, {}
+        self._asked, self._wanted = (), {}
         self._view: View | None = None
         self._framing: tuple[Camera, np.ndarray] | None = None
         self._framed = ()
@@ -117,7 +118,7 @@ class Renderer(Closed):
         width, height = check_side(width, "width"), check_side(height, "height")
         with self._lock:
             self._width, self._height = width, height
-            self._asked = None
+            self._asked = ()
             self._pool.forget()
 
     def close(self) -> None:
@@ -324,7 +325,7 @@ class Renderer(Closed):
         return View(camera, pose, self._width, self._height).clip_from_world
 
     def _new_frame(self, outputs: Iterable[str]) -> Frame:
-        if type(outputs) is not tuple or outputs is not self._asked:
+        if not _are_names(outputs, self._asked):
             self._wanted, self._asked = self._arrays_of(outputs), outputs
         return Frame(self._width, self._height, self._pool.take(self._wanted))
 
@@ -375,6 +376,12 @@ def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> No
             "nodes were added to the scene or removed while it was drawn: change a scene between "
             "frames, not from another thread during one"
         ) from error
+
+
+def _are_names(outputs: Iterable[str], asked: tuple[str, ...]) -> bool:
+    """Whether outputs are the very names that were asked for before, and so need no check."""
+    known = type(outputs) is tuple and len(outputs) == len(asked) > 0
+    return known and all(map(is_, outputs, asked))
 
 
 def _names_of(outputs: Iterable[str]) -> tuple[str, ...]:

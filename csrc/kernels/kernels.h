@@ -259,11 +259,34 @@ typedef struct e3d_shown {
 
 enum { E3D_RUN_LENGTH = 16 };
 
-/* Which samples of a tile records cover, a bit each, row by row, and which more than one covers. */
+/* A record of a tile, the rows of its box there, and the place of the first one's span. */
+typedef struct e3d_covering {
+    const e3d_record *record;
+    uint32_t id;
+    int32_t y0, y1, at;
+} e3d_covering;
+
+/* What the records of a tile cover, hidden or not. */
+enum { E3D_MOST_COVERING = 256, E3D_COVER_ROWS = 8192 };
 typedef struct e3d_cover {
-    uint64_t once[E3D_TILE + E3D_PAD], twice[E3D_TILE + E3D_PAD];
-    int32_t x, y, width, height; /* of the tile: its first sample, and samples inside the viewport */
+    int32_t x, y, width, height;                             /* of the tile: its first sample, and samples inside the viewport */
+    int32_t count, used;                                     /* of the records, and of the spans */
+    uint64_t once[E3D_TILE + E3D_PAD], twice[E3D_TILE + E3D_PAD]; /* samples of each row that one covers, and more than one */
+    e3d_covering record[E3D_MOST_COVERING];
+    int32_t span[E3D_COVER_ROWS + E3D_PAD]; /* of each row of each record a run, perhaps of length 0 */
 } e3d_cover;
+
+/* Of records that meet, some after the other, the samples that are left to each. */
+typedef struct e3d_layers {
+    uint64_t covered[E3D_TILE + E3D_PAD], hidden[E3D_TILE + E3D_PAD]; /* by those so far; by those that aren't open */
+    uint64_t left[E3D_COVER_ROWS + E3D_PAD];                          /* of each span */
+    struct {
+        float zmax;
+        int32_t number;
+    } open[E3D_MOST_COVERING]; /* records that may reach behind the nearest depths of the next ones */
+    int32_t opened;            /* how many */
+    int32_t contested, taken;         /* samples whose depths were compared; whether a later one was nearer */
+} e3d_layers;
 
 enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 
@@ -397,12 +420,14 @@ typedef struct e3d_kernels {
     void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
     /* The same of fragments; those of one triangle that follow each other are a piece. */
     void (*show_fragments)(const e3d_visible_tile *tile, const e3d_fragment_block *block, e3d_shown *out);
-    /* Adds the runs of what records cover to the list, hidden or not; records, in this order, are pieces. 0 where one is too large,
-     * or may be beyond the far plane, or the list is full. */
+    /* Adds what records cover to the rest of the tile's, and their runs to the list; records, in this order, are pieces. 0 where one is
+     * too large, or may be beyond the far plane, or there are too many. */
     int (*cover_records)(e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
-    /* The same of records that others don't meet; of all of a tile it is known what they cover. Lists the rest; how many. */
-    int (*show_alone)(const e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out,
-                      uint32_t *rest);
+    /* Adds the runs of the records that others don't meet. Lists the numbers of the rest; how many. */
+    int (*show_alone)(const e3d_cover *cover, e3d_shown *out, uint16_t *rest);
+    /* Adds what shows of these, the nearest first. 0 where to find depths of all samples takes less. */
+    int (*show_layers)(const e3d_cover *cover, const e3d_record_table *table, const uint16_t *numbers, int count, e3d_layers *layers,
+                       e3d_shown *out);
     /* Adds as many runs or samples from `first` on as the batch has room for; how many. A batch of none takes one at least. Piece
      * `piece` is surface 0, the others follow. */
     int (*take_runs)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);

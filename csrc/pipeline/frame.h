@@ -125,8 +125,6 @@ typedef struct e3d_counters {
 
 /* ---- one tile at a time, a thread ---- */
 
-enum { E3D_MOST_SPANS = 256 }; /* records of a tile that are drawn without depths: of more, most are small, and take longer so */
-
 typedef struct e3d_tile {
     int32_t x, y;          /* first sample */
     int32_t width, height; /* samples inside the viewport */
@@ -162,7 +160,7 @@ typedef struct e3d_tile_memory {
     char apart[2048]; /* at a like place in its page, a store holds up loads: sorting reads one and writes the other */
     e3d_run spare[E3D_TILE_SAMPLES]; /* while runs are sorted */
     _Alignas(64) e3d_cover cover;
-    uint32_t ids[E3D_MOST_SPANS], rest[E3D_MOST_SPANS]; /* of the tile's records, and of those that others meet */
+    _Alignas(64) e3d_layers layers;
     _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
     _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */

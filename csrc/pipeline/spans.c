@@ -1,10 +1,12 @@
-/* raster without depths: few records of a tile are mostly neighbours that don't meet, and all that they cover shows. */
+/* raster without depths: few records of a tile are mostly neighbours that don't meet, and all that they cover shows; where some meet,
+ * most lie clearly behind others.
+ */
 #include <string.h>
 
 #include "pipeline/frame.h"
 
-/* The records of a tile's bins; how many, or -1 where there are too many, or fragments. */
-static int list_records(const e3d_context *context, int64_t tile, uint32_t ids[E3D_MOST_SPANS])
+/* Whether a tile has few records, and no fragments. Of many not all bins are looked through. */
+static int are_few(const e3d_context *context, int64_t tile)
 {
     uint32_t count = 0;
     for (int32_t w = 0; w < context->renderer->threads; w++) {
@@ -12,64 +14,71 @@ static int list_records(const e3d_context *context, int64_t tile, uint32_t ids[E
         const e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
         const e3d_bin_block *blocks = set->blocks.data;
         if (e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK)
-            return -1;
-        for (uint32_t next = e3d_first_block(&set->bins, tile); next != E3D_NO_BLOCK; next = blocks[next].next) {
-            if (count + blocks[next].count > E3D_MOST_SPANS)
-                return -1;
-            memcpy(ids + count, blocks[next].id, blocks[next].count * sizeof *ids);
-            count += blocks[next].count;
-        }
+            return 0;
+        for (uint32_t next = e3d_first_block(&set->bins, tile); next != E3D_NO_BLOCK; next = blocks[next].next)
+            if ((count += blocks[next].count) > E3D_MOST_COVERING)
+                return 0;
     }
-    return (int)count;
+    return 1;
+}
+
+/* Finds what the records of a tile's bins cover, and lists all of it; 0 where that is too much. */
+static int cover_records(const e3d_context *context, e3d_tile_memory *memory, int64_t tile)
+{
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_worker *worker = context->renderer->workers[w];
+        const e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
+        const e3d_bin_block *blocks = set->blocks.data;
+        for (uint32_t next = e3d_first_block(&set->bins, tile); next != E3D_NO_BLOCK; next = blocks[next].next)
+            if (!context->kernels->cover_records(&memory->cover, &context->tables[E3D_PASS_SCENE], blocks[next].id,
+                                                 (int)blocks[next].count, &memory->shown))
+                return 0;
+    }
+    return 1;
 }
 
 static void begin(e3d_tile_memory *memory, const e3d_tile *tile)
 {
-    memset(&memory->cover, 0, sizeof memory->cover);
-    memory->cover.x = tile->x;
-    memory->cover.y = tile->y;
-    memory->cover.width = tile->width;
-    memory->cover.height = tile->height;
+    e3d_cover *cover = &memory->cover;
+    cover->x = tile->x;
+    cover->y = tile->y;
+    cover->width = tile->width;
+    cover->height = tile->height;
+    cover->count = cover->used = 0;
+    memset(cover->once, 0, sizeof cover->once);
+    memset(cover->twice, 0, sizeof cover->twice);
+    e3d_shown_begin(&memory->shown, 1);
 }
 
-static int64_t samples_of(const uint64_t rows[E3D_TILE])
+static int meet(const e3d_cover *cover)
 {
-    int64_t count = 0;
+    uint64_t twice = 0;
     for (int y = 0; y < E3D_TILE; y++)
-        count += __builtin_popcountll(rows[y]);
-    return count;
+        twice |= cover->twice[y];
+    return twice != 0;
 }
 
-/* What shows of records that others meet, by their depths. */
-static void show_rest(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int count)
+/* By their nearest depths: none is negative, so the bits are in their order. */
+static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int count, uint16_t *sorted)
 {
-    int gaps;
-    e3d_tile_memory *memory = worker->tile;
-    e3d_visible_clear(worker->visible, tile);
-    context->kernels->raster_visible(worker->visible, &context->tables[E3D_PASS_SCENE], memory->rest, count);
-    int32_t runs = context->kernels->find_runs(worker->visible, tile->width, tile->height, memory->runs, &gaps);
-    e3d_show_runs(e3d_sort_runs(memory->runs, memory->spare, runs), runs, &memory->shown);
+    for (int i = 0; i < count; i++) {
+        memory->runs[i].sample = numbers[i];
+        memcpy(&memory->runs[i].owner, &memory->cover.record[numbers[i]].record->zmin, sizeof(float));
+    }
+    const e3d_run *runs = e3d_sort_runs(memory->runs, memory->spare, count);
+    for (int i = 0; i < count; i++)
+        sorted[i] = runs[i].sample;
 }
 
-/* Makes the list of what shows of records; how many of them others meet, or -1 where spans will not do. */
-static int show(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int count)
+/* Makes the list of what shows where records meet; 0 where depths of all samples are found sooner. */
+static int show_met(const e3d_context *context, e3d_tile_memory *memory)
 {
     const e3d_kernels *kernels = context->kernels;
-    const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
-    e3d_tile_memory *memory = worker->tile;
-    begin(memory, tile);
+    uint16_t numbers[E3D_MOST_COVERING];
     e3d_shown_begin(&memory->shown, 1);
-    if (!kernels->cover_records(&memory->cover, table, memory->ids, count, &memory->shown))
-        return -1;
-    int64_t twice = samples_of(memory->cover.twice);
-    if (!twice)
-        return 0;
-    if (2 * twice > samples_of(memory->cover.once))
-        return -1;
-    e3d_shown_begin(&memory->shown, 1);
-    int rest = kernels->show_alone(&memory->cover, table, memory->ids, count, &memory->shown, memory->rest);
-    show_rest(context, worker, tile, rest);
-    return rest;
+    int count = kernels->show_alone(&memory->cover, &memory->shown, numbers);
+    sort_by_depth(memory, numbers, count, numbers);
+    return kernels->show_layers(&memory->cover, &context->tables[E3D_PASS_SCENE], numbers, count, &memory->layers, &memory->shown);
 }
 
 /* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
@@ -82,16 +91,17 @@ static void judge(e3d_spans_trial *trial, int pays)
 
 int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number)
 {
+    e3d_tile_memory *memory = worker->tile;
     if (worker->trial.left > 0) {
         worker->trial.left--;
         return 0;
     }
-    int count = list_records(context, number, worker->tile->ids);
-    if (count <= 0)
+    if (!are_few(context, number))
         return 0;
-    int rest = show(context, worker, tile, count);
-    judge(&worker->trial, rest >= 0 && 2 * rest <= count);
-    return rest >= 0;
+    begin(memory, tile);
+    int shows = cover_records(context, memory, number) && (!meet(&memory->cover) || show_met(context, memory));
+    judge(&worker->trial, shows);
+    return shows;
 }
 
 int e3d_spans_cover_all(const e3d_cover *cover)

@@ -1,6 +1,6 @@
 # The Cython mirror of csrc/kernels/kernels.h, and nothing else: what the tests of the kernels need.
 
-from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
+from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
 
 from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
 from e3d_clusters cimport e3d_cluster
@@ -18,6 +18,8 @@ cdef extern from "kernels/kernels.h" nogil:
         E3D_CLUSTER_VERTICES
         E3D_BATCH
         E3D_BATCH_SURFACES
+        E3D_MOST_COVERING
+        E3D_COVER_ROWS
         E3D_SMALLS
         E3D_MOST_FRAGMENTS
         E3D_BLOCK_FRAGMENTS
@@ -109,6 +111,8 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_run:
         pass
 
+    ctypedef struct e3d_layers:
+        pass
     ctypedef struct e3d_cover:
         pass
     ctypedef struct e3d_shown:
@@ -182,8 +186,9 @@ cdef extern from "kernels/kernels.h" nogil:
                                e3d_shown *out)
         int (*cover_records)(e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids,
                              int count, e3d_shown *out)
-        int (*show_alone)(const e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids,
-                          int count, e3d_shown *out, uint32_t *rest)
+        int (*show_alone)(const e3d_cover *cover, e3d_shown *out, uint16_t *rest)
+        int (*show_layers)(const e3d_cover *cover, const e3d_record_table *table, const uint16_t *numbers,
+                           int count, e3d_layers *layers, e3d_shown *out)
         int (*take_runs)(const e3d_shown *shown, int first, int count, int32_t piece,
                          e3d_batch *batch)
         int (*take_shown)(const e3d_shown *shown, int first, int count, int32_t piece,

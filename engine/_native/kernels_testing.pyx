@@ -8,7 +8,7 @@ Always: nothing but the sizes of structs is checked. What a kernel expects of it
      (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
 """
 
-from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
+from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
 from libc.string cimport memcpy, memset
 
 from e3d cimport (
@@ -62,6 +62,7 @@ STRUCT_SIZES = {
     "visible_tile": sizeof(e3d_visible_tile),
     "run": sizeof(e3d_run),
     "cover": sizeof(e3d_cover),
+    "layers": sizeof(e3d_layers),
     "shown": sizeof(e3d_shown),
     "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
@@ -74,6 +75,8 @@ LIMITS = {
     "CLUSTER_VERTICES": E3D_CLUSTER_VERTICES,
     "BATCH": E3D_BATCH,
     "BATCH_SURFACES": E3D_BATCH_SURFACES,
+    "MOST_COVERING": E3D_MOST_COVERING,
+    "COVER_ROWS": E3D_COVER_ROWS,
     "SMALLS": E3D_SMALLS,
     "MOST_FRAGMENTS": E3D_MOST_FRAGMENTS,
     "BLOCK_FRAGMENTS": E3D_BLOCK_FRAGMENTS,
@@ -324,21 +327,31 @@ cdef class Kernels:
                                              <e3d_shown *>&shown[0])
         return fits != 0
 
-    def show_alone(self, const uint8_t[::1] cover, const uint8_t[:, ::1] records, const uint32_t[::1] ids,
-                   uint8_t[::1] shown, uint32_t[::1] rest):
+    def show_alone(self, const uint8_t[::1] cover, uint8_t[::1] shown, uint16_t[::1] rest):
         """Returns how many are left; with several rounds, the others are listed as often."""
-        cdef e3d_record_table table
-        cdef const e3d_record *rows[MOST_WORKERS]
         cdef int left = 0
         check_size(cover, sizeof(e3d_cover))
         check_size(shown, sizeof(e3d_shown))
-        if rest.shape[0] < ids.shape[0]:
+        if rest.shape[0] < E3D_MOST_COVERING:
             raise ValueError("rest must have room for all")
+        for _ in range(self.rounds):
+            left = self.table.show_alone(<const e3d_cover *>&cover[0], <e3d_shown *>&shown[0], &rest[0])
+        return left
+
+    def show_layers(self, const uint8_t[::1] cover, const uint8_t[:, ::1] records, const uint16_t[::1] numbers,
+                    uint8_t[::1] layers, uint8_t[::1] shown):
+        """Of what the records cover, which must be these; with several rounds, they are listed as often."""
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        cdef int sure = 1
+        check_size(cover, sizeof(e3d_cover))
+        check_size(layers, sizeof(e3d_layers))
+        check_size(shown, sizeof(e3d_shown))
         fill_table(&table, rows, records)
         for _ in range(self.rounds):
-            left = self.table.show_alone(<const e3d_cover *>&cover[0], &table, &ids[0], <int>ids.shape[0],
-                                         <e3d_shown *>&shown[0], &rest[0])
-        return left
+            sure &= self.table.show_layers(<const e3d_cover *>&cover[0], &table, &numbers[0],
+                                           <int>numbers.shape[0], <e3d_layers *>&layers[0], <e3d_shown *>&shown[0])
+        return sure != 0
 
     def take_runs(self, const uint8_t[::1] shown, int first, int count, int32_t piece,
                   uint8_t[::1] batch):

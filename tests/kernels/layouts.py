@@ -13,6 +13,8 @@ BATCH = kernels_testing.LIMITS["BATCH"]
 SMALLS = kernels_testing.LIMITS["SMALLS"]
 MOST_FRAGMENTS = kernels_testing.LIMITS["MOST_FRAGMENTS"]
 BLOCK_FRAGMENTS = kernels_testing.LIMITS["BLOCK_FRAGMENTS"]
+MOST_COVERING = kernels_testing.LIMITS["MOST_COVERING"]
+COVER_ROWS = kernels_testing.LIMITS["COVER_ROWS"]
 FRAGMENT_ID = kernels_testing.LIMITS["FRAGMENT_ID"]
 BATCH_SURFACES = kernels_testing.LIMITS["BATCH_SURFACES"]
 
@@ -89,9 +91,16 @@ SHOWN = np.dtype(
     + [("count", "i4"), ("pieces", "i4"), ("runs", "i4")]
 )
 RUN_LENGTH = 16  # of a run in that list: the bit that its length begins at
+COVERING = np.dtype([("record", "u8"), ("id", "u4"), ("y0", "i4"), ("y1", "i4"), ("at", "i4")])
 COVER = np.dtype(
-    [("once", "u8", TILE + PAD), ("twice", "u8", TILE + PAD)]
-    + [(name, "i4") for name in ("x", "y", "width", "height")]
+    [(name, "i4") for name in ("x", "y", "width", "height", "count", "used")]
+    + [("once", "u8", TILE + PAD), ("twice", "u8", TILE + PAD)]
+    + [("record", COVERING, MOST_COVERING), ("span", "i4", COVER_ROWS + PAD)]
+)
+LAYERS = np.dtype(
+    [("covered", "u8", TILE + PAD), ("hidden", "u8", TILE + PAD), ("left", "u8", COVER_ROWS + PAD)]
+    + [("open", [("zmax", "f4"), ("number", "i4")], MOST_COVERING)]
+    + [("opened", "i4"), ("contested", "i4"), ("taken", "i4"), ("unused", "i4")]
 )
 _ELEMENTS = BATCH_SURFACES + PAD
 SURFACES = np.dtype(
@@ -152,6 +161,7 @@ STRUCTS = {
     "visible_tile": VISIBLE_TILE,
     "run": RUN,
     "cover": COVER,
+    "layers": LAYERS,
     "shown": SHOWN,
     "surfaces": SURFACES,
     "batch": BATCH_RECORD,

@@ -7,7 +7,7 @@ import functools
 
 import numpy as np
 from kernels.harness import Records, all_backends, check_poisoned
-from kernels.layouts import COVER, PAD, RECORD, RUN_LENGTH, SHOWN, TILE
+from kernels.layouts import COVER, COVER_ROWS, MOST_COVERING, PAD, RECORD, RUN_LENGTH, SHOWN, TILE
 from kernels.pieces import Triangle, meta_of
 from kernels.test_raster import random_tile
 from kernels.test_visible import STRIPS, corners_of
@@ -76,10 +76,22 @@ def scenes():
     return [scene for scene in made if len(scene.ids)]
 
 
-def cover_of(scene):
-    cover = np.zeros(1, COVER)
-    cover["x"], cover["y"] = scene.place[2:]
-    cover["width"], cover["height"] = scene.size
+def empty_cover(place, size):
+    cover = Records(COVER, 1)
+    for name in ("count", "used", "once", "twice"):
+        cover.fields[name] = 0
+    cover.fields["x"], cover.fields["y"] = place
+    cover.fields["width"], cover.fields["height"] = size
+    return cover
+
+
+def cover_of(scene, kernels, shown, parts=1):
+    """What the records of a scene cover, a part of them at a time."""
+    cover, table = empty_cover(scene.place[2:], scene.size), scene.records.view(np.uint8)[None]
+    for part in np.array_split(scene.ids, parts):
+        if len(part):
+            assert kernels.cover_records(cover.rows[0], table, part, shown)
+    cover.check_gaps()
     return cover
 
 
@@ -119,19 +131,30 @@ def bits_of(samples):
     return np.packbits(samples, axis=1, bitorder="little").view(np.uint64)[:, 0]
 
 
+def check_spans(fields, scene):
+    """Each record's rows, those without samples, too."""
+    assert fields["count"] == len(scene.ids)
+    for number, entry in enumerate(fields["record"][: len(scene.ids)]):
+        assert entry["record"] == scene.records[number : number + 1].ctypes.data
+        assert entry["id"] == scene.ids[number]
+        rows = slice(entry["y0"], entry["y1"] + 1)
+        assert not np.delete(scene.covers[number], rows, axis=0).any()
+        spans = fields["span"][entry["at"] :][: entry["y1"] - entry["y0"] + 1]
+        spans = spans[spans >> RUN_LENGTH > 0]
+        assert np.array_equal(spans, runs_of(scene.covers[number]))
+
+
 @all_backends
 def test_cover_records(kernels):
     """Runs of every record, hidden or not, and the samples that one, and more than one, cover."""
     lists = empty_lists(len(scenes()))
     for row, fields, scene in zip(lists.rows, lists.fields, scenes(), strict=True):
-        cover, table = cover_of(scene), scene.records.view(np.uint8)[None]
-        for part in np.array_split(scene.ids, 3):
-            if len(part):
-                assert kernels.cover_records(cover.view(np.uint8), table, part, row)
+        cover = cover_of(scene, kernels, row, parts=3).fields[0]
         check_list(fields, scene, scene.ids)
-        assert np.array_equal(cover["once"][0, :TILE], bits_of(scene.layers > 0))
-        assert np.array_equal(cover["twice"][0, :TILE], bits_of(scene.layers > 1))
-        assert not cover["once"][0, TILE:].any()
+        check_spans(cover, scene)
+        assert np.array_equal(cover["once"][:TILE], bits_of(scene.layers > 0))
+        assert np.array_equal(cover["twice"][:TILE], bits_of(scene.layers > 1))
+        assert not cover["once"][TILE:].any()
     lists.check_gaps()
 
 
@@ -140,13 +163,12 @@ def test_show_alone(kernels):
     """Those that nobody meets are listed; the others are the rest, in order."""
     lists, met = empty_lists(len(scenes())), 0
     for row, fields, scene in zip(lists.rows, lists.fields, scenes(), strict=True):
-        cover, table = cover_of(scene), scene.records.view(np.uint8)[None]
-        cover["twice"][0, :TILE] = bits_of(scene.layers > 1)
-        before, rest = cover.copy(), np.zeros(len(scene.ids), np.uint32)
-        left = kernels.show_alone(cover.view(np.uint8), table, scene.ids, row, rest)
-        assert np.array_equal(rest[:left], scene.ids[~scene.alone])
+        cover = cover_of(scene, kernels, empty_lists(1).rows[0])
+        before, rest = cover.rows[0].copy(), np.zeros(MOST_COVERING, np.uint16)
+        left = kernels.show_alone(cover.rows[0], row, rest)
+        assert np.array_equal(scene.ids[rest[:left]], scene.ids[~scene.alone])
         check_list(fields, scene, np.flatnonzero(scene.alone))
-        assert np.array_equal(cover, before)
+        assert np.array_equal(cover.rows[0], before)
         met += left
     assert met > len(scenes())  # or nobody met anybody
     lists.check_gaps()
@@ -165,20 +187,34 @@ def test_what_needs_depths_is_refused(kernels):
             else:
                 records["zmax"][number] = NEXT_AFTER_1 if change == "far" else np.nan
             table, lists = records.view(np.uint8)[None], empty_lists(1)
-            cover = cover_of(scene).view(np.uint8)
-            assert not kernels.cover_records(cover, table, scene.ids, lists.rows[0]), change
+            cover = empty_cover(scene.place[2:], scene.size)
+            shown = kernels.cover_records(cover.rows[0], table, scene.ids, lists.rows[0])
+            assert not shown, change
+
+
+def fill(kernels, corners, count):
+    """How many copies of one record there is room for, of `count`; nothing is written past that."""
+    record = np.zeros(1, RECORD)
+    record["x"], record["y"] = corners
+    lists, cover = empty_lists(1), empty_cover((0, 0), (TILE, TILE))
+    ids, table = np.arange(count, dtype=np.uint32) * 0, record.view(np.uint8)[None]
+    while len(ids) and kernels.cover_records(cover.rows[0], table, ids[:1], lists.rows[0]):
+        ids = ids[1:]
+    lists.check_gaps()
+    cover.check_gaps()
+    assert cover.fields["count"][0] == count - len(ids)
+    return count - len(ids), lists.fields[0], cover.fields[0]
 
 
 @all_backends
-def test_a_full_list_is_refused(kernels):
-    """More rows than a tile has samples, of records that meet; nothing is written past the list."""
-    record = np.zeros(1, RECORD)
-    record["x"], record["y"] = [0, SIDE, 0], [0, 0, SIDE]
-    lists, cover = empty_lists(1), np.zeros(1, COVER)
-    cover["width"] = cover["height"] = TILE
-    ids = np.zeros(TILE + 1, np.uint32)
-    table = record.view(np.uint8)[None]
-    assert kernels.cover_records(cover.view(np.uint8), table, ids[:TILE], lists.rows[0])
-    assert lists.fields["count"][0] == TILE * TILE
-    assert not kernels.cover_records(cover.view(np.uint8), table, ids[:1], lists.rows[0])
-    lists.check_gaps()
+def test_what_is_full_refuses_more(kernels):
+    """More runs than a tile has samples, more rows than there is room for, more records."""
+    large, shown, _ = fill(kernels, ([0, SIDE, 0], [0, 0, SIDE]), TILE + 1)
+    assert (large, shown["count"]) == (TILE, TILE * TILE)
+    tall = [100, 101, 100], [0, 0, SIDE]  # of few samples, in many rows
+    room, shown, cover = fill(kernels, tall, MOST_COVERING)
+    assert room >= COVER_ROWS // TILE - 1
+    assert shown["count"] < TILE * TILE
+    assert cover["used"] <= COVER_ROWS
+    small, _, cover = fill(kernels, ([100, 300, 100], [100, 100, 300]), MOST_COVERING + 1)
+    assert small == MOST_COVERING

@@ -114,31 +114,23 @@ static inline void spans_name(uint32_t id, int32_t first, e3d_shown *out)
 }
 
 /* A piece, and what it covers. */
-static inline void spans_cover(const spans_lanes *in, int lane, uint32_t id, e3d_cover *cover, e3d_shown *out)
+static inline void spans_cover(const spans_lanes *in, int lane, const e3d_record *r, uint32_t id, e3d_cover *cover, e3d_shown *out)
 {
     int32_t first = out->count;
+    cover->record[cover->count++] = (e3d_covering){r, id, in->y0[lane], in->y1[lane], cover->used};
     for (int32_t y = in->y0[lane]; y <= in->y1[lane]; y += V_LANES) {
         vi32 spans = spans_of_rows(in, lane, y, cover);
+        v_storei(cover->span + cover->used, spans);
+        cover->used += V_LANES;
         spans_mark(spans, cover->once + y, cover->twice + y);
         spans_add(spans, out);
     }
     spans_name(id, first, out);
 }
 
-/* A piece, unless others meet it; whether they do. */
-static inline int spans_alone(const spans_lanes *in, int lane, uint32_t id, const e3d_cover *cover, e3d_shown *out)
+static inline int spans_full(const e3d_cover *cover, const e3d_shown *out)
 {
-    int32_t first = out->count;
-    vi32 marked = v_seti(0);
-    for (int32_t y = in->y0[lane]; y <= in->y1[lane]; y += V_LANES) {
-        vi32 spans = spans_of_rows(in, lane, y, cover);
-        marked = v_ori(marked, spans_marked(spans, cover->twice + y));
-        spans_add(spans, out);
-    }
-    int met = v_any(v_mnot(v_eqi(marked, v_seti(0))));
-    out->count = met ? first : out->count;
-    spans_name(id, first, out);
-    return met;
+    return out->count > E3D_TILE_SAMPLES - E3D_TILE || cover->used > E3D_COVER_ROWS - E3D_TILE || cover->count == E3D_MOST_COVERING;
 }
 
 static int kernel_cover_records(e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out)
@@ -151,27 +143,45 @@ static int kernel_cover_records(e3d_cover *cover, const e3d_record_table *table,
             return 0;
         spans_find(r, cover, &in);
         for (int lane = 0; lane < some; lane++) {
-            if (out->count > E3D_TILE_SAMPLES - E3D_TILE)
+            if (spans_full(cover, out))
                 return 0;
-            spans_cover(&in, lane, ids[i + lane], cover, out);
+            spans_cover(&in, lane, r[lane], ids[i + lane], cover, out);
         }
     }
     return 1;
 }
 
-static int kernel_show_alone(const e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out,
-                             uint32_t *rest)
+/* ---- from what is covered to what shows ---- */
+
+static inline int spans_none(vi32 bits) { return !v_any(v_mnot(v_eqi(bits, v_seti(0)))); }
+
+static inline void spans_show(const e3d_cover *cover, const e3d_covering *c, e3d_shown *out)
 {
-    const e3d_record *r[V_LANES];
-    spans_lanes in;
+    int32_t first = out->count;
+    const int32_t *span = cover->span + c->at;
+    for (int32_t y = c->y0; y <= c->y1; y += V_LANES, span += V_LANES)
+        spans_add(v_loadi(span), out);
+    spans_name(c->id, first, out);
+}
+
+static inline int spans_met(const e3d_cover *cover, const e3d_covering *c)
+{
+    vi32 marked = v_seti(0);
+    const int32_t *span = cover->span + c->at;
+    for (int32_t y = c->y0; y <= c->y1; y += V_LANES, span += V_LANES)
+        marked = v_ori(marked, spans_marked(v_loadi(span), cover->twice + y));
+    return !spans_none(marked);
+}
+
+static int kernel_show_alone(const e3d_cover *cover, e3d_shown *out, uint16_t *rest)
+{
     int left = 0;
-    for (int i = 0; i < count; i += V_LANES) {
-        int some = records_take(table, ids + i, count - i, r);
-        spans_find(r, cover, &in);
-        for (int lane = 0; lane < some; lane++) {
-            rest[left] = ids[i + lane];
-            left += spans_alone(&in, lane, ids[i + lane], cover, out);
-        }
+    for (int32_t i = 0; i < cover->count; i++) {
+        int met = spans_met(cover, &cover->record[i]);
+        rest[left] = (uint16_t)i;
+        left += met;
+        if (!met)
+            spans_show(cover, &cover->record[i], out);
     }
     return left;
 }

@@ -22,6 +22,7 @@
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/shown.inl"
 #include "kernels/generic/spans.inl"
+#include "kernels/generic/layers.inl"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/project.inl"
 #include "kernels/generic/interpolate.inl"
@@ -54,6 +55,7 @@ const e3d_kernels E3D_TABLE = {
     .show_fragments = kernel_show_fragments,
     .cover_records = kernel_cover_records,
     .show_alone = kernel_show_alone,
+    .show_layers = kernel_show_layers,
     .take_shown = kernel_take_shown,
     .project = kernel_project,
     .surface = kernel_surface,

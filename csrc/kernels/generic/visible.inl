@@ -26,10 +26,9 @@ static inline int32_t visible_first(const int32_t v[3])
     return first > 0 ? first : 0;
 }
 
-static inline visible_plane visible_plane_of(const e3d_record *r, const e3d_visible_tile *tile)
+static inline visible_plane visible_plane_of(const e3d_record *r, int32_t tile_x, int32_t tile_y)
 {
-    return (visible_plane){r->z0,   r->gx,   r->gy, r->zmin, r->zmax, visible_first(r->x) - tile->x,
-                           visible_first(r->y) - tile->y};
+    return (visible_plane){r->z0, r->gx, r->gy, r->zmin, r->zmax, visible_first(r->x) - tile_x, visible_first(r->y) - tile_y};
 }
 
 /* ---- samples ---- */
@@ -105,7 +104,7 @@ static void visible_unfold(e3d_visible_tile *tile, const e3d_record_table *table
             }
         return;
     }
-    visible_plane p = visible_plane_of(e3d_record_at(table, (uint32_t)id), tile);
+    visible_plane p = visible_plane_of(e3d_record_at(table, (uint32_t)id), tile->x, tile->y);
     raster_constants c = {v_setf(p.z0), v_setf(p.gx), v_setf(p.gy), v_setf(p.zmin), v_setf(p.zmax), v_seti(id)};
     for (int x = 0; x < RASTER_BLOCK; x += ROW_LANES) {
         vf32 column = visible_column(&c, at % E3D_TILE + x - p.base_x);

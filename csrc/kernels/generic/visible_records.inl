@@ -227,7 +227,7 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
 /* At most 2 x 2 samples, whose cover setup has found. */
 static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_tile *tile, const e3d_record_table *table)
 {
-    visible_plane p = visible_plane_of(r, tile);
+    visible_plane p = visible_plane_of(r, tile->x, tile->y);
     for (uint32_t cover = r->meta >> E3D_RECORD_SHIFT; cover; cover &= cover - 1) {
         int bit = __builtin_ctz(cover), dx = bit & 1, dy = bit >> 1;
         int x = p.base_x + dx, y = p.base_y + dy;

@@ -358,6 +358,14 @@ typedef struct e3d_samples {
     float counts[E3D_TILE_SAMPLES + E3D_PAD];   /* 1, or 0 where a transparent background shows */
 } e3d_samples;
 
+/* Rows of pixels: `count`, of so many bytes, and how far one begins from the other. */
+typedef struct e3d_pixel_rows {
+    char *to;
+    const char *from;
+    size_t bytes, pitch, step;
+    int count;
+} e3d_pixel_rows;
+
 typedef struct e3d_paint {
     int wanted;                      /* E3D_WANT_* */
     const e3d_texture_view *texture; /* may be NULL */
@@ -369,15 +377,8 @@ typedef struct e3d_paint {
     int srgb;
     int gathers;          /* what e3d_cpu_gathers says */
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
+    e3d_pixel_rows *meanwhile; /* NULL, or rows to stream as far as that goes: what is left of them stays */
 } e3d_paint;
-
-/* Rows of pixels: `count`, of so many bytes, and how far one begins from the other. */
-typedef struct e3d_pixel_rows {
-    char *to;
-    const char *from;
-    size_t bytes, pitch, step;
-    int count;
-} e3d_pixel_rows;
 
 /* ---- the table ---- */
 

@@ -30,13 +30,17 @@ void e3d_blank_begin(const e3d_context *context, e3d_worker *worker)
     worker->blanks = !context->finished; /* then they are written already */
 }
 
+e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker)
+{
+    if (!worker->blank.height)
+        worker->blanks = worker->blanks && find_blank(context, worker);
+    return &worker->blank;
+}
+
 void e3d_blank_some(const e3d_context *context, e3d_worker *worker)
 {
     enum { ROWS = 8 };
-    e3d_tile *left = &worker->blank, some;
-    if (!left->height)
-        worker->blanks = worker->blanks && find_blank(context, worker);
-    some = *left;
+    e3d_tile *left = e3d_blank_now(context, worker), some = *left;
     some.height = left->height < ROWS ? left->height : ROWS;
     if (some.height)
         e3d_resolve_blank(context, &some);

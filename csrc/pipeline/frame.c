@@ -20,6 +20,7 @@ static e3d_worker *create_worker(uint32_t number)
     worker->number = number;
     worker->tile = memory;
     memset(worker->tile, 0, sizeof *worker->tile); /* padding is read, never used */
+    worker->tile->rgba = worker->tile->pixels[0];
     for (int i = 0; i < E3D_TILE_SAMPLES + E3D_PAD; i++)
         worker->tile->bound[i] = E3D_BEYOND_FAR;
     return worker;

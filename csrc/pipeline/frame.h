@@ -153,7 +153,8 @@ typedef struct e3d_tile_memory {
     float bound[E3D_TILE_SAMPLES + E3D_PAD]; /* E3D_BEYOND_FAR everywhere */
     float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* wireframe: what an edge's depth must be less than */
     int32_t mark[E3D_TILE_SAMPLES + E3D_PAD];  /* overdraw counts, then wireframe marks */
-    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
+    uint32_t pixels[2][E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel: this tile's, and the last one's; */
+    uint32_t *rgba;                                 /* the former */
     e3d_samples samples;                       /* of several */
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
@@ -199,6 +200,7 @@ typedef struct e3d_worker {
     e3d_counters counters;
     e3d_spans_trial trial;
     e3d_places taken[E3D_TO_DO];
+    e3d_pixel_rows late_drawn, late_blank; /* what is left to write of tiles: the last one, and one that nothing is in */
     e3d_tile blank;         /* what is left of the one that is being cleared */
     int blanks;             /* whether there may be more */
     int64_t lap;            /* when the last stage of a tile ended (e3d_lap) */
@@ -461,8 +463,20 @@ int e3d_is_blank(const e3d_context *context, int64_t tile);
 
 /* Clears such tiles: some rows at a time, and at last what is left of all. */
 void e3d_blank_begin(const e3d_context *context, e3d_worker *worker);
+/* The one that is being cleared now, perhaps with no rows left. */
+e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker);
 void e3d_blank_some(const e3d_context *context, e3d_worker *worker);
 void e3d_blank_rest(const e3d_context *context, e3d_worker *worker);
+
+/* late.c: rows of the picture that wait to be written while samples are shaded */
+/* The colours of a tile that is done; those of the one before are written now, if they aren't yet. */
+void e3d_late_add(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* Rows for a kernel to write some of, or NULL. */
+e3d_pixel_rows *e3d_late_rows(const e3d_context *context, e3d_worker *worker);
+/* Writes some where it can't. */
+void e3d_late_some(const e3d_context *context, e3d_pixel_rows *rows);
+/* All that wait, when no more samples are shaded. */
+void e3d_late_rest(const e3d_context *context, e3d_worker *worker);
 
 /* tile.c, shade.c, resolve.c */
 /* Adds to a stage's time what has passed since the thread's last lap. */
@@ -522,6 +536,9 @@ void e3d_resolve_blank(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* picture.c: `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */
 void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
+/* What that writes; whether it would stream it. */
+int e3d_tile_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step,
+                  e3d_pixel_rows *out);
 /* The same back. */
 void e3d_read_tile(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *rows, size_t step);
 /* outputs.c: the G-buffer */

@@ -30,11 +30,18 @@ static void copy(const e3d_pixel_rows *rows)
         memcpy(rows->to + (size_t)y * rows->pitch, rows->from + (size_t)y * rows->step, rows->bytes);
 }
 
-void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
+int e3d_tile_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step,
+                  e3d_pixel_rows *out)
 {
     const place at = place_of(context, tile, pixel);
-    const e3d_pixel_rows rows = {(char *)picture + at.start, from, at.bytes, at.pitch, step, at.rows};
-    if (is_far(context, at.pitch * (size_t)context->frame->height))
+    *out = (e3d_pixel_rows){(char *)picture + at.start, from, at.bytes, at.pitch, step, at.rows};
+    return is_far(context, at.pitch * (size_t)context->frame->height);
+}
+
+void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
+{
+    e3d_pixel_rows rows;
+    if (e3d_tile_rows(context, tile, picture, pixel, from, step, &rows))
         context->kernels->stream(&rows);
     else
         copy(&rows);

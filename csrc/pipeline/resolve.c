@@ -106,5 +106,5 @@ void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile 
         return;
     if (context->frame->samples_axis > 1)
         average(context, worker->tile, tile);
-    e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
+    e3d_late_add(context, worker, tile);
 }

@@ -145,6 +145,8 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
 {
     const e3d_material *m = group->material;
     int lit = context->frame->mode == E3D_MODE_LIT && group->face, shiny = e3d_adds(m->specular);
+    e3d_pixel_rows *late = e3d_late_rows(context, worker);
+    int rows = late ? late->count : 0;
     const e3d_paint paint = {
         .wanted = wanted,
         .texture = group->textured ? e3d_texture_get_view(m->texture) : NULL,
@@ -158,8 +160,13 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .srgb = context->srgb,
         .gathers = e3d_cpu_gathers(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
+        .meanwhile = late,
     };
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
+    if (!late)
+        e3d_blank_some(context, worker);
+    else if (late->count == rows)
+        e3d_late_some(context, late);
 }
 
 static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
@@ -167,11 +174,11 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_batch *batch = &worker->tile->batch;
     const e3d_surfaces *surfaces = &worker->tile->surfaces;
     worker->counters.shaded += batch->count;
-    e3d_blank_some(context, worker);
     if (is_painted(context, group)) {
         paint_batch(context, worker, group, wanted);
         return;
     }
+    e3d_blank_some(context, worker);
     if (wanted & E3D_WANT_SURFACE)
         context->kernels->interpolate(batch, surfaces, wanted);
     if (context->wants & E3D_NEED_ALBEDO)

@@ -464,6 +464,7 @@ static void tiles_work(void *argument, int number)
         if (number == 0)
             poll(context, worker->lap);
     }
+    e3d_late_rest(context, worker);
     if (!atomic_load(&context->stop))
         e3d_blank_rest(context, worker);
     e3d_lap(worker, &worker->counters.ns_resolve);

@@ -176,7 +176,8 @@ class Kernels:
         gathers: bool,
         rgba: _Words,
         samples: _Floats | None = ...,
-    ) -> None: ...
+        meanwhile: tuple[_Bytes, int, _Bytes, int, int, int] | None = ...,
+    ) -> int: ...
     def stream(
         self, to: _Bytes, pitch: int, source: _Bytes, step: int, size: int, count: int
     ) -> None: ...

@@ -34,6 +34,33 @@ def test_odd_sizes(backend, width, height):
     np.testing.assert_array_equal(frame.color, np.broadcast_to(expected, frame.color.shape))
 
 
+OUTPUTS = ("color",), ("color", "ndc_depth"), ("color", "depth", "object_id"), ("ndc_depth",)
+
+
+@pytest.mark.parametrize("backend", [name for name in e3d.backends() if name != "scalar"])
+@pytest.mark.parametrize("samples", [1, 4])
+@pytest.mark.parametrize("size", [(640, 480), (601, 475)])  # 1 MB and more: past the caches
+def test_every_pixel_is_written(backend, samples, size):
+    """Over what the memory held before: tiles of spheres, and those that nothing is in."""
+    scene = e3d.Scene(background=(20, 30, 40))
+    for x in (-1, 1):
+        scene.add(e3d.uv_sphere(0.4, (24, 16)), translation=(x, x / 3, -3))
+    camera, settings = e3d.PerspectiveCamera(), {"samples": samples}
+    names = OUTPUTS[1] + OUTPUTS[2][1:]
+    expected = e3d.render(
+        scene, (camera, np.eye(4)), size=size, backend="scalar", outputs=names, **settings
+    )
+    for threads in (1, 2):
+        renderer = e3d.Renderer(*size, backend=backend, threads=threads, **settings)
+        for outputs in OUTPUTS:
+            frame = renderer.render(scene, (camera, np.eye(4)), outputs=outputs)
+            for name in outputs:
+                getattr(frame, name).view(np.uint8)[...] = 77
+            renderer.render(scene, (camera, np.eye(4)), out=frame)
+            for name in outputs:
+                np.testing.assert_array_equal(getattr(frame, name), getattr(expected, name))
+
+
 @pytest.mark.skipif(free_memory() < 4 << 30, reason="needs 4 GB of free memory")
 def test_the_largest_frame():
     frame = e3d.render(left_half(), CAMERA, size=(LARGEST, LARGEST), mode="unlit")

@@ -9,6 +9,7 @@ typedef struct paint_plan {
     const e3d_paint *paint;
     const texture_plan *texture; /* of PAINT_TEXELS, which are texture_is_bilinear8 */
     paint_source source;
+    e3d_pixel_rows *meanwhile;
 } paint_plan;
 
 /* ---- light ---- */
@@ -113,6 +114,32 @@ static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int la
         rgba[sample[lane]] = pixel[lane];
 }
 
+/* ---- meanwhile ---- */
+
+/* Memory takes a line at a time while the core computes, but many at once hold it up: so with each vector goes a piece of a row. */
+enum { PAINT_PIECE = 4 * sizeof(vi32) };
+
+static inline e3d_pixel_rows *paint_meanwhile(e3d_pixel_rows *rows)
+{
+    int whole = rows && rows->count && !(((uintptr_t)rows->to | rows->pitch) % sizeof(vi32) | rows->bytes % PAINT_PIECE);
+    return whole ? rows : NULL;
+}
+
+/* Where in its row the next piece begins. A row that isn't finished is written again. */
+static ALWAYS_INLINE size_t paint_piece(e3d_pixel_rows *rows, size_t at)
+{
+    if (!rows || !rows->count)
+        return 0;
+    for (size_t end = at + PAINT_PIECE; at < end; at += sizeof(vi32))
+        v_streami(rows->to + at, v_loadi(rows->from + at));
+    if (at < rows->bytes)
+        return at;
+    rows->to += rows->pitch;
+    rows->from += rows->step;
+    rows->count--;
+    return 0;
+}
+
 /* The colours of one vector. */
 static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint_plan *plan, paint_kind kind, float shininess,
                                       vf32 color[3])
@@ -129,10 +156,12 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint
 
 static ALWAYS_INLINE void paint_linear(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
 {
+    size_t at = 0;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_color(batch, i, plan, kind, shininess, color);
         paint_store(batch->sample + i, encode_vector_linear(color), V_LANES, rgba);
+        at = paint_piece(plan->meanwhile, at);
     }
 }
 
@@ -155,6 +184,7 @@ static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, p
 static ALWAYS_INLINE void paint_srgb_at_once(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess,
                                              uint32_t *rgba)
 {
+    size_t at = 0;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         vi32 code[3];
@@ -162,27 +192,32 @@ static ALWAYS_INLINE void paint_srgb_at_once(const e3d_batch *batch, const paint
         for (int k = 0; k < 3; k++)
             code[k] = k < paint_colors(kind) ? encode_srgb(encode_clamp(color[k])) : code[0];
         paint_store(batch->sample + i, v_rgba(code), V_LANES, rgba);
+        at = paint_piece(plan->meanwhile, at);
     }
 }
 
 static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
 {
     _Alignas(64) paint_buckets buckets;
+    size_t at = 0;
     paint_find(batch, plan, kind, shininess, buckets);
     for (int i = 0; i < batch->count; i += V_LANES) {
         vi32 code[3];
         for (int k = 0; k < 3; k++)
             code[k] = k < paint_colors(kind) ? encode_code(v_loadf(batch->color[k] + i), v_fetch(ENCODE_SUMS, buckets[k] + i)) : code[0];
         paint_store(batch->sample + i, v_rgba(code), V_LANES, rgba);
+        at = paint_piece(plan->meanwhile, at);
     }
 }
 
 static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess)
 {
+    size_t at = 0;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_color(batch, i, plan, kind, shininess, color);
         samples_keep(batch->sample + i, color, V_LANES, plan->paint->samples);
+        at = paint_piece(plan->meanwhile, at);
     }
 }
 
@@ -211,7 +246,7 @@ static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)
 static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba)
 {
     texture_plan texture;
-    paint_plan plan = {.paint = paint, .texture = &texture};
+    paint_plan plan = {.paint = paint, .texture = &texture, .meanwhile = paint_meanwhile(paint->meanwhile)};
     if (paint->wanted & E3D_WANT_SURFACE)
         kernel_interpolate(batch, surfaces, paint->wanted);
     plan.source = paint->texture ? paint_textured(batch, surfaces, paint, &texture) : paint_untextured(batch, surfaces, paint);

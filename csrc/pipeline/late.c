@@ -1,0 +1,65 @@
+/* resolve: rows of the picture that are written while samples are shaded. Memory takes in a line now and then for nothing, but
+ * many at once hold up the core. A tile's rows wait until the next one is shaded; after them come those of blank tiles.
+ */
+#include "pipeline/frame.h"
+
+static int rows_of(const e3d_context *context, const e3d_tile *tile, const uint32_t *from, size_t step, e3d_pixel_rows *out)
+{
+    return e3d_tile_rows(context, tile, context->targets->color, sizeof(uint32_t), from, step, out);
+}
+
+static void write_some(const e3d_context *context, e3d_pixel_rows *rows, int some)
+{
+    e3d_pixel_rows now = *rows;
+    now.count = some < rows->count ? some : rows->count;
+    context->kernels->stream(&now);
+    rows->to += (size_t)now.count * rows->pitch;
+    rows->from += (size_t)now.count * rows->step;
+    rows->count -= now.count;
+}
+
+void e3d_late_add(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_tile_memory *memory = worker->tile;
+    write_some(context, &worker->late_drawn, E3D_TILE);
+    if (rows_of(context, tile, memory->rgba, E3D_TILE * sizeof(uint32_t), &worker->late_drawn)) {
+        memory->rgba = memory->pixels[memory->rgba == memory->pixels[0]];
+    } else {
+        worker->late_drawn.count = 0;
+        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
+    }
+}
+
+/* Of the next blank tile, if colour is all that is written there. */
+static void add_blank(const e3d_context *context, e3d_worker *worker)
+{
+    e3d_tile *blank = e3d_blank_now(context, worker);
+    for (int k = 0; k < E3D_OUTPUTS; k++)
+        if (context->outputs[k].target)
+            return;
+    if (blank->height && rows_of(context, blank, context->background_row, 0, &worker->late_blank))
+        blank->height = 0;
+    else
+        worker->late_blank.count = 0;
+}
+
+e3d_pixel_rows *e3d_late_rows(const e3d_context *context, e3d_worker *worker)
+{
+    if (worker->late_drawn.count)
+        return &worker->late_drawn;
+    if (!worker->late_blank.count)
+        add_blank(context, worker);
+    return worker->late_blank.count ? &worker->late_blank : NULL;
+}
+
+void e3d_late_some(const e3d_context *context, e3d_pixel_rows *rows)
+{
+    enum { ROWS = 8 };
+    write_some(context, rows, ROWS);
+}
+
+void e3d_late_rest(const e3d_context *context, e3d_worker *worker)
+{
+    write_some(context, &worker->late_drawn, E3D_TILE);
+    write_some(context, &worker->late_blank, E3D_TILE);
+}

@@ -15,32 +15,32 @@ from collections.abc import Iterable
 _REMEMBERED = 1024
 
 _lock = threading.Lock()
-_changed: list[int] = []  # ids of what changed, in order
-_first = 0  # number of the first of them, counted from the beginning
+_changed: list[int] = []  # ids of what changed last, in order
+_told = 0  # how often anything changed
 
 
 def tell(thing) -> None:
     """Say that the version of a thing has grown."""
-    global _first
+    global _told
     with _lock:
         _changed.append(id(thing))
+        _told += 1
         if len(_changed) > 2 * _REMEMBERED:
             del _changed[:_REMEMBERED]
-            _first += _REMEMBERED
 
 
 def _since(moment: int) -> tuple[set[int] | None, int]:
     """Ids of what changed since a moment, None if that is forgotten; and the moment now."""
     with _lock:
-        now = _first + len(_changed)
-        return None if moment < _first else set(_changed[moment - _first :]), now
+        first = _told - len(_changed)
+        return None if moment < first else set(_changed[moment - first :]), _told
 
 
 def _forget() -> None:
     """In a process that was forked, perhaps from the middle of a change."""
-    global _lock, _first
+    global _lock, _told
     _lock = threading.Lock()
-    _first += len(_changed) + 2 * _REMEMBERED
+    _told += 2 * _REMEMBERED
     _changed.clear()
 
 
@@ -66,6 +66,8 @@ class Watch:
 
     def changed(self) -> list:
         """Return the things whose version is another than when they were last looked at."""
+        if self._moment == _told:
+            return []
         ids, self._moment = _since(self._moment)
         found = []
         for key in list(self._seen) if ids is None else ids & self._seen.keys():

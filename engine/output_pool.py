@@ -8,6 +8,7 @@ over.
 
 from __future__ import annotations
 
+import math
 import weakref
 
 import numpy as np
@@ -40,9 +41,7 @@ class OutputPool:
         return arrays
 
     def _lend(self, shape: tuple[int, ...], dtype: np.dtype) -> np.ndarray:
-        size = dtype.itemsize
-        for side in shape:
-            size *= side
+        size = dtype.itemsize * math.prod(shape)
         try:
             block = self._free[size].pop()
         except (KeyError, IndexError):
@@ -52,7 +51,7 @@ class OutputPool:
         owner = np.frombuffer(memoryview(block), np.uint8)
         reference = weakref.ref(owner, self._take_back)
         self._lent[id(reference)] = (reference, block)
-        return owner.view(dtype).reshape(shape)
+        return np.ndarray(shape, dtype, owner)
 
     def forget(self) -> None:
         """Free what is not in use; sizes that come back later are not kept for long."""

@@ -11,6 +11,8 @@ static int rows_of(const e3d_context *context, const e3d_tile *tile, const uint3
 static void write_some(const e3d_context *context, e3d_pixel_rows *rows, int some)
 {
     e3d_pixel_rows now = *rows;
+    if (!rows->count)
+        return;
     now.count = some < rows->count ? some : rows->count;
     context->kernels->stream(&now);
     rows->to += (size_t)now.count * rows->pitch;

@@ -39,9 +39,8 @@ e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker)
 
 void e3d_blank_some(const e3d_context *context, e3d_worker *worker)
 {
-    enum { ROWS = 8 };
     e3d_tile *left = e3d_blank_now(context, worker), some = *left;
-    some.height = left->height < ROWS ? left->height : ROWS;
+    some.height = left->height < E3D_SOME_ROWS ? left->height : E3D_SOME_ROWS;
     if (some.height)
         e3d_resolve_blank(context, &some);
     left->y += some.height;

@@ -463,6 +463,7 @@ int e3d_is_blank(const e3d_context *context, int64_t tile);
 
 /* Clears such tiles: some rows at a time, and at last what is left of all. */
 void e3d_blank_begin(const e3d_context *context, e3d_worker *worker);
+enum { E3D_SOME_ROWS = 8 }; /* that are written at once between batches */
 /* The one that is being cleared now, perhaps with no rows left. */
 e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker);
 void e3d_blank_some(const e3d_context *context, e3d_worker *worker);
@@ -513,7 +514,7 @@ int e3d_spans_cover_all(const e3d_cover *cover);
 /* runs.c */
 /* Sorts runs by owner; where they are afterwards. */
 e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
-/* Adds sorted runs to what shows, as pieces. */
+/* Makes the list of what shows of sorted runs, as pieces. */
 void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out);
 /* surface.c */
 /* The pieces of what shows, chained by group; 0 when memory is out. */

@@ -56,8 +56,7 @@ e3d_pixel_rows *e3d_late_rows(const e3d_context *context, e3d_worker *worker)
 
 void e3d_late_some(const e3d_context *context, e3d_pixel_rows *rows)
 {
-    enum { ROWS = 8 };
-    write_some(context, rows, ROWS);
+    write_some(context, rows, E3D_SOME_ROWS);
 }
 
 void e3d_late_rest(const e3d_context *context, e3d_worker *worker)

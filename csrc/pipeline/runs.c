@@ -94,16 +94,16 @@ e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
 /* Runs of one owner are side by side. (Where one begins could not be foreseen: nothing is asked.) */
 void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out)
 {
-    int32_t pieces = out->pieces, before = E3D_NO_SLOT;
-    int32_t *sample = out->sample + out->count, *of = out->of + out->count;
+    int32_t pieces = 0, before = E3D_NO_SLOT;
     for (int32_t i = 0; i < count; i++) {
         int32_t owner = runs[i].owner;
-        out->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, out->count + i};
+        out->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, i};
         pieces += owner != before;
         before = owner;
-        sample[i] = runs[i].sample | runs[i].length << E3D_RUN_LENGTH;
-        of[i] = pieces - 1;
+        out->sample[i] = runs[i].sample | runs[i].length << E3D_RUN_LENGTH;
+        out->of[i] = pieces - 1;
     }
-    out->count += count;
+    out->runs = 1;
+    out->count = count;
     out->pieces = pieces;
 }

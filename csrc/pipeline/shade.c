@@ -274,7 +274,6 @@ int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_ti
 
 static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs, int32_t count)
 {
-    e3d_shown_begin(&worker->tile->shown, 1);
     e3d_show_runs(e3d_sort_runs(runs, worker->tile->spare, count), count, &worker->tile->shown);
     return e3d_shade_shown(context, worker, tile);
 }

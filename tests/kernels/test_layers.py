@@ -11,8 +11,8 @@ from kernels.harness import Records, all_backends, hostile
 from kernels.layouts import LAYERS, RECORD, RUN_LENGTH, TILE
 from kernels.pieces import meta_of, plane_through
 from kernels.test_raster import random_tile
-from kernels.test_spans import cover_of, empty_lists, triangle_of
-from kernels.test_visible import draw
+from kernels.test_spans import cover_of, covers_in, empty_lists, size_in, triangle_of
+from kernels.test_visible import draw, shown_in
 
 SCENES = 120
 CONTESTED = 512  # samples whose depths are compared, before all are
@@ -44,13 +44,9 @@ class Scene:
     def __init__(self, seed):
         rng = np.random.default_rng(seed)
         self.place = random_tile(rng, "small")
-        width, height, tile_x, tile_y = self.place
-        self.size = min(width - tile_x, TILE), min(height - tile_y, TILE)
-        kind, most, made = (
-            rng.choice(["level", "near", "any", "wild"]),
-            int(rng.choice([2, 8, 30])),
-            [],
-        )
+        self.size = size_in(self.place)
+        kind, most = rng.choice(["level", "near", "any", "wild"]), int(rng.choice([2, 8, 30]))
+        made = []
         while len(made) < most:
             triangle, record = triangle_of(rng, self.place), np.zeros(1, RECORD)
             if triangle is None or meta_of(triangle) is None:
@@ -64,9 +60,7 @@ class Scene:
         triangles = [triangle for _, triangle in made]
         with np.errstate(all="ignore"):
             _, self.kept = draw(self.records, triangles, self.place)
-        rows, columns = np.mgrid[0:TILE, 0:TILE]
-        self.inside = (columns < self.size[0]) & (rows < self.size[1])
-        covers = [t.covers(tile_x + columns, tile_y + rows) & self.inside for t in triangles]
+        self.inside, covers = shown_in(self.place), covers_in(self.place, triangles)
         self.meetings = np.sum([np.sum(a & b) for i, a in enumerate(covers) for b in covers[:i]])
 
     @property

@@ -10,7 +10,7 @@ from kernels.harness import Records, all_backends, check_poisoned
 from kernels.layouts import COVER, COVER_ROWS, MOST_COVERING, PAD, RECORD, RUN_LENGTH, SHOWN, TILE
 from kernels.pieces import Triangle, meta_of
 from kernels.test_raster import random_tile
-from kernels.test_visible import STRIPS, corners_of
+from kernels.test_visible import STRIPS, corners_of, shown_in
 
 SIDE = 256 * STRIPS
 SCENES = 60
@@ -38,14 +38,25 @@ def triangle_of(rng, place):
     return triangle
 
 
+def size_in(place):
+    """Samples of the tile inside the viewport, across and down."""
+    width, height, tile_x, tile_y = place
+    return min(width - tile_x, TILE), min(height - tile_y, TILE)
+
+
+def covers_in(place, triangles):
+    """A (TILE, TILE) bool of each: the samples of the viewport that it covers."""
+    rows, columns = np.mgrid[0:TILE, 0:TILE]
+    return [t.covers(place[2] + columns, place[3] + rows) & shown_in(place) for t in triangles]
+
+
 class Scene:
     """Records of a tile, as bins list them, and the samples of the viewport that each covers."""
 
     def __init__(self, seed):
         rng = np.random.default_rng(seed)
         self.place = random_tile(rng, "small")
-        width, height, tile_x, tile_y = self.place
-        self.size = min(width - tile_x, TILE), min(height - tile_y, TILE)
+        self.size = size_in(self.place)
         most, self.triangles = int(rng.choice([1, 5, 20, 60])), []
         for _ in range(20 * most):
             triangle = triangle_of(rng, self.place)
@@ -56,9 +67,7 @@ class Scene:
             record["x"], record["y"] = triangle.x, triangle.y
         self.records["zmax"] = rng.choice(np.float32([-1, 0.5, 1]), len(self.triangles))
         self.ids = np.arange(len(self.triangles), dtype=np.uint32)
-        rows, columns = np.mgrid[0:TILE, 0:TILE]
-        inside = (columns < self.size[0]) & (rows < self.size[1])
-        self.covers = [t.covers(tile_x + columns, tile_y + rows) & inside for t in self.triangles]
+        self.covers = covers_in(self.place, self.triangles)
 
     @property
     def layers(self):

@@ -90,6 +90,13 @@ def record_of(rng, kind, place, wild):
     return record, triangle
 
 
+def shown_in(place):
+    """(TILE, TILE) bool: samples of the viewport."""
+    width, height, tile_x, tile_y = place
+    rows, columns = np.mgrid[0:TILE, 0:TILE]
+    return (columns < width - tile_x) & (rows < height - tile_y)
+
+
 # ---- what the rules say ----
 
 
@@ -146,10 +153,7 @@ class Scene:
 
     @property
     def shown(self):
-        """Samples of the viewport."""
-        width, height, tile_x, tile_y = self.place
-        rows, columns = np.mgrid[0:TILE, 0:TILE]
-        return (columns < width - tile_x) & (rows < height - tile_y)
+        return shown_in(self.place)
 
     def check(self, tile):
         """A settled tile shows what the oracle does."""

@@ -32,13 +32,6 @@ static inline void layers_close(e3d_layers *layers, const e3d_cover *cover, floa
     layers->opened = open;
 }
 
-static inline float layers_depth(const visible_plane *p, int32_t x, int32_t y)
-{
-    float z = (p->z0 + (float)(x - p->base_x) * p->gx) + (float)(y - p->base_y) * p->gy;
-    z = z > p->zmin ? z : p->zmin;
-    return z < p->zmax ? z : p->zmax;
-}
-
 /* Samples of a row of two records: those where the first is in front. */
 static inline uint64_t layers_nearer(const e3d_covering *a, const e3d_covering *b, uint64_t both, int32_t y, const e3d_cover *cover,
                                      const e3d_record_table *table)
@@ -48,7 +41,7 @@ static inline uint64_t layers_nearer(const e3d_covering *a, const e3d_covering *
     uint64_t nearer = 0;
     for (; both; both &= both - 1) {
         int32_t x = __builtin_ctzll(both);
-        float z = layers_depth(&p, x, y), other = layers_depth(&q, x, y);
+        float z = visible_depth(&p, x, y), other = visible_depth(&q, x, y);
         nearer |= (uint64_t)(z < other || (z == other && before)) << x;
     }
     return nearer;

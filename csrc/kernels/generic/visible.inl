@@ -31,6 +31,14 @@ static inline visible_plane visible_plane_of(const e3d_record *r, int32_t tile_x
     return (visible_plane){r->z0, r->gx, r->gy, r->zmin, r->zmax, visible_first(r->x) - tile_x, visible_first(r->y) - tile_y};
 }
 
+/* R14, of a sample of the tile. */
+static inline float visible_depth(const visible_plane *p, int32_t x, int32_t y)
+{
+    float z = (p->z0 + (float)(x - p->base_x) * p->gx) + (float)(y - p->base_y) * p->gy;
+    z = z > p->zmin ? z : p->zmin;
+    return z < p->zmax ? z : p->zmax;
+}
+
 /* ---- samples ---- */
 
 /* By the order of primitives, then of pieces: those of one primitive are of one worker. */

@@ -229,13 +229,10 @@ static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_til
 {
     visible_plane p = visible_plane_of(r, tile->x, tile->y);
     for (uint32_t cover = r->meta >> E3D_RECORD_SHIFT; cover; cover &= cover - 1) {
-        int bit = __builtin_ctz(cover), dx = bit & 1, dy = bit >> 1;
-        int x = p.base_x + dx, y = p.base_y + dy;
+        int bit = __builtin_ctz(cover), x = p.base_x + (bit & 1), y = p.base_y + (bit >> 1);
         if ((x | y) & ~(E3D_TILE - 1)) /* in another tile */
             continue;
-        float z = (p.z0 + (float)dx * p.gx) + (float)dy * p.gy;
-        z = z > p.zmin ? z : p.zmin;
-        z = z < p.zmax ? z : p.zmax;
+        float z = visible_depth(&p, x, y);
         int block = y / RASTER_BLOCK * VISIBLE_BLOCKS + x / RASTER_BLOCK, at = y * E3D_TILE + x;
         if (z > tile->zmax[block])
             continue;

@@ -1,9 +1,9 @@
-/* sRGB transfer function as tables (IEC 61966-2-1): exact decimal arithmetic, rounded once.
+/* sRGB transfer function as tables (IEC 61966-2-1).
  *
- * SRGB_TO_LINEAR16[c]  linear light of the 8-bit code c, times 65535, nearest.
- * SRGB_THRESHOLDS[k]   linear light halfway between the codes k and k + 1: encode(v) is the number of
- *                      thresholds <= v, and encode(decode(c)) = c for every c. There are 255, and
- *                      one that no colour reaches.
+ * SRGB_TO_LINEAR16[c]  linear light of the 8-bit code c, times 65535, nearest: exact decimal arithmetic, rounded once.
+ * SRGB_THRESHOLDS[k]   linear light halfway between the codes k and k + 1, to a 22nd of a code: the least floats at which the
+ *                      curve of encode_tables.h reaches the next code. encode(v) is the number of thresholds <= v, and
+ *                      encode(decode(c)) = c for every c. There are 255, and one that no colour reaches.
  * E3D_OVERDRAW_RAMP    display colours of 1 .. 15 layers (row 0 is unused).
  */
 #ifndef E3D_SRGB_TABLES_H

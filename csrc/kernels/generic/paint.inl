@@ -14,11 +14,12 @@ typedef struct paint_plan {
 
 /* ---- light ---- */
 
-/* Of grey surfaces in grey light, and of any: there, and of grey light, one channel stands for three. */
-typedef enum paint_kind { PAINT_UNLIT, PAINT_GREY, PAINT_GREY_LIGHT, PAINT_LIT } paint_kind;
+/* Of grey surfaces in grey light, and of any: there, and of grey light, one channel stands for three. PAINT_GREY_LIT: PAINT_GREY, and
+ * its light has been added. */
+typedef enum paint_kind { PAINT_UNLIT, PAINT_GREY_LIT, PAINT_GREY, PAINT_GREY_LIGHT, PAINT_LIT } paint_kind;
 
 static ALWAYS_INLINE int paint_lights(paint_kind kind) { return kind == PAINT_LIT ? 3 : 1; }
-static ALWAYS_INLINE int paint_colors(paint_kind kind) { return kind == PAINT_GREY ? 1 : 3; }
+static ALWAYS_INLINE int paint_colors(paint_kind kind) { return kind == PAINT_GREY || kind == PAINT_GREY_LIT ? 1 : 3; }
 
 static inline int is_grey(const float c[3]) { return c[0] == c[1] && c[0] == c[2]; }
 
@@ -150,64 +151,37 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint
         paint_load(batch, i, color);
     for (int k = 0; k < 3 && plan->source == PAINT_BASE; k++)
         color[k] = v_setf(plan->paint->base[k]);
-    if (kind != PAINT_UNLIT)
+    if (kind == PAINT_GREY_LIT)
+        color[1] = color[2] = color[0];
+    else if (kind != PAINT_UNLIT)
         paint_light(batch, i, plan->paint, kind, shininess, color);
 }
 
-static ALWAYS_INLINE void paint_linear(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, int srgb,
+                                      uint32_t *rgba)
 {
+    const vcurve curve = encode_curve();
     size_t at = 0;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_color(batch, i, plan, kind, shininess, color);
-        paint_store(batch->sample + i, encode_vector_linear(color), V_LANES, rgba);
+        paint_store(batch->sample + i, encode_vector(&curve, color, srgb), V_LANES, rgba);
         at = paint_piece(plan->meanwhile, at);
     }
 }
 
-/* Where a batch looks in the table of R34. */
-typedef int32_t paint_buckets[3][E3D_BATCH + E3D_PAD];
-
-static ALWAYS_INLINE void paint_find(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, paint_buckets buckets)
+/* Where a curve is looked up in memory, light comes first: processors don't look far enough ahead to do both at a time. */
+static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
 {
+    paint_plan lit = *plan;
+    lit.source = PAINT_COLOR;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_color(batch, i, plan, kind, shininess, color);
-        for (int k = 0; k < paint_colors(kind); k++) {
-            color[k] = encode_clamp(color[k]);
+        for (int k = 0; k < paint_colors(kind); k++)
             v_storef(batch->color[k] + i, color[k]);
-            v_storei(buckets[k] + i, encode_bucket(color[k]));
-        }
     }
-}
-
-static ALWAYS_INLINE void paint_srgb_at_once(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess,
-                                             uint32_t *rgba)
-{
-    size_t at = 0;
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        vf32 color[3];
-        vi32 code[3];
-        paint_color(batch, i, plan, kind, shininess, color);
-        for (int k = 0; k < 3; k++)
-            code[k] = k < paint_colors(kind) ? encode_srgb(encode_clamp(color[k])) : code[0];
-        paint_store(batch->sample + i, v_rgba(code), V_LANES, rgba);
-        at = paint_piece(plan->meanwhile, at);
-    }
-}
-
-static ALWAYS_INLINE void paint_srgb(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
-{
-    _Alignas(64) paint_buckets buckets;
-    size_t at = 0;
-    paint_find(batch, plan, kind, shininess, buckets);
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        vi32 code[3];
-        for (int k = 0; k < 3; k++)
-            code[k] = k < paint_colors(kind) ? encode_code(v_loadf(batch->color[k] + i), v_fetch(ENCODE_SUMS, buckets[k] + i)) : code[0];
-        paint_store(batch->sample + i, v_rgba(code), V_LANES, rgba);
-        at = paint_piece(plan->meanwhile, at);
-    }
+    paint_codes(batch, &lit, kind == PAINT_GREY ? PAINT_GREY_LIT : PAINT_UNLIT, shininess, 1, rgba);
 }
 
 static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess)
@@ -225,21 +199,22 @@ static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const paint_plan *plan,
 {
     if (plan->paint->samples)
         paint_samples(batch, plan, kind, shininess);
-    else if (plan->paint->srgb && plan->paint->gathers && V_LANES == 16) /* narrower, it makes no difference */
-        paint_srgb_at_once(batch, plan, kind, shininess, rgba);
+    else if (plan->paint->srgb && V_LANES < 16)
+        paint_in_turn(batch, plan, kind, shininess, rgba);
     else if (plan->paint->srgb)
-        paint_srgb(batch, plan, kind, shininess, rgba);
+        paint_codes(batch, plan, kind, shininess, 1, rgba);
     else
-        paint_linear(batch, plan, kind, shininess, rgba);
+        paint_codes(batch, plan, kind, shininess, 0, rgba);
 }
 
 static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)
 {
+    const vcurve curve = encode_curve();
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_load(batch, i, color);
         int lanes = batch->count - i < V_LANES ? batch->count - i : V_LANES;
-        paint_store(batch->sample + i, encode_vector(color, srgb), lanes, rgba);
+        paint_store(batch->sample + i, encode_vector(&curve, color, srgb), lanes, rgba);
     }
 }
 
@@ -251,6 +226,7 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         kernel_interpolate(batch, surfaces, paint->wanted);
     plan.source = paint->texture ? paint_textured(batch, surfaces, paint, &texture) : paint_untextured(batch, surfaces, paint);
     switch (paint_kind_of(paint, plan.source)) {
+    case PAINT_GREY_LIT:
     case PAINT_UNLIT: paint_pixels(batch, &plan, PAINT_UNLIT, 0.0f, rgba); break;
     case PAINT_GREY: paint_pixels(batch, &plan, PAINT_GREY, 0.0f, rgba); break;
     case PAINT_GREY_LIGHT: paint_pixels(batch, &plan, PAINT_GREY_LIGHT, 0.0f, rgba); break;

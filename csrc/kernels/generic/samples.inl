@@ -63,6 +63,7 @@ static ALWAYS_INLINE vf32 samples_sum(const float *first, int axis)
 static ALWAYS_INLINE void samples_average(const e3d_samples *samples, int axis, int row, int width, const float background[3],
                                           int srgb, uint32_t *rgba)
 {
+    const vcurve curve = encode_curve();
     float all = (float)(axis * axis);
     for (int x = 0; x < width; x += V_LANES) {
         int first = row * E3D_TILE + x * axis;
@@ -72,7 +73,7 @@ static ALWAYS_INLINE void samples_average(const e3d_samples *samples, int axis, 
         for (int k = 0; k < 3; k++)
             color[k] = v_self(some, v_mul(samples_sum(samples->color[k] + first, axis), scale), v_setf(background[k]));
         vi32 alpha = v_rint(v_mul(v_setf(255.0f), v_mul(count, v_setf(1.0f / all))));
-        v_storei(rgba + x, v_ori(v_andi(encode_vector(color, srgb), v_seti(0xFFFFFF)), v_shl(alpha, 24)));
+        v_storei(rgba + x, v_ori(v_andi(encode_vector(&curve, color, srgb), v_seti(0xFFFFFF)), v_shl(alpha, 24)));
     }
 }
 

@@ -1,5 +1,5 @@
 /* Numbers from here and there and channels in a pixel, by loads of their own and shuffles (SSE4.1 and up): what the words
- * v_fetch, v_quads8, v_pairs16 and v_rgba are made of.
+ * v_quads8, v_pairs16, v_rgba and v_curve_rgba are made of.
  *
  * Gathers are seldom faster, and much slower on some processors.
  */
@@ -45,6 +45,13 @@ static inline __m128i pairs_quad(void)
 static inline __m128i pairs_pixels(void)
 {
     return _mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
+}
+
+/* Shuffles the upper bytes of each lane's two words to its bytes `at` and, where that is 0, 1. */
+static inline __m128i pairs_second(int at)
+{
+    return at == 0 ? _mm_setr_epi8(1, 3, -1, -1, 5, 7, -1, -1, 9, 11, -1, -1, 13, 15, -1, -1)
+                   : _mm_setr_epi8(-1, -1, 1, -1, -1, -1, 5, -1, -1, -1, 9, -1, -1, -1, 13, -1);
 }
 
 /* A pair of 4-byte texels, and the two after it. */

@@ -36,8 +36,6 @@ static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
 static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) { return base[i]; }
 static inline vf32 v_gatherf(const float *base, vi32 i) { return base[i]; }
 static inline vi32 v_gatheri(const void *base, vi32 i) { return ((const int32_t *)base)[i]; }
-/* The same by indices in memory, where most processors take less for loads one by one than for a gather. */
-static inline vi32 v_fetch(const int32_t *table, const int32_t *at) { return table[*at]; }
 
 /* A table of at most 128 numbers, of which `count` are looked up often. */
 typedef const int32_t *vtable;
@@ -159,6 +157,20 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     for (int k = 0; k < 3; k++)
         pixel |= (uint32_t)(c[k] > 0 ? c[k] : 0) << (8 * k);
     return (vi32)pixel;
+}
+
+/* A curve of 64 straight pieces: the base of each in the upper half of a number, the rise in the lower. */
+typedef const int32_t *vcurve;
+static inline void v_curve(const int32_t pieces[64], vcurve *out) { *out = pieces; }
+/* Its values at three places of each lane, over 256, to bytes of one lane, with an alpha of 255. The low half of a place tells how
+ * far along a piece it is; of the high half, the low six bits are the number of that piece. */
+static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
+    vi32 code[3];
+    for (int k = 0; k < 3; k++) {
+        uint32_t piece = (uint32_t)(*curve)[place[k] >> 16 & 63];
+        code[k] = (vi32)(((piece >> 16) + ((piece & 0xFFFF) * ((uint32_t)place[k] & 0xFFFF) >> 16)) >> 8);
+    }
+    return v_rgba(code);
 }
 
 /* The texels of 8-bit channels at[lane] and at[lane] + 1 of each lane, and those below: red, green and blue, in the bytes of a

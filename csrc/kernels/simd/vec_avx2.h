@@ -162,7 +162,6 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
     *odd = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_ODD));
 }
-static inline vi32 v_fetch(const int32_t *table, const int32_t *at) { return fetch_eight(table, at); }
 static inline __m256i pairs_two(const void *texels, const int32_t *at) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_eight(texels, at[0])), pairs_eight(texels, at[4]), 1);
 }
@@ -179,6 +178,19 @@ static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const 
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m256i low = _mm256_packs_epi32(c[0], c[1]), high = _mm256_packs_epi32(c[2], _mm256_set1_epi32(255));
     return _mm256_shuffle_epi8(_mm256_packus_epi16(low, high), _mm256_broadcastsi128_si256(pairs_pixels()));
+}
+typedef const int32_t *vcurve;
+static inline void v_curve(const int32_t pieces[64], vcurve *out) { *out = pieces; }
+static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
+    vi32 code[3];
+    int32_t at[3][V_LANES];
+    for (int k = 0; k < 3; k++)
+        v_storei(at[k], v_andi(v_shr(place[k], 16), v_seti(63)));
+    for (int k = 0; k < 3; k++) {
+        vi32 piece = fetch_eight(*curve, at[k]), t = v_andi(place[k], v_seti(0xFFFF));
+        code[k] = v_shr(v_addi(v_shr(piece, 16), _mm256_mulhi_epu16(piece, t)), 8);
+    }
+    return v_rgba(code);
 }
 
 static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {

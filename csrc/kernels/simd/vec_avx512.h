@@ -209,10 +209,6 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
-static inline vi32 v_fetch(const int32_t *table, const int32_t *at) {
-    return halves_join(fetch_eight(table, at), fetch_eight(table, at + 8));
-}
-
 /* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. These are both rows of two of them, by masked broadcasts:
  * loads and blends, which more units do than shuffles. */
 static inline __m128i pairs_low(const void *texels, int32_t at) {
@@ -237,6 +233,30 @@ static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const 
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m512i low = _mm512_packs_epi32(c[0], c[1]), high = _mm512_packs_epi32(c[2], _mm512_set1_epi32(255));
     return _mm512_shuffle_epi8(_mm512_packus_epi16(low, high), _mm512_broadcast_i32x4(pairs_pixels()));
+}
+/* In registers, as words: two places of a lane are looked up at once. */
+typedef struct vcurve {
+    __m512i base[2], rise[2];
+} vcurve;
+static inline void v_curve(const int32_t pieces[64], vcurve *out) {
+    for (int k = 0; k < 2; k++) {
+        vi32 low = v_loadi(pieces + 32 * k), high = v_loadi(pieces + 32 * k + 16);
+        out->base[k] = halves_join(_mm512_cvtepi32_epi16(_mm512_srli_epi32(low, 16)), _mm512_cvtepi32_epi16(_mm512_srli_epi32(high, 16)));
+        out->rise[k] = halves_join(_mm512_cvtepi32_epi16(low), _mm512_cvtepi32_epi16(high));
+    }
+}
+static ALWAYS_INLINE __m512i curve_words(const vcurve *curve, __m512i piece, __m512i t) {
+    __m512i base = _mm512_permutex2var_epi16(curve->base[0], piece, curve->base[1]);
+    return _mm512_add_epi16(base, _mm512_mulhi_epu16(_mm512_permutex2var_epi16(curve->rise[0], piece, curve->rise[1]), t));
+}
+static ALWAYS_INLINE vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
+    const __mmask32 high = 0xAAAAAAAA; /* halves of lanes */
+    __m512i piece = _mm512_mask_blend_epi16(high, _mm512_srli_epi32(place[0], 16), place[1]);
+    __m512i t = _mm512_mask_blend_epi16(high, place[0], _mm512_slli_epi32(place[1], 16));
+    __m512i red_green = curve_words(curve, piece, t), blue = curve_words(curve, _mm512_srli_epi32(place[2], 16), place[2]);
+    red_green = _mm512_shuffle_epi8(red_green, _mm512_broadcast_i32x4(pairs_second(0)));
+    blue = _mm512_shuffle_epi8(blue, _mm512_broadcast_i32x4(pairs_second(2)));
+    return _mm512_ternarylogic_epi32(red_green, blue, _mm512_set1_epi32((int32_t)0xFF000000), 0xFE); /* or */
 }
 
 static inline __m256i pairs_two(const void *texels, uint64_t a, uint64_t b) {

@@ -42,7 +42,6 @@ static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
 }
-static inline vi32 v_fetch(const int32_t *table, const int32_t *at) { return fetch_four(table, at); }
 static inline vi32 v_gatheru8(const uint8_t *b, vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
@@ -188,6 +187,19 @@ static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const 
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m128i low = _mm_packs_epi32(c[0], c[1]), high = _mm_packs_epi32(c[2], _mm_set1_epi32(255));
     return _mm_shuffle_epi8(_mm_packus_epi16(low, high), pairs_pixels());
+}
+typedef const int32_t *vcurve;
+static inline void v_curve(const int32_t pieces[64], vcurve *out) { *out = pieces; }
+static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
+    vi32 code[3];
+    int32_t at[3][V_LANES];
+    for (int k = 0; k < 3; k++)
+        v_storei(at[k], v_andi(v_shr(place[k], 16), v_seti(63)));
+    for (int k = 0; k < 3; k++) {
+        vi32 piece = fetch_four(*curve, at[k]), t = v_andi(place[k], v_seti(0xFFFF));
+        code[k] = v_shr(v_addi(v_shr(piece, 16), _mm_mulhi_epu16(piece, t)), 8);
+    }
+    return v_rgba(code);
 }
 
 static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {

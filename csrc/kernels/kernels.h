@@ -310,11 +310,12 @@ typedef struct e3d_surfaces {
     e3d_surface_words back;        /* not 0: the face looks away */
     e3d_surface_floats p[3], px[3], py[3]; /* barycentric planes, R18 */
     e3d_surface_floats base_x, base_y;     /* relative to the tile's first sample */
-    e3d_surface_floats step[2][3]; /* [axis]: sx, ux, vx of R25 */
+    e3d_surface_floats slope[2][3]; /* [coordinate]: along, down and turn of R25 */
     e3d_surface_words piece, instance; /* whose they are; the kernels don't read it */
     int32_t count, matrices;
     int32_t irregular;             /* how many are clipped, or not of a face of three-component vertices */
     int32_t projected;             /* how many have no record */
+    float texels[2];               /* of E3D_WANT_LEVEL: the size of their texture */
 } e3d_surfaces;
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
@@ -337,7 +338,7 @@ enum {
     E3D_WANT_NORMAL = 2,
     E3D_WANT_UV = 4,
     E3D_WANT_FLAT = 8, /* with E3D_WANT_NORMAL: of the face */
-    E3D_WANT_LEVEL = 16, /* what select_level needs of the surfaces */
+    E3D_WANT_LEVEL = 16, /* lod of R26, of as many levels as there could be */
     E3D_WANT_SURFACE = 32, /* any of these */
     E3D_WANT_WEIGHTS = 64  /* and r */
 };
@@ -438,8 +439,6 @@ typedef struct e3d_kernels {
     /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */
     void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted);
     void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted);
-    /* lod of R26, for trilinear textures of this size. */
-    void (*select_level)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture);
     /* color = base * texture */
     void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float base[3]);
     /* color *= vertex colour, color *= instance colour */

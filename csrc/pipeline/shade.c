@@ -78,10 +78,7 @@ static void find_albedo(const e3d_context *context, const e3d_group *group, e3d_
         for (int i = 0; i < batch->count; i++)
             batch->color[k][i] = base[k];
     if (group->textured) {
-        const e3d_texture_view *texture = e3d_texture_get_view(group->material->texture);
-        if (texture->filter == E3D_TRILINEAR)
-            kernels->select_level(batch, surfaces, texture);
-        kernels->texture(batch, texture, base);
+        kernels->texture(batch, e3d_texture_get_view(group->material->texture), base);
     }
     if (group->by_vertex || group->by_instance)
         kernels->tint(batch, surfaces, group->by_vertex, group->by_instance);
@@ -122,7 +119,7 @@ static int wanted_of(const e3d_context *context, const e3d_group *group)
     if (group->textured && all & E3D_NEED_ALBEDO) {
         wanted |= E3D_WANT_UV;
         if (e3d_texture_get_view(group->material->texture)->filter == E3D_TRILINEAR)
-            wanted |= E3D_WANT_LEVEL | E3D_WANT_WEIGHTS;
+            wanted |= E3D_WANT_LEVEL;
     }
     if (context->targets->barycentric || (all & E3D_NEED_ALBEDO && group->by_vertex))
         wanted |= E3D_WANT_WEIGHTS;

@@ -339,6 +339,13 @@ static ALWAYS_INLINE void fetch_vertices(const e3d_visible_piece *piece, const e
         __builtin_prefetch(mesh->colors_u8 + 4 * (size_t)vertex[v]);
 }
 
+static void set_texels(const e3d_group *group, e3d_surfaces *s)
+{
+    const e3d_level *level = &e3d_texture_get_view(group->material->texture)->levels[0];
+    s->texels[0] = (float)level->width;
+    s->texels[1] = (float)level->height;
+}
+
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted)
 {
     enum { AHEAD = 24 };
@@ -348,6 +355,8 @@ int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e
     for (int32_t i = first; i < first + AHEAD && i <= last && wanted & E3D_WANT_SURFACE; i++)
         fetch_vertices(&pieces[i], pieces[first].draw, wanted);
     s->count = s->matrices = s->irregular = s->projected = 0;
+    if (wanted & E3D_WANT_LEVEL)
+        set_texels(group, s);
     for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
         s->piece[s->count] = p;
         if (!(wanted & E3D_WANT_SURFACE)) {
@@ -390,14 +399,19 @@ static void cut_planes(const e3d_context *context, const e3d_visible_piece *piec
 }
 
 /* R25, of planes that were not the kernel's. */
-static void cut_steps(e3d_surfaces *s, int32_t n)
+static void cut_slopes(e3d_surfaces *s, int32_t n)
 {
-    for (int axis = 0; axis < 2; axis++) {
-        const e3d_surface_floats *w = axis ? s->py : s->px;
-        s->step[axis][0][n] = (w[0][n] + w[1][n]) + w[2][n];
-        for (int k = 0; k < 2; k++)
-            s->step[axis][1 + k][n] =
-                (w[0][n] * s->uv[k][0][n] + w[1][n] * s->uv[k][1][n]) + w[2][n] * s->uv[k][2][n];
+    const e3d_surface_floats *const plane[3] = {s->p, s->px, s->py};
+    for (int k = 0; k < 2; k++) {
+        float a[3], sum[3];
+        for (int row = 0; row < 3; row++) {
+            const float w[3] = {plane[row][0][n], plane[row][1][n], plane[row][2][n]};
+            sum[row] = (w[0] + w[1]) + w[2];
+            a[row] = (w[0] * s->uv[k][0][n] + w[1] * s->uv[k][1][n]) + w[2] * s->uv[k][2][n];
+        }
+        s->slope[k][0][n] = (a[1] * sum[0] - a[0] * sum[1]) * s->texels[k];
+        s->slope[k][1][n] = (a[2] * sum[0] - a[0] * sum[2]) * s->texels[k];
+        s->slope[k][2][n] = (a[1] * sum[2] - a[2] * sum[1]) * s->texels[k];
     }
 }
 
@@ -425,7 +439,7 @@ void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d
         if (piece->corners)
             cut_planes(context, piece, s, n);
         if (piece->corners && wanted & E3D_WANT_LEVEL)
-            cut_steps(s, n);
+            cut_slopes(s, n);
         if (mesh->components == 4)
             clear_positions(s, n, 0);
         else if (e3d_face_of(piece) < 0)

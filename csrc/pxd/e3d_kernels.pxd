@@ -197,8 +197,6 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport)
         void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)
         void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
-        void (*select_level)(e3d_batch *batch, const e3d_surfaces *surfaces,
-                             const e3d_texture_view *texture)
         void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float *base)
         void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
         void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)

@@ -49,8 +49,10 @@ static inline void ref_normalize(float v[3])
 }
 
 /* R27; v is positive and normal. */
-static inline float ref_log2_by(float v, const float *Q, int count)
+static inline float ref_log2(float v)
 {
+    static const float Q[7] = {0x1.c5507p-2f,   -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
+                               0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
     uint32_t bits;
     memcpy(&bits, &v, sizeof bits);
     float exponent = (float)((int32_t)(bits >> 23) - 127);
@@ -58,24 +60,10 @@ static inline float ref_log2_by(float v, const float *Q, int count)
     float t;
     memcpy(&t, &bits, sizeof t);
     t = t - 1.0f;
-    float q = Q[count - 1];
-    for (int k = count - 2; k >= 0; k--)
+    float q = Q[6];
+    for (int k = 5; k >= 0; k--)
         q = q * t + Q[k];
     return exponent + (t + (t * (1.0f - t)) * q);
-}
-
-static inline float ref_log2(float v)
-{
-    static const float Q[7] = {0x1.c5507p-2f,   -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
-                               0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
-    return ref_log2_by(v, Q, 7);
-}
-
-/* Of levels of detail, which have 256 steps. */
-static inline float ref_log2_level(float v)
-{
-    static const float Q[3] = {0x1.c14136p-2f, -0x1.e9967ep-3f, 0x1.5066dap-4f};
-    return ref_log2_by(v, Q, 3);
 }
 
 static inline float ref_exp2(float y)

@@ -86,12 +86,12 @@ typedef struct ref_band {
 typedef struct ref_surface {
     const ref_piece *piece;
     const ref_instance *instance;
-    float weight[3], r; /* of R19 */
+    float dx, dy, weight[3], r; /* of R19 */
     float barycentric[3];
     float world_position[3], view_position[3];
     float metric_depth;
     float world_normal[3], view_normal[3];
-    float uv[2], uv_dx[2], uv_dy[2];
+    float uv[2], uv_corner[2][3]; /* [coordinate][vertex] */
     float albedo[3];
 } ref_surface;
 

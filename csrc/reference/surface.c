@@ -12,9 +12,10 @@
 static void find_weights(ref_surface *s, int32_t x, int32_t y)
 {
     const ref_piece *piece = s->piece;
-    float dx = (float)(x - piece->left), dy = (float)(y - piece->top);
+    s->dx = (float)(x - piece->left);
+    s->dy = (float)(y - piece->top);
     for (int k = 0; k < 3; k++) {
-        float weight = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
+        float weight = (piece->bary0[k] + s->dx * piece->bary_dx[k]) + s->dy * piece->bary_dy[k];
         s->weight[k] = ref_max(weight, k == 0 ? E3D_LEAST_WEIGHT : 0.0f);
     }
     s->r = 1.0f / ((s->weight[0] + s->weight[1]) + s->weight[2]);
@@ -94,21 +95,17 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
         s->view_normal[r] = ref_dot3(scene->view_from_world[r], n);
 }
 
-/* R25: uv, and its derivatives along the rows and columns of samples, before they are divided (times r). */
+/* R25 */
 static void find_uv(ref_surface *s)
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
-    const ref_piece *piece = s->piece;
-    float sum_dx = (piece->bary_dx[0] + piece->bary_dx[1]) + piece->bary_dx[2];
-    float sum_dy = (piece->bary_dy[0] + piece->bary_dy[1]) + piece->bary_dy[2];
     for (size_t c = 0; c < 2; c++) {
-        float v[3] = {0.0f, 0.0f, 0.0f};
-        for (int k = 0; k < 3; k++)
-            if (mesh->uvs && piece->primitive.vertices[k] >= 0)
-                v[k] = mesh->uvs[2 * (size_t)piece->primitive.vertices[k] + c];
+        float *v = s->uv_corner[c];
+        for (int k = 0; k < 3; k++) {
+            int32_t vertex = s->piece->primitive.vertices[k];
+            v[k] = mesh->uvs && vertex >= 0 ? mesh->uvs[2 * (size_t)vertex + c] : 0.0f;
+        }
         s->uv[c] = interpolate(s, v);
-        s->uv_dx[c] = ref_dot3(piece->bary_dx, v) - s->uv[c] * sum_dx;
-        s->uv_dy[c] = ref_dot3(piece->bary_dy, v) - s->uv[c] * sum_dy;
     }
 }
 

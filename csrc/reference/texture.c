@@ -1,23 +1,42 @@
 /* Texture: filtered texels at a place, in 8-bit fixed-point weights.
  *
- * In:  a texture's levels (linear RGBA, top row first), uv and its derivatives.
+ * In:  a texture's levels (linear RGBA, top row first), uv and how they change over the piece.
  * Out: the red, green and blue of the texture there, and their unit.
- * Rules: R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
+ * Rules: R25 and R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
  */
+#include <string.h>
+
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
 enum { CHANNELS = 3 };
 
+static float sum_of(const float v[3]) { return (v[0] + v[1]) + v[2]; }
+
+/* R25: texels that one coordinate passes from a sample to the next, along the row and down the column, before they are divided. */
+static void find_slopes(const ref_surface *s, int c, float size, float *along, float *down)
+{
+    const ref_piece *piece = s->piece;
+    const float *corners = s->uv_corner[c];
+    float a0 = ref_dot3(piece->bary0, corners), s0 = sum_of(piece->bary0);
+    float ax = ref_dot3(piece->bary_dx, corners), sx = sum_of(piece->bary_dx);
+    float ay = ref_dot3(piece->bary_dy, corners), sy = sum_of(piece->bary_dy);
+    float turn = (ax * sy - ay * sx) * size;
+    *along = (ax * s0 - a0 * sx) * size + s->dy * turn;
+    *down = (ay * s0 - a0 * sy) * size - s->dx * turn;
+}
+
 /* R26, in 1/256 level. */
 static int32_t level_of_detail(const e3d_texture_view *texture, const ref_surface *s)
 {
-    float width = (float)texture->levels[0].width, height = (float)texture->levels[0].height;
-    float ax = s->uv_dx[0] * width, ay = s->uv_dx[1] * height;
-    float bx = s->uv_dy[0] * width, by = s->uv_dy[1] * height;
-    float q = ref_max(ax * ax + ay * ay, bx * bx + by * by) * (s->r * s->r);
-    int32_t lod = ref_rint(ref_log2_level(ref_clamp(q, 1.0f, 0x1p100f)) * 128.0f);
-    int32_t coarsest = (texture->level_count - 1) * 256;
+    float along[2], down[2];
+    find_slopes(s, 0, (float)texture->levels[0].width, &along[0], &down[0]);
+    find_slopes(s, 1, (float)texture->levels[0].height, &along[1], &down[1]);
+    float longest = ref_max(along[0] * along[0] + along[1] * along[1], down[0] * down[0] + down[1] * down[1]);
+    float q = ref_max((longest * (s->r * s->r)) * (s->r * s->r), 1.0f);
+    int32_t coarsest = (texture->level_count - 1) * 256, bits;
+    memcpy(&bits, &q, sizeof bits);
+    int32_t lod = (bits - 0x3F800000) / 65536;
     return lod < coarsest ? lod : coarsest;
 }
 

@@ -107,15 +107,6 @@ class Kernels:
     def project(self, surfaces: _Bytes, viewport: _Bytes) -> None: ...
     def surface(self, surfaces: _Bytes, tile_x: int, tile_y: int, wanted: int) -> None: ...
     def interpolate(self, batch: _Bytes, surfaces: _Bytes, wanted: int) -> None: ...
-    def select_level(
-        self,
-        batch: _Bytes,
-        surfaces: _Bytes,
-        texels: _Bytes,
-        sizes: _Integers,
-        filter: int,
-        wrap: int,
-    ) -> None: ...
     def texture(
         self,
         batch: _Bytes,

@@ -393,14 +393,6 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], wanted)
 
-    def select_level(self, uint8_t[::1] batch, const uint8_t[::1] surfaces,
-                     const uint8_t[::1] texels, const int32_t[:, ::1] sizes, int filter, int wrap):
-        cdef e3d_texture_view view = texture_view(texels, 16, sizes, filter, wrap)
-        check_size(batch, sizeof(e3d_batch))
-        check_size(surfaces, sizeof(e3d_surfaces))
-        for _ in range(self.rounds):
-            self.table.select_level(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], &view)
-
     def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int channel_bits,
                 const int32_t[:, ::1] sizes, int filter, int wrap, const float[::1] base):
         """``texels``: the levels with their borders, and 16 bytes more."""

@@ -20,7 +20,6 @@ LOG2 = _hexadecimal(
     "0x1.c5507p-2 -0x1.1d270ep-2 0x1.99e72p-3 -0x1.2cc076p-3 0x1.823526p-4 -0x1.5a65f6p-5 "
     "0x1.2b619ap-7"
 )
-LOG2_LEVEL = _hexadecimal("0x1.c14136p-2 -0x1.e9967ep-3 0x1.5066dap-4")
 EXP2 = _hexadecimal("0x1.3a37acp-2 0x1.10e326p-4 0x1.6d1682p-7 0x1.7e244cp-10 0x1.cb1d4cp-13")
 
 
@@ -60,13 +59,13 @@ def unit(v):
     return [component * inverse for component in v]
 
 
-def log2(q, coefficients=LOG2):
+def log2(q):
     """R27, for positive normal numbers."""
     q = np.ascontiguousarray(q, np.float32)
     exponent = ((q.view(np.int32) >> 23) - 127).astype(np.float32)
     t = ((q.view(np.int32) & 0x7FFFFF) | 0x3F800000).view(np.float32) - ONE
-    total = np.full_like(t, coefficients[-1])
-    for coefficient in coefficients[-2::-1]:
+    total = np.full_like(t, LOG2[-1])
+    for coefficient in LOG2[-2::-1]:
         total = total * t + coefficient
     return exponent + (t + (t * (ONE - t)) * total)
 

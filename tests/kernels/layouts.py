@@ -114,9 +114,10 @@ SURFACES = np.dtype(
     + [("instance_color", "f4", (3, _ELEMENTS)), ("back", "i4", _ELEMENTS)]
     + [(name, "f4", (3, _ELEMENTS)) for name in ("p", "px", "py")]
     + [("base_x", "f4", _ELEMENTS), ("base_y", "f4", _ELEMENTS)]
-    + [("step", "f4", (2, 3, _ELEMENTS))]
+    + [("slope", "f4", (2, 3, _ELEMENTS))]
     + [("not_read", "i4", (2, _ELEMENTS))]  # identities
     + [(name, "i4") for name in ("count", "matrices", "irregular", "projected")]
+    + [("texels", "f4", 2)]
 )
 _LANES = BATCH + PAD
 BATCH_RECORD = np.dtype(

@@ -7,7 +7,7 @@ from kernels.layouts import BATCH, BATCH_RECORD, BATCH_SURFACES, PAD, SURFACES, 
 BATCHES = 514  # of one round: twice every length
 ROUNDS = 9  # with BATCHES: 10^6 samples and more
 LANES = BATCH + PAD
-WORDS = ("p", "px", "py", "position", "normal", "uv", "color", "instance_color", "step")
+WORDS = ("p", "px", "py", "position", "normal", "uv", "color", "instance_color", "slope")
 
 
 def random_surfaces(rng):
@@ -45,7 +45,7 @@ def at(surfaces, elements):
     words = {}
     for name in SURFACES.names:
         word = surfaces[name]
-        if word.ndim:
+        if word.shape[-1:] == (BATCH_SURFACES + PAD,):
             word = word[..., elements]
             words[name] = np.moveaxis(word, range(-elements.ndim, 0), range(elements.ndim))
     return words

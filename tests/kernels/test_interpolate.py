@@ -1,4 +1,4 @@
-"""interpolate and tint against R19, R20, R22 and R24."""
+"""interpolate and tint against R19, R20, R22, R24 and R26."""
 
 import numpy as np
 import pytest
@@ -7,6 +7,7 @@ from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
 from kernels.layouts import (
     TILE,
     WANT_FLAT,
+    WANT_LEVEL,
     WANT_NORMAL,
     WANT_POSITION,
     WANT_SURFACE,
@@ -21,6 +22,8 @@ WANTED = [
     WANT_POSITION,
     WANT_NORMAL,
     WANT_UV,
+    WANT_LEVEL,
+    WANT_UV | WANT_LEVEL | WANT_NORMAL,
     WANT_NORMAL | WANT_FLAT,
     WANT_NORMAL | WANT_WEIGHTS,
     WANT_POSITION | WANT_NORMAL | WANT_UV,
@@ -53,6 +56,17 @@ def normals(surface, w, flat):
             for k in range(3)
         ]
     )
+
+
+def level(surface, sample, r):
+    """R26, of as many levels as there could be."""
+    dx = (sample % TILE - surface["base_x"]).astype(np.float32)
+    dy = (sample // TILE - surface["base_y"]).astype(np.float32)
+    along, down, turn = (np.moveaxis(surface["slope"][..., k], -1, 0) for k in range(3))
+    changes = (along + dy * turn, down - dx * turn)
+    lengths = [change[0] * change[0] + change[1] * change[1] for change in changes]
+    q = greatest((greatest(*lengths) * (r * r)) * (r * r), ONE)
+    return (q.view(np.int32) - ONE.view(np.int32)) >> 16
 
 
 def planes_of(words, component):
@@ -99,7 +113,12 @@ def check_interpolated(batches, surface, given, wanted):
         values = normals(chosen, [v[asked] for v in w], flat)
         check_components("normal", fields["normal"][asked], values, counts[asked])
     check_poisoned(fields[(wanted & WANT_NORMAL) == 0], ["normal"])
-    check_poisoned(fields, ["color", "lod", "energy", "shine"])
+    asked = (wanted & WANT_LEVEL) != 0
+    levels = level(surface, given[0], r)
+    assert len(np.unique(levels)) > 100
+    check_lanes("lod", fields["lod"][asked], levels[asked], counts[asked])
+    check_poisoned(fields[~asked], ["lod"])
+    check_poisoned(fields, ["color", "energy", "shine"])
     batches.check_gaps()
 
 

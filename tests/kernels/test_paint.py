@@ -58,7 +58,7 @@ def random_material(rng, texture, lit):
     if by_vertex:
         wanted |= WANT_WEIGHTS
     if texture and texture[3] == FILTERS["trilinear"]:
-        wanted |= WANT_LEVEL | WANT_WEIGHTS
+        wanted |= WANT_LEVEL
     lighting, shiny = None, bool(rng.integers(2))
     base, emissive = rng.random(3).astype(np.float32), hostile(rng, 3, 0.2, finite=True)
     if rng.integers(2):
@@ -107,8 +107,6 @@ def step_by_step(kernels, row, batch, surfaces, m):
     batch["color"] = m["base"][:, None]
     if m["texture"]:
         texels, bits, sizes, filter_number, wrap = m["texture"]
-        if filter_number == FILTERS["trilinear"]:
-            kernels.select_level(row, surfaces, texels, sizes, filter_number, wrap)
         kernels.texture(row, texels, bits, sizes, filter_number, wrap, m["base"])
     if m["by_vertex"] or m["by_instance"]:
         kernels.tint(row, surfaces, m["by_vertex"], m["by_instance"])

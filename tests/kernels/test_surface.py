@@ -51,6 +51,7 @@ def random_surfaces(rng, count):
     surfaces["matrix"][count:] = surfaces["matrix"][max(count - 1, 0)]
     for name in ("world", "normals", "position", "normal", "uv"):
         surfaces[name] = hostile(rng, surfaces[name].shape, 2.0, 0.02)
+    surfaces["texels"] = rng.choice([1, 37, 1024, 16384], 2)
     return surfaces
 
 
@@ -83,6 +84,22 @@ def transformed(matrix, columns, vectors, vertices):
             value = dot(matrix[columns * row : columns * row + 3], vectors[:, v])
             result[row, v] = value + matrix[columns * row + 3] if columns == 4 else value
     return result
+
+
+def slopes(surfaces, planes):
+    """R25: (coordinate, 3, elements)."""
+    sums = [(w[0] + w[1]) + w[2] for w in planes]
+    found = []
+    for uv, size in zip(surfaces["uv"], surfaces["texels"], strict=True):
+        a = [dot(w, uv) for w in planes]
+        found.append(
+            [
+                (a[1] * sums[0] - a[0] * sums[1]) * size,
+                (a[2] * sums[0] - a[0] * sums[2]) * size,
+                (a[1] * sums[2] - a[2] * sums[1]) * size,
+            ]
+        )
+    return np.array(found)
 
 
 def check(name, got, expected, count):
@@ -121,11 +138,7 @@ def test_surface(kernels, flat):
             given["back"],
             1 if flat else 3,
         )
-        steps = [
-            [(w[0] + w[1]) + w[2], dot(w, given["uv"][0]), dot(w, given["uv"][1])]
-            for w in planes[1:]
-        ]
-        expected["step"] = np.array(steps)
+        expected["slope"] = slopes(given, planes)
         for name in SURFACES.names:
             if name in expected:
                 check(name, surfaces[name], expected[name], count)
@@ -143,5 +156,5 @@ def test_what_is_not_wanted_stays(kernels):
     surfaces = random_surfaces(rng, BATCH_SURFACES)
     given = surfaces.copy()
     kernels.surface(bytes_of(surfaces), 0, 0, 0)
-    for name in ("position", "normal", "step"):
+    for name in ("position", "normal", "slope"):
         assert np.array_equal(bits(surfaces[name]), bits(given[name])), name

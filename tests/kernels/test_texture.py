@@ -1,9 +1,8 @@
-"""select_level and texture against R25–R30."""
+"""texture against R28–R30."""
 
 import numpy as np
 import pytest
 from kernels.arithmetic import (
-    LOG2_LEVEL,
     ONE,
     UNORM8,
     UNORM8_BLENDED,
@@ -12,7 +11,6 @@ from kernels.arithmetic import (
     clamp,
     floor,
     greatest,
-    log2,
     round_even,
 )
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
@@ -20,12 +18,9 @@ from kernels.surfaces import (
     BATCHES,
     LANES,
     ROUNDS,
-    at,
-    bytes_of,
     fill,
     planes,
     random_batches,
-    random_surfaces,
 )
 
 from engine3d._native.rasterizer import FILTERS, WRAPS
@@ -46,47 +41,6 @@ def chain_sizes(width, height, levels=16):
     while sizes[-1] != (1, 1) and len(sizes) < levels:
         sizes.append(tuple(max(1, side >> 1) for side in sizes[-1]))
     return np.array(sizes, np.int32)
-
-
-def length2(step, uv, size):
-    """R25 and R26 along one screen axis, squared."""
-    squares = []
-    for k in range(2):
-        texels = (step[..., 1 + k] - uv[k] * step[..., 0]) * np.float32(size[k])
-        squares.append(texels * texels)
-    return squares[0] + squares[1]
-
-
-def level_of(surface, uv, r, sizes):
-    """R26"""
-    rx, ry = (length2(surface["step"][..., axis, :], uv, sizes[0]) for axis in range(2))
-    q = clamp(greatest(rx, ry) * (r * r), ONE, np.float32(2.0**100))
-    lod = round_even(log2(q, LOG2_LEVEL) * np.float32(128))
-    return np.minimum(lod, (len(sizes) - 1) * 256).astype(np.int32)
-
-
-@all_backends
-def test_select_level(kernels):
-    texels = np.zeros(8, np.uint8)  # never read
-    for seed in range(ROUNDS):
-        rng = np.random.default_rng(seed)
-        surfaces, batches = random_surfaces(rng), random_batches(rng)
-        sizes = chain_sizes(*(SIZES + LARGE_SIZES)[seed])
-        uv = hostile(rng, batches.fields["uv"].shape, 3.0)
-        r = np.abs(hostile(rng, (BATCHES, LANES), 2.0))
-        fill(batches, "uv", uv)
-        fill(batches, "r", r)
-        for row in batches.rows:
-            kernels.select_level(
-                row, bytes_of(surfaces), texels, sizes, FILTERS["trilinear"], WRAPS["repeat"]
-            )
-        surface = at(surfaces, batches.fields["surface"])
-        expected = level_of(surface, planes(uv), r, sizes)
-        assert len(np.unique(expected)) > 100 or len(sizes) < 3
-        check_lanes("lod", batches.fields["lod"], expected, batches.fields["count"])
-        unused = ["weight", "position", "normal", "color", "energy", "shine"]
-        check_poisoned(batches.fields, unused)
-        batches.check_gaps()
 
 
 def wrapped(s, wrap):

@@ -4,16 +4,23 @@
  * broadcast where all samples are of one surface.
  */
 
-/* R19: the corners' weights, in proportion to the barycentrics. */
-static ALWAYS_INLINE void interpolate_weights(const e3d_surfaces *s, const element_lanes *lanes, int same, vi32 sample, vf32 w[3])
+/* R19: how far samples are from their surfaces' base, and the corners' weights, in proportion to the barycentrics. */
+typedef struct weight_lanes {
+    vf32 dx, dy, w[3], r;
+} weight_lanes;
+
+static ALWAYS_INLINE void interpolate_weights(const e3d_surfaces *s, const element_lanes *lanes, int same, vi32 sample, weight_lanes *out)
 {
-    vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT));
-    vf32 dx = v_sub(x, take(s->base_x, lanes, same)), dy = v_sub(y, take(s->base_y, lanes, same)), px[3], py[3];
-    take_three(s->p, lanes, same, w);
+    vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT)), px[3], py[3];
+    out->dx = v_sub(x, take(s->base_x, lanes, same));
+    out->dy = v_sub(y, take(s->base_y, lanes, same));
+    take_three(s->p, lanes, same, out->w);
     take_three(s->px, lanes, same, px);
     take_three(s->py, lanes, same, py);
-    for (int k = 0; k < 3; k++)
-        w[k] = v_max(v_add(v_add(w[k], v_mul(dx, px[k])), v_mul(dy, py[k])), v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
+    for (int k = 0; k < 3; k++) {
+        vf32 weight = v_add(v_add(out->w[k], v_mul(out->dx, px[k])), v_mul(out->dy, py[k]));
+        out->w[k] = v_max(weight, v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
+    }
 }
 
 /* The weighted sum of one component; `rows`: of three corners. */
@@ -60,18 +67,34 @@ static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surf
 }
 
 /* R20 */
-static ALWAYS_INLINE void interpolate_into(e3d_lane_array *out, int count, const e3d_surface_floats rows[][3], const vf32 w[3],
-                                           vf32 r, const sample_vector *v)
+static ALWAYS_INLINE void interpolate_into(e3d_lane_array *out, int count, const e3d_surface_floats rows[][3],
+                                           const weight_lanes *weights, const sample_vector *v)
 {
     for (int c = 0; c < count; c++)
-        v_storef(out[c] + v->i, v_mul(weighted_sum(rows[c], &v->elements, v->same, w), r));
+        v_storef(out[c] + v->i, v_mul(weighted_sum(rows[c], &v->elements, v->same, weights->w), weights->r));
 }
 
-static ALWAYS_INLINE void keep_weights(e3d_batch *batch, int i, const vf32 w[3], vf32 r)
+static ALWAYS_INLINE void keep_weights(e3d_batch *batch, int i, const weight_lanes *weights)
 {
     for (int k = 0; k < 3; k++)
-        v_storef(batch->weight[k] + i, w[k]);
-    v_storef(batch->r + i, r);
+        v_storef(batch->weight[k] + i, weights->w[k]);
+    v_storef(batch->r + i, weights->r);
+}
+
+/* R26: twice the logarithm is read off the bits of a float. */
+static ALWAYS_INLINE void interpolate_level(e3d_batch *batch, const weight_lanes *weights, const sample_vector *v)
+{
+    vf32 along[2], down[2], r2 = v_mul(weights->r, weights->r);
+    for (int k = 0; k < 2; k++) {
+        vf32 slope[3];
+        take_three(v->s->slope[k], &v->elements, v->same, slope);
+        along[k] = v_add(slope[0], v_mul(weights->dy, slope[2]));
+        down[k] = v_sub(slope[1], v_mul(weights->dx, slope[2]));
+    }
+    vf32 longest = v_max(v_add(v_mul(along[0], along[0]), v_mul(along[1], along[1])),
+                         v_add(v_mul(down[0], down[0]), v_mul(down[1], down[1])));
+    vf32 one = v_setf(1.0f), q = v_max(v_mul(v_mul(longest, r2), r2), one);
+    v_storei(batch->lod + v->i, v_shr(v_subi(v_asi(q), v_asi(one)), 16));
 }
 
 /* R22 */
@@ -90,23 +113,26 @@ static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], 
 static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vector *v, const void *how)
 {
     int wanted = *(const int *)how;
-    vf32 w[3], r = v_setf(0.0f);
-    interpolate_weights(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), w);
-    if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_POSITION))
-        r = v_div(v_setf(1.0f), v_add(v_add(w[0], w[1]), w[2]));
+    weight_lanes weights = {.r = v_setf(0.0f)};
+    const vf32 *w = weights.w;
+    interpolate_weights(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), &weights);
+    if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_LEVEL | E3D_WANT_POSITION))
+        weights.r = v_div(v_setf(1.0f), v_add(v_add(w[0], w[1]), w[2]));
     if (wanted & E3D_WANT_WEIGHTS)
-        keep_weights(batch, v->i, w, r);
+        keep_weights(batch, v->i, &weights);
     if (wanted & E3D_WANT_UV)
-        interpolate_into(batch->uv, 2, v->s->uv, w, r, v);
+        interpolate_into(batch->uv, 2, v->s->uv, &weights, v);
+    if (wanted & E3D_WANT_LEVEL)
+        interpolate_level(batch, &weights, v);
     if (wanted & E3D_WANT_POSITION)
-        interpolate_into(batch->position, 3, v->s->position, w, r, v);
+        interpolate_into(batch->position, 3, v->s->position, &weights, v);
     if (wanted & E3D_WANT_NORMAL)
         interpolate_normal(batch, w, wanted & E3D_WANT_FLAT, v);
 }
 
 static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
 {
-    if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_POSITION | E3D_WANT_NORMAL))
+    if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_LEVEL | E3D_WANT_POSITION | E3D_WANT_NORMAL))
         each_vector(batch, surfaces, stage_interpolate, &wanted);
 }
 
@@ -148,24 +174,19 @@ static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_v
         each_vector(batch, surfaces, stage_instance_color, NULL);
 }
 
-/* R27; c: `count` coefficients. */
-static ALWAYS_INLINE vf32 log2_by(vf32 q, const float *c, int count)
-{
-    vi32 bits = v_asi(q);
-    vf32 exponent = v_float(v_subi(v_shr(bits, 23), v_seti(127)));
-    vf32 one = v_setf(1.0f);
-    vf32 t = v_sub(v_asf(v_ori(v_andi(bits, v_seti(0x7FFFFF)), v_seti(0x3F800000))), one);
-    vf32 sum = v_setf(c[count - 1]);
-    for (int k = count - 2; k >= 0; k--)
-        sum = v_add(v_mul(sum, t), v_setf(c[k]));
-    return v_add(exponent, v_add(t, v_mul(v_mul(t, v_sub(one, t)), sum)));
-}
-
+/* R27 */
 static inline vf32 log2_poly(vf32 q)
 {
     static const float c[7] = {0x1.c5507p-2f,  -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
                                0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
-    return log2_by(q, c, 7);
+    vi32 bits = v_asi(q);
+    vf32 exponent = v_float(v_subi(v_shr(bits, 23), v_seti(127)));
+    vf32 one = v_setf(1.0f);
+    vf32 t = v_sub(v_asf(v_ori(v_andi(bits, v_seti(0x7FFFFF)), v_seti(0x3F800000))), one);
+    vf32 sum = v_setf(c[6]);
+    for (int k = 5; k >= 0; k--)
+        sum = v_add(v_mul(sum, t), v_setf(c[k]));
+    return v_add(exponent, v_add(t, v_mul(v_mul(t, v_sub(one, t)), sum)));
 }
 
 static inline vf32 exp2_poly(vf32 y)
@@ -181,41 +202,4 @@ static inline vf32 exp2_poly(vf32 y)
         sum = v_add(v_mul(sum, f), v_setf(c[k]));
     vf32 fraction = v_add(v_add(one, f), v_mul(v_mul(f, v_sub(f, one)), sum));
     return v_mul(fraction, v_asf(v_shl(v_addi(whole, v_seti(127)), 23)));
-}
-
-/* R26: squared length, in texels and before it is divided, of the step of both coordinates along one screen axis. */
-static inline vf32 level_length2(const e3d_surface_floats step[3], const element_lanes *lanes, const vf32 value[2], const vf32 size[2])
-{
-    vf32 s[3], square[2];
-    take_three(step, lanes, lanes->same, s);
-    for (int k = 0; k < 2; k++) {
-        vf32 texels = v_mul(v_sub(s[1 + k], v_mul(value[k], s[0])), size[k]);
-        square[k] = v_mul(texels, texels);
-    }
-    return v_add(square[0], square[1]);
-}
-
-static inline vf32 level_log2(vf32 q)
-{
-    static const float c[3] = {0x1.c14136p-2f, -0x1.e9967ep-3f, 0x1.5066dap-4f};
-    return log2_by(q, c, 3);
-}
-
-/* R26: 256 levels a level. */
-static inline vi32 level_of(const e3d_surfaces *s, const element_lanes *lanes, const vf32 uv[2], vf32 r,
-                            const e3d_texture_view *texture)
-{
-    const vf32 size[2] = {v_setf((float)texture->levels[0].width), v_setf((float)texture->levels[0].height)};
-    vf32 longest = v_max(level_length2(s->step[0], lanes, uv, size), level_length2(s->step[1], lanes, uv, size));
-    vf32 q = v_min(v_max(v_mul(longest, v_mul(r, r)), v_setf(1.0f)), v_setf(0x1p100f));
-    return v_mini(v_rint(v_mul(level_log2(q), v_setf(128.0f))), v_seti((texture->level_count - 1) * 256));
-}
-
-static void kernel_select_level(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture)
-{
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        element_lanes lanes = lanes_of(batch->surface + i);
-        const vf32 uv[2] = {v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i)};
-        v_storei(batch->lod + i, level_of(surfaces_from(surfaces, &lanes), &lanes, uv, v_loadf(batch->r + i), texture));
-    }
 }

@@ -89,8 +89,6 @@ static inline paint_source paint_textured(e3d_batch *batch, const e3d_surfaces *
         texture_prepare(plan, paint->texture, paint->base, batch);
         return PAINT_TEXELS;
     }
-    if (paint->texture->filter == E3D_TRILINEAR)
-        kernel_select_level(batch, surfaces, paint->texture);
     kernel_texture(batch, paint->texture, paint->base);
     kernel_tint(batch, surfaces, paint->by_vertex, paint->by_instance);
     return PAINT_COLOR;

@@ -150,19 +150,30 @@ static inline void surface_transform(const e3d_surface_floats *matrix, int colum
     }
 }
 
-/* ---- what one step to the right, or down, changes (R25) ---- */
+/* ---- how texture coordinates change from sample to sample (R25) ---- */
 
-static inline void surface_steps(e3d_surfaces *s, int n)
+static inline void surface_load(const e3d_surface_floats rows[3], int n, vf32 out[3])
 {
-    for (int axis = 0; axis < 2; axis++) {
-        const e3d_surface_floats *plane = axis ? s->py : s->px;
-        const vf32 w[3] = {v_loadf(plane[0] + n), v_loadf(plane[1] + n), v_loadf(plane[2] + n)};
-        v_storef(s->step[axis][0] + n, v_add(v_add(w[0], w[1]), w[2]));
-        for (int k = 0; k < 2; k++) {
-            const vf32 corner[3] = {v_loadf(s->uv[k][0] + n), v_loadf(s->uv[k][1] + n),
-                                    v_loadf(s->uv[k][2] + n)};
-            v_storef(s->step[axis][1 + k] + n, dot_three(w, corner));
-        }
+    for (int k = 0; k < 3; k++)
+        out[k] = v_loadf(rows[k] + n);
+}
+
+static inline void surface_slopes(e3d_surfaces *s, int n)
+{
+    vf32 plane[3][3], sum[3], a[3];
+    surface_load(s->p, n, plane[0]);
+    surface_load(s->px, n, plane[1]);
+    surface_load(s->py, n, plane[2]);
+    for (int row = 0; row < 3; row++)
+        sum[row] = v_add(v_add(plane[row][0], plane[row][1]), plane[row][2]);
+    for (int k = 0; k < 2; k++) {
+        vf32 corner[3], size = v_setf(s->texels[k]);
+        surface_load(s->uv[k], n, corner);
+        for (int row = 0; row < 3; row++)
+            a[row] = dot_three(plane[row], corner);
+        v_storef(s->slope[k][0] + n, v_mul(v_sub(v_mul(a[1], sum[0]), v_mul(a[0], sum[1])), size));
+        v_storef(s->slope[k][1] + n, v_mul(v_sub(v_mul(a[2], sum[0]), v_mul(a[0], sum[2])), size));
+        v_storef(s->slope[k][2] + n, v_mul(v_sub(v_mul(a[1], sum[2]), v_mul(a[2], sum[1])), size));
     }
 }
 
@@ -179,6 +190,6 @@ static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)
             surface_turn(s, wanted & E3D_WANT_FLAT ? 1 : 3, n);
         }
         if (wanted & E3D_WANT_LEVEL)
-            surface_steps(s, n);
+            surface_slopes(s, n);
     }
 }

@@ -60,7 +60,6 @@ const e3d_kernels E3D_TABLE = {
     .project = kernel_project,
     .surface = kernel_surface,
     .interpolate = kernel_interpolate,
-    .select_level = kernel_select_level,
     .texture = kernel_texture,
     .tint = kernel_tint,
     .light = kernel_light,

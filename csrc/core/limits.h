@@ -33,7 +33,8 @@ _Static_assert((long long)(E3D_TILE - 1) * 2 * E3D_SUBPIXEL * (2 * E3D_GUARD + E
 #define E3D_WIRE_PULL 0x1p-18f
 #define E3D_UNORM16 0x1.0001p-16f /* 1 / 65535 */
 #define E3D_UNORM8 0x1.010102p-8f /* 1 / 255 */
-#define E3D_UNORM16_BLENDED 0x1.0001p-24f /* 1 / (65535 * 256): a weight of 256 */
+#define E3D_UNORM15 0x1.0002p-15f /* 1 / 32767 */
+#define E3D_UNORM15_BLENDED 0x1.0002p-23f /* 1 / (32767 * 256): a weight of 256 */
 #define E3D_UNORM8_BLENDED 0x1.03060ap-24f /* 1 / 255^3: two weights of 255 each */
 
 #define E3D_LEAST_WEIGHT 0x1p-64f /* of the first corner: the weights of R19 never are all 0 */

@@ -1,7 +1,7 @@
 /* Textures: 8-bit pixels become the texels that filters read, once, and their mip levels with them.
  *
- * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels are 16-bit
- * linear light; without sRGB and mip levels they are the 8-bit c, half the memory to fetch.
+ * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels are linear
+ * light of 15 bits; without sRGB and mip levels they are the 8-bit c, half the memory to fetch.
  * Each level has a border of one texel, by its wrap: the neighbours that a filter blends always stand side by side.
  */
 #include <stdlib.h>
@@ -50,12 +50,14 @@ static uint8_t *row_of(const e3d_texture *texture, const e3d_level *level, int32
     return (uint8_t *)level->texels + texel * texel_bytes(texture);
 }
 
+static uint16_t to_15_bits(uint32_t c16) { return (uint16_t)((c16 * 32767 + 32767) / 65535); }
+
 static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t table[256], uint16_t *out)
 {
     for (int32_t x = 0; x < width; x++, pixels += 4, out += 4) {
         for (int k = 0; k < 3; k++)
             out[k] = table[pixels[k]];
-        out[3] = (uint16_t)(pixels[3] * 257);
+        out[3] = to_15_bits(pixels[3] * 257u);
     }
 }
 
@@ -65,7 +67,7 @@ static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode
     size_t row_bytes = 4 * (size_t)level->width;
     uint16_t table[256];
     for (int c = 0; c < 256; c++)
-        table[c] = decode_srgb ? SRGB_TO_LINEAR16[c] : (uint16_t)(c * 257);
+        table[c] = to_15_bits(decode_srgb ? SRGB_TO_LINEAR16[c] : (uint32_t)c * 257);
     for (int32_t y = 0; y < level->height; y++, pixels += row_bytes) {
         if (texture->view.channel_bits == 8)
             memcpy(row_of(texture, level, y), pixels, row_bytes);
@@ -74,7 +76,7 @@ static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode
     }
 }
 
-/* 16-bit texels only. */
+/* Of texels of 15 bits. */
 static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_level *coarse)
 {
     for (int32_t y = 0; y < coarse->height; y++) {
@@ -123,11 +125,10 @@ static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t wi
     }
 }
 
-/* As what blends them takes them; levels were averaged before. */
+/* 8-bit texels as what blends them takes them. */
 static void make_signed(e3d_texture *texture, size_t bytes)
 {
-    size_t channel = texel_bytes(texture) / 4;
-    for (size_t i = channel - 1; i < bytes; i += channel)
+    for (size_t i = 0; i < bytes; i++)
         texture->texels[i] ^= 0x80;
 }
 
@@ -154,7 +155,8 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
         return E3D_OUT_OF_MEMORY;
     }
     build_levels(texture, pixels, width, height, decode_srgb);
-    make_signed(texture, bytes);
+    if (texture->view.channel_bits == 8)
+        make_signed(texture, bytes);
     *out = texture;
     return E3D_OK;
 }

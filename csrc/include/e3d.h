@@ -92,7 +92,7 @@ typedef enum e3d_wrap { E3D_REPEAT = 0, E3D_CLAMP, E3D_MIRROR } e3d_wrap;
 /* One mip level: linear RGBA texels, top row first, within a border of one texel: the other side's where the wrap is
  * E3D_REPEAT, else the nearest. */
 typedef struct e3d_level {
-    const void *texels; /* (height + 2, width + 2, 4), of channel_bits 16: int16, c - 32768; of 8: int8, c - 128 */
+    const void *texels; /* (height + 2, width + 2, 4), of channel_bits 16: int16, at least 0; of 8: int8, c - 128 */
     int32_t width, height;
 } e3d_level;
 

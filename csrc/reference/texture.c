@@ -53,13 +53,13 @@ static float wrap_coordinate(float s, e3d_wrap wrap)
     return m > 1.0f ? 2.0f - m : m;
 }
 
-/* A channel in as many bits as there are, which are stored signed. Levels have a border, which goes unused here. */
-static uint32_t texel(const e3d_texture_view *texture, const e3d_level *level, int32_t column, int32_t row, int c)
+/* A channel: 15 bits, or 8, which are stored signed. Levels have a border, which goes unused here. */
+static int32_t texel(const e3d_texture_view *texture, const e3d_level *level, int32_t column, int32_t row, int c)
 {
     size_t at = 4 * ((size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1)) + (size_t)c;
     if (texture->channel_bits == 8)
-        return (uint32_t)(((const int8_t *)level->texels)[at] + 128);
-    return (uint32_t)(((const int16_t *)level->texels)[at] + 32768);
+        return ((const int8_t *)level->texels)[at] + 128;
+    return ((const int16_t *)level->texels)[at];
 }
 
 static void sample_nearest(const e3d_texture_view *texture, const e3d_level *level, float s, float t, float out[CHANNELS])
@@ -68,20 +68,19 @@ static void sample_nearest(const e3d_texture_view *texture, const e3d_level *lev
     column = column < level->width ? column : level->width - 1;
     row = row < level->height ? row : level->height - 1;
     for (int c = 0; c < CHANNELS; c++)
-        out[c] = (float)(int32_t)texel(texture, level, column, row, c);
+        out[c] = (float)texel(texture, level, column, row, c);
 }
 
 /* The two neighbours along one axis and the weight of the second. */
 typedef struct neighbours {
-    int32_t first, second;
-    uint32_t weight;
+    int32_t first, second, weight;
 } neighbours;
 
 static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
 {
     int32_t p = ref_rint(s * (float)(256 * size)) - 128;
     int32_t first = ref_floor_256(p), second = first + 1;
-    uint32_t weight = (uint32_t)(p - 256 * first);
+    int32_t weight = p - 256 * first;
     if (wrap == E3D_REPEAT) {
         first = first < 0 ? first + size : first;
         second = second >= size ? second - size : second;
@@ -92,15 +91,20 @@ static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
     return (neighbours){first, second, weight};
 }
 
-/* Weights of 255, exact; or of 256, with rows of 16 bits. */
-static uint32_t blend(const e3d_texture_view *texture, const uint32_t t[2][2], uint32_t fx, uint32_t fy)
+/* t[row][column], of 8 bits: exact, with weights of 255. */
+static int32_t blend8(const int32_t t[2][2], int32_t fx, int32_t fy)
 {
-    uint32_t whole = texture->channel_bits == 8 ? 255 : 256, row[2];
-    for (int k = 0; k < 2; k++) {
-        row[k] = t[k][0] * (whole - fx) + t[k][1] * fx;
-        row[k] = texture->channel_bits == 8 ? row[k] : row[k] / 256;
-    }
-    return row[0] * (whole - fy) + row[1] * fy;
+    int32_t upper = t[0][0] * (255 - fx) + t[0][1] * fx, lower = t[1][0] * (255 - fx) + t[1][1] * fx;
+    return upper * (255 - fy) + lower * fy;
+}
+
+/* Of 15 bits: each column to 15 bits, then the two of them. */
+static int32_t blend15(const int32_t t[2][2], int32_t fx, int32_t fy)
+{
+    int32_t column[2];
+    for (int k = 0; k < 2; k++)
+        column[k] = t[0][k] + ref_floor_256((t[1][k] - t[0][k]) * fy + 128);
+    return column[0] * (256 - fx) + column[1] * fx;
 }
 
 static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *level, float s, float t,
@@ -109,10 +113,10 @@ static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *le
     neighbours x = find_neighbours(s, level->width, texture->wrap);
     neighbours y = find_neighbours(t, level->height, texture->wrap);
     for (int c = 0; c < CHANNELS; c++) {
-        const uint32_t t[2][2] = {
+        const int32_t t[2][2] = {
             {texel(texture, level, x.first, y.first, c), texel(texture, level, x.second, y.first, c)},
             {texel(texture, level, x.first, y.second, c), texel(texture, level, x.second, y.second, c)}};
-        out[c] = (float)(int32_t)blend(texture, t, x.weight, y.weight);
+        out[c] = (float)(texture->channel_bits == 8 ? blend8(t, x.weight, y.weight) : blend15(t, x.weight, y.weight));
     }
 }
 
@@ -138,6 +142,6 @@ float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *sur
         sample_trilinear(texture, level_of_detail(texture, surface), s, t, out);
     int nearest = texture->filter == E3D_NEAREST;
     if (texture->channel_bits == 16)
-        return nearest ? E3D_UNORM16 : E3D_UNORM16_BLENDED;
+        return nearest ? E3D_UNORM15 : E3D_UNORM15_BLENDED;
     return nearest ? E3D_UNORM8 : E3D_UNORM8_BLENDED;
 }

@@ -7,8 +7,8 @@ import numpy as np
 
 ZERO, ONE = np.float32(0), np.float32(1)
 UNORM8 = np.float32(float.fromhex("0x1.010102p-8"))
-UNORM16 = np.float32(float.fromhex("0x1.0001p-16"))
-UNORM16_BLENDED = UNORM16 * np.float32(2.0**-8)
+UNORM15 = np.float32(float.fromhex("0x1.0002p-15"))
+UNORM15_BLENDED = UNORM15 * np.float32(2.0**-8)
 UNORM8_BLENDED = np.float32(float.fromhex("0x1.03060ap-24"))
 
 

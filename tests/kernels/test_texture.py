@@ -6,8 +6,8 @@ from kernels.arithmetic import (
     ONE,
     UNORM8,
     UNORM8_BLENDED,
-    UNORM16,
-    UNORM16_BLENDED,
+    UNORM15,
+    UNORM15_BLENDED,
     clamp,
     floor,
     greatest,
@@ -27,9 +27,9 @@ from engine3d._native.rasterizer import FILTERS, WRAPS
 
 UNITS = {
     (True, 8): UNORM8,
-    (True, 16): UNORM16,
+    (True, 16): UNORM15,
     (False, 8): UNORM8_BLENDED,
-    (False, 16): UNORM16_BLENDED,
+    (False, 16): UNORM15_BLENDED,
 }
 SIZES = [(1, 1), (2, 3), (16, 16), (37, 5), (1, 300), (256, 1), (1000, 3), (33, 64), (4099, 2)]
 LARGE_SIZES = [(32768, 32768), (32768, 1), (1, 16384), (512, 300)]
@@ -67,20 +67,27 @@ def taps(s, size, wrap):
 
 def bilinear(texels, starts, sizes, level, s, t, wrap, bits):
     """R30 of a level for each lane; (…, 3)."""
-    whole = 255 if bits == 8 else 256
     width, height = (sizes[level, k].astype(np.int64) for k in range(2))
     left, right, fx = taps(s, width, wrap)
     top, bottom, fy = taps(t, height, wrap)
     start = starts[level]
 
+    fx, fy = fx[..., None], fy[..., None]
+
     def texel(row, column):
         return texels[start + row * width + column, :3].astype(np.int64)
 
     def across(row):
-        values = texel(row, left) * (whole - fx)[..., None] + texel(row, right) * fx[..., None]
-        return values if bits == 8 else values >> 8
+        return texel(row, left) * (255 - fx) + texel(row, right) * fx
 
-    blended = across(top) * (whole - fy)[..., None] + across(bottom) * fy[..., None]
+    def down(column):
+        upper, lower = texel(top, column), texel(bottom, column)
+        return upper + (((lower - upper) * fy + 128) >> 8)
+
+    if bits == 8:
+        blended = across(top) * (255 - fy) + across(bottom) * fy
+    else:
+        blended = down(left) * (256 - fx) + down(right) * fx
     assert blended.max() < 2**24
     return blended.astype(np.float32)
 
@@ -110,15 +117,14 @@ def sampled(texels, sizes, filter_name, wrap, uv, lod, bits):
 def stored(texels, sizes, wrap, bits):
     """The bytes of all levels as the kernels read them: within a border of one texel each.
 
-    They are signed; what stands behind them may be read.
+    Those of 8 bits are signed; what stands behind them may be read.
     """
     pieces, start = [], 0
     for width, height in sizes.tolist():
         level = texels[start : start + width * height].reshape(height, width, 4)
         mode = "wrap" if wrap == "repeat" else "edge"
         level = np.pad(level, ((1, 1), (1, 1), (0, 0)), mode)
-        kind = np.int8 if bits == 8 else np.int16
-        level = (level.astype(np.int32) - 2 ** (bits - 1)).astype(kind)
+        level = (level.astype(np.int16) - 128).astype(np.int8) if bits == 8 else level
         pieces.append(level.ravel().view(np.uint8))
         start += width * height
     return np.concatenate([*pieces, np.full(16, 77, np.uint8)])
@@ -148,9 +154,9 @@ def test_texture(kernels, filter_name, bits, wrap):
         batches = random_batches(rng)
         sizes = chain_sizes(*SIZES[seed], levels=16 if filter_name == "trilinear" else 1)
         count = int((sizes[:, 0].astype(np.int64) * sizes[:, 1]).sum())
-        texels = rng.choice([0, 65535, 1, 32768], (count, 4)).astype(np.uint16)
-        texels[::2] = rng.integers(0, 65536, texels[::2].shape)
-        texels >>= 16 - bits
+        most = 255 if bits == 8 else 32767
+        texels = rng.choice([0, most, 1, most // 2 + 1], (count, 4)).astype(np.uint16)
+        texels[::2] = rng.integers(0, most + 1, texels[::2].shape)
         given = stored(texels, sizes, wrap, bits)
         shape = batches.fields["uv"].shape
         uv = random_coordinates(rng, shape, sizes)

@@ -54,9 +54,10 @@ def srgb_encode(linear):
     return 255 * (12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
-# R23: 16 bits of linear light for each 8-bit code.
+# R28: 15 bits of linear light for each 8-bit code.
 LINEAR16 = np.array([round(65535 * srgb_decode(code)) for code in range(256)])
-UNORM16 = np.float32(1) / np.float32(65535)
+LINEAR15 = (LINEAR16 * 32767 + 32767) // 65535
+UNORM15 = np.float32(1) / np.float32(32767)
 
 
 def all_codes(width, height):
@@ -117,24 +118,24 @@ def halved(texels):
 def test_minified_by_a_power_of_two_shows_the_mip_level(backend, level):
     size = 16
     pixels = np.random.default_rng(0).integers(0, 256, (size, size, 4)).astype(np.uint8)
-    texels = LINEAR16[pixels[..., :3]]
+    texels = LINEAR15[pixels[..., :3]]
     for _ in range(level):
         texels = halved(texels)
     side = size >> level
     mesh = square(texture=e3d.Texture(pixels, filter="trilinear"))
     frame = draw([mesh], (side, side), backend, outputs=("albedo",))
-    assert np.array_equal(frame.albedo, texels.astype(np.float32) * UNORM16)
+    assert np.array_equal(frame.albedo, texels.astype(np.float32) * UNORM15)
 
 
 def test_bilinear_halfway_between_texels_is_the_average(backend):
-    """One pixel over 2 x 2 texels: weights of 128/256 each, rows rounded down."""
+    """One pixel over 2 x 2 texels: weights of 128/256 each, those below each other rounded."""
     pixels = np.array(
         [[[0, 9, 255, 255], [3, 10, 255, 255]], [[200, 11, 0, 255], [1, 12, 254, 255]]]
     )
     mesh = square(texture=e3d.Texture(pixels.astype(np.uint8), filter="bilinear", wrap="clamp"))
     frame = draw([mesh], (1, 1), backend, outputs=("albedo",))
-    rows = (LINEAR16[pixels[..., :3]].sum(axis=1) * 128) >> 8
-    expected = (rows.sum(axis=0) * 128).astype(np.float32) * (UNORM16 / np.float32(256))
+    columns = (LINEAR15[pixels[..., :3]].sum(axis=0) + 1) >> 1
+    expected = (columns.sum(axis=0) * 128).astype(np.float32) * (UNORM15 / np.float32(256))
     assert np.array_equal(frame.albedo[0, 0], expected)
 
 

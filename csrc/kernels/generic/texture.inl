@@ -63,34 +63,22 @@ typedef struct texel_lanes {
 static inline float texture_unit(const e3d_texture_view *view)
 {
     if (view->filter == E3D_NEAREST)
-        return view->channel_bits == 16 ? E3D_UNORM16 : E3D_UNORM8;
-    return view->channel_bits == 16 ? E3D_UNORM16_BLENDED : E3D_UNORM8_BLENDED;
+        return view->channel_bits == 16 ? E3D_UNORM15 : E3D_UNORM8;
+    return view->channel_bits == 16 ? E3D_UNORM15_BLENDED : E3D_UNORM8_BLENDED;
 }
 
-/* Texels are signed, for v_madd8 and v_madd16 are of signed bytes and halves: sums are shifted back. */
-
-/* 256 - weight in the low half, weight in the high one. */
-static inline vi32 texture_weights(vi32 weight)
-{
-    return v_addi(v_subi(v_shl(weight, 16), weight), v_seti(256));
-}
-
-/* Rows are rounded down to 16 bits, which the shift down, a multiple of 256, doesn't change. */
+/* Texels of 16 bits have 15, so that their differences have a sign: rows are blended first, to 15 bits again. */
 static ALWAYS_INLINE texel_lanes texture_mix16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 across, vi32 down)
 {
     texel_lanes t;
-    vi32 upper[3], lower[3], low = v_seti(0xFFFF);
-    across = texture_weights(across);
-    down = texture_weights(down);
-    v_pairs16(texels, top, upper);
-    v_pairs16(texels, bottom, lower);
-    for (int k = 0; k < 3; k++) {
-        vi32 h0 = v_shr(v_madd16(upper[k], across), 8), h1 = v_shl(v_madd16(lower[k], across), 8);
-        vi32 rows = v_ori(v_andi(h0, low), v_andi(h1, v_seti((int32_t)0xFFFF0000)));
-        t.c[k] = v_float(v_addi(v_madd16(rows, down), v_seti(256 * 32768)));
-    }
+    vi32 rows[3], weights = v_addi(v_subi(v_shl(across, 16), across), v_seti(256)); /* 256 - across, across */
+    v_rows16(texels, top, bottom, down, rows);
+    for (int k = 0; k < 3; k++)
+        t.c[k] = v_float(v_madd16(rows[k], weights));
     return t;
 }
+
+/* Those of 8 bits are signed, for v_madd8 and v_madd16 are of signed bytes and halves: sums are shifted back. */
 
 /* `stride`: from row to row. (Rows in pairs would be one load, but texels of twice the size don't fit a core's caches as well.) */
 static ALWAYS_INLINE texel_lanes texture_mix8(const char *texels, int32_t stride, const int32_t *at, vi32 across, vi32 down)
@@ -155,9 +143,7 @@ static inline texel_lanes texture_take(const void *texels, int bits, vi32 at)
                               v_float(v_andi(v_shr(texel, 16), byte))}};
     }
     vi32 first = v_gatheri(texels, v_shl(at, 1));
-    vi32 second = v_gatheri(texels, v_addi(v_shl(at, 1), v_seti(1))), low = v_seti(0xFFFF), shift = v_seti((int32_t)0x80008000);
-    first = v_xori(first, shift);
-    second = v_xori(second, shift);
+    vi32 second = v_gatheri(texels, v_addi(v_shl(at, 1), v_seti(1))), low = v_seti(0xFFFF);
     return (texel_lanes){{v_float(v_andi(first, low)), v_float(v_shr(first, 16)), v_float(v_andi(second, low))}};
 }
 

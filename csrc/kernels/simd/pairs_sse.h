@@ -1,5 +1,5 @@
 /* Numbers from here and there and channels in a pixel, by loads of their own and shuffles (SSE4.1 and up): what the words
- * v_quads8, v_pairs16, v_rgba and v_curve_rgba are made of.
+ * v_quads8, v_rows16, v_rgba and v_curve_rgba are made of.
  *
  * Gathers are seldom faster, and much slower on some processors.
  */

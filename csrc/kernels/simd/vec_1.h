@@ -181,12 +181,14 @@ static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const 
         out[k] = (int32_t)(t[k] | (uint32_t)b[k] << 8 | (uint32_t)t[4 + k] << 16 | (uint32_t)b[4 + k] << 24);
 }
 
-/* The texels of 16-bit channels at[lane] and at[lane] + 1 of each lane: red, green and blue, of the left texel in the low
- * half, of the right one in the high half. */
-static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
-    const uint16_t *t = (const uint16_t *)texels + 4 * (intptr_t)at[0];
+/* Two texels above each other, of channels of 15 bits, blended: weights are below 256. */
+static inline uint32_t row_blend(int32_t upper, int32_t lower, vi32 weight) { return (uint32_t)(upper + (((lower - upper) * weight + 128) >> 8)); }
+/* Those at top[lane] with those at bottom[lane], and the next after each: red, green and blue, of the left ones in the low half, of
+ * the right ones in the high half. */
+static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 weight, vi32 out[3]) {
+    const int16_t *t = (const int16_t *)texels + 4 * (intptr_t)top[0], *b = (const int16_t *)texels + 4 * (intptr_t)bottom[0];
     for (int k = 0; k < 3; k++)
-        out[k] = (int32_t)(t[k] | (uint32_t)t[4 + k] << 16);
+        out[k] = (int32_t)(row_blend(t[k], b[k], weight) | row_blend(t[4 + k], b[4 + k], weight) << 16);
 }
 
 #endif

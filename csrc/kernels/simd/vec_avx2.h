@@ -193,11 +193,20 @@ static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
     return v_rgba(code);
 }
 
-static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
-    __m256i q[4], halves = _mm256_broadcastsi128_si256(pairs_halves());
+/* The weight of one lane, to each of a pair's channels: 2^7 of it, for pmulhrsw. */
+static inline __m256i rows_weights(vi32 weight) { return _mm256_or_si256(_mm256_slli_epi32(weight, 7), _mm256_slli_epi32(weight, 23)); }
+static inline __m256i rows_pairs(const void *texels, const int32_t *at) {
+    return _mm256_set_m128i(pairs_one(texels, (uint32_t)at[4]), pairs_one(texels, (uint32_t)at[0]));
+}
+static inline __m256i rows_blend(__m256i upper, __m256i lower, __m256i weight) {
+    return _mm256_add_epi16(upper, _mm256_mulhrs_epi16(_mm256_sub_epi16(lower, upper), weight));
+}
+static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 weight, vi32 out[3]) {
+    __m256i q[4], twice = rows_weights(weight), halves = _mm256_broadcastsi128_si256(pairs_halves());
+    const __m256i each[4] = {_mm256_shuffle_epi32(twice, 0x00), _mm256_shuffle_epi32(twice, 0x55), _mm256_shuffle_epi32(twice, 0xAA),
+                             _mm256_shuffle_epi32(twice, 0xFF)};
     for (int i = 0; i < 4; i++)
-        q[i] = _mm256_shuffle_epi8(
-            _mm256_set_m128i(pairs_one(texels, (uint32_t)at[i + 4]), pairs_one(texels, (uint32_t)at[i])), halves);
+        q[i] = _mm256_shuffle_epi8(rows_blend(rows_pairs(texels, top + i), rows_pairs(texels, bottom + i), each[i]), halves);
     __m256i low01 = _mm256_unpacklo_epi32(q[0], q[1]), low23 = _mm256_unpacklo_epi32(q[2], q[3]);
     __m256i high01 = _mm256_unpackhi_epi32(q[0], q[1]), high23 = _mm256_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm256_unpacklo_epi64(low01, low23);

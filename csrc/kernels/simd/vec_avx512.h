@@ -262,14 +262,27 @@ static ALWAYS_INLINE vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3])
 static inline __m256i pairs_two(const void *texels, uint64_t a, uint64_t b) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_one(texels, a)), pairs_one(texels, b), 1);
 }
-static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
-    __m512i q[4], halves = _mm512_broadcast_i32x4(pairs_halves());
-    for (int i = 0; i < 4; i += 2) { /* lanes i, i + 4 and so on, and those after them */
-        uint64_t a = index_two(at + i), b = index_two(at + i + 4), c = index_two(at + i + 8), d = index_two(at + i + 12);
-        __m256i low = pairs_two(texels, index_first(a), index_first(b)), high = pairs_two(texels, index_first(c), index_first(d));
-        __m256i low1 = pairs_two(texels, index_second(a), index_second(b)), high1 = pairs_two(texels, index_second(c), index_second(d));
-        q[i] = _mm512_shuffle_epi8(halves_join(low, high), halves);
-        q[i + 1] = _mm512_shuffle_epi8(halves_join(low1, high1), halves);
+/* Pairs of lanes i, i + 4 and so on, and of those after them. */
+static ALWAYS_INLINE void rows_pairs(const void *texels, const int32_t *at, __m512i out[2]) {
+    uint64_t a = index_two(at), b = index_two(at + 4), c = index_two(at + 8), d = index_two(at + 12);
+    out[0] = halves_join(pairs_two(texels, index_first(a), index_first(b)), pairs_two(texels, index_first(c), index_first(d)));
+    out[1] = halves_join(pairs_two(texels, index_second(a), index_second(b)), pairs_two(texels, index_second(c), index_second(d)));
+}
+/* The weight of one lane, to each of a pair's channels: 2^7 of it, for vpmulhrsw. */
+static inline __m512i rows_weights(vi32 weight) { return _mm512_or_si512(_mm512_slli_epi32(weight, 7), _mm512_slli_epi32(weight, 23)); }
+static inline __m512i rows_blend(__m512i upper, __m512i lower, __m512i weight) {
+    return _mm512_add_epi16(upper, _mm512_mulhrs_epi16(_mm512_sub_epi16(lower, upper), weight));
+}
+static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 weight, vi32 out[3]) {
+    __m512i q[4], twice = rows_weights(weight), halves = _mm512_broadcast_i32x4(pairs_halves());
+    const __m512i each[4] = {_mm512_shuffle_epi32(twice, 0x00), _mm512_shuffle_epi32(twice, 0x55), _mm512_shuffle_epi32(twice, 0xAA),
+                             _mm512_shuffle_epi32(twice, 0xFF)};
+    for (int i = 0; i < 4; i += 2) {
+        __m512i upper[2], lower[2];
+        rows_pairs(texels, top + i, upper);
+        rows_pairs(texels, bottom + i, lower);
+        for (int k = 0; k < 2; k++)
+            q[i + k] = _mm512_shuffle_epi8(rows_blend(upper[k], lower[k], each[i + k]), halves);
     }
     __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
     __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);

@@ -202,10 +202,19 @@ static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
     return v_rgba(code);
 }
 
-static ALWAYS_INLINE void v_pairs16(const void *texels, const int32_t *at, vi32 out[3]) {
-    __m128i q[4];
-    for (int i = 0; i < 4; i++)
-        q[i] = _mm_shuffle_epi8(pairs_one(texels, (uint32_t)at[i]), pairs_halves());
+/* The weight of one lane, to each of a pair's channels: 2^7 of it, for pmulhrsw. */
+static inline __m128i rows_weights(vi32 weight) { return _mm_or_si128(_mm_slli_epi32(weight, 7), _mm_slli_epi32(weight, 23)); }
+static inline __m128i rows_blend(__m128i upper, __m128i lower, __m128i weight) {
+    return _mm_add_epi16(upper, _mm_mulhrs_epi16(_mm_sub_epi16(lower, upper), weight));
+}
+static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 weight, vi32 out[3]) {
+    __m128i q[4], twice = rows_weights(weight);
+    const __m128i each[4] = {_mm_shuffle_epi32(twice, 0x00), _mm_shuffle_epi32(twice, 0x55), _mm_shuffle_epi32(twice, 0xAA),
+                             _mm_shuffle_epi32(twice, 0xFF)};
+    for (int i = 0; i < 4; i++) {
+        __m128i upper = pairs_one(texels, (uint32_t)top[i]), lower = pairs_one(texels, (uint32_t)bottom[i]);
+        q[i] = _mm_shuffle_epi8(rows_blend(upper, lower, each[i]), pairs_halves());
+    }
     __m128i low01 = _mm_unpacklo_epi32(q[0], q[1]), low23 = _mm_unpacklo_epi32(q[2], q[3]);
     __m128i high01 = _mm_unpackhi_epi32(q[0], q[1]), high23 = _mm_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm_unpacklo_epi64(low01, low23);

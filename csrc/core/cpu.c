@@ -56,16 +56,16 @@ static int has_fp16(void)
 }
 #endif
 
-int e3d_cpu_gathers(void)
+int e3d_cpu_looks_ahead(void)
 {
 #ifdef E3D_HAVE_X86
     static atomic_int known = -1; /* asking takes long in a virtual machine */
-    int gathers = atomic_load_explicit(&known, memory_order_relaxed);
-    if (gathers < 0) {
-        gathers = has_fp16();
-        atomic_store_explicit(&known, gathers, memory_order_relaxed);
+    int ahead = atomic_load_explicit(&known, memory_order_relaxed);
+    if (ahead < 0) {
+        ahead = has_fp16();
+        atomic_store_explicit(&known, ahead, memory_order_relaxed);
     }
-    return gathers;
+    return ahead;
 #else
     return 0;
 #endif

@@ -2,8 +2,8 @@
 #ifndef E3D_CORE_CPU_H
 #define E3D_CORE_CPU_H
 
-/* Whether a gather of sixteen takes less than sixteen loads and stores: so on Intel's since Sapphire Rapids, which are told by
- * AVX512-FP16, and also look farther ahead than others. Earlier ones' gathers were slowed down by microcode (gather data sampling), and AMD's are made of single loads. */
-int e3d_cpu_gathers(void);
+/* Whether it looks ahead far enough to overlap the long loops of some samples with those of the next: Intel's since Sapphire Rapids
+ * do, which are told by AVX512-FP16. */
+int e3d_cpu_looks_ahead(void);
 
 #endif

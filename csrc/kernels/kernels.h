@@ -376,7 +376,7 @@ typedef struct e3d_paint {
     float shininess;
     const float *specular, *emissive; /* of lit samples; NULL where all are 0 */
     int srgb;
-    int gathers;          /* what e3d_cpu_gathers says */
+    int looks_ahead;      /* what e3d_cpu_looks_ahead says */
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
     e3d_pixel_rows *meanwhile; /* NULL, or rows to stream as far as that goes: what is left of them stays */
 } e3d_paint;

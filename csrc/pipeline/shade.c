@@ -155,7 +155,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = context->srgb,
-        .gathers = e3d_cpu_gathers(),
+        .looks_ahead = e3d_cpu_looks_ahead(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
         .meanwhile = late,
     };

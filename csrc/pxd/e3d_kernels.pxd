@@ -152,7 +152,7 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *specular
         const float *emissive
         int srgb
-        int gathers
+        int looks_ahead
         e3d_samples *samples
         e3d_pixel_rows *meanwhile
 

@@ -164,7 +164,7 @@ class Kernels:
         specular: _Floats | None,
         emissive: _Floats | None,
         srgb: bool,
-        gathers: bool,
+        looks_ahead: bool,
         rgba: _Words,
         samples: _Floats | None = ...,
         meanwhile: tuple[_Bytes, int, _Bytes, int, int, int] | None = ...,

@@ -451,7 +451,7 @@ cdef class Kernels:
 
     def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
-              const float[::1] specular, const float[::1] emissive, bint srgb, bint gathers, uint32_t[::1] rgba,
+              const float[::1] specular, const float[::1] emissive, bint srgb, bint looks_ahead, uint32_t[::1] rgba,
               float[:, ::1] samples=None, meanwhile=None):
         """How many rows are left of those of ``meanwhile``: what `stream` takes, as a tuple.
 
@@ -485,7 +485,7 @@ cdef class Kernels:
         paint.specular = NULL if specular is None else &specular[0]
         paint.emissive = NULL if emissive is None else &emissive[0]
         paint.srgb = srgb
-        paint.gathers = gathers
+        paint.looks_ahead = looks_ahead
         paint.samples = NULL if samples is None else samples_of(samples)
         paint.meanwhile = NULL if meanwhile is None else &rows
         for _ in range(self.rounds):

@@ -84,8 +84,7 @@ static inline paint_source paint_untextured(e3d_batch *batch, const e3d_surfaces
 
 static inline paint_source paint_textured(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, texture_plan *plan)
 {
-    int one_loop = paint->gathers; /* such processors also look far enough ahead to read texels and light them in one loop */
-    if (one_loop && texture_is_bilinear8(paint->texture) && !paint->by_vertex && !paint->by_instance) {
+    if (paint->looks_ahead && texture_is_bilinear8(paint->texture) && !paint->by_vertex && !paint->by_instance) {
         texture_prepare(plan, paint->texture, paint->base, batch);
         return PAINT_TEXELS;
     }

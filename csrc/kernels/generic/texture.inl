@@ -118,13 +118,24 @@ static inline level_lanes texture_one_level(const texture_levels *levels, int l)
                          {v_setf(levels->scale[0][l]), v_setf(levels->scale[1][l])}};
 }
 
+/* A number of each lane's level: a vector of sixteen lanes holds those of all levels. */
+static inline vi32 level_numbers(const int32_t numbers[E3D_MAX_LEVELS], vi32 level)
+{
+    return V_LANES >= E3D_MAX_LEVELS ? v_asi(v_pick(numbers, v_picker(level))) : v_gatheri(numbers, level);
+}
+
+static inline vf32 level_floats(const float floats[E3D_MAX_LEVELS], vi32 level)
+{
+    return V_LANES >= E3D_MAX_LEVELS ? v_pick(floats, v_picker(level)) : v_gatherf(floats, level);
+}
+
 /* Each lane at its own level; mostly all are at `guess`, and looking up is slow. */
 static inline level_lanes texture_levels_of(const texture_levels *levels, vi32 level, int guess)
 {
     if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
         return texture_one_level(levels, guess);
-    return (level_lanes){v_gatheri(levels->start, level), v_gatheri(levels->stride, level),
-                         {v_gatherf(levels->scale[0], level), v_gatherf(levels->scale[1], level)}};
+    return (level_lanes){level_numbers(levels->start, level), level_numbers(levels->stride, level),
+                         {level_floats(levels->scale[0], level), level_floats(levels->scale[1], level)}};
 }
 
 static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)

@@ -144,6 +144,7 @@ typedef struct e3d_visible_piece {
     const float *corners;           /* c[k][j] of a cut record, or NULL */
     const e3d_draw_state *draw;
     int32_t instance, local; /* in its draw, in its instance */
+    int32_t vertex[3];       /* of the mesh; as many as there are */
     int32_t group, next;     /* the next of the same group, or -1 */
     int32_t first, end;
 } e3d_visible_piece;

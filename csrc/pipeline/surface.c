@@ -10,24 +10,8 @@
 typedef struct instance_finder {
     const e3d_draw_state *draw;
     uint32_t first;
-    int32_t instance, group_id; /* the material and kind of the piece's group, as group_of counts them */
-    int32_t group;
+    int32_t instance;
 } instance_finder;
-
-/* Of a piece of fragments. */
-static void find_face(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_piece *out)
-{
-    int32_t triangle;
-    const e3d_drawn_cluster *drawn = e3d_drawn_at(&context->tables[E3D_PASS_SCENE], id, &triangle);
-    const e3d_draw_state *draw = &context->draws[drawn->draw];
-    if (draw != finder->draw)
-        finder->group = -1;
-    finder->draw = draw;
-    finder->first = drawn->order;
-    finder->instance = drawn->instance - (int32_t)draw->instance_base;
-    out->drawn = drawn;
-    out->local = drawn->faces[triangle];
-}
 
 static const float *corners_of(const e3d_context *context, uint32_t id, const e3d_record *record)
 {
@@ -37,22 +21,29 @@ static const float *corners_of(const e3d_context *context, uint32_t id, const e3
                                          : NULL;
 }
 
-static void find_primitive(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_piece *out)
+/* Of a piece of fragments, whose `local` is the triangle's number in its cluster so far. */
+static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder *finder, e3d_visible_piece *piece)
 {
-    out->record = e3d_record_at(&context->tables[E3D_PASS_SCENE], id);
-    out->corners = corners_of(context, id, out->record);
-    uint32_t order = out->record->order;
+    const e3d_drawn_cluster *drawn = piece->drawn;
+    finder->draw = &context->draws[drawn->draw];
+    finder->first = drawn->order;
+    finder->instance = drawn->instance - (int32_t)finder->draw->instance_base;
+    piece->local = drawn->faces[piece->local];
+}
+
+static void find_primitive(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_piece *piece)
+{
+    uint32_t order = piece->record->order;
+    piece->corners = corners_of(context, id, piece->record);
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
         const e3d_turn *turn = e3d_find_turn(context, order);
         const e3d_draw_state *draw = &context->draws[turn->draw];
         uint32_t primitives = (uint32_t)draw->primitives, instances = (order - turn->order) / primitives;
-        if (draw != finder->draw)
-            finder->group = -1;
         finder->draw = draw;
         finder->instance = turn->instance + (int32_t)instances;
         finder->first = turn->order + instances * primitives;
     }
-    out->local = (int32_t)(order - finder->first);
+    piece->local = (int32_t)(order - finder->first);
 }
 
 int32_t e3d_face_of(const e3d_visible_piece *piece)
@@ -60,21 +51,24 @@ int32_t e3d_face_of(const e3d_visible_piece *piece)
     return piece->local < piece->draw->mesh->desc.faces_count ? piece->local : -1;
 }
 
-/* Vertices of the primitive; how many. */
-static int vertices_of(const e3d_visible_piece *piece, int32_t vertex[3])
+/* How many vertices the primitive has. */
+static int corners_count(const e3d_visible_piece *piece)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
     int32_t line = piece->local - mesh->faces_count;
-    if (line < 0) {
-        memcpy(vertex, mesh->faces + 3 * (size_t)piece->local, 3 * sizeof *vertex);
-        return 3;
-    }
-    if (line < mesh->lines_count) {
-        memcpy(vertex, mesh->lines + 2 * (size_t)line, 2 * sizeof *vertex);
-        return 2;
-    }
-    vertex[0] = mesh->points[line - mesh->lines_count];
-    return 1;
+    return line < 0 ? 3 : line < mesh->lines_count ? 2 : 1;
+}
+
+static ALWAYS_INLINE void find_vertices(e3d_visible_piece *piece)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t line = piece->local - mesh->faces_count;
+    if (line < 0)
+        memcpy(piece->vertex, mesh->faces + 3 * (size_t)piece->local, 3 * sizeof *piece->vertex);
+    else if (line < mesh->lines_count)
+        memcpy(piece->vertex, mesh->lines + 2 * (size_t)line, 2 * sizeof *piece->vertex);
+    else
+        piece->vertex[0] = mesh->points[line - mesh->lines_count];
 }
 
 /* ---- groups ---- */
@@ -127,17 +121,23 @@ static int32_t number_group(e3d_worker *worker, const e3d_group *group)
 
 /* ---- the pieces of a tile ---- */
 
-/* The group of a piece, whose last it becomes; -1 when memory is out. */
-static int32_t join_group(const e3d_context *context, e3d_worker *worker, int32_t number, instance_finder *finder)
+/* The group that was found last: mostly the next piece is of it, too. */
+typedef struct group_finder {
+    const e3d_draw_state *draw;
+    int32_t id; /* as group_id_of counts them */
+    int32_t group;
+} group_finder;
+
+/* The group of a piece, whose last it becomes; 0 when memory is out. */
+static ALWAYS_INLINE int join_group(const e3d_context *context, e3d_worker *worker, int32_t number, group_finder *finder)
 {
-    e3d_visible_piece *pieces = worker->pieces.data;
-    int32_t id = group_id_of(&pieces[number]);
-    if (finder->group < 0 || id != finder->group_id) {
-        e3d_group group = group_of(context, pieces[number].draw, id);
-        finder->group_id = id;
-        finder->group = number_group(worker, &group);
+    e3d_visible_piece *pieces = worker->pieces.data, *piece = &pieces[number];
+    int32_t id = group_id_of(piece);
+    if (piece->draw != finder->draw || id != finder->id) {
+        e3d_group group = group_of(context, piece->draw, id);
+        *finder = (group_finder){piece->draw, id, number_group(worker, &group)};
         if (finder->group < 0)
-            return -1;
+            return 0;
     }
     e3d_group *group = (e3d_group *)worker->groups.data + finder->group;
     if (group->last < 0)
@@ -145,74 +145,59 @@ static int32_t join_group(const e3d_context *context, e3d_worker *worker, int32_
     else
         pieces[group->last].next = number;
     group->last = number;
-    return finder->group;
+    piece->group = finder->group;
+    return 1;
 }
 
-/* What an ID stands for: first the record or cluster, and of a cluster then the face. */
-static ALWAYS_INLINE void fetch_named(const e3d_record_table *table, uint32_t id)
+/* What an ID stands for: a record, or a triangle of a cluster. */
+static ALWAYS_INLINE void find_named(const e3d_record_table *table, const e3d_shown_piece *of, e3d_visible_piece *piece)
 {
-    int32_t triangle;
-    __builtin_prefetch(id & E3D_FRAGMENT_ID ? (const void *)e3d_drawn_at(table, id, &triangle)
-                                            : (const void *)e3d_record_at(table, id));
+    *piece = (e3d_visible_piece){.next = -1, .first = of[0].first, .end = of[1].first};
+    if (of->id & E3D_FRAGMENT_ID)
+        piece->drawn = e3d_drawn_at(table, of->id, &piece->local);
+    else
+        piece->record = e3d_record_at(table, of->id);
 }
 
-static ALWAYS_INLINE void fetch_number(const e3d_record_table *table, uint32_t id)
+/* Pieces first to end - 1. In stages, each of which reads what the one before found, anywhere in memory: their loops are so short that
+ * processors look some pieces ahead. */
+static int find_some(const e3d_context *context, e3d_worker *worker, int32_t first, int32_t end, instance_finder *instance,
+                     group_finder *group)
 {
-    int32_t triangle;
-    if (id & E3D_FRAGMENT_ID) {
-        const e3d_drawn_cluster *drawn = e3d_drawn_at(table, id, &triangle);
-        __builtin_prefetch(drawn->faces + triangle);
+    const e3d_shown_piece *of = worker->tile->shown.piece;
+    e3d_visible_piece *pieces = worker->pieces.data;
+    for (int32_t n = first; n < end; n++)
+        find_named(&context->tables[E3D_PASS_SCENE], &of[n], &pieces[n]);
+    for (int32_t n = first; n < end; n++) {
+        if (pieces[n].drawn)
+            find_face(context, instance, &pieces[n]);
+        else
+            find_primitive(context, of[n].id, instance, &pieces[n]);
+        pieces[n].draw = instance->draw;
+        pieces[n].instance = instance->instance;
     }
-}
-
-/* The material of a face, of a draw whose pieces come now. */
-static ALWAYS_INLINE void fetch_material(const e3d_record_table *table, uint32_t id, const e3d_draw_state *draw)
-{
-    int32_t triangle;
-    if (id & E3D_FRAGMENT_ID && draw && draw->mesh->material_most) {
-        const e3d_drawn_cluster *drawn = e3d_drawn_at(table, id, &triangle);
-        __builtin_prefetch(draw->mesh->desc.material_ids + drawn->faces[triangle]);
-    }
-}
-
-/* Most pieces are of faces; what else is asked for does no harm. */
-static ALWAYS_INLINE void fetch_face(const e3d_visible_piece *piece)
-{
-    __builtin_prefetch((const void *)((uintptr_t)piece->draw->mesh->desc.faces + 12 * (uintptr_t)piece->local));
+    for (int32_t n = first; n < end; n++)
+        find_vertices(&pieces[n]);
+    for (int32_t n = first; n < end; n++)
+        if (!join_group(context, worker, n, group))
+            return 0;
+    return 1;
 }
 
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
 {
-    enum { AHEAD = 16 };
-    const e3d_record_table *table = &context->tables[E3D_PASS_SCENE];
+    enum { SOME = 64 };
     e3d_shown *shown = &worker->tile->shown;
-    e3d_shown_piece *of = shown->piece;
-    instance_finder finder = {.group = -1};
+    instance_finder instance = {0};
+    group_finder group = {0};
     int32_t all = shown->pieces;
-    of[all].first = shown->count;
+    shown->piece[all].first = shown->count;
     worker->groups.count = 0;
     if (!e3d_array_reserve(&worker->pieces, (size_t)all, sizeof(e3d_visible_piece)))
         return 0;
-    e3d_visible_piece *pieces = worker->pieces.data;
-    for (int32_t n = 0; n < all; n++) {
-        uint32_t id = of[n].id;
-        if (n + 2 * AHEAD < all) {
-            fetch_named(table, of[n + 2 * AHEAD].id);
-            fetch_number(table, of[n + AHEAD].id);
-            fetch_material(table, of[n + AHEAD / 2].id, finder.draw);
-        }
-        pieces[n] = (e3d_visible_piece){.next = -1, .first = of[n].first, .end = of[n + 1].first};
-        if (id & E3D_FRAGMENT_ID)
-            find_face(context, id, &finder, &pieces[n]);
-        else
-            find_primitive(context, id, &finder, &pieces[n]);
-        pieces[n].draw = finder.draw;
-        pieces[n].instance = finder.instance;
-        fetch_face(&pieces[n]);
-        pieces[n].group = join_group(context, worker, n, &finder);
-        if (pieces[n].group < 0)
+    for (int32_t n = 0; n < all; n += SOME)
+        if (!find_some(context, worker, n, n + SOME < all ? n + SOME : all, &instance, &group))
             return 0;
-    }
     worker->pieces.count = (size_t)all;
     return 1;
 }
@@ -303,8 +288,9 @@ static void add_surface(const e3d_context *context, const e3d_visible_piece *pie
                         e3d_surfaces *s)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    int32_t vertex[3], n = s->count++, face = e3d_face_of(piece);
-    int count = vertices_of(piece, vertex);
+    const int32_t *vertex = piece->vertex;
+    int32_t n = s->count++, face = e3d_face_of(piece);
+    int count = corners_count(piece);
     s->irregular += piece->corners || face < 0 || mesh->components == 4;
     add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
     s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
@@ -325,9 +311,9 @@ static void add_surface(const e3d_context *context, const e3d_visible_piece *pie
 static ALWAYS_INLINE void fetch_vertices(const e3d_visible_piece *piece, const e3d_draw_state *draw, int wanted)
 {
     const e3d_mesh_desc *mesh = &draw->mesh->desc;
-    if (piece->draw != draw || piece->local >= mesh->faces_count)
+    if (piece->draw != draw)
         return;
-    const int32_t *vertex = mesh->faces + 3 * (size_t)piece->local;
+    const int32_t *vertex = piece->vertex;
     const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *uvs = wanted & E3D_WANT_UV ? mesh->uvs : NULL;
     for (int v = 0; v < 3; v++)
         __builtin_prefetch(mesh->positions + 3 * (size_t)vertex[v]);
@@ -435,7 +421,6 @@ void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d
     for (int32_t n = 0; n < s->count && s->irregular; n++) {
         const e3d_visible_piece *piece = &pieces[s->piece[n]];
         const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-        int32_t vertex[3];
         if (piece->corners)
             cut_planes(context, piece, s, n);
         if (piece->corners && wanted & E3D_WANT_LEVEL)
@@ -443,6 +428,6 @@ void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d
         if (mesh->components == 4)
             clear_positions(s, n, 0);
         else if (e3d_face_of(piece) < 0)
-            clear_positions(s, n, vertices_of(piece, vertex));
+            clear_positions(s, n, corners_count(piece));
     }
 }

@@ -48,12 +48,26 @@ static float radius_of(const e3d_cluster *c)
 
 static inline float4 root_of(float4 v) { return (float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
 
+/* Towards the middle of the box of the normals: the mean would follow the most of them, and the few others open the cone; 0 where it
+ * has no direction. */
+static int find_axis(const float lo[3], const float hi[3], float axis[3])
+{
+    double middle[3], square = 0;
+    for (int k = 0; k < 3; k++) {
+        middle[k] = (double)lo[k] + hi[k];
+        square += middle[k] * middle[k];
+    }
+    for (int k = 0; k < 3 && square > 0; k++)
+        axis[k] = (float)(middle[k] / sqrt(square));
+    return square > 0;
+}
+
 void e3d_find_cone(e3d_cluster *c)
 {
     e3d_triangles triangles;
     float scale = scale_of(c), least = INFINITY, cosine = 1;
     float normal[3][E3D_CLUSTER_TRIANGLES], unsure[E3D_CLUSTER_TRIANGLES], altitude[E3D_CLUSTER_TRIANGLES];
-    double sum[3] = {0, 0, 0}, length = 0;
+    float lo[3] = {1, 1, 1}, hi[3] = {-1, -1, -1};
     c->altitude = 0;
     if (scale == 0)
         return;
@@ -71,15 +85,13 @@ void e3d_find_cone(e3d_cluster *c)
             return;
         float square = altitude[t] * (1 - unsure[t]) * (1 - unsure[t]);
         least = square < least ? square : least;
-        for (int k = 0; k < 3; k++)
-            sum[k] += normal[k][t];
+        for (int k = 0; k < 3; k++) {
+            lo[k] = normal[k][t] < lo[k] ? normal[k][t] : lo[k];
+            hi[k] = normal[k][t] > hi[k] ? normal[k][t] : hi[k];
+        }
     }
-    for (int k = 0; k < 3; k++)
-        length += sum[k] * sum[k];
-    if (!(length > 0))
+    if (!find_axis(lo, hi, c->axis))
         return;
-    for (int k = 0; k < 3; k++)
-        c->axis[k] = (float)(sum[k] / sqrt(length));
     for (int t = 0; t < c->triangles; t++) {
         float along = normal[0][t] * c->axis[0] + normal[1][t] * c->axis[1] + normal[2][t] * c->axis[2] - unsure[t];
         cosine = along < cosine ? along : cosine;

@@ -25,25 +25,22 @@ static inline void fragment_add_each(const e3d_vertices *v, const uint8_t *indic
 static inline void fragment_add_vectors(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
                                         e3d_small_triangles *to)
 {
-    int32_t corner[3][E3D_CLUSTER_TRIANGLES + E3D_PAD], id[E3D_CLUSTER_TRIANGLES + E3D_PAD], count = 0;
+    int32_t list[E3D_CLUSTER_TRIANGLES + E3D_PAD], count = 0;
     vtable x, y, zn;
-    for (int i = 0; i < E3D_CLUSTER_TRIANGLES; i += V_LANES) {
-        uint32_t some = (uint32_t)(triangles >> i) & setup_tail(V_LANES);
-        for (int k = 0; k < 3; k++)
-            v_pack(corner[k] + count, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i), some);
-        count += v_pack(id + count, v_addi(v_seti(first), v_muli(v_addi(v_iota(), v_seti(i)), v_seti(1 << bits))), some);
-    }
+    for (int i = 0; i < E3D_CLUSTER_TRIANGLES; i += V_LANES)
+        count += v_pack(list + count, v_addi(v_iota(), v_seti(i)), (uint32_t)(triangles >> i) & setup_tail(V_LANES));
     v_table(v->sx, v->count, &x);
     v_table(v->sy, v->count, &y);
     v_table((const int32_t *)v->zn, v->count, &zn);
     for (int i = 0, n = to->count; i < count; i += V_LANES, n += V_LANES) {
+        vi32 triangle = v_loadi(list + i);
         for (int k = 0; k < 3; k++) {
-            vi32 at = v_loadi(corner[k] + i);
+            vi32 at = v_lookup8(indices + k * E3D_CLUSTER_TRIANGLES, triangle);
             v_storei(to->x[k] + n, v_lookup(&x, at));
             v_storei(to->y[k] + n, v_lookup(&y, at));
             v_storei(to->zn[k] + n, v_lookup(&zn, at));
         }
-        v_storei(to->id + n, v_loadi(id + i));
+        v_storei(to->id + n, v_addi(v_seti(first), v_muli(triangle, v_seti(1 << bits))));
     }
     to->count += count;
 }

@@ -12,7 +12,7 @@ typedef struct record_corners {
 /* The local indices of corner k of each lane's triangle. */
 static inline vi32 record_places(const uint8_t *indices, const uint8_t *triangles, int k)
 {
-    return v_gatheru8(indices + k * E3D_CLUSTER_TRIANGLES, v_loadu8(triangles));
+    return v_lookup8(indices + k * E3D_CLUSTER_TRIANGLES, v_loadu8(triangles));
 }
 
 static inline void record_find_words(const int32_t *words, int vertices, const vi32 places[3], vi32 out[3])

@@ -32,8 +32,8 @@ static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a)
 /* Past the caches; the place is aligned to a vector. */
 static inline void v_streami(void *p, vi32 a) { memcpy(p, &a, 4); }
 static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
-/* Bytes base[index]; the base is aligned to four bytes, and whole fours are read. */
-static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) { return base[i]; }
+/* Of 64 bytes, which are aligned to four; whole fours are read, or all. */
+static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) { return bytes[i]; }
 static inline vf32 v_gatherf(const float *base, vi32 i) { return base[i]; }
 static inline vi32 v_gatheri(const void *base, vi32 i) { return ((const int32_t *)base)[i]; }
 

@@ -39,8 +39,8 @@ static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm256_i32gathe
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm256_i32gather_epi32((const int *)base, i, 4);
 }
-static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) {
-    __m256i four = _mm256_i32gather_epi32((const int *)base, _mm256_srli_epi32(i, 2), 4);
+static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
+    __m256i four = _mm256_i32gather_epi32((const int *)bytes, _mm256_srli_epi32(i, 2), 4);
     __m256i shift = _mm256_slli_epi32(_mm256_and_si256(i, _mm256_set1_epi32(3)), 3);
     return _mm256_and_si256(_mm256_srlv_epi32(four, shift), _mm256_set1_epi32(255));
 }

@@ -57,10 +57,11 @@ static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm512_i32gathe
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm512_i32gather_epi32(i, base, 4);
 }
-static inline vi32 v_gatheru8(const uint8_t *base, vi32 i) {
-    __m512i four = _mm512_i32gather_epi32(_mm512_srli_epi32(i, 2), base, 4);
-    __m512i shift = _mm512_slli_epi32(_mm512_and_si512(i, _mm512_set1_epi32(3)), 3);
-    return _mm512_and_si512(_mm512_srlv_epi32(four, shift), _mm512_set1_epi32(255));
+/* One register holds all of them: the lower half of each lane takes the two among which its own is. */
+static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
+    __m512i two = _mm512_permutexvar_epi16(_mm512_srli_epi32(i, 1), _mm512_loadu_si512(bytes));
+    __m512i shift = _mm512_slli_epi32(_mm512_and_si512(i, _mm512_set1_epi32(1)), 3);
+    return _mm512_and_si512(_mm512_srlv_epi32(two, shift), _mm512_set1_epi32(255));
 }
 
 /* Up to 128 numbers fit eight registers, where they are found faster than by a gather. */

@@ -42,7 +42,7 @@ static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
 }
-static inline vi32 v_gatheru8(const uint8_t *b, vi32 i) {
+static inline vi32 v_lookup8(const uint8_t b[64], vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
 }

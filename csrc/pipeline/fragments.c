@@ -23,27 +23,30 @@ int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker)
     return worker->fragments.drawn.count < (size_t)E3D_FRAGMENT_ID / E3D_CLUSTER_TRIANGLES >> context->tables[E3D_PASS_SCENE].bits;
 }
 
-/* The IDs of triangle t of the next cluster are first + (t << bits). */
+e3d_drawn_cluster *e3d_fragments_cluster(e3d_worker *worker)
+{
+    e3d_array *drawn = &worker->fragments.drawn;
+    if (e3d_array_reserve(drawn, drawn->count + 1, sizeof(e3d_drawn_cluster)))
+        return (e3d_drawn_cluster *)drawn->data + drawn->count++;
+    worker->failed = 1;
+    return NULL;
+}
+
+/* The IDs of triangle t of the last cluster are first + (t << bits). */
 static int32_t first_id(const e3d_context *context, const e3d_worker *worker)
 {
-    int32_t number = (int32_t)worker->fragments.drawn.count * E3D_CLUSTER_TRIANGLES;
+    int32_t number = (int32_t)(worker->fragments.drawn.count - 1) * E3D_CLUSTER_TRIANGLES;
     return E3D_FRAGMENT_ID | number << context->tables[E3D_PASS_SCENE].bits | (int32_t)worker->number;
 }
 
-void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const e3d_vertices *vertices,
-                       const uint8_t *indices, uint64_t triangles)
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_vertices *vertices, const uint8_t *indices,
+                       uint64_t triangles)
 {
     e3d_fragment_set *set = &worker->fragments;
-    int bits = context->tables[E3D_PASS_SCENE].bits;
-    int32_t first = first_id(context, worker);
-    if (!e3d_array_reserve(&set->drawn, set->drawn.count + 1, sizeof *drawn)) {
-        worker->failed = 1;
-        return;
-    }
-    ((e3d_drawn_cluster *)set->drawn.data)[set->drawn.count++] = *drawn;
     if (set->triangles.count > E3D_SMALLS - E3D_CLUSTER_TRIANGLES)
         e3d_fragments_flush(context, worker);
-    context->kernels->add_small(vertices, indices, triangles, first, bits, &set->triangles);
+    context->kernels->add_small(vertices, indices, triangles, first_id(context, worker), context->tables[E3D_PASS_SCENE].bits,
+                                &set->triangles);
 }
 
 /* ---- fragments to tiles ---- */

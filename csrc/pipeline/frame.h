@@ -439,9 +439,11 @@ void e3d_tables_set(e3d_context *context);
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
 /* Whether a cluster more can have IDs. */
 int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker);
-/* Takes small triangles of a cluster, a bit each, which become fragments now or later. */
-void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_drawn_cluster *drawn, const e3d_vertices *vertices,
-                       const uint8_t *indices, uint64_t triangles);
+/* Another cluster that has fragments, to be filled in; NULL when memory is out. */
+e3d_drawn_cluster *e3d_fragments_cluster(e3d_worker *worker);
+/* Takes small triangles of that cluster, a bit each, which become fragments now or later. */
+void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_vertices *vertices, const uint8_t *indices,
+                       uint64_t triangles);
 /* All that were taken become fragments. */
 void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 /* Draws a tile's fragments, or those of the round that finished it. */

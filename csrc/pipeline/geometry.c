@@ -180,13 +180,16 @@ static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t on
 
 static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
 {
-    const e3d_drawn_cluster drawn = {w->draw->mesh->faces + cluster->first, w->order,
-                                     (int32_t)(w->instance - w->context->instances), w->instance->draw, w->instance->mirrored};
     uint64_t small = w->worker->survivors.small;
     if (w->draw->any_two_sided)
         small &= ~find_culled(w, indices, small & ~find_two_sided(w, cluster, small));
-    if (small)
-        e3d_fragments_add(w->context, w->worker, &drawn, w->vertices, indices, small);
+    e3d_drawn_cluster *drawn = small ? e3d_fragments_cluster(w->worker) : NULL;
+    if (!drawn)
+        return;
+    /* In its place at once: a copy would be read in larger parts than it was written, which waits for all of these. */
+    *drawn = (e3d_drawn_cluster){w->draw->mesh->faces + cluster->first, w->order, (int32_t)(w->instance - w->context->instances),
+                                 w->instance->draw, w->instance->mirrored};
+    e3d_fragments_add(w->context, w->worker, w->vertices, indices, small);
 }
 
 static void transform_cluster(const walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_vertices *out)

@@ -149,44 +149,63 @@ static ALWAYS_INLINE int join_group(const e3d_context *context, e3d_worker *work
     return 1;
 }
 
-/* What an ID stands for: a record, or a triangle of a cluster. */
-static ALWAYS_INLINE void find_named(const e3d_record_table *table, const e3d_shown_piece *of, e3d_visible_piece *piece)
+/* Some pieces of a tile, first to end - 1. */
+typedef struct piece_range {
+    int32_t first, end;
+} piece_range;
+
+/* What IDs stand for: a record, or a triangle of a cluster. */
+static void find_named(const e3d_record_table *table, const e3d_shown_piece *of, piece_range range, e3d_visible_piece *pieces)
 {
-    *piece = (e3d_visible_piece){.next = -1, .first = of[0].first, .end = of[1].first};
-    if (of->id & E3D_FRAGMENT_ID)
-        piece->drawn = e3d_drawn_at(table, of->id, &piece->local);
-    else
-        piece->record = e3d_record_at(table, of->id);
+    for (int32_t n = range.first; n < range.end; n++) {
+        pieces[n] = (e3d_visible_piece){.next = -1, .first = of[n].first, .end = of[n + 1].first};
+        if (of[n].id & E3D_FRAGMENT_ID) {
+            pieces[n].drawn = e3d_drawn_at(table, of[n].id, &pieces[n].local);
+            __builtin_prefetch(pieces[n].drawn->faces + pieces[n].local);
+        } else {
+            pieces[n].record = e3d_record_at(table, of[n].id);
+            __builtin_prefetch(pieces[n].record);
+        }
+    }
 }
 
-/* Pieces first to end - 1. In stages, each of which reads what the one before found, anywhere in memory: their loops are so short that
- * processors look some pieces ahead. */
-static int find_some(const e3d_context *context, e3d_worker *worker, int32_t first, int32_t end, instance_finder *instance,
-                     group_finder *group)
+/* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
+static void find_primitives(const e3d_context *context, const e3d_shown_piece *of, piece_range range, instance_finder *finder,
+                            e3d_visible_piece *pieces)
 {
-    const e3d_shown_piece *of = worker->tile->shown.piece;
-    e3d_visible_piece *pieces = worker->pieces.data;
-    for (int32_t n = first; n < end; n++)
-        find_named(&context->tables[E3D_PASS_SCENE], &of[n], &pieces[n]);
-    for (int32_t n = first; n < end; n++) {
+    for (int32_t n = range.first; n < range.end; n++) {
         if (pieces[n].drawn)
-            find_face(context, instance, &pieces[n]);
+            find_face(context, finder, &pieces[n]);
         else
-            find_primitive(context, of[n].id, instance, &pieces[n]);
-        pieces[n].draw = instance->draw;
-        pieces[n].instance = instance->instance;
+            find_primitive(context, of[n].id, finder, &pieces[n]);
+        pieces[n].draw = finder->draw;
+        pieces[n].instance = finder->instance;
+        __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)pieces[n].local));
     }
-    for (int32_t n = first; n < end; n++)
+}
+
+/* 0 when memory is out. */
+static int find_groups(const e3d_context *context, e3d_worker *worker, piece_range range, group_finder *finder)
+{
+    e3d_visible_piece *pieces = worker->pieces.data;
+    for (int32_t n = range.first; n < range.end; n++)
         find_vertices(&pieces[n]);
-    for (int32_t n = first; n < end; n++)
-        if (!join_group(context, worker, n, group))
+    for (int32_t n = range.first; n < range.end; n++)
+        if (!join_group(context, worker, n, finder))
             return 0;
     return 1;
 }
 
+static piece_range range_of(int32_t first, int32_t count, int32_t all)
+{
+    return (piece_range){first < 0 ? 0 : first, first + count < all ? first + count : all};
+}
+
+/* In stages, each of which reads what the one before found, anywhere in memory, and asked for one range of pieces ago: their loops are
+ * so short that processors look some pieces ahead. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
 {
-    enum { SOME = 64 };
+    enum { SOME = 32 };
     e3d_shown *shown = &worker->tile->shown;
     instance_finder instance = {0};
     group_finder group = {0};
@@ -195,9 +214,13 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
     worker->groups.count = 0;
     if (!e3d_array_reserve(&worker->pieces, (size_t)all, sizeof(e3d_visible_piece)))
         return 0;
-    for (int32_t n = 0; n < all; n += SOME)
-        if (!find_some(context, worker, n, n + SOME < all ? n + SOME : all, &instance, &group))
+    e3d_visible_piece *pieces = worker->pieces.data;
+    for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
+        find_named(&context->tables[E3D_PASS_SCENE], shown->piece, range_of(n, SOME, all), pieces);
+        find_primitives(context, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
+        if (!find_groups(context, worker, range_of(n - 2 * SOME, SOME, all), &group))
             return 0;
+    }
     worker->pieces.count = (size_t)all;
     return 1;
 }

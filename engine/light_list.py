@@ -12,7 +12,7 @@ from ._native.rasterizer import FALLOFFS, NativeDrawList
 from ._native.scene_graph import SHOWN
 from .display_colors import shading_color
 from .lights import DirectionalLight
-from .linalg import normalize
+from .linalg.single import normalize
 from .scene import Scene
 
 
@@ -104,6 +104,6 @@ class LightList:
         if isinstance(light, DirectionalLight):
             x, y, z = light.direction.tolist()
             towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
-            self._native.turn_light(number, normalize(towards).tolist())
+            self._native.turn_light(number, normalize(towards))
         else:
             self._native.move_light(number, pose[3::4])

@@ -221,15 +221,19 @@ static inline __m256i quads_two(const void *texels, const void *below, const int
     two = _mm256_mask_broadcastq_epi64(two, 4, pairs_low(texels, at[4]));
     return _mm256_mask_broadcastq_epi64(two, 8, pairs_low(below, at[4]));
 }
-static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
-    __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
-    for (int i = 0; i < 4; i++)
-        q[i] = _mm512_shuffle_epi8(halves_join(quads_two(texels, below, at + i), quads_two(texels, below, at + i + 8)), order);
+/* Lane 4 n + i is in quarter n of vector i, its red, green and blue side by side: to a vector each. */
+static ALWAYS_INLINE void channels_apart(const __m512i q[4], vi32 out[3]) {
     __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
     __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm512_unpacklo_epi64(low01, low23);
     out[1] = _mm512_unpackhi_epi64(low01, low23);
     out[2] = _mm512_unpacklo_epi64(high01, high23);
+}
+static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
+    __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm512_shuffle_epi8(halves_join(quads_two(texels, below, at + i), quads_two(texels, below, at + i + 8)), order);
+    channels_apart(q, out);
 }
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m512i low = _mm512_packs_epi32(c[0], c[1]), high = _mm512_packs_epi32(c[2], _mm512_set1_epi32(255));
@@ -285,11 +289,7 @@ static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const
         for (int k = 0; k < 2; k++)
             q[i + k] = _mm512_shuffle_epi8(rows_blend(upper[k], lower[k], each[i + k]), halves);
     }
-    __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
-    __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
-    out[0] = _mm512_unpacklo_epi64(low01, low23);
-    out[1] = _mm512_unpackhi_epi64(low01, low23);
-    out[2] = _mm512_unpacklo_epi64(high01, high23);
+    channels_apart(q, out);
 }
 
 #endif

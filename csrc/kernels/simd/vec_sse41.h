@@ -174,33 +174,27 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = _mm_shuffle_ps(a, b, PAIRS_EVEN);
     *odd = _mm_shuffle_ps(a, b, PAIRS_ODD);
 }
-static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
-    __m128i q[4];
-    for (int i = 0; i < 4; i++)
-        q[i] = _mm_shuffle_epi8(_mm_unpacklo_epi64(pairs_eight(texels, at[i]), pairs_eight(below, at[i])), pairs_quad());
+/* Lane 4 n + i is in quarter n of vector i, its red, green and blue side by side: to a vector each. */
+static ALWAYS_INLINE void channels_apart(const __m128i q[4], vi32 out[3]) {
     __m128i low01 = _mm_unpacklo_epi32(q[0], q[1]), low23 = _mm_unpacklo_epi32(q[2], q[3]);
     __m128i high01 = _mm_unpackhi_epi32(q[0], q[1]), high23 = _mm_unpackhi_epi32(q[2], q[3]);
     out[0] = _mm_unpacklo_epi64(low01, low23);
     out[1] = _mm_unpackhi_epi64(low01, low23);
     out[2] = _mm_unpacklo_epi64(high01, high23);
 }
+static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
+    __m128i q[4];
+    for (int i = 0; i < 4; i++)
+        q[i] = _mm_shuffle_epi8(_mm_unpacklo_epi64(pairs_eight(texels, at[i]), pairs_eight(below, at[i])), pairs_quad());
+    channels_apart(q, out);
+}
 static inline vi32 v_rgba(const vi32 c[3]) {
     __m128i low = _mm_packs_epi32(c[0], c[1]), high = _mm_packs_epi32(c[2], _mm_set1_epi32(255));
     return _mm_shuffle_epi8(_mm_packus_epi16(low, high), pairs_pixels());
 }
-typedef const int32_t *vcurve;
-static inline void v_curve(const int32_t pieces[64], vcurve *out) { *out = pieces; }
-static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
-    vi32 code[3];
-    int32_t at[3][V_LANES];
-    for (int k = 0; k < 3; k++)
-        v_storei(at[k], v_andi(v_shr(place[k], 16), v_seti(63)));
-    for (int k = 0; k < 3; k++) {
-        vi32 piece = fetch_four(*curve, at[k]), t = v_andi(place[k], v_seti(0xFFFF));
-        code[k] = v_shr(v_addi(v_shr(piece, 16), _mm_mulhi_epu16(piece, t)), 8);
-    }
-    return v_rgba(code);
-}
+static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) { return fetch_four(pieces, at); }
+static inline vi32 curve_rise(vi32 piece, vi32 along) { return _mm_mulhi_epu16(piece, along); }
+#include "kernels/simd/curve_memory.h"
 
 /* The weight of one lane, to each of a pair's channels: 2^7 of it, for pmulhrsw. */
 static inline __m128i rows_weights(vi32 weight) { return _mm_or_si128(_mm_slli_epi32(weight, 7), _mm_slli_epi32(weight, 23)); }
@@ -215,11 +209,7 @@ static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const
         __m128i upper = pairs_one(texels, (uint32_t)top[i]), lower = pairs_one(texels, (uint32_t)bottom[i]);
         q[i] = _mm_shuffle_epi8(rows_blend(upper, lower, each[i]), pairs_halves());
     }
-    __m128i low01 = _mm_unpacklo_epi32(q[0], q[1]), low23 = _mm_unpacklo_epi32(q[2], q[3]);
-    __m128i high01 = _mm_unpackhi_epi32(q[0], q[1]), high23 = _mm_unpackhi_epi32(q[2], q[3]);
-    out[0] = _mm_unpacklo_epi64(low01, low23);
-    out[1] = _mm_unpackhi_epi64(low01, low23);
-    out[2] = _mm_unpacklo_epi64(high01, high23);
+    channels_apart(q, out);
 }
 
 #endif

@@ -1,0 +1,21 @@
+/* A curve whose pieces are looked up where they lie: the words v_curve and v_curve_rgba of processors whose registers don't hold
+ * them. Whoever includes it has the other words, curve_fetch and curve_rise.
+ */
+#ifndef E3D_CURVE_MEMORY_H
+#define E3D_CURVE_MEMORY_H
+
+typedef const int32_t *vcurve;
+static inline void v_curve(const int32_t pieces[64], vcurve *out) { *out = pieces; }
+static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
+    vi32 code[3];
+    int32_t at[3][V_LANES];
+    for (int k = 0; k < 3; k++)
+        v_storei(at[k], v_andi(v_shr(place[k], 16), v_seti(63)));
+    for (int k = 0; k < 3; k++) {
+        vi32 piece = curve_fetch(*curve, at[k]), rise = curve_rise(piece, v_andi(place[k], v_seti(0xFFFF)));
+        code[k] = v_shr(v_addi(v_shr(piece, 16), rise), 8);
+    }
+    return v_rgba(code);
+}
+
+#endif

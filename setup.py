@@ -43,7 +43,15 @@ INCLUDE_DIRS = ["csrc/include", "csrc"]
 # What CFLAGS may hold that would change results is taken back: -ffast-math, -Ofast, -march=native,
 # contraction to FMA, and link-time optimisation (which mixes the ISAs).
 EXACT = ["-fno-fast-math", "-fno-unsafe-math-optimizations", "-ffp-contract=off", "-fno-math-errno"]
-HYGIENE = ["-std=gnu11", "-fPIC", "-fvisibility=hidden", "-fno-lto", "-pthread"]
+# Python's own flags let signed numbers wrap around. Here they must not, which sanitizers check.
+HYGIENE = [
+    "-std=gnu11",
+    "-fstrict-overflow",
+    "-fPIC",
+    "-fvisibility=hidden",
+    "-fno-lto",
+    "-pthread",
+]
 
 BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
 IS_X86_64 = sysconfig.get_platform().endswith(("x86_64", "amd64"))

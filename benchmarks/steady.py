@@ -4,7 +4,7 @@ In:  the installed engine3d.
 Out: a table, or with --json one object. For each workload: minor page faults and growth of the
      process a frame, over frames after warm-up; CPU milliseconds of the first frame of a new
      renderer of a scene never drawn, of the second, and their ratio; the same ratio after
-     `Renderer.prepare`.
+     `Renderer.prepare`, the median of three scenes.
 """
 
 import argparse
@@ -52,7 +52,7 @@ def measure(name, frames, threads):
     taken = [cpu_milliseconds(drawing.draw, WARM_UP + frame) for frame in range(frames)]
     after = faults(), resident_bytes()
     drawing.close()
-    prepared = prepared_ratio(name, threads)
+    prepared = statistics.median(prepared_ratio(name, threads) for _ in range(3))
     return {
         "workload": name,
         "faults_a_frame": (after[0] - before[0]) / frames,

@@ -66,15 +66,15 @@ class LightList:
         shown = columns["flags"][self._slots] & SHOWN != 0
         slots = self._slots[shown]
         placed = columns["world_version"][slots]
-        if same and np.array_equal(shown, self._shown):
-            moved = np.flatnonzero(placed != self._placed)
+        if same and shown.tobytes() == self._shown.tobytes():
+            moved = (placed != self._placed).nonzero()[0]
         else:
             moved = np.arange(len(slots))
             self._native.clear_lights()
-            for light in np.flatnonzero(shown).tolist():
+            for light in shown.nonzero()[0].tolist():
                 self._add(self._lights[light])
         if len(moved):
-            lights = np.flatnonzero(shown)[moved].tolist()
+            lights = shown.nonzero()[0][moved].tolist()
             poses = columns["world"][slots[moved]].tolist()
             for number, light, pose in zip(moved.tolist(), lights, poses, strict=True):
                 self._place(number, self._lights[light], pose)

@@ -2,9 +2,10 @@
 
 In:  the installed engine3d.
 Out: a table, or with --json one object. For each workload: minor page faults and growth of the
-     process a frame, over frames after warm-up; milliseconds of the first frame of a new renderer of
-     a scene never drawn, of the second, and their ratio; the same ratio after `Renderer.prepare`,
-     the median of three scenes. It is the time that passes: helpers that wait count as CPU time.
+     process a frame, over frames after warm-up; milliseconds of the first frame of a new renderer
+     of a scene never drawn, of the second, and their ratio; the same ratio after
+     `Renderer.prepare`, the median of three scenes. It is the time that passes: helpers that wait
+     count as CPU time.
 """
 
 import argparse

@@ -28,13 +28,6 @@ static inline __m128i fetch_four(const int32_t *table, const int32_t *at)
     return _mm_setr_epi32(table[index_first(low)], table[index_second(low)], table[index_first(high)], table[index_second(high)]);
 }
 
-#ifdef __AVX2__
-static inline __m256i fetch_eight(const int32_t *table, const int32_t *at)
-{
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(fetch_four(table, at)), fetch_four(table, at + 4), 1);
-}
-#endif
-
 /* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
 static inline __m128i pairs_quad(void)
 {

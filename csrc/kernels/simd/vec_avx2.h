@@ -183,7 +183,9 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     __m256i low = _mm256_packs_epi32(c[0], c[1]), high = _mm256_packs_epi32(c[2], _mm256_set1_epi32(255));
     return _mm256_shuffle_epi8(_mm256_packus_epi16(low, high), _mm256_broadcastsi128_si256(pairs_pixels()));
 }
-static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) { return fetch_eight(pieces, at); }
+static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) {
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(fetch_four(pieces, at)), fetch_four(pieces, at + 4), 1);
+}
 static inline vi32 curve_rise(vi32 piece, vi32 along) { return _mm256_mulhi_epu16(piece, along); }
 #include "kernels/simd/curve_memory.h"
 

@@ -321,10 +321,11 @@ typedef struct e3d_surfaces {
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 
 /* Samples of one material on their way to a colour. Each but the first is of the same surface as the one before it or of
- * the next. `sample` and `surface` repeat the last for E3D_PAD elements more: whole vectors read them. */
+ * the next. Up to a multiple of E3D_PAD `sample` and `surface` repeat the last: whole vectors read them. */
 typedef struct e3d_batch {
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */
     int32_t surface[E3D_BATCH + E3D_PAD]; /* its element of e3d_surfaces */
+    int32_t steps[E3D_BATCH + E3D_PAD];   /* take_runs's: 0 before and after */
     e3d_lane_array weight[3], r; /* of R19 */
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];

@@ -124,6 +124,7 @@ BATCH_RECORD = np.dtype(
     [
         ("sample", "i4", _LANES),
         ("surface", "i4", _LANES),
+        ("steps", "i4", _LANES),
         ("weight", "f4", (3, _LANES)),
         ("r", "f4", _LANES),
         ("position", "f4", (3, _LANES)),

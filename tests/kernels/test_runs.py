@@ -126,12 +126,16 @@ def random_runs(rng, shown):
 
 @all_backends
 def test_take_runs(kernels):
-    """Some at a time: those that fit, in order, and the last sample again behind them."""
+    """Some at a time: those that fit, in order, and the last sample again behind them.
+
+    However few or many the tile has, which is told to be one or another.
+    """
     rng = np.random.default_rng(1)
     batches, lists = Records(BATCH_RECORD, 500), Records(SHOWN, 1)
     for row, fields in zip(batches.rows, batches.fields, strict=True):
         (samples, lengths), taken = random_runs(rng, lists.fields[0]), 0
-        piece, fields["count"] = int(rng.integers(-5, 6)), 0
+        lists.fields[0]["count"] = rng.choice([1, TILE, 4 * TILE, TILE * TILE])
+        piece, fields["count"], fields["steps"] = int(rng.integers(-5, 6)), 0, 0
         fitting = int(np.searchsorted(np.cumsum(lengths), BATCH, "right"))
         while taken < fitting:
             some = int(min(rng.integers(1, len(lengths)), len(lengths) - taken))
@@ -145,7 +149,9 @@ def test_take_runs(kernels):
         surfaces = np.repeat(np.arange(taken) // 2 - piece, lengths[:taken])
         assert fields["count"] == len(samples)
         for name, values in (("sample", samples), ("surface", surfaces)):
-            got = fields[name][: len(samples) + PAD]
-            assert np.array_equal(got, np.append(values, [values[-1]] * PAD)), name
+            more = -len(samples) % PAD
+            got = fields[name][: len(samples) + more]
+            assert np.array_equal(got, np.append(values, [values[-1]] * more)), name
+        assert not fields["steps"].any()
         check_poisoned(fields, ["weight", "r", "position", "normal", "uv", "color", "lod"])
     batches.check_gaps()

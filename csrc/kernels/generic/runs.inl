@@ -79,17 +79,6 @@ static int kernel_find_runs(e3d_visible_tile *tile, int width, int height, e3d_r
     return count;
 }
 
-/* Whole vectors are written past the end of a run. */
-static inline void runs_spread(int32_t sample, int32_t length, vi32 surface, int n, e3d_batch *batch)
-{
-    vi32 at = v_addi(v_seti(sample), v_iota());
-    for (int i = n; i < n + length; i += V_LANES) {
-        v_storei(batch->sample + i, at);
-        v_storei(batch->surface + i, surface);
-        at = v_addi(at, v_seti(V_LANES));
-    }
-}
-
 static inline void batch_pad(e3d_batch *batch, int count)
 {
     for (int pad = 0; pad < E3D_PAD; pad += V_LANES) {
@@ -99,16 +88,66 @@ static inline void batch_pad(e3d_batch *batch, int count)
     batch->count = count;
 }
 
-static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+/* Long runs: each by itself, in whole vectors, which are written past its end. */
+static inline int runs_take_long(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
 {
     int n = batch->count, r = first;
     for (; r < first + count; r++) {
         int32_t run = shown->sample[r], length = run >> E3D_RUN_LENGTH;
         if (n + length > E3D_BATCH)
             break;
-        runs_spread(run & (E3D_TILE_SAMPLES - 1), length, v_seti(shown->of[r] - piece), n, batch);
+        vi32 at = v_addi(v_seti(run & (E3D_TILE_SAMPLES - 1)), v_iota()), surface = v_seti(shown->of[r] - piece);
+        for (int i = n; i < n + length; i += V_LANES, at = v_addi(at, v_seti(V_LANES))) {
+            v_storei(batch->sample + i, at);
+            v_storei(batch->surface + i, surface);
+        }
         n += length;
     }
     batch_pad(batch, n);
     return r - first;
+}
+
+/* A run in a word that all its samples share: whose they are, and how far the first one is from its place among the new samples. */
+enum { RUN_SURFACE = 16, RUN_BEFORE = E3D_BATCH };
+
+/* New samples, `count` from place `first` on. Words are added up from batch->steps, which become 0 again. */
+static inline void runs_add_up(int first, int count, e3d_batch *batch)
+{
+    vi32 before = v_seti(0), last = v_seti(count - 1 - RUN_BEFORE), place = v_subi(v_iota(), v_seti(RUN_BEFORE));
+    int end = (first + count + E3D_PAD - 1) / E3D_PAD * E3D_PAD - first;
+    for (int i = 0; i < end; i += V_LANES, place = v_addi(place, v_seti(V_LANES))) {
+        vi32 sums = v_sums(v_loadi(batch->steps + i)), word = v_addi(before, sums);
+        before = v_addi(before, v_last(sums));
+        v_storei(batch->steps + i, v_seti(0));
+        v_storei(batch->sample + first + i, v_addi(v_andi(word, v_seti((1 << RUN_SURFACE) - 1)), v_mini(place, last)));
+        v_storei(batch->surface + first + i, v_sra(word, RUN_SURFACE));
+    }
+}
+
+/* Short ones: where they begin is noted, then every vector is written once. */
+static inline int runs_take_short(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+{
+    int room = E3D_BATCH - batch->count, n = 0, r = first;
+    int32_t before = 0;
+    for (; r < first + count; r++) {
+        int32_t run = shown->sample[r], length = run >> E3D_RUN_LENGTH;
+        if (n + length > room)
+            break;
+        int32_t word = (shown->of[r] - piece) * (1 << RUN_SURFACE) + (run & (E3D_TILE_SAMPLES - 1)) - n + RUN_BEFORE;
+        batch->steps[n] = word - before;
+        before = word;
+        n += length;
+    }
+    if (n)
+        runs_add_up(batch->count, n, batch);
+    batch->count += n;
+    return r - first;
+}
+
+enum { RUNS_LONG = 2 * E3D_TILE }; /* so few of a tile are long */
+
+static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+{
+    return shown->count <= RUNS_LONG ? runs_take_long(shown, first, count, piece, batch)
+                                     : runs_take_short(shown, first, count, piece, batch);
 }

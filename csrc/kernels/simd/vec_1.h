@@ -58,6 +58,10 @@ static inline vmask v_ge(vf32 a, vf32 b) { return a >= b; }
 static inline vmask v_eq(vf32 a, vf32 b) { return a == b; }
 
 static inline vi32 v_addi(vi32 a, vi32 b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
+/* Each lane and all below it. */
+static inline vi32 v_sums(vi32 a) { return a; }
+/* The last lane in all. */
+static inline vi32 v_last(vi32 a) { return a; }
 static inline vi32 v_subi(vi32 a, vi32 b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
 static inline vi32 v_muli(vi32 a, vi32 b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
 static inline vi32 v_andi(vi32 a, vi32 b) { return a & b; }

@@ -65,6 +65,13 @@ static inline vmask v_ge(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_GE_OQ
 static inline vmask v_eq(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_EQ_OQ); }
 
 static inline vi32 v_addi(vi32 a, vi32 b) { return _mm256_add_epi32(a, b); }
+static inline vi32 v_sums(vi32 a) {
+    a = _mm256_add_epi32(a, _mm256_slli_si256(a, 4));
+    a = _mm256_add_epi32(a, _mm256_slli_si256(a, 8));
+    __m256i low = _mm256_permute2x128_si256(a, a, 0x08); /* in the upper half */
+    return _mm256_add_epi32(a, _mm256_shuffle_epi32(low, 0xFF));
+}
+static inline vi32 v_last(vi32 a) { return _mm256_permutevar8x32_epi32(a, _mm256_set1_epi32(7)); }
 static inline vi32 v_subi(vi32 a, vi32 b) { return _mm256_sub_epi32(a, b); }
 static inline vi32 v_muli(vi32 a, vi32 b) { return _mm256_mullo_epi32(a, b); }
 static inline vi32 v_andi(vi32 a, vi32 b) { return _mm256_and_si256(a, b); }

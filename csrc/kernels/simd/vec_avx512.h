@@ -106,6 +106,14 @@ static inline vmask v_ge(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_
 static inline vmask v_eq(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
 
 static inline vi32 v_addi(vi32 a, vi32 b) { return _mm512_add_epi32(a, b); }
+static inline vi32 v_sums(vi32 a) {
+    const __m512i none = _mm512_setzero_si512();
+    a = _mm512_add_epi32(a, _mm512_alignr_epi32(a, none, 15));
+    a = _mm512_add_epi32(a, _mm512_alignr_epi32(a, none, 14));
+    a = _mm512_add_epi32(a, _mm512_alignr_epi32(a, none, 12));
+    return _mm512_add_epi32(a, _mm512_alignr_epi32(a, none, 8));
+}
+static inline vi32 v_last(vi32 a) { return _mm512_permutexvar_epi32(_mm512_set1_epi32(15), a); }
 static inline vi32 v_subi(vi32 a, vi32 b) { return _mm512_sub_epi32(a, b); }
 static inline vi32 v_muli(vi32 a, vi32 b) { return _mm512_mullo_epi32(a, b); }
 static inline vi32 v_andi(vi32 a, vi32 b) { return _mm512_and_si512(a, b); }

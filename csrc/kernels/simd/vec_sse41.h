@@ -70,6 +70,11 @@ static inline vmask v_ge(vf32 a, vf32 b) { return _mm_cmpge_ps(a, b); }
 static inline vmask v_eq(vf32 a, vf32 b) { return _mm_cmpeq_ps(a, b); }
 
 static inline vi32 v_addi(vi32 a, vi32 b) { return _mm_add_epi32(a, b); }
+static inline vi32 v_sums(vi32 a) {
+    a = _mm_add_epi32(a, _mm_slli_si128(a, 4));
+    return _mm_add_epi32(a, _mm_slli_si128(a, 8));
+}
+static inline vi32 v_last(vi32 a) { return _mm_shuffle_epi32(a, 0xFF); }
 static inline vi32 v_subi(vi32 a, vi32 b) { return _mm_sub_epi32(a, b); }
 static inline vi32 v_muli(vi32 a, vi32 b) { return _mm_mullo_epi32(a, b); }
 static inline vi32 v_andi(vi32 a, vi32 b) { return _mm_and_si128(a, b); }

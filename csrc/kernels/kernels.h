@@ -398,7 +398,7 @@ typedef struct e3d_kernels {
      * fragments: small triangles are to become some. How many survive. */
     int (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull, int fragments,
                  const e3d_viewport *viewport, e3d_survivors *out);
-    /* Records and their tiles; how many. Room for as many as are asked for. */
+    /* Records and their tiles; how many. Room for those of a whole cluster. */
     int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
     /* Adds triangles of a cluster, a bit each; the IDs of triangle t are first + (t << bits). There is room for all. */
     void (*add_small)(const e3d_vertices *vertices, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,

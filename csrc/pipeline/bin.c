@@ -90,9 +90,10 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile
     }
 }
 
-/* To the tiles of a span that the record does not miss. Within the picture it meets each of a single row or column. */
-static int bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
-                    e3d_tile_span span, uint32_t id)
+/* To the tiles of a span that the record does not miss. Within the picture it meets each of a single row or column. (By itself, for
+ * with it the rest would have no registers left.) */
+static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
+                                              e3d_tile_span span, uint32_t id)
 {
     e3d_bin *bins = set->bins.data;
     int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
@@ -118,22 +119,28 @@ static int bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_s
     return 1;
 }
 
+static inline e3d_bin *bin_at(const e3d_context *context, e3d_record_set *set, uint32_t tile)
+{
+    return (e3d_bin *)set->bins.data + (int64_t)(tile >> 16) * context->tiles_x + (tile & 0xFFFF);
+}
+
+/* Most are in one tile, or in two side by side. */
 int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
                     int count)
 {
-    int bits = context->tables[0].bits;
+    int bits = context->tables[0].bits, entries = 0;
     for (int i = 0; i < count; i++) {
-        uint32_t number = first + (uint32_t)i, id = number << bits | worker->number;
-        if (spans[i].first != spans[i].last) {
+        uint32_t number = first + (uint32_t)i, id = number << bits | worker->number, apart = spans[i].last - spans[i].first;
+        if (apart > 1 && apart != 1 << 16) {
             if (!bin_wide(context, worker, set, number, spans[i], id))
                 return 0;
             continue;
         }
-        int64_t tile = (int64_t)(spans[i].first >> 16) * context->tiles_x + (spans[i].first & 0xFFFF);
-        if (!push(set, (e3d_bin *)set->bins.data + tile, id))
+        if (!push(set, bin_at(context, set, spans[i].first), id) || (apart && !push(set, bin_at(context, set, spans[i].last), id)))
             return 0;
-        worker->counters.bin_entries++;
+        entries += apart ? 2 : 1;
     }
+    worker->counters.bin_entries += entries;
     return 1;
 }
 

@@ -197,15 +197,25 @@ static inline vi32 record_meta(vi32 cover, vmask back, vmask swapped)
 }
 
 /* First tile below, last tile above: row << 16 | column. */
-static inline void record_spans(setup_span across, setup_span down, e3d_tile_span *out, uint32_t keep)
+static inline void record_spans(setup_span across, setup_span down, e3d_tile_span *out)
 {
     int32_t first[V_LANES], last[V_LANES];
     v_storei(first, v_ori(v_sra(across.first, E3D_TILE_SHIFT), v_shl(v_sra(down.first, E3D_TILE_SHIFT), 16)));
     v_storei(last, v_ori(v_sra(across.last, E3D_TILE_SHIFT), v_shl(v_sra(down.last, E3D_TILE_SHIFT), 16)));
-    for (; keep; keep &= keep - 1, out++) {
-        int lane = __builtin_ctz(keep);
-        *out = (e3d_tile_span){(uint32_t)first[lane], (uint32_t)last[lane]};
+    for (int lane = 0; lane < V_LANES; lane++)
+        out[lane] = (e3d_tile_span){(uint32_t)first[lane], (uint32_t)last[lane]};
+}
+
+/* Of one vector's, those to keep, in place: mostly all. */
+static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_span *spans)
+{
+    int made = 0, all = __builtin_popcount(keep);
+    for (uint32_t left = keep >> all ? keep : 0; left; left &= left - 1, made++) {
+        int lane = __builtin_ctz(left);
+        records[made] = records[lane];
+        spans[made] = spans[lane];
     }
+    return all;
 }
 
 /* The records of one vector of triangles; how many. */
@@ -240,13 +250,9 @@ static inline int record_vector(const e3d_record_request *q, const record_list *
     const vi32 words[16] = {c.x[0], c.x[1], c.x[2], c.y[0], c.y[1], c.y[2], v_asi(p.z0), v_asi(p.gx),
                             v_asi(p.gy), v_asi(p.zmin), v_asi(p.zmax), v_asi(c.iw[0]), v_asi(c.iw[1]),
                             v_asi(c.iw[2]), v_loadi(order), meta};
-    e3d_record rows[V_LANES];
-    v_store_rows(words, (int32_t *)rows);
-    record_spans(across, down, spans, keep);
-    int made = 0;
-    for (; keep; keep &= keep - 1)
-        out[made++] = rows[__builtin_ctz(keep)];
-    return made;
+    v_store_rows(words, (int32_t *)out);
+    record_spans(across, down, spans);
+    return record_keep(keep, out, spans);
 }
 
 static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_span *spans)

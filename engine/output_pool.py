@@ -40,6 +40,11 @@ class OutputPool:
             self._a_frame[array.nbytes] = self._a_frame.get(array.nbytes, 0) + 1
         return arrays
 
+    def prepare(self, outputs: dict[str, tuple[tuple[int, ...], np.dtype]]) -> None:
+        """Have memory for a frame's arrays, and all its pages, before there is a frame."""
+        for array in self.take(outputs).values():
+            array.fill(0)
+
     def _lend(self, shape: tuple[int, ...], dtype: np.dtype) -> np.ndarray:
         size = dtype.itemsize * math.prod(shape)
         try:

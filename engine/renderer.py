@@ -148,7 +148,8 @@ class Renderer(Closed):
         """Make what the first frame of a scene would make, so that it takes as long as others.
 
         That is, of each mesh, the clusters and the normals or edges that are missing; of each
-        texture, the mip levels. It stays with the mesh or the texture, whoever draws it next.
+        texture, the mip levels. It stays with the mesh or the texture, whoever draws it next. Of
+        the frame, memory for the outputs, which the renderer keeps.
 
         Parameters
         ----------
@@ -176,6 +177,7 @@ class Renderer(Closed):
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
+            self._pool.prepare(self._arrays_of(names))
 
     def _check_drawable(self, scene) -> None:
         if not isinstance(scene, Scene):

@@ -209,7 +209,7 @@ static inline void record_spans(setup_span across, setup_span down, e3d_tile_spa
 /* Of one vector's, those to keep, in place: mostly all. */
 static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_span *spans)
 {
-    int made = 0, all = __builtin_popcount(keep);
+    int made = 0, all = v_count(keep);
     for (uint32_t left = keep >> all ? keep : 0; left; left &= left - 1, made++) {
         int lane = __builtin_ctz(left);
         records[made] = records[lane];

@@ -32,7 +32,7 @@ static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
     if (__builtin_expect(lanes & (lanes + (1u << first)), 0))
         return v_pack(out, v_addi(v_iota(), v_seti(at)), lanes);
     v_storei(out, v_addi(v_iota(), v_seti(at + first)));
-    return __builtin_popcount(lanes);
+    return v_count(lanes);
 }
 
 /* ---- boxes of few vectors ----

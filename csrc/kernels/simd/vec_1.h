@@ -113,6 +113,8 @@ static inline vmask v_mor(vmask a, vmask b) { return a | b; }
 static inline vmask v_mandnot(vmask a, vmask b) { return a & (b ^ 1u); } /* a and not b */
 static inline vmask v_mnot(vmask a) { return a ^ 1u; }
 static inline uint32_t v_bits(vmask m) { return m; }
+/* How many lanes these bits are. */
+static inline int v_count(uint32_t bits) { return (int)bits; }
 static inline int v_any(vmask m) { return m != 0; }
 
 /* Doubles, half of a vector's lanes at a time: half h of V_HALVES. */

@@ -111,6 +111,7 @@ static inline vmask v_mnot(vmask a) {
     return _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1)));
 }
 static inline uint32_t v_bits(vmask m) { return (uint32_t)_mm256_movemask_ps(m); }
+static inline int v_count(uint32_t bits) { return __builtin_popcount(bits); }
 static inline int v_any(vmask m) { return _mm256_movemask_ps(m) != 0; }
 
 #define V_HALVES 2

@@ -149,6 +149,7 @@ static inline vmask v_mor(vmask a, vmask b) { return (vmask)(a | b); }
 static inline vmask v_mandnot(vmask a, vmask b) { return (vmask)(a & ~b); }
 static inline vmask v_mnot(vmask a) { return (vmask)~a; }
 static inline uint32_t v_bits(vmask m) { return m; }
+static inline int v_count(uint32_t bits) { return __builtin_popcount(bits); }
 static inline int v_any(vmask m) { return m != 0; }
 
 #define V_HALVES 2

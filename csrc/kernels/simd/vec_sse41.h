@@ -114,6 +114,7 @@ static inline vmask v_mnot(vmask a) {
     return _mm_xor_ps(a, _mm_castsi128_ps(_mm_set1_epi32(-1)));
 }
 static inline uint32_t v_bits(vmask m) { return (uint32_t)_mm_movemask_ps(m); }
+static inline int v_count(uint32_t bits) { return pack_count(bits); }
 static inline int v_any(vmask m) { return _mm_movemask_ps(m) != 0; }
 
 #define V_HALVES 2

@@ -149,7 +149,8 @@ class Renderer(Closed):
 
         That is, of each mesh, the clusters and the normals or edges that are missing; of each
         texture, the mip levels. It stays with the mesh or the texture, whoever draws it next. Of
-        the frame, memory for the outputs, which the renderer keeps.
+        the frame, memory for the outputs and, 8 bytes a sample, for the depths that tell what is
+        hidden; the renderer keeps it.
 
         Parameters
         ----------
@@ -178,6 +179,8 @@ class Renderer(Closed):
                 _blame_change(scene, census, error)
                 raise
             self._pool.prepare(self._arrays_of(names))
+            axis = _SAMPLES[self._samples]
+            self._native.prepare(self._width * axis, self._height * axis)
 
     def _check_drawable(self, scene) -> None:
         if not isinstance(scene, Scene):

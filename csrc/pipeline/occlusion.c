@@ -36,6 +36,17 @@ static int reserve_tiles(e3d_renderer *renderer, size_t tiles)
     return 1;
 }
 
+e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height)
+{
+    int64_t across = ((int64_t)width + E3D_TILE - 1) / E3D_TILE, down = ((int64_t)height + E3D_TILE - 1) / E3D_TILE;
+    if (renderer->backend == E3D_BACKEND_SCALAR || (int64_t)width * height > E3D_MOST_KEPT_SAMPLES)
+        return E3D_OK;
+    if (!reserve_tiles(renderer, (size_t)(across * down)))
+        return E3D_OUT_OF_MEMORY;
+    memset(renderer->kept, 0, renderer->kept_room * sizeof *renderer->kept);
+    return E3D_OK;
+}
+
 int e3d_occlusion_begin(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;

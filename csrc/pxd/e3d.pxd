@@ -243,6 +243,7 @@ cdef extern from "e3d.h" nogil:
 
     e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_renderer **out)
     void e3d_renderer_destroy(e3d_renderer *renderer)
+    e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height)
     void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *) noexcept nogil, void *user)
     e3d_status e3d_render(e3d_renderer *renderer, const e3d_frame *frame,
                           const e3d_targets *targets, e3d_stats *stats)

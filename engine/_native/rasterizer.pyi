@@ -136,6 +136,7 @@ class NativeStats:
 
 class NativeRenderer:
     def __init__(self, backend: int, threads: int) -> None: ...
+    def prepare(self, width: int, height: int) -> None: ...
     def render(
         self,
         draw_list: NativeDrawList,

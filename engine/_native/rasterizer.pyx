@@ -253,6 +253,13 @@ cdef class NativeRenderer:
         if self.handle != NULL:
             e3d_renderer_destroy(self.handle)
 
+    def prepare(self, int width, int height):
+        """Have memory ready that frames of so many samples may need."""
+        cdef e3d_status status
+        with nogil:
+            status = e3d_renderer_prepare(self.handle, width, height)
+        check(status)
+
     def render(
         self,
         NativeDrawList draw_list not None,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from kernels import layouts
 from kernels.arithmetic import greatest, least
-from kernels.harness import Records, all_backends, bits, every_count, hostile
+from kernels.harness import POISON, Records, all_backends, bits, every_count, hostile
 from kernels.layouts import (
     CLUSTER_TRIANGLES,
     CLUSTER_VERTICES,
@@ -177,8 +177,8 @@ def expectation(c, viewport, told, cull, mirrored, order):
     return records, spans, keep
 
 
-def check_rows(got, expected, keep):
-    """The expected rows in the triangles' order."""
+def check_rows(got, expected, keep, counts):
+    """The expected rows in the triangles' order; no vector is written behind the last one's."""
     made = keep.sum(axis=1)
     order = np.argsort(~keep, axis=1, kind="stable")
     listed = np.arange(CLUSTER_TRIANGLES) < made[:, None]
@@ -190,6 +190,9 @@ def check_rows(got, expected, keep):
             raise AssertionError(
                 f"{name}: {wrong.sum()} differ; {got[listed][at]}, not {expected[at]}"
             )
+    beyond = np.arange(CLUSTER_TRIANGLES) >= -(-counts[:, None] // PAD) * PAD
+    words = got.view(np.uint32).reshape(*got.shape, -1)
+    assert (words[beyond] == POISON).all(), "written beyond the end"
 
 
 # ---- tests ----
@@ -240,7 +243,7 @@ def test_record(kernels, kind, seed):
     assert kind != "tiny" or (covers[1:] > 0).all()  # each comes up
     assert kind != "steps" or covers[15] > 0
     assert np.array_equal(made, keep.sum(axis=1))
-    check_rows(out.fields["rows"], records, keep)
-    check_rows(spans.fields["rows"], tiles, keep)
+    check_rows(out.fields["rows"], records, keep, counts)
+    check_rows(spans.fields["rows"], tiles, keep, counts)
     out.check_gaps()
     spans.check_gaps()

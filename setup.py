@@ -6,12 +6,17 @@ Out: static libraries, one for each instruction set; engine3d._native.*, each ex
 
 Every backend must give the same bytes, hence these rules. The flags below come after the user's
 CFLAGS. The baseline is plain x86-64, so that only the ISA files hold code that an old CPU lacks.
-Every file of csrc/ is a dependency of every object: an edited .inl rebuilds what includes it.
+A file is compiled again when its command has changed or a file that it includes, which the compiler
+lists beside the object.
 ENGINE3D_BUILD=release|debug|profile|asan|tsan chooses the kind of build, each in its own folder.
 Everything that is not a rule of the build (name, version, dependencies) is in pyproject.toml.
 """
 
+import json
 import os
+import shlex
+import subprocess
+import sys
 import sysconfig
 import zlib
 from concurrent.futures import ThreadPoolExecutor
@@ -29,6 +34,8 @@ BUILDS = {
     "asan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
     "tsan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
 }
+# What Cython writes checks arguments and calls the core: more optimisation than this gains nothing.
+GATEWAY_FLAGS = {"release": ["-O1"], "profile": ["-O1"]}
 SANITIZERS = {
     "asan": ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     "tsan": ["-fsanitize=thread"],
@@ -52,6 +59,11 @@ HYGIENE = [
     "-fno-lto",
     "-pthread",
 ]
+# Outside the kernels, where files and callers' arrays are read.
+HARDENING = ["-fstack-protector-strong", "-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=2"]
+LINK_FLAGS = ["-pthread", "-Wl,-z,relro,-z,now"]
+# The kernels called one by one, for tests and benchmarks: built in place only, or on request.
+TESTING_MODULE = "engine3d._native.kernels_testing"
 
 BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
 IS_X86_64 = sysconfig.get_platform().endswith(("x86_64", "amd64"))
@@ -61,11 +73,16 @@ DATA_SUFFIXES = ["obj", "mtl", "tga", "png", "jpg", "asc", "json", "txt", "md"]
 
 
 def common_flags():
-    """The flags of every C file, whichever library or extension it belongs to."""
+    """The flags of every C file, the kernels too."""
     if BUILD not in BUILDS:
         raise SystemExit(f"ENGINE3D_BUILD={BUILD}: expected one of {', '.join(BUILDS)}")
     baseline = ["-march=x86-64", "-mtune=generic"] if IS_X86_64 else []
     return [*baseline, *BUILDS[BUILD], *EXACT, *HYGIENE, *SANITIZERS.get(BUILD, [])]
+
+
+def hardened_flags():
+    """The flags of what isn't a kernel; sanitizers watch the same and more by themselves."""
+    return [*common_flags(), *([] if BUILD in SANITIZERS else HARDENING)]
 
 
 def build_base():
@@ -75,15 +92,11 @@ def build_base():
     return f"build/{BUILD}{suffix}"
 
 
-def c_dependencies():
-    """Every file of csrc/, and this file, whose flags the objects depend on."""
-    return ["setup.py", *sorted(str(path) for path in Path("csrc").rglob("*") if path.is_file())]
-
-
 def static_libraries():
     """The (name, build_info) pairs that `build_clib` compiles; the ISA files only on x86-64."""
     sources = {
         "e3d_core": ["csrc/core/*.c", "csrc/pipeline/*.c", "csrc/kernels/dispatch.c"],
+        "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/*.c"],
         "e3d_canvas": ["csrc/canvas/*.c"],
         "e3d_images": ["csrc/images/*.c"],
@@ -92,22 +105,22 @@ def static_libraries():
         "e3d_loaders": ["csrc/loaders/*.c"],
         "e3d_writers": ["csrc/writers/*.c"],
     }
-    sources["e3d_core"].append("csrc/kernels/isa_portable.c")
-    isa_flags = {}
+    kernel_flags = {"e3d_portable": []}
     if IS_X86_64:
         sources.update({f"e3d_{isa}": [f"csrc/kernels/isa_{isa}.c"] for isa in ISA_FLAGS})
-        isa_flags = {f"e3d_{isa}": flags for isa, flags in ISA_FLAGS.items()}
+        kernel_flags.update({f"e3d_{isa}": flags for isa, flags in ISA_FLAGS.items()})
     libraries = []
     for name, patterns in sources.items():
         files = sorted(str(path) for pattern in patterns for path in Path().glob(pattern))
         if not files:
             continue
+        is_kernel = name in kernel_flags
+        flags = [*common_flags(), *kernel_flags[name]] if is_kernel else hardened_flags()
         build_info = {
             "sources": files,
             "include_dirs": INCLUDE_DIRS,
             "macros": [("E3D_HAVE_X86", "1")] if IS_X86_64 else [],
-            "obj_deps": {"": c_dependencies()},
-            "cflags": [*WARNINGS, *common_flags(), *isa_flags.get(name, [])],
+            "cflags": [*WARNINGS, *flags],
         }
         libraries.append((name, build_info))
     return libraries
@@ -122,9 +135,8 @@ def extensions():
             include_dirs=INCLUDE_DIRS,
             # build_ext lists the static libraries once more after these, so their order is free.
             libraries=[*(name for name, _ in static_libraries()), "m"],
-            extra_compile_args=common_flags(),
-            extra_link_args=["-pthread", *SANITIZERS.get(BUILD, [])],
-            depends=c_dependencies(),
+            extra_compile_args=[*hardened_flags(), *GATEWAY_FLAGS.get(BUILD, [])],
+            extra_link_args=[*LINK_FLAGS, *SANITIZERS.get(BUILD, [])],
         )
         for path in sorted(Path("engine/_native").glob("*.pyx"))
     ]
@@ -143,6 +155,11 @@ class Build(build):
         super().initialize_options()
         self.build_base = build_base()
 
+    def finalize_options(self):
+        # An editable install would have its objects in a folder that is thrown away.
+        self.build_temp = os.path.join(self.build_base, f"objects-{sys.implementation.cache_tag}")
+        super().finalize_options()
+
     def run(self):
         super().run()
         # A wheel takes the whole folder, with what an earlier build left there.
@@ -157,65 +174,147 @@ class BuildStaticLibraries(build_clib):
     """Compiles only the files that are out of date, in parallel."""
 
     def build_libraries(self, libraries):
-        with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-            jobs = [
-                pool.submit(self.compile_one, source, build_info)
-                for _, build_info in libraries
-                for source in build_info["sources"]
-            ]
-            for job in jobs:
-                job.result()
+        jobs = [(source, info) for _, info in libraries for source in info["sources"]]
+        run_in_parallel(self.compile_one, sorted(jobs, key=lambda job: "kernels" not in job[0]))
         for name, build_info in libraries:
             self.archive(name, build_info["sources"])
 
     def compile_one(self, source, build_info):
-        (target,) = self.compiler.object_filenames([source], output_dir=self.build_temp)
-        if not self.force and is_newer(target, [source, *build_info["obj_deps"][""]]):
-            return
-        Path(target).parent.mkdir(parents=True, exist_ok=True)
-        self.compiler.compile(
-            [source],
-            output_dir=self.build_temp,
+        compile_changed(
+            self.compiler,
+            source,
+            self.build_temp,
             macros=build_info["macros"],
             include_dirs=build_info["include_dirs"],
-            extra_postargs=build_info["cflags"],
+            flags=build_info["cflags"],
         )
 
     def archive(self, name, sources):
         # ar adds to an archive that exists: one made anew holds no object of a file since deleted.
-        archive = self.compiler.library_filename(name, output_dir=self.build_clib)
-        Path(archive).unlink(missing_ok=True)
+        archive = Path(self.compiler.library_filename(name, output_dir=self.build_clib))
         objects = self.compiler.object_filenames(sources, output_dir=self.build_temp)
-        self.compiler.create_static_lib(objects, name, output_dir=self.build_clib)
+        if not is_current(archive, objects, objects):
+            archive.unlink(missing_ok=True)
+            self.compiler.create_static_lib(objects, name, output_dir=self.build_clib)
+            note_command(archive, objects)
 
 
 class BuildExtensions(build_ext):
-    """Translates the .pyx files, and builds the static libraries first also when run by itself."""
+    """Translates the .pyx files that are out of date, compiles and links them, in parallel."""
 
     def finalize_options(self):
-        from Cython.Build import cythonize
-
-        if self.distribution.ext_modules:
-            self.distribution.ext_modules = cythonize(
-                self.distribution.ext_modules,
-                include_path=["csrc/pxd"],
-                build_dir="build/cython",
-                compiler_directives={"language_level": "3", "embedsignature": True},
-            )
         super().finalize_options()
-        self.parallel = self.parallel or len(os.sched_getaffinity(0))
+        # build_ext would compile an extension after the other, and translate .pyx files itself.
+        self.parallel = False
+        if not (self.inplace or os.environ.get("ENGINE3D_TESTING")):
+            self.extensions = [e for e in self.extensions if e.name != TESTING_MODULE]
 
     def run(self):
         self.run_command("build_clib")
         super().run()
 
+    def build_extensions(self):
+        jobs = sorted(self.extensions, key=lambda e: -os.path.getsize(e.sources[0]))
+        run_in_parallel(self.make_object, [(extension,) for extension in jobs])
+        super().build_extensions()
 
-def is_newer(target, sources):
-    """Whether the file `target` exists and none of the `sources` was changed after it."""
-    if not os.path.exists(target):
+    def make_object(self, extension):
+        """Leave `extension` without sources, but with the object to link."""
+        (source,) = extension.sources
+        translated = translate_changed(extension.name, source, Path(self.build_temp) / source)
+        target = compile_changed(
+            self.compiler,
+            str(translated),
+            "",
+            macros=extension.define_macros,
+            include_dirs=[*extension.include_dirs, *self.include_dirs],
+            flags=extension.extra_compile_args,
+        )
+        extension.sources = []
+        extension.extra_objects = [target]
+
+    def build_extension(self, extension):
+        library = self.get_finalized_command("build_clib")
+        archives = [
+            library.compiler.library_filename(name, output_dir=library.build_clib)
+            for name, _ in self.distribution.libraries
+        ]
+        module = self.get_ext_fullpath(extension.name)
+        # The linker is called where an object is newer than the module, or there is no module.
+        if not is_newer(module, [*extension.extra_objects, *archives, "setup.py"]):
+            Path(module).unlink(missing_ok=True)
+        super().build_extension(extension)
+
+
+def run_in_parallel(function, jobs):
+    """Call `function(*job)` for each job, on all processors; raise what one of them raises."""
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        for done in [pool.submit(function, *job) for job in jobs]:
+            done.result()
+
+
+def translate_changed(name, source, target):
+    """Translate `source`, the .pyx file of module `name`, unless it was; return the C file."""
+    import Cython
+
+    target = target.with_suffix(".c")
+    command = [sys.executable, "-m", "cython", "-3", "-X", "embedsignature=True", "--depfile"]
+    command += ["-I", "csrc/pxd", "--module-name", name, source, "-o", str(target)]
+    # A build in isolation has a Cython of its own each time, so its version stands for its files.
+    noted = [Cython.__version__, *command[1:]]
+    needs = [path for path in prerequisites(f"{target}.dep") if not path.startswith("..")]
+    if not is_current(target, needs, noted):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        subprocess.run(command, check=True)
+        note_command(target, noted)
+    return target
+
+
+def compile_changed(compiler, source, folder, *, macros, include_dirs, flags):
+    """Compile the C file `source`, unless it was; return the path of the object."""
+    (target,) = compiler.object_filenames([source], output_dir=folder)
+    flags = [*flags, "-MMD", "-MF", f"{target}.dep"]
+    command = [*compiler.compiler_so, *map(str, macros), *include_dirs, *flags]
+    if not is_current(target, prerequisites(f"{target}.dep"), command):
+        Path(target).parent.mkdir(parents=True, exist_ok=True)
+        compiler.compile(
+            [source],
+            output_dir=folder,
+            macros=macros,
+            include_dirs=include_dirs,
+            extra_postargs=flags,
+        )
+        note_command(target, command)
+    return target
+
+
+def prerequisites(rule):
+    """The files that a rule for make, as compilers write them, names; none if it isn't there."""
+    if not os.path.exists(rule):
+        return []
+    text = Path(rule).read_text("utf-8").replace("\\\n", " ")
+    return shlex.split(text.partition(": ")[2])
+
+
+def is_newer(target, needs):
+    """Whether the file `target` is there, and nothing that `needs` names was changed after it."""
+    try:
+        made = os.path.getmtime(target)
+        return all(os.path.getmtime(path) <= made for path in needs)
+    except FileNotFoundError:
         return False
-    made = os.path.getmtime(target)
-    return all(os.path.getmtime(source) <= made for source in sources)
+
+
+def is_current(target, needs, command):
+    """Whether `target` was made by `command` from what `needs` names, unchanged since."""
+    noted = Path(f"{target}.command")
+    made_so = noted.exists() and noted.read_text("utf-8") == json.dumps(command)
+    return made_so and is_newer(target, needs)
+
+
+def note_command(target, command):
+    """Note beside `target` how it was made, for `is_current`."""
+    Path(f"{target}.command").write_text(json.dumps(command), "utf-8")
 
 
 if __name__ == "__main__":
@@ -228,6 +327,7 @@ if __name__ == "__main__":
             "engine3d.data": [f"**/*.{suffix}" for suffix in DATA_SUFFIXES],
         },
         include_package_data=False,
+        exclude_package_data={"engine3d._native": ["kernels_testing.pyi"]},
         libraries=static_libraries(),
         ext_modules=extensions(),
         cmdclass={

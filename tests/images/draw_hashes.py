@@ -19,10 +19,10 @@ def main():
     from images.picture import digests
     from images.scenes import SCENES
 
-    from engine3d._native import kernels_testing
-
     pictures = {name: SCENES[name]() for name in names}
     if flush:
+        from engine3d._native import kernels_testing
+
         control = kernels_testing.float_control() | kernels_testing.FLUSH_DENORMALS
         kernels_testing.set_float_control(control)
     drawn = {name: digests(made.draw(backend, int(threads))) for name, made in pictures.items()}

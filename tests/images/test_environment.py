@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from images.picture import digests
 from images.scenes import SCENES
+from kernels.layouts import kernels_testing
 
 import engine3d as e3d
-from engine3d._native import kernels_testing
 
 PROGRAM = Path(__file__).with_name("draw_hashes.py")
 PICTURES = [

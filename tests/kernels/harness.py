@@ -7,9 +7,9 @@ anything, and everything else must still be poison.
 
 import numpy as np
 import pytest
-from kernels.layouts import PAD
+from kernels.layouts import PAD, kernels_testing
 
-from engine3d._native import kernels_testing, rasterizer
+from engine3d._native import rasterizer
 
 POISON = 0xDEADBEEF
 GAP = 128  # bytes of poison around each record

@@ -1,8 +1,11 @@
 """The C structs of csrc/kernels/kernels.h as NumPy record types, field by field."""
 
 import numpy as np
+import pytest
 
-from engine3d._native import kernels_testing
+kernels_testing = pytest.importorskip(
+    "engine3d._native.kernels_testing", reason='it is built in place only: pip install -e ".[test]"'
+)
 
 PAD = kernels_testing.LIMITS["PAD"]
 TILE = kernels_testing.LIMITS["TILE"]

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from kernels.layouts import kernels_testing
 
-from engine3d._native.kernels_testing import clusters_of
 from engine3d._native.rasterizer import bound_points
 
 THREADS = (1, 2, 3, 8)
@@ -79,7 +79,7 @@ MESHES = (
 @pytest.fixture(scope="module", params=(*MESHES, "clip"))
 def built(request):
     positions, faces = make(request.param)
-    return request.param, positions, faces, *clusters_of(positions, faces, 1)
+    return request.param, positions, faces, *kernels_testing.clusters_of(positions, faces, 1)
 
 
 def corners_of(cluster, components):
@@ -172,7 +172,7 @@ def test_cones_hold_all_normals(built):
 def test_threads_change_nothing(built):
     _, positions, faces, *parts = built
     for threads in THREADS[1:]:
-        assert repr(clusters_of(positions, faces, threads)) == repr(tuple(parts))
+        assert repr(kernels_testing.clusters_of(positions, faces, threads)) == repr(tuple(parts))
 
 
 @pytest.mark.parametrize("name", ["grid", "outlier"])
@@ -182,7 +182,9 @@ def test_neighbours_come_together(name):
     So it does where one face lies a million times farther out than the others are apart.
     """
     positions, faces = make(name)
-    boxes = np.array([cluster[5] for cluster in clusters_of(positions, faces, 2)[1]])
+    boxes = np.array(
+        [cluster[5] for cluster in kernels_testing.clusters_of(positions, faces, 2)[1]]
+    )
     sides = np.sort(boxes[:, 3:] - boxes[:, :3], axis=1)
     assert np.median(sides[:, 2]) < 0.1 * 180
 
@@ -191,7 +193,7 @@ def test_negative_and_too_large_indices_are_refused():
     positions = np.zeros((3, 3), np.float32)
     for index in (-1, 3, -(2**31), 2**31 - 1):
         with pytest.raises(ValueError, match="not valid"):
-            clusters_of(positions, np.array([(0, 1, index)], np.int32), 1)
+            kernels_testing.clusters_of(positions, np.array([(0, 1, index)], np.int32), 1)
 
 
 @pytest.mark.parametrize("count", [0, 1, 127, 128, 129, 1000])

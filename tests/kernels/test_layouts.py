@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from kernels import layouts
-
-from engine3d._native import kernels_testing
+from kernels.layouts import kernels_testing
 
 
 @pytest.mark.parametrize("name", layouts.STRUCTS)

@@ -63,17 +63,70 @@ def build(run_python, tiny_tree):
     return build_in_place
 
 
-def test_edited_include_is_rebuilt(build, tiny_tree):
+def made_at(tree):
+    """When each object, library, module and translated file of a build was made."""
+    paths = [path for kind in ("o", "a", "c", "so") for path in tree.glob(f"build/**/*.{kind}")]
+    return {
+        "/".join(path.parts[-2:]).split(".cpython")[0]: path.stat().st_mtime_ns for path in paths
+    }
+
+
+def test_edited_include_rebuilds_what_includes_it(build, tiny_tree):
     assert build() == 42
+    before = made_at(tiny_tree)
     (tiny_tree / "csrc/kernels/number.inl").write_text("#define NUMBER 43\n", "utf-8")
     assert build() == 43
+    after = made_at(tiny_tree)
+    rebuilt = {name.partition("/")[2] for name in after if after[name] != before[name]}
+    assert rebuilt == {"number.o", "libe3d_core.a", "number"}
+    assert after["_native/number.o"] == before["_native/number.o"]
 
 
 def test_unchanged_files_are_not_rebuilt(build, tiny_tree):
     build()
-    made = {path: path.stat().st_mtime_ns for path in tiny_tree.glob("build/**/*.o")}
+    before = made_at(tiny_tree)
+    assert {"kernels/isa_avx2.o", "_native/number.c"} <= before.keys()
     build()
-    assert made == {path: path.stat().st_mtime_ns for path in tiny_tree.glob("build/**/*.o")}
+    assert made_at(tiny_tree) == before
+
+
+def test_edited_gateway_is_translated_again(build, tiny_tree):
+    assert build() == 42
+    (tiny_tree / "engine/_native/number.pyx").write_text(f"{GATEWAY.rstrip()} + 1\n", "utf-8")
+    assert build() == 43
+
+
+def test_other_flags_rebuild(build, tiny_tree):
+    """The kind of build stays, so the objects lie where those of before lay."""
+    build()
+    before = made_at(tiny_tree)
+    rules = tiny_tree / "setup.py"
+    rules.write_text(rules.read_text("utf-8").replace('"-O3", "-g0"', '"-O2", "-g0"'), "utf-8")
+    build()
+    assert made_at(tiny_tree)["kernels/isa_avx2.o"] != before["kernels/isa_avx2.o"]
+
+
+def test_editable_install_keeps_its_objects(run_python, tiny_tree):
+    def install():
+        # What pip calls for `pip install -e .`.
+        code = "from setuptools.build_meta import build_editable; build_editable('dist')"
+        run_python("-c", code, cwd=tiny_tree)
+        return made_at(tiny_tree)
+
+    before = install()
+    assert "kernels/isa_avx2.o" in before
+    assert install() == before
+
+
+def test_only_builds_in_place_hold_what_calls_single_kernels(run_python, tiny_tree):
+    native = tiny_tree / "engine/_native"
+    (native / "kernels_testing.pyx").write_text(GATEWAY, "utf-8")
+    run_python("setup.py", "-q", "build", cwd=tiny_tree)
+    assert not [*tiny_tree.glob("build/**/kernels_testing*")]
+    run_python("setup.py", "-q", "build", cwd=tiny_tree, ENGINE3D_TESTING="1")
+    assert [*tiny_tree.glob("build/**/kernels_testing*.so")]
+    run_python("setup.py", "-q", "build_ext", "--inplace", cwd=tiny_tree)
+    assert [*native.glob("kernels_testing*.so")]
 
 
 def test_deleted_modules_leave_the_build_folder(run_python, tiny_tree):

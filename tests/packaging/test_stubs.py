@@ -11,6 +11,8 @@ import pytest
 import engine3d as e3d
 
 NATIVE = Path(__file__).resolve().parents[2] / "engine" / "_native"
+# What calls single kernels is built in place only, for tests and benchmarks.
+TESTING = "kernels_testing"
 MODULES = sorted(path.stem for path in NATIVE.glob("*.pyx"))
 
 
@@ -46,6 +48,8 @@ def test_marker_for_type_checkers():
 def test_stub_matches_module(name):
     stub = NATIVE / f"{name}.pyi"
     assert stub.is_file(), f"{name}.pyx has no stub"
+    if name == TESTING:
+        pytest.importorskip(f"engine3d._native.{name}", reason="it is built in place only")
     module = importlib.import_module(f"engine3d._native.{name}")
     assert declared_names(stub.read_text("utf-8")) == defined_names(module)
 

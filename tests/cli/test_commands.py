@@ -11,6 +11,7 @@ import time
 
 import numpy as np
 import pytest
+from patience import HUNG
 from PIL import Image
 
 import engine3d as e3d
@@ -539,7 +540,7 @@ def test_ctrl_c_is_quiet_and_leaves_no_file(model, tmp_path):
     assert b"loaded" in process.stderr.readline()
     time.sleep(0.5)
     os.kill(process.pid, signal.SIGINT)
-    out, err = process.communicate(timeout=20)
+    out, err = process.communicate(timeout=HUNG)
     assert process.returncode == 130
     assert out == b""
     assert all(b"] frame " in line for line in err.splitlines())

@@ -10,6 +10,7 @@ import time
 
 import numpy as np
 import pytest
+from patience import HUNG
 from PIL import Image, ImageGrab, features
 
 from engine3d.display.viewer import MESSAGE_SECONDS
@@ -24,7 +25,6 @@ pytestmark = [
 
 SCREEN = (800, 600)
 WINDOW = (400, 300)
-PATIENCE = 20.0
 CUBE = "\n".join(
     [
         *(f"v {x} {y} {z}" for z in (0, 1) for y in (0, 1) for x in (0, 1)),
@@ -66,7 +66,7 @@ class Desktop:
 
     def find_window(self):
         """Wait for the viewer's window; return its number."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + HUNG
         while time.monotonic() < end and self.process.poll() is None:
             found = self.do("search", "--onlyvisible", "--class", "engine3d", check=False)
             if found:
@@ -78,7 +78,7 @@ class Desktop:
         """Run xdotool; return what it prints."""
         command = ["xdotool", *map(str, arguments)]
         done = subprocess.run(
-            command, env=self.environment, capture_output=True, text=True, check=check, timeout=30
+            command, env=self.environment, capture_output=True, text=True, check=check, timeout=HUNG
         )
         return done.stdout
 
@@ -88,7 +88,7 @@ class Desktop:
 
     def settle(self):
         """Wait until the screen stands still; return it."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + HUNG
         before = self.look()
         while time.monotonic() < end:
             time.sleep(0.3)
@@ -105,7 +105,7 @@ class Desktop:
 
     def wait_for_change(self, before):
         """Wait until the screen shows something else than ``before``; return it."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + HUNG
         while time.monotonic() < end:
             now = self.look()
             if (now != before).any():
@@ -130,7 +130,7 @@ class Desktop:
 
     def finish(self):
         """Return the exit status and what was printed, once the viewer has ended."""
-        out, err = self.process.communicate(timeout=PATIENCE)
+        out, err = self.process.communicate(timeout=HUNG)
         return self.process.returncode, out + err
 
 

@@ -16,6 +16,7 @@ import pytest
 from images.picture import digests
 from images.scenes import SCENES
 from kernels.layouts import kernels_testing
+from patience import HUNG
 
 import engine3d as e3d
 
@@ -71,7 +72,7 @@ def draw_elsewhere(arguments, changes):
     """The hashes of PICTURES by another process."""
     command = [sys.executable, str(PROGRAM), *arguments, *PICTURES]
     done = subprocess.run(
-        command, env={**os.environ, **changes}, capture_output=True, text=True, timeout=120
+        command, env={**os.environ, **changes}, capture_output=True, text=True, timeout=HUNG
     )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)

@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from patience import HUNG
 
 import engine3d as e3d
 
@@ -61,13 +62,12 @@ def test_drawing_releases_the_gil(scene):
     renderer = e3d.Renderer(1920, 1080, threads=1, backend="scalar")
     counter.start()
     before = counted
-    start = time.perf_counter()
     renderer.render(scene)
-    seconds = time.perf_counter() - start
     during = counted - before
     drawing = False
     counter.join()
-    assert during > 0.1 * seconds / 0.001
+    # A frame that kept the interpreter's lock would let it count once or twice.
+    assert during > 20
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
@@ -79,7 +79,7 @@ def test_a_fork_draws_the_same(scene):
     if child == 0:
         same = False
         try:
-            signal.alarm(30)
+            signal.alarm(HUNG)
             same = renderer.render(scene).color.tobytes() == expected
             same = same and e3d.render(scene, size=SIZE, threads=2).color.tobytes() == expected
         finally:
@@ -92,7 +92,7 @@ def test_a_fork_draws_the_same(scene):
 @pytest.mark.parametrize("threads", [1, 2])
 def test_ctrl_c_stops_a_long_frame(threads):
     scene = e3d.Scene()
-    # The whole frame takes a minute.
+    # The whole frame takes a minute of processor time.
     poses = np.zeros((800, 4))
     poses[:, 3] = 1 + np.arange(800) * 1e-4
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.5, (64, 32)), poses))
@@ -100,10 +100,10 @@ def test_ctrl_c_stops_a_long_frame(threads):
     renderer = e3d.Renderer(4096, 4096, threads=threads, samples=4, backend="portable")
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(KeyboardInterrupt):
         renderer.render(scene, camera, hidden_surfaces="painter")
-    assert time.perf_counter() - start < 8
+    assert time.process_time() - start < 10
     timer.join()
     renderer.resize(8, 8)
     assert renderer.render(e3d.Scene()).color.shape == (8, 8, 4)

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from patience import HUNG
 
 from engine3d.benchmarking import line_chart
 
@@ -17,7 +18,7 @@ BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 def report(name, *arguments):
     """The JSON object that a benchmark prints."""
     command = [sys.executable, str(BENCHMARKS / name), "--json", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=HUNG)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
@@ -183,7 +184,7 @@ def test_the_exit_status_tells_of_a_regression(tmp_path, stored, status):
     baseline.write_text(json.dumps({"ratios": {name: {"ratio": stored, "margin": 0.4}}}))
     arguments = ["--baseline", str(baseline), "--only", name, "--seconds", "0.01", "--json"]
     command = [sys.executable, str(BENCHMARKS / "compare.py"), *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=HUNG)
     assert done.returncode == status, done.stderr
     assert json.loads(done.stdout)["slower"] == [name] * status
 

@@ -8,6 +8,7 @@ import weakref
 
 import numpy as np
 import pytest
+from patience import HUNG
 
 import engine3d as e3d
 from engine3d.changes import Watch
@@ -282,5 +283,5 @@ assert watch.changed() == [things[2]]
 def test_a_forked_process_misses_nothing():
     """The one that forks is a process of its own: this one may have threads by now."""
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-    done = subprocess.run([sys.executable, "-c", FORK], env=environment, timeout=60)
+    done = subprocess.run([sys.executable, "-c", FORK], env=environment, timeout=HUNG)
     assert done.returncode == 0

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from patience import HUNG
 from PIL import Image
 
 import engine3d as e3d
@@ -91,7 +92,7 @@ def test_scripts_reproduce_the_files(tmp_path):
     if not SCRIPTS.is_dir():
         pytest.skip("the scripts are in the source tree only")
     command = [sys.executable, str(SCRIPTS / "make.py"), "--output", str(tmp_path), *REMADE]
-    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    subprocess.run(command, check=True, capture_output=True, timeout=HUNG)
     for name in REMADE:
         made, kept = tmp_path / name, SCRIPTS.parent / "models" / name
         if name.endswith(".tga"):  # another Pillow might compress otherwise

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from patience import HUNG
 
 PROGRAM = """
 import hashlib
@@ -35,7 +36,7 @@ def run(environment):
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=HUNG,
     )
 
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from patience import HUNG
 
 import engine3d as e3d
 from engine3d.benchmarking import bar_chart
@@ -204,7 +205,7 @@ def test_a_signal_in_the_middle(tmp_path, name, number):
         [sys.executable, "-c", STOPPED, str(int(number)), *COMMANDS[name]],
         cwd=tmp_path,
         capture_output=True,
-        timeout=60,
+        timeout=HUNG,
     )
     after = contents(tmp_path)
     if number == signal.SIGKILL:
@@ -227,7 +228,7 @@ def test_standard_output_on_a_full_disk(tmp_path, arguments):
             cwd=tmp_path,
             stdout=full,
             stderr=subprocess.PIPE,
-            timeout=60,
+            timeout=HUNG,
         )
     assert done.returncode == 1
     assert done.stderr.decode() == f"engine3d: error: {os.strerror(errno.ENOSPC)}\n"

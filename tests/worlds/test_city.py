@@ -47,7 +47,8 @@ def test_bytes(triangles, seed):
 
 def test_bytes_do_not_depend_on_instruction_sets():
     program = (
-        "import sys; sys.path.insert(0, sys.argv[1]); import engine3d as e3d, worlds.test_city as t;"
+        "import sys; sys.path.insert(0, sys.argv[1]); import engine3d as e3d; from worlds import"
+        " test_city as t; "
         "print(t.digest(e3d.city(100_000)))"
     )
     old = {

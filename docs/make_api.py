@@ -78,7 +78,7 @@ CHAPTERS = {
 MODULES = ("linalg", "loaders")
 #: Classes that a user never makes: they come without a constructor.
 MADE_BY_OTHERS = ("Node", "Frame", "RasterizeResult", "World")
-PLAIN_NAMES = ("__version__", "errors", "primitives")
+PLAIN_NAMES = ("__version__", "choices", "errors", "primitives")
 
 
 def page() -> str:

@@ -79,7 +79,7 @@ _PUBLIC = {
     "rasterize": "rasterization",
     "backends": "backend_selection",
 }
-_MODULES = ("errors", "linalg", "loaders", "primitives")
+_MODULES = ("choices", "errors", "linalg", "loaders", "primitives")
 
 __all__ = ["__version__", *_PUBLIC, *_MODULES]
 
@@ -97,4 +97,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted({*globals(), *__all__})
+    return sorted(__all__)  # not the modules behind them, which are imported as they are used

@@ -1,5 +1,6 @@
 """The public names of engine3d, for type checkers; `__init__.py` imports them on first use."""
 
+from . import choices as choices
 from . import errors as errors
 from . import linalg as linalg
 from . import loaders as loaders

@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import linalg
 from .attributes import Closed, finite, vector3
@@ -45,7 +46,7 @@ class Animator(Closed):
     time: float
     paused: bool
 
-    def __init__(self, scene, *, full_rate_distance: float = math.inf) -> None:
+    def __init__(self, scene: Scene, *, full_rate_distance: float = math.inf) -> None:
         if not isinstance(scene, Scene):
             raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
         if not full_rate_distance > 0:
@@ -60,7 +61,12 @@ class Animator(Closed):
         self._batch: _Spins | None = None
 
     def spin(
-        self, nodes: Node | Iterable[Node], *, period: float, axis=(0, 1, 0), phase: float = 0.0
+        self,
+        nodes: Node | Iterable[Node],
+        *,
+        period: float,
+        axis: ArrayLike = (0, 1, 0),
+        phase: float = 0.0,
     ) -> None:
         """Let nodes turn at a constant rate, from the rotations that they have now.
 
@@ -87,7 +93,14 @@ class Animator(Closed):
         self._batch = None
 
     def track(
-        self, node: Node, times, *, translations=None, rotations=None, scales=None, repeat=True
+        self,
+        node: Node,
+        times: ArrayLike,
+        *,
+        translations: ArrayLike | None = None,
+        rotations: ArrayLike | None = None,
+        scales: ArrayLike | None = None,
+        repeat: bool = True,
     ) -> None:
         """Let a node follow keyframes.
 
@@ -115,7 +128,7 @@ class Animator(Closed):
         self.time = finite(time, "time")
         self._move(None)
 
-    def advance(self, seconds: float, eye=None) -> None:
+    def advance(self, seconds: float, eye: ArrayLike | None = None) -> None:
         """Let time go on, unless paused.
 
         Parameters

@@ -11,12 +11,17 @@ import functools
 import math
 import numbers
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .changes import tell
+from .choices import Color, ColorLike
 from .errors import InvalidArgumentError
+
+Given = TypeVar("Given")
+Kept = TypeVar("Kept")
 
 
 class Closed:
@@ -40,7 +45,7 @@ def _declared(kind: type) -> frozenset[str]:
     return frozenset().union(*(getattr(base, "__annotations__", {}) for base in kind.__mro__))
 
 
-class CheckedAttribute:
+class CheckedAttribute(Generic[Given, Kept]):
     """A data descriptor: ``check(value, name)`` returns what to keep, or raises.
 
     Parameters
@@ -50,12 +55,18 @@ class CheckedAttribute:
         What ``help`` shows.
     """
 
-    def __init__(self, check: Callable, doc: str = "") -> None:
+    def __init__(self, check: Callable[[Given, str], Kept], doc: str = "") -> None:
         self._check = check
         self.__doc__ = doc
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
+
+    @overload
+    def __get__(self, owner: None, owner_type: type | None = None) -> CheckedAttribute: ...
+
+    @overload
+    def __get__(self, owner: object, owner_type: type | None = None) -> Kept: ...
 
     def __get__(self, owner, owner_type=None):
         if owner is None:
@@ -66,16 +77,22 @@ class CheckedAttribute:
             kind = type(owner).__name__
             raise AttributeError(f"{kind!r} object has no attribute {self._name!r}") from None
 
-    def __set__(self, owner, value) -> None:
+    def __set__(self, owner: object, value: Given) -> None:
         owner.__dict__[self._name] = self._check(value, self._name)
         owner.__dict__["version"] = owner.__dict__.get("version", 0) + 1
         tell(owner)
 
 
-def one_of(allowed) -> Callable:
+NumberAttribute: TypeAlias = CheckedAttribute[float, float]
+OptionalNumberAttribute: TypeAlias = CheckedAttribute[float | None, float | None]
+VectorAttribute: TypeAlias = CheckedAttribute[ArrayLike, NDArray[np.float64]]
+ColorAttribute: TypeAlias = CheckedAttribute[ColorLike, Color]
+
+
+def one_of(allowed: tuple[Kept, ...]) -> Callable[[Kept, str], Kept]:
     """Return a check that a value is one of a few."""
 
-    def check(value, what: str):
+    def check(value: Kept, what: str) -> Kept:
         return choose(value, allowed, what)
 
     return check
@@ -92,50 +109,50 @@ def choose(value, allowed, what: str):
     raise InvalidArgumentError(f"{what} must be one of {choices}, not {value!r}")
 
 
-def finite(value, what: str) -> float:
+def finite(value: float, what: str) -> float:
     """Check a finite number."""
     if not isinstance(value, numbers.Real) or not math.isfinite(value):
         raise InvalidArgumentError(f"{what} must be a finite number, not {value!r}")
     return float(value)
 
 
-def positive(value, what: str) -> float:
+def positive(value: float, what: str) -> float:
     """Check a finite number greater than 0."""
     if not isinstance(value, numbers.Real) or not 0 < value < math.inf:
         raise InvalidArgumentError(f"{what} must be a finite number greater than 0, not {value!r}")
     return float(value)
 
 
-def optional_positive(value, what: str) -> float | None:
+def optional_positive(value: float | None, what: str) -> float | None:
     """Check a finite number greater than 0, or None."""
     return None if value is None else positive(value, what)
 
 
-def not_negative(value, what: str) -> float:
+def not_negative(value: float, what: str) -> float:
     """Check a finite number that is 0 or greater."""
     if not isinstance(value, numbers.Real) or not 0 <= value < math.inf:
         raise InvalidArgumentError(f"{what} must be a finite number, 0 or greater, not {value!r}")
     return float(value)
 
 
-def how_far(value, what: str) -> float:
+def how_far(value: float, what: str) -> float:
     """Check a distance: a number that is 0 or greater, and may be infinite."""
     if not isinstance(value, numbers.Real) or not value >= 0:
         raise InvalidArgumentError(f"{what} must be a number, 0 or greater, not {value!r}")
     return float(value)
 
 
-def vector3(value, what: str) -> np.ndarray:
+def vector3(value: ArrayLike, what: str) -> NDArray[np.float64]:
     """Check three finite numbers; return them as a read-only float64 array."""
     return frozen_floats(value, what, (3,))
 
 
-def matrix4(value, what: str) -> np.ndarray:
+def matrix4(value: ArrayLike, what: str) -> NDArray[np.float64]:
     """Check a 4x4 matrix of finite numbers; return it as a read-only float64 array."""
     return frozen_floats(value, what, (4, 4))
 
 
-def frozen_floats(value, what: str, shape: tuple[int, ...]) -> np.ndarray:
+def frozen_floats(value: ArrayLike, what: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return a read-only float64 copy of ``value``, of one shape and finite."""
     try:
         array = np.array(value, np.float64, order="C")

@@ -11,12 +11,13 @@ import numbers
 import os
 
 from ._native import rasterizer as _native
+from .choices import Backend
 from .errors import BackendError, InvalidArgumentError
 
 _MAX_THREADS = 256
 
 
-def backends() -> list[str]:
+def backends() -> list[Backend]:
     """Return the backends that this machine can run, slowest first.
 
     ``"scalar"`` is the reference, one thread of obvious loops; ``"portable"`` runs on every
@@ -25,7 +26,7 @@ def backends() -> list[str]:
     return [name for name, number in _native.BACKENDS.items() if _native.backend_available(number)]
 
 
-def resolve_backend(backend: str = "auto") -> int:
+def resolve_backend(backend: Backend = "auto") -> int:
     """Return the core's number of a backend.
 
     Raises

@@ -12,19 +12,30 @@ import math
 import numbers
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
-from .attributes import CheckedAttribute, Closed, finite, matrix4, optional_positive, positive
+from .attributes import (
+    CheckedAttribute,
+    Closed,
+    NumberAttribute,
+    OptionalNumberAttribute,
+    VectorAttribute,
+    finite,
+    matrix4,
+    optional_positive,
+    positive,
+)
 from .errors import InvalidArgumentError
 
 
-def _angle(value, what: str) -> float:
+def _angle(value: float, what: str) -> float:
     if not isinstance(value, numbers.Real) or not 0.0 < value < math.pi:
         raise InvalidArgumentError(f"{what} must be between 0 and pi radians, not {value!r}")
     return float(value)
 
 
-def _far(value, what: str) -> float:
+def _far(value: float | None, what: str) -> float:
     """A far plane: a positive number, or infinity or None for none."""
     if value is None:
         return math.inf
@@ -59,14 +70,16 @@ class Camera(Closed):
     """
 
     version: int
-    matrix = CheckedAttribute(matrix4, "clip_from_view, (4, 4) float64, read-only.")
+    matrix: VectorAttribute = CheckedAttribute(
+        matrix4, "clip_from_view, (4, 4) float64, read-only."
+    )
     znear: float | None = None
     zfar: float | None = None
 
-    def __init__(self, projection) -> None:
+    def __init__(self, projection: ArrayLike) -> None:
         self.matrix = projection
 
-    def projection(self, width: int, height: int) -> np.ndarray:
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         return self.matrix
 
@@ -107,12 +120,12 @@ class PerspectiveCamera(Camera):
         self.aspect = aspect
         _check_range(self)
 
-    yfov = CheckedAttribute(_angle)
-    znear = CheckedAttribute(positive)
-    zfar = CheckedAttribute(_far)
-    aspect = CheckedAttribute(optional_positive)
+    yfov: NumberAttribute = CheckedAttribute(_angle)
+    znear: NumberAttribute = CheckedAttribute(positive)
+    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
+    aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
 
-    def projection(self, width: int, height: int) -> np.ndarray:
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         _check_range(self)
         aspect = width / height if self.aspect is None else self.aspect
@@ -152,12 +165,12 @@ class OrthographicCamera(Camera):
         self.znear, self.zfar = znear, zfar
         _check_range(self)
 
-    ymag = CheckedAttribute(positive)
-    xmag = CheckedAttribute(optional_positive)
-    znear = CheckedAttribute(finite)
-    zfar = CheckedAttribute(finite)
+    ymag: NumberAttribute = CheckedAttribute(positive)
+    xmag: OptionalNumberAttribute = CheckedAttribute(optional_positive)
+    znear: NumberAttribute = CheckedAttribute(finite)
+    zfar: NumberAttribute = CheckedAttribute(finite)
 
-    def projection(self, width: int, height: int) -> np.ndarray:
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         _check_range(self)
         xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
@@ -205,14 +218,14 @@ class IntrinsicsCamera(Camera):
         self.znear, self.zfar = znear, zfar
         _check_range(self)
 
-    fx = CheckedAttribute(positive)
-    fy = CheckedAttribute(positive)
-    cx = CheckedAttribute(finite)
-    cy = CheckedAttribute(finite)
-    znear = CheckedAttribute(positive)
-    zfar = CheckedAttribute(_far)
+    fx: NumberAttribute = CheckedAttribute(positive)
+    fy: NumberAttribute = CheckedAttribute(positive)
+    cx: NumberAttribute = CheckedAttribute(finite)
+    cy: NumberAttribute = CheckedAttribute(finite)
+    znear: NumberAttribute = CheckedAttribute(positive)
+    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
 
-    def projection(self, width: int, height: int) -> np.ndarray:
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         _check_range(self)
         # The depth rows are those of any perspective; only the pixel grid differs.

@@ -10,7 +10,7 @@ itself is C (csrc/canvas); docs/canvas.md gives its rules.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -62,7 +62,7 @@ class Canvas:
     @overload
     def __init__(self, pixels: NDArray[np.uint8], /) -> None: ...
 
-    def __init__(self, *args) -> None:
+    def __init__(self, *args: Any) -> None:
         self._pixels = _new_pixels(*args) if len(args) == 2 else _given_pixels(*args)
         try:
             self._surface = native.Surface(self._pixels)

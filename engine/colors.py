@@ -10,12 +10,14 @@ from __future__ import annotations
 import functools
 import math
 import numbers
+from typing import get_args
 
 import numpy as np
 
+from .choices import Color, ColorLike, ColorSpace
 from .errors import InvalidArgumentError
 
-COLOR_SPACES = ("srgb", "linear")
+COLOR_SPACES: tuple[ColorSpace, ...] = get_args(ColorSpace)
 
 
 @functools.cache
@@ -33,7 +35,7 @@ def srgb_to_linear_table() -> np.ndarray:
     return table
 
 
-def check_color(value, what: str = "color"):
+def check_color(value: ColorLike, what: str = "color") -> Color:
     """Return ``value`` unchanged as a tuple, or raise if it is not a colour.
 
     Parameters
@@ -60,7 +62,7 @@ def check_color(value, what: str = "color"):
     return components
 
 
-def linear_color(value, color_space: str = "srgb") -> np.ndarray:
+def linear_color(value: ColorLike, color_space: ColorSpace = "srgb") -> np.ndarray:
     """Return a colour in linear light.
 
     Parameters

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import io
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._native.images import encode_png
 from .atomic_write import atomic_write, checked_path
+from .choices import ImageFormat, Output
 from .errors import InvalidArgumentError, MissingOutputError
 
 if TYPE_CHECKING:
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
     from .canvas import Canvas
 
 # Every output: dtype and number of channels (0: no third axis).
-OUTPUTS: dict[str, tuple[np.dtype, int]] = {
+OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
     "color": (np.dtype(np.uint8), 4),
     "depth": (np.dtype(np.float32), 0),
     "ndc_depth": (np.dtype(np.float32), 0),
@@ -41,7 +43,7 @@ OUTPUTS: dict[str, tuple[np.dtype, int]] = {
 }
 
 # File name suffix -> (Pillow's format, what it is saved with).
-_FORMATS = {
+_FORMATS: dict[ImageFormat, tuple[str, dict[str, Any]]] = {
     "png": ("PNG", {}),
     "jpg": ("JPEG", {"quality": 95, "subsampling": 0}),
     "jpeg": ("JPEG", {"quality": 95, "subsampling": 0}),
@@ -50,7 +52,10 @@ _FORMATS = {
 }
 
 
-class _Output:
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+
+class _Output(Generic[Scalar]):
     """A property that reads one output."""
 
     def __init__(self, doc: str) -> None:
@@ -59,7 +64,13 @@ class _Output:
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
-    def __get__(self, frame, owner=None) -> np.ndarray:
+    @overload
+    def __get__(self, frame: None, owner: type | None = None) -> _Output[Scalar]: ...
+
+    @overload
+    def __get__(self, frame: Frame, owner: type | None = None) -> NDArray[Scalar]: ...
+
+    def __get__(self, frame, owner=None):
         if frame is None:
             return self
         try:
@@ -89,37 +100,61 @@ class Frame:
         what is left after each stage of culling.
     """
 
-    color = _Output("(H, W, 4) uint8 RGBA; alpha is 255, and 0 where a background of None shows.")
-    depth = _Output("(H, W) float32: metric distance along the view axis, 0 = background.")
-    ndc_depth = _Output("(H, W) float32: z_ndc, smaller is nearer, +inf = background.")
-    triangle_id = _Output("(H, W) int32: index into mesh.faces as given, -1 = none.")
-    object_id = _Output("(H, W) int32: node.id, -1 = background.")
-    instance_id = _Output(
+    color: _Output[np.uint8] = _Output(
+        "(H, W, 4) uint8 RGBA; alpha is 255, and 0 where a background of None shows."
+    )
+    depth: _Output[np.float32] = _Output(
+        "(H, W) float32: metric distance along the view axis, 0 = background."
+    )
+    ndc_depth: _Output[np.float32] = _Output(
+        "(H, W) float32: z_ndc, smaller is nearer, +inf = background."
+    )
+    triangle_id: _Output[np.int32] = _Output(
+        "(H, W) int32: index into mesh.faces as given, -1 = none."
+    )
+    object_id: _Output[np.int32] = _Output("(H, W) int32: node.id, -1 = background.")
+    instance_id: _Output[np.int32] = _Output(
         "(H, W) int32: row of the instances, 0 for a plain mesh, -1 = background."
     )
-    material_id = _Output("(H, W) int32: index into mesh.materials, -1 = background.")
-    albedo = _Output("(H, W, 3) float32: surface colour before light, linear; 0 = background.")
-    normal = _Output("(H, W, 3) float32: unit normal in view space; 0 = background.")
-    position = _Output("(H, W, 3) float32: position in view space; 0 = background.")
-    world_normal = _Output("(H, W, 3) float32: unit normal in world space; 0 = background.")
-    world_position = _Output("(H, W, 3) float32: position in world space; 0 = background.")
-    uv = _Output("(H, W, 2) float32: texture coordinates, origin bottom left; 0 = background.")
-    barycentric = _Output("(H, W, 3) float32: perspective-correct weights; 0 = background.")
+    material_id: _Output[np.int32] = _Output(
+        "(H, W) int32: index into mesh.materials, -1 = background."
+    )
+    albedo: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: surface colour before light, linear; 0 = background."
+    )
+    normal: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: unit normal in view space; 0 = background."
+    )
+    position: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: position in view space; 0 = background."
+    )
+    world_normal: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: unit normal in world space; 0 = background."
+    )
+    world_position: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: position in world space; 0 = background."
+    )
+    uv: _Output[np.float32] = _Output(
+        "(H, W, 2) float32: texture coordinates, origin bottom left; 0 = background."
+    )
+    barycentric: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: perspective-correct weights; 0 = background."
+    )
 
-    def __init__(self, width: int, height: int, outputs: dict[str, np.ndarray]) -> None:
+    def __init__(self, width: int, height: int, outputs: dict[Output, NDArray[Any]]) -> None:
         self.width = width
         self.height = height
-        self._stats: dict = {}
+        self._stats: dict[str, Any] = {}
         self._drawn: tuple | None = None  # nodes and a NativeStats, till they are read
         self._seen: tuple | None = None  # the view and the side culled: what picking needs
         self._outputs = outputs
 
     @property
-    def outputs(self) -> tuple[str, ...]:
+    def outputs(self) -> tuple[Output, ...]:
         return tuple(self._outputs)
 
     @property
-    def stats(self) -> dict:
+    def stats(self) -> dict[str, Any]:
         if self._drawn is not None:
             nodes, drawn = self._drawn
             self._stats, self._drawn = {"nodes": nodes, **drawn.as_dict()}, None
@@ -129,7 +164,7 @@ class Frame:
         self._stats = self.stats  # what is left of a frame elsewhere
         return self.__dict__
 
-    def __array__(self, dtype=None, copy=None) -> np.ndarray:
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy is False and dtype is not None and np.dtype(dtype) != np.uint8:
             raise ValueError("a frame's colour is uint8: another dtype needs a copy")
         if copy:
@@ -148,7 +183,7 @@ class Frame:
 
         return Canvas(self.color)
 
-    def save(self, path: str | os.PathLike, **options) -> None:
+    def save(self, path: str | os.PathLike[str], **options: Any) -> None:
         """Write the colour to an image file, whole or not at all.
 
         Parameters
@@ -171,7 +206,7 @@ class Frame:
         with atomic_write(path) as file:
             file.write(data)
 
-    def encode(self, format: str = "png", **options) -> bytes:
+    def encode(self, format: ImageFormat = "png", **options: Any) -> bytes:
         """Return the colour as the bytes of an image file.
 
         Parameters

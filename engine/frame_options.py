@@ -9,19 +9,56 @@ from __future__ import annotations
 import math
 import numbers
 import operator
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, TypedDict
 
 from ._native import rasterizer as _native
 from .attributes import choose
+from .choices import (
+    ColorLike,
+    Cull,
+    Culling,
+    HiddenSurfaces,
+    Mode,
+    Normals,
+    Output,
+    Shading,
+    Wireframe,
+)
 from .colors import check_color
 from .display_colors import display_color, shading_color
 from .errors import InvalidArgumentError
 from .native_handles import MeshNeeds
 from .scene import Scene
 
+if TYPE_CHECKING:
+    from .frame import Frame
+    from .view import CameraChoice
+
 _MAX_LINE = 256.0
 _NO_CLAMP = (0.0, math.inf)
 # Modes whose colours go through the sRGB encoder; the others give display values.
 _ENCODED_MODES = ("lit", "unlit")
+
+
+class RenderOptions(TypedDict, total=False):
+    """The keyword arguments of `Renderer.render`, for functions that pass them on."""
+
+    mode: Mode
+    wireframe: Wireframe | None
+    cull: Cull
+    shading: Shading
+    outputs: Iterable[Output]
+    out: Frame | None
+    normals: Normals
+    hidden_surfaces: HiddenSurfaces
+    line_width: float
+    line_color: ColorLike
+    hidden_lines: bool
+    point_size: float
+    culling: Culling
+    culling_camera: CameraChoice
+    batching: bool
 
 
 class FrameOptions:

@@ -12,6 +12,7 @@ import numbers
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
 from .attributes import positive
@@ -30,14 +31,14 @@ _NEAREST = 1e-3  # of the far plane's distance: nearer, and depth would lose too
 
 
 def frame_bounds(
-    bounds,
+    bounds: ArrayLike,
     *,
     aspect: float = 1.0,
     yfov: float = 0.9,
-    direction=_DIRECTION,
-    up=_UP,
+    direction: ArrayLike = _DIRECTION,
+    up: ArrayLike = _UP,
     margin: float = 1.05,
-) -> tuple[PerspectiveCamera, np.ndarray]:
+) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     """Return a camera and its pose that show a whole box, as large as possible.
 
     Parameters
@@ -74,10 +75,10 @@ def frame_scene(
     *,
     aspect: float = 1.0,
     yfov: float = 0.9,
-    direction=_DIRECTION,
-    up=_UP,
+    direction: ArrayLike = _DIRECTION,
+    up: ArrayLike = _UP,
     margin: float = 1.05,
-) -> tuple[PerspectiveCamera, np.ndarray]:
+) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     """Return a camera and its pose that show a whole scene, as large as possible.
 
     It goes by the vertices of what is visible, so round models fill more of the picture than their

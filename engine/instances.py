@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
 from .attributes import CheckedAttribute, Closed
@@ -17,7 +18,7 @@ from .errors import InvalidArgumentError
 from .mesh import Mesh
 
 
-def _check_mesh(value, what: str) -> Mesh:
+def _check_mesh(value: Mesh, what: str) -> Mesh:
     if not isinstance(value, Mesh):
         raise InvalidArgumentError(f"{what} must be a Mesh, not {type(value).__name__}")
     return value
@@ -46,10 +47,10 @@ class InstancedMesh(Closed):
     InvalidArgumentError
     """
 
-    mesh = CheckedAttribute(_check_mesh)
+    mesh: CheckedAttribute[Mesh, Mesh] = CheckedAttribute(_check_mesh)
     version: int
 
-    def __init__(self, mesh: Mesh, poses, *, colors=None) -> None:
+    def __init__(self, mesh: Mesh, poses: ArrayLike, *, colors: ArrayLike | None = None) -> None:
         self._box_of: tuple | None = None
         self._tree_of: tuple | None = None
         self._ids: np.ndarray | None = None  # what instance_id shows; None: the rows' numbers
@@ -57,12 +58,12 @@ class InstancedMesh(Closed):
         self.replace(poses, colors)
 
     @property
-    def poses(self) -> np.ndarray:
+    def poses(self) -> NDArray[np.float32]:
         """(N, 4, 4) or (N, 4) float32, as given."""
         return self._poses
 
     @poses.setter
-    def poses(self, value) -> None:
+    def poses(self, value: ArrayLike) -> None:
         poses = _check_poses(value)
         if self._colors is not None and len(self._colors) != len(poses):
             raise InvalidArgumentError(
@@ -73,17 +74,17 @@ class InstancedMesh(Closed):
         tell(self)
 
     @property
-    def colors(self) -> np.ndarray | None:
+    def colors(self) -> NDArray[np.uint8] | NDArray[np.float32] | None:
         """(N, 4) uint8 (sRGB) or float32 (linear), or None."""
         return self._colors
 
     @colors.setter
-    def colors(self, value) -> None:
+    def colors(self, value: ArrayLike | None) -> None:
         self._colors = _check_colors(value, len(self._poses))
         self.version += 1
         tell(self)
 
-    def replace(self, poses, colors=None) -> None:
+    def replace(self, poses: ArrayLike, colors: ArrayLike | None = None) -> None:
         """Set poses and colours together; their number may change."""
         checked = _check_poses(poses)
         self._ids = None
@@ -97,7 +98,7 @@ class InstancedMesh(Closed):
         self.replace(poses[rows], None if colors is None else colors[rows])
         self._ids = rows.astype(np.int32)
 
-    def bounds_in_node(self) -> np.ndarray | None:
+    def bounds_in_node(self) -> NDArray[np.float64] | None:
         """Return the box around all instances in the node's space, (2, 3) float64, or None."""
         box = self._box_in_node()
         return box[:6].reshape(2, 3).copy() if box[0] <= box[3] else None

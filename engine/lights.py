@@ -9,24 +9,36 @@ from __future__ import annotations
 
 import math
 import numbers
+from typing import get_args
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from .attributes import CheckedAttribute, Closed, not_negative, one_of, vector3
+from .attributes import (
+    CheckedAttribute,
+    Closed,
+    ColorAttribute,
+    NumberAttribute,
+    VectorAttribute,
+    not_negative,
+    one_of,
+    vector3,
+)
+from .choices import ColorLike, Falloff
 from .colors import check_color
 from .errors import InvalidArgumentError
 
-FALLOFFS = ("inverse_square", "window")
+FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 
 
-def _direction(value, what: str) -> np.ndarray:
+def _direction(value: ArrayLike, what: str) -> NDArray[np.float64]:
     direction = vector3(value, what)
     if not direction.any():
         raise InvalidArgumentError(f"{what} must not be the zero vector")
     return direction
 
 
-def _range(value, what: str) -> float:
+def _range(value: float, what: str) -> float:
     if not isinstance(value, numbers.Real) or not value > 0:
         raise InvalidArgumentError(f"{what} must be greater than 0, not {value!r}")
     return float(value)
@@ -54,11 +66,16 @@ class DirectionalLight(Closed):
     """
 
     version: int
-    direction = CheckedAttribute(_direction)
-    color = CheckedAttribute(check_color)
-    intensity = CheckedAttribute(not_negative)
+    direction: VectorAttribute = CheckedAttribute(_direction)
+    color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
 
-    def __init__(self, direction=(0, 0, -1), color=(1, 1, 1), intensity: float = 1.0) -> None:
+    def __init__(
+        self,
+        direction: ArrayLike = (0, 0, -1),
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+    ) -> None:
         self.direction = direction
         self.color = color
         self.intensity = intensity
@@ -94,17 +111,17 @@ class PointLight(Closed):
     """
 
     version: int
-    color = CheckedAttribute(check_color)
-    intensity = CheckedAttribute(not_negative)
-    range = CheckedAttribute(_range)
-    falloff = CheckedAttribute(one_of(FALLOFFS))
+    color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+    range: NumberAttribute = CheckedAttribute(_range)
+    falloff: CheckedAttribute[Falloff, Falloff] = CheckedAttribute(one_of(FALLOFFS))
 
     def __init__(
         self,
-        color=(1, 1, 1),
+        color: ColorLike = (1, 1, 1),
         intensity: float = 1.0,
         range: float = math.inf,
-        falloff: str = "inverse_square",
+        falloff: Falloff = "inverse_square",
     ) -> None:
         self.color = color
         self.intensity = intensity

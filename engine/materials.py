@@ -7,19 +7,22 @@ file says beyond this (physically based parameters, further maps) is kept in ``e
 
 from __future__ import annotations
 
-from .attributes import CheckedAttribute, Closed, not_negative
+from typing import Any
+
+from .attributes import CheckedAttribute, Closed, ColorAttribute, NumberAttribute, not_negative
+from .choices import ColorLike
 from .colors import check_color
 from .errors import InvalidArgumentError
 from .textures import Texture
 
 
-def _check_texture(value, what):
+def _check_texture(value: Texture | None, what: str) -> Texture | None:
     if value is not None and not isinstance(value, Texture):
         raise InvalidArgumentError(f"{what} must be a Texture or None: {type(value).__name__}")
     return value
 
 
-def _check_dict(value, what):
+def _check_dict(value: dict[str, Any], what: str) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise InvalidArgumentError(f"{what} must be a dict: {type(value).__name__}")
     return dict(value)
@@ -59,28 +62,28 @@ class Material(Closed):
     """
 
     version: int
-    color = CheckedAttribute(check_color)
-    texture = CheckedAttribute(_check_texture)
-    specular = CheckedAttribute(check_color)
-    shininess = CheckedAttribute(not_negative)
-    emissive = CheckedAttribute(check_color)
-    two_sided = CheckedAttribute(lambda value, what: bool(value))
-    flat_shading = CheckedAttribute(lambda value, what: bool(value))
-    name = CheckedAttribute(lambda value, what: str(value))
-    extras = CheckedAttribute(_check_dict)
+    color: ColorAttribute = CheckedAttribute(check_color)
+    texture: CheckedAttribute[Texture | None, Texture | None] = CheckedAttribute(_check_texture)
+    specular: ColorAttribute = CheckedAttribute(check_color)
+    shininess: NumberAttribute = CheckedAttribute(not_negative)
+    emissive: ColorAttribute = CheckedAttribute(check_color)
+    two_sided: CheckedAttribute[bool, bool] = CheckedAttribute(lambda value, what: bool(value))
+    flat_shading: CheckedAttribute[bool, bool] = CheckedAttribute(lambda value, what: bool(value))
+    name: CheckedAttribute[str, str] = CheckedAttribute(lambda value, what: str(value))
+    extras: CheckedAttribute[dict[str, Any], dict[str, Any]] = CheckedAttribute(_check_dict)
 
     def __init__(
         self,
         *,
-        color=(1, 1, 1),
+        color: ColorLike = (1, 1, 1),
         texture: Texture | None = None,
-        specular=(0, 0, 0),
+        specular: ColorLike = (0, 0, 0),
         shininess: float = 32.0,
-        emissive=(0, 0, 0),
+        emissive: ColorLike = (0, 0, 0),
         two_sided: bool = False,
         flat_shading: bool = False,
         name: str = "",
-        extras: dict | None = None,
+        extras: dict[str, Any] | None = None,
     ) -> None:
         self.color = color
         self.texture = texture

@@ -10,10 +10,11 @@ coordinates have their origin at the bottom left.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import normals as _normals
 from . import topology as _topology
@@ -35,6 +36,15 @@ from .mesh_arrays import (
     check_vectors3,
     require_range,
 )
+
+_Floats: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.float32]]
+_Integers: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.int32]]
+_OptionalFloats: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.float32] | None]
+_OptionalIntegers: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.int32] | None]
+_OptionalFlags: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.bool_] | None]
+_OptionalColors: TypeAlias = ArrayAttribute[
+    ArrayLike | None, NDArray[np.uint8] | NDArray[np.float32] | None
+]
 
 
 class Mesh(Closed):
@@ -89,36 +99,36 @@ class Mesh(Closed):
     name: str
     version: int
     warnings: list[str]
-    positions = ArrayAttribute(check_vectors3)
-    faces = ArrayAttribute(check_triples)
-    uvs = ArrayAttribute(check_vectors2, optional=True)
-    colors = ArrayAttribute(check_colors, optional=True)
-    material_ids = ArrayAttribute(check_indices)
-    lines = ArrayAttribute(check_pairs)
-    points = ArrayAttribute(check_indices)
-    edge_visible = ArrayAttribute(check_flags3, optional=True)
-    position_ids = ArrayAttribute(check_indices, optional=True)
-    _given_normals = ArrayAttribute(check_vectors3, optional=True)
+    positions: _Floats = ArrayAttribute(check_vectors3)
+    faces: _Integers = ArrayAttribute(check_triples)
+    uvs: _OptionalFloats = ArrayAttribute(check_vectors2, optional=True)
+    colors: _OptionalColors = ArrayAttribute(check_colors, optional=True)
+    material_ids: _Integers = ArrayAttribute(check_indices)
+    lines: _Integers = ArrayAttribute(check_pairs)
+    points: _Integers = ArrayAttribute(check_indices)
+    edge_visible: _OptionalFlags = ArrayAttribute(check_flags3, optional=True)
+    position_ids: _OptionalIntegers = ArrayAttribute(check_indices, optional=True)
+    _given_normals: _OptionalFloats = ArrayAttribute(check_vectors3, optional=True)
 
     def __init__(
         self,
-        positions,
-        faces=None,
+        positions: ArrayLike,
+        faces: ArrayLike | None = None,
         *,
-        normals=None,
-        uvs=None,
-        colors=None,
+        normals: ArrayLike | None = None,
+        uvs: ArrayLike | None = None,
+        colors: ArrayLike | None = None,
         materials: Iterable[Material] | None = None,
-        material_ids=None,
-        lines=None,
-        points=None,
-        edge_visible=None,
-        position_ids=None,
+        material_ids: ArrayLike | None = None,
+        lines: ArrayLike | None = None,
+        points: ArrayLike | None = None,
+        edge_visible: ArrayLike | None = None,
+        position_ids: ArrayLike | None = None,
         name: str = "",
     ) -> None:
         self.name = str(name)
         self.version = 0
-        self._groups: dict[str, np.ndarray] = {}  # loaders put checked ones here
+        self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = {}
         self._derived: dict[str, np.ndarray] = {}
@@ -136,7 +146,7 @@ class Mesh(Closed):
         self.position_ids = position_ids
 
     @property
-    def normals(self) -> np.ndarray:
+    def normals(self) -> NDArray[np.float32]:
         """Vertex normals (V, 3) float32: the given ones, or angle-weighted ones, computed once."""
         given = self._given_normals
         if given is not None:
@@ -147,7 +157,7 @@ class Mesh(Closed):
         )
 
     @normals.setter
-    def normals(self, value) -> None:
+    def normals(self, value: ArrayLike | None) -> None:
         self._given_normals = value
 
     @property
@@ -156,7 +166,7 @@ class Mesh(Closed):
         return self._given_normals is not None
 
     @property
-    def face_normals(self) -> np.ndarray:
+    def face_normals(self) -> NDArray[np.float32]:
         """One unit normal a face, (F, 3) float32, the same for all triangles of a polygon."""
         return self._derive(
             "face_normals",
@@ -164,7 +174,7 @@ class Mesh(Closed):
         )
 
     @property
-    def polygons(self) -> np.ndarray:
+    def polygons(self) -> NDArray[np.int32]:
         """The polygon that each face is part of, (F,) int32 from 0 on, never decreasing.
 
         Triangles that stand one after the other and share an edge hidden in both are one polygon.
@@ -174,7 +184,7 @@ class Mesh(Closed):
             lambda: _topology.polygon_ids(self.faces, self.edge_visible, self.position_ids),
         )
 
-    def edges(self) -> np.ndarray:
+    def edges(self) -> NDArray[np.int32]:
         """Return the visible edges of the faces, each once: (E, 2) int32 vertex indices.
 
         An edge counts as visible if it is visible in any face. They stand in the order of their
@@ -186,7 +196,7 @@ class Mesh(Closed):
         )
 
     @property
-    def bounds(self) -> np.ndarray:
+    def bounds(self) -> NDArray[np.float64]:
         """Smallest and largest finite coordinates, (2, 3) float64; zeros if there are none."""
         return self._derive("bounds", lambda: np.array(bound_points(self.positions), np.float64))
 
@@ -205,12 +215,12 @@ class Mesh(Closed):
         tell(self)
 
     @property
-    def groups(self) -> dict[str, np.ndarray]:
+    def groups(self) -> dict[str, NDArray[np.int32]]:
         """Face indices of named parts, each (N,) int32."""
         return self._groups
 
     @groups.setter
-    def groups(self, value) -> None:
+    def groups(self, value: Mapping[str, ArrayLike]) -> None:
         self._groups = check_groups(value, len(self.faces))
 
     @classmethod
@@ -227,7 +237,7 @@ class Mesh(Closed):
         return concatenate(cls, list(meshes), name)
 
     @classmethod
-    def from_trimesh(cls, geometry) -> Mesh:
+    def from_trimesh(cls, geometry: Any) -> Mesh:
         """Return the mesh of what the package trimesh holds.
 
         Parameters
@@ -268,7 +278,9 @@ class Mesh(Closed):
 
         return mesh_to_trimesh(self)
 
-    def save(self, path: str | os.PathLike, *, format: str | None = None, **options) -> None:
+    def save(
+        self, path: str | os.PathLike[str], *, format: str | None = None, **options: Any
+    ) -> None:
         """Write the mesh to an OBJ, PLY or STL file; parameters and exceptions of `save_mesh`."""
         from .writers import save_mesh
 
@@ -280,7 +292,7 @@ class Mesh(Closed):
         parts += [f"{len(self.points)} points"] if len(self.points) else []
         return f"Mesh({', '.join(parts)}, name={self.name!r})"
 
-    def _derive(self, what: str, compute) -> np.ndarray:
+    def _derive(self, what: str, compute) -> Any:
         array = self._derived.get(what)
         if array is None:
             array = compute()

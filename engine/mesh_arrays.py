@@ -7,6 +7,7 @@ shares no memory that anybody can write to, or an `InvalidArgumentError` that sa
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
@@ -16,20 +17,30 @@ from .errors import InvalidArgumentError
 _INT32_MAX = 2**31 - 1
 
 
-class ArrayAttribute:
+Given = TypeVar("Given")
+Kept = TypeVar("Kept")
+
+
+class ArrayAttribute(Generic[Given, Kept]):
     """A checked array of a mesh; assigning hands the new one to the mesh's ``_replace``."""
 
-    def __init__(self, check: Callable[[object, str], np.ndarray], *, optional=False) -> None:
+    def __init__(self, check: Callable[[Any, str], Any], *, optional: bool = False) -> None:
         self._check = check
         self._optional = optional
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
+    @overload
+    def __get__(self, mesh: None, owner: type | None = None) -> ArrayAttribute: ...
+
+    @overload
+    def __get__(self, mesh: object, owner: type | None = None) -> Kept: ...
+
     def __get__(self, mesh, owner: type | None = None):
         return self if mesh is None else mesh._arrays[self._name]
 
-    def __set__(self, mesh, value) -> None:
+    def __set__(self, mesh, value: Given) -> None:
         if value is None and not self._optional:
             raise InvalidArgumentError(f"{self._name} cannot be None")
         name = self._name.removeprefix("_given_")

@@ -7,14 +7,19 @@ selection, once.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._native.scene_graph import VISIBLE
 from .attributes import Closed
 from .errors import InvalidArgumentError
 from .nodes import Node
 from .scene_arrays import matrices_of
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 
 class NodeSelection(Closed):
@@ -30,7 +35,7 @@ class NodeSelection(Closed):
 
     nodes: tuple[Node, ...]
 
-    def __init__(self, scene, nodes: Iterable[Node]) -> None:
+    def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
         self.nodes = tuple(nodes)
         self._scene = scene
         self._removals = -1
@@ -52,34 +57,34 @@ class NodeSelection(Closed):
         return len(self.nodes)
 
     @property
-    def poses(self) -> np.ndarray:
+    def poses(self) -> NDArray[np.float64]:
         """parent-from-node, (N, 4, 4) float64."""
         return matrices_of(self._scene._arrays.columns["pose"][self._rows])
 
     @poses.setter
-    def poses(self, value) -> None:
+    def poses(self, value: ArrayLike) -> None:
         poses = self._checked(value, "poses", (4, 4))
         if not (poses[:, 3] == (0.0, 0.0, 0.0, 1.0)).all():
             raise InvalidArgumentError("poses must be affine: the last row of each is 0 0 0 1")
         self._scene._arrays.set_poses(self._rows, poses)
 
     @property
-    def translations(self) -> np.ndarray:
+    def translations(self) -> NDArray[np.float64]:
         """(N, 3) float64."""
         return self._scene._arrays.columns["pose"][self._rows].reshape(-1, 3, 4)[:, :, 3].copy()
 
     @translations.setter
-    def translations(self, value) -> None:
+    def translations(self, value: ArrayLike) -> None:
         translations = self._checked(value, "translations", (3,))
         self._scene._arrays.set_translations(self._rows, translations)
 
     @property
-    def rotations(self) -> np.ndarray:
+    def rotations(self) -> NDArray[np.float64]:
         """Quaternions x, y, z, w, (N, 4) float64."""
         return self._part("rotation")
 
     @rotations.setter
-    def rotations(self, value) -> None:
+    def rotations(self, value: ArrayLike) -> None:
         rotations = self._checked(value, "rotations", (4,))
         with np.errstate(over="ignore"):
             squares = (rotations * rotations).sum(axis=1)
@@ -88,21 +93,21 @@ class NodeSelection(Closed):
         self._scene._arrays.set_many_parts(self._rows, rotations, None)
 
     @property
-    def scales(self) -> np.ndarray:
+    def scales(self) -> NDArray[np.float64]:
         """Factors along the nodes' axes, (N, 3) float64; (N, 1) or a number may be assigned."""
         return self._part("scale")
 
     @scales.setter
-    def scales(self, value) -> None:
+    def scales(self, value: ArrayLike) -> None:
         self._scene._arrays.set_many_parts(self._rows, None, self._checked(value, "scales", (3,)))
 
     @property
-    def visible(self) -> np.ndarray:
+    def visible(self) -> NDArray[np.bool_]:
         """(N,) bool: the nodes' own switches."""
         return self._scene._arrays.columns["flags"][self._rows] & VISIBLE != 0
 
     @visible.setter
-    def visible(self, value) -> None:
+    def visible(self, value: ArrayLike) -> None:
         try:
             on = np.ascontiguousarray(np.broadcast_to(np.asarray(value, bool), len(self)))
         except (TypeError, ValueError):
@@ -110,13 +115,13 @@ class NodeSelection(Closed):
         self._scene._arrays.set_flags(self._rows, VISIBLE, on.view(np.uint8))
 
     @property
-    def world_poses(self) -> np.ndarray:
+    def world_poses(self) -> NDArray[np.float64]:
         """world-from-node, (N, 4, 4) float64."""
         self._scene._update()
         return self._scene._arrays.world_poses(self._rows)
 
     @property
-    def bounds(self) -> np.ndarray:
+    def bounds(self) -> NDArray[np.float64]:
         """The boxes of `Node.bounds`, (N, 2, 3) float64; NaN where a node has none."""
         self._scene._update()
         bounds = self._scene._arrays.columns["bounds"][self._rows, :6]

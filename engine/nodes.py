@@ -9,13 +9,26 @@ above moves.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
 from ._native.scene_graph import STATIC, VISIBLE
 from .attributes import frozen_floats, matrix4, vector3
 from .errors import InvalidArgumentError
+
+if TYPE_CHECKING:
+    from .cameras import Camera
+    from .instances import InstancedMesh
+    from .lights import DirectionalLight, PointLight
+    from .mesh import Mesh
+    from .scene import Scene
+    from .spatial.colliders import Collider
+
+    #: What a node holds.
+    SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | DirectionalLight | PointLight
 
 
 class Node:
@@ -41,7 +54,7 @@ class Node:
         "_world_version",
     )
 
-    def __init__(self, scene, obj, name: str, number: int) -> None:
+    def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
         self._scene = scene
         self._object = obj
         self._name = name
@@ -55,7 +68,7 @@ class Node:
         return self._id
 
     @property
-    def object(self):
+    def object(self) -> SceneObject | None:
         """Mesh, InstancedMesh, Camera, DirectionalLight, PointLight, or None for a group."""
         return self._object
 
@@ -122,7 +135,7 @@ class Node:
             self.pose = pose
 
     @property
-    def pose(self) -> np.ndarray:
+    def pose(self) -> NDArray[np.float64]:
         """parent-from-node, (4, 4) float64."""
         version = self._arrays.pose_version(self._slot)
         if version != self._pose_version:
@@ -133,31 +146,31 @@ class Node:
         return self._pose
 
     @pose.setter
-    def pose(self, value) -> None:
+    def pose(self, value: ArrayLike) -> None:
         matrix = check_pose(value)
         self._pose_version = self._arrays.set_pose(self._slot, matrix)
         self._pose = matrix
 
     @property
-    def translation(self) -> np.ndarray:
+    def translation(self) -> NDArray[np.float64]:
         """(3,) float64."""
         return self.pose[:3, 3]
 
     @translation.setter
-    def translation(self, value) -> None:
+    def translation(self, value: ArrayLike) -> None:
         self._arrays.set_translation(self._slot, vector3(value, "translation"))
 
     @property
-    def rotation(self) -> np.ndarray:
+    def rotation(self) -> NDArray[np.float64]:
         """Quaternion x, y, z, w, (4,) float64."""
         return self._rotation_and_scale()[0]
 
     @rotation.setter
-    def rotation(self, value) -> None:
+    def rotation(self, value: ArrayLike) -> None:
         self._arrays.set_parts(self._slot, check_rotation(value), None)
 
     @property
-    def euler(self) -> np.ndarray:
+    def euler(self) -> NDArray[np.float64]:
         """The rotation as angles in radians about x, y and z, (3,) float64.
 
         Turns about x, then about the new y, then about the newest z, which is the default order of
@@ -168,16 +181,16 @@ class Node:
         return angles
 
     @euler.setter
-    def euler(self, value) -> None:
+    def euler(self, value: ArrayLike) -> None:
         self.rotation = linalg.euler_to_quaternion(vector3(value, "euler"))
 
     @property
-    def scale(self) -> np.ndarray:
+    def scale(self) -> NDArray[np.float64]:
         """Factors along the node's axes, (3,) float64; one number may be assigned."""
         return self._rotation_and_scale()[1]
 
     @scale.setter
-    def scale(self, value) -> None:
+    def scale(self, value: ArrayLike) -> None:
         self._arrays.set_parts(self._slot, None, check_scale(value))
 
     @property
@@ -207,12 +220,12 @@ class Node:
         self._arrays.set_flag(self._slot, STATIC, bool(value))
 
     @property
-    def collider(self):
+    def collider(self) -> Collider | None:
         """BoxCollider, SphereCollider, MeshCollider or None; see `Scene.overlap_box`."""
         return self._collider
 
     @collider.setter
-    def collider(self, value) -> None:
+    def collider(self, value: Collider | None) -> None:
         from .spatial.colliders import check_collider
 
         check_collider(self, value)
@@ -221,7 +234,7 @@ class Node:
             self._scene._set_collider(self)
 
     @property
-    def world_pose(self) -> np.ndarray:
+    def world_pose(self) -> NDArray[np.float64]:
         """world-from-node, (4, 4) float64, read-only."""
         version = self._arrays.world_version(self._slot)
         if version != self._world_version:
@@ -232,7 +245,7 @@ class Node:
         return self._world_pose
 
     @property
-    def bounds(self) -> np.ndarray | None:
+    def bounds(self) -> NDArray[np.float64] | None:
         """The box around the node's own object in world space, (2, 3) float64.
 
         None if nothing of it can show: the node holds no mesh, an empty one, or is hidden. The box
@@ -262,7 +275,7 @@ class Node:
         return rotation, scale
 
 
-def check_pose(value) -> np.ndarray:
+def check_pose(value: ArrayLike) -> NDArray[np.float64]:
     """Check an affine matrix; return it as a read-only (4, 4) float64 array."""
     matrix = matrix4(value, "pose")
     if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
@@ -270,7 +283,7 @@ def check_pose(value) -> np.ndarray:
     return matrix
 
 
-def check_rotation(value) -> np.ndarray:
+def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
     """Check a quaternion; return it as a read-only (4,) float64 array."""
     rotation = frozen_floats(value, "rotation", (4,))
     if not 0.0 < sum(x * x for x in rotation.tolist()) < math.inf:
@@ -278,6 +291,6 @@ def check_rotation(value) -> np.ndarray:
     return rotation
 
 
-def check_scale(value) -> np.ndarray:
+def check_scale(value: ArrayLike) -> NDArray[np.float64]:
     """Check one factor or three; return three as a read-only (3,) float64 array."""
     return vector3(np.broadcast_to(value, (3,)) if np.ndim(value) == 0 else value, "scale")

@@ -9,10 +9,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._native import rasterizer as _native
 from .attributes import choose
 from .backend_selection import resolve_backend, resolve_threads
+from .choices import Backend, Cull
 from .errors import InvalidArgumentError
 from .image_size import check_side
 
@@ -30,19 +32,19 @@ class RasterizeResult(NamedTuple):
         Perspective-correct weights of the face's three vertices; 0 where nothing was drawn.
     """
 
-    triangle_id: np.ndarray
-    depth: np.ndarray
-    barycentric: np.ndarray
+    triangle_id: NDArray[np.int32]
+    depth: NDArray[np.float32]
+    barycentric: NDArray[np.float32]
 
 
 def rasterize(
-    clip,
-    faces,
+    clip: ArrayLike,
+    faces: ArrayLike,
     width: int,
     height: int,
     *,
-    cull: str = "none",
-    backend: str = "auto",
+    cull: Cull = "none",
+    backend: Backend = "auto",
     threads: int = 0,
 ) -> RasterizeResult:
     """Draw triangles given in clip space.

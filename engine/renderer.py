@@ -10,6 +10,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterable
 from operator import is_
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,16 +18,33 @@ from ._native import rasterizer as _native
 from .attributes import Closed, choose
 from .backend_selection import resolve_backend, resolve_threads
 from .cameras import Camera
+from .choices import (
+    Backend,
+    ColorLike,
+    ColorSpace,
+    Cull,
+    Culling,
+    HiddenSurfaces,
+    Mode,
+    Normals,
+    Output,
+    Samples,
+    Shading,
+    Wireframe,
+)
 from .colors import COLOR_SPACES
 from .draw_list import DrawList
 from .errors import InvalidArgumentError, SceneChangedError
 from .frame import OUTPUTS, Frame
-from .frame_options import OptionsCache
+from .frame_options import OptionsCache, RenderOptions
 from .framing import frame_scene
 from .image_size import check_side, check_size
 from .output_pool import OutputPool
 from .scene import Scene
-from .view import View, find_camera
+from .view import CameraChoice, View, find_camera
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 _WHITE = (1.0, 1.0, 1.0)
 _SAMPLES = {1: 1, 4: 2, 16: 4}  # samples a pixel -> samples along an axis
@@ -72,10 +90,10 @@ class Renderer(Closed):
         width: int,
         height: int,
         *,
-        backend: str = "auto",
+        backend: Backend = "auto",
         threads: int = 0,
-        color_space: str = "srgb",
-        samples: int = 1,
+        color_space: ColorSpace = "srgb",
+        samples: Samples = 1,
     ) -> None:
         self._width, self._height = check_side(width, "width"), check_side(height, "height")
         self._color_space = choose(color_space, COLOR_SPACES, "color_space")
@@ -106,11 +124,11 @@ class Renderer(Closed):
         return self._backend
 
     @property
-    def color_space(self) -> str:
+    def color_space(self) -> ColorSpace:
         return self._color_space
 
     @property
-    def samples(self) -> int:
+    def samples(self) -> Samples:
         return self._samples
 
     def resize(self, width: int, height: int) -> None:
@@ -133,17 +151,17 @@ class Renderer(Closed):
     def __enter__(self) -> Renderer:
         return self
 
-    def __exit__(self, *exception) -> None:
+    def __exit__(self, *exception: object) -> None:
         self.close()
 
     def prepare(
         self,
         scene: Scene,
         *,
-        mode: str = "lit",
-        wireframe: str | None = None,
-        outputs: Iterable[str] = ("color",),
-        normals: str = "auto",
+        mode: Mode = "lit",
+        wireframe: Wireframe | None = None,
+        outputs: Iterable[Output] = ("color",),
+        normals: Normals = "auto",
     ) -> None:
         """Make what the first frame of a scene would make, so that it takes as long as others.
 
@@ -191,22 +209,22 @@ class Renderer(Closed):
     def render(
         self,
         scene: Scene,
-        camera=None,
+        camera: CameraChoice = None,
         *,
-        mode: str = "lit",
-        wireframe: str | None = None,
-        cull: str = "back",
-        shading: str = "deferred",
-        outputs: Iterable[str] = ("color",),
+        mode: Mode = "lit",
+        wireframe: Wireframe | None = None,
+        cull: Cull = "back",
+        shading: Shading = "deferred",
+        outputs: Iterable[Output] = ("color",),
         out: Frame | None = None,
-        normals: str = "auto",
-        hidden_surfaces: str = "zbuffer",
+        normals: Normals = "auto",
+        hidden_surfaces: HiddenSurfaces = "zbuffer",
         line_width: float = 1.0,
-        line_color=_WHITE,
+        line_color: ColorLike = _WHITE,
         hidden_lines: bool = False,
         point_size: float = 1.0,
-        culling: str = "all",
-        culling_camera=None,
+        culling: Culling = "all",
+        culling_camera: CameraChoice = None,
         batching: bool = True,
     ) -> Frame:
         """Draw a frame.
@@ -398,14 +416,14 @@ def _names_of(outputs: Iterable[str]) -> tuple[str, ...]:
 
 def render(
     scene: Scene,
-    camera=None,
+    camera: CameraChoice = None,
     *,
     size: tuple[int, int] = (1280, 720),
-    backend: str = "auto",
+    backend: Backend = "auto",
     threads: int = 0,
-    color_space: str = "srgb",
-    samples: int = 1,
-    **options,
+    color_space: ColorSpace = "srgb",
+    samples: Samples = 1,
+    **options: Unpack[RenderOptions],
 ) -> Frame:
     """Draw one frame of a scene.
 
@@ -429,7 +447,7 @@ def render(
     InvalidArgumentError, BackendError, OutOfMemoryError
     """
     width, height = check_size(size)
-    settings = {"backend": backend, "threads": threads}
-    settings.update(color_space=color_space, samples=samples)
-    with Renderer(width, height, **settings) as renderer:
+    with Renderer(
+        width, height, backend=backend, threads=threads, color_space=color_space, samples=samples
+    ) as renderer:
         return renderer.render(scene, camera, **options)

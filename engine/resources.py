@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 import warnings
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakValueDictionary
 
 from .errors import Engine3DError, Engine3DWarning, InvalidArgumentError
@@ -20,6 +20,11 @@ from .loaders.linked_files import found_files
 from .materials import Material
 from .mesh import Mesh
 from .textures import Texture
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .textures import TextureOptions
 
 
 class ResourceStats(NamedTuple):
@@ -55,14 +60,16 @@ class Resources:
         self._files: dict[tuple, _Loaded] = {}
         self._loads = self._shared = 0
 
-    def load_mesh(self, path: str | os.PathLike, **options) -> Mesh:
+    def load_mesh(self, path: str | os.PathLike[str], **options: Any) -> Mesh:
         """Return the mesh of a file; parameters and exceptions are those of `load_mesh`.
 
         Its textures are shared as well.
         """
         return self._load(load_mesh, path, options)
 
-    def load_texture(self, path: str | os.PathLike, **options) -> Texture:
+    def load_texture(
+        self, path: str | os.PathLike[str], **options: Unpack[TextureOptions]
+    ) -> Texture:
         """Return the texture of a file; parameters and exceptions are those of `load_texture`."""
         return self._load(load_texture, path, options)
 

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._native.scene_graph import OBJECT_BOX, union
 from .attributes import Closed, vector3
 from .cameras import Camera
+from .choices import Color, ColorLike, Cull
 from .colors import check_color
 from .errors import InvalidArgumentError
 from .instances import InstancedMesh
@@ -29,6 +31,7 @@ from .scene_objects import ObjectTable
 
 if TYPE_CHECKING:
     from .frame import Frame
+    from .nodes import SceneObject
     from .spatial.colliders import ColliderHit
     from .spatial.rays import RayHit, RayHits
 
@@ -64,7 +67,10 @@ class Scene(Closed):
     warnings: list[str]
 
     def __init__(
-        self, background=(0, 0, 0), ambient=(0.1, 0.1, 0.1), light_clamp: tuple | None = None
+        self,
+        background: ColorLike | None = (0, 0, 0),
+        ambient: ColorLike = (0.1, 0.1, 0.1),
+        light_clamp: Sequence[float] | None = None,
     ) -> None:
         self._arrays = NodeArrays()
         self._objects = ObjectTable()
@@ -83,19 +89,19 @@ class Scene(Closed):
         self.light_clamp = light_clamp
 
     @property
-    def background(self):
+    def background(self) -> Color | None:
         return self._background
 
     @background.setter
-    def background(self, value) -> None:
+    def background(self, value: ColorLike | None) -> None:
         self._background = None if value is None else check_color(value, "background")
 
     @property
-    def ambient(self):
+    def ambient(self) -> Color:
         return self._ambient
 
     @ambient.setter
-    def ambient(self, value) -> None:
+    def ambient(self, value: ColorLike) -> None:
         self._ambient = check_color(value, "ambient")
 
     @property
@@ -103,7 +109,7 @@ class Scene(Closed):
         return self._light_clamp
 
     @light_clamp.setter
-    def light_clamp(self, value) -> None:
+    def light_clamp(self, value: Sequence[float] | None) -> None:
         if value is None:
             self._light_clamp = None
             return
@@ -114,14 +120,14 @@ class Scene(Closed):
 
     def add(
         self,
-        obj=None,
+        obj: SceneObject | None = None,
         *,
         name: str | None = None,
         parent: Node | None = None,
-        pose=None,
-        translation=None,
-        rotation=None,
-        scale=None,
+        pose: ArrayLike | None = None,
+        translation: ArrayLike | None = None,
+        rotation: ArrayLike | None = None,
+        scale: ArrayLike | None = None,
         static: bool = False,
     ) -> Node:
         """Put an object into the scene.
@@ -260,7 +266,12 @@ class Scene(Closed):
         return NodeSelection(self, self.nodes if nodes is None else nodes)
 
     def raycast(
-        self, origin, direction, *, max_distance: float = math.inf, cull: str = "none"
+        self,
+        origin: ArrayLike,
+        direction: ArrayLike,
+        *,
+        max_distance: float = math.inf,
+        cull: Cull = "none",
     ) -> RayHit | None:
         """Return where a ray first meets a face of what is visible.
 
@@ -288,7 +299,12 @@ class Scene(Closed):
         return raycast(self, origin, direction, max_distance, cull)
 
     def raycast_many(
-        self, origins, directions, *, max_distance: float = math.inf, cull: str = "none"
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        *,
+        max_distance: float = math.inf,
+        cull: Cull = "none",
     ) -> RayHits:
         """Cast many rays at once; as `raycast`, a row a ray.
 
@@ -338,7 +354,7 @@ class Scene(Closed):
 
         return pick(self, frame, x, y)
 
-    def overlap_box(self, low, high) -> tuple[Node, ...]:
+    def overlap_box(self, low: ArrayLike, high: ArrayLike) -> tuple[Node, ...]:
         """Return the visible nodes whose colliders have a point in a box.
 
         Parameters
@@ -359,7 +375,7 @@ class Scene(Closed):
 
         return overlap_box(self, low, high)
 
-    def overlap_sphere(self, center, radius: float) -> tuple[Node, ...]:
+    def overlap_sphere(self, center: ArrayLike, radius: float) -> tuple[Node, ...]:
         """Return the visible nodes whose colliders have a point in a ball; as `overlap_box`.
 
         Parameters
@@ -372,7 +388,7 @@ class Scene(Closed):
         return overlap_sphere(self, center, radius)
 
     def raycast_colliders(
-        self, origin, direction, *, max_distance: float = math.inf
+        self, origin: ArrayLike, direction: ArrayLike, *, max_distance: float = math.inf
     ) -> ColliderHit | None:
         """Return where a ray first meets the collider of a visible node.
 
@@ -422,7 +438,7 @@ class Scene(Closed):
         self._arrays.update(self._objects.boxes, threads)
 
     @property
-    def bounds(self) -> np.ndarray:
+    def bounds(self) -> NDArray[np.float64]:
         """The box around all visible meshes, (2, 3) float64 in world space; zeros if none."""
         self._update()
         box = np.empty(OBJECT_BOX)

@@ -7,9 +7,7 @@ rolls) is translated here.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
-from typing import BinaryIO
 
 import numpy as np
 
@@ -18,11 +16,12 @@ from .cameras import PerspectiveCamera
 from .errors import InvalidArgumentError
 from .lights import DirectionalLight, PointLight
 from .loaders import CameraRecord, Document, LightRecord, load_document
+from .loaders.sources import File
 from .scene import Scene
 
 
 def load_scene(
-    path: str | os.PathLike | bytes | BinaryIO,
+    path: File,
     *,
     format: str | None = None,
     progress: Callable[[float], object] | None = None,
@@ -31,7 +30,7 @@ def load_scene(
 
     Parameters
     ----------
-    path : str, path-like, bytes or binary file object
+    path : str, path-like, bytes, binary file object or Traversable
         A file of any mesh format; as in `load_mesh`.
     format : str, optional
         The format's name, such as ``"asc"``. Left out, it is told by the content and the name.

@@ -9,17 +9,29 @@ makes them anew when ``version`` has changed.
 from __future__ import annotations
 
 import os
+from typing import TypedDict, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .attributes import CheckedAttribute, Closed, one_of
 from .changes import tell
+from .choices import ColorSpace, Filter, Wrap
 from .colors import COLOR_SPACES
 from .errors import InvalidArgumentError
 
-FILTERS = ("trilinear", "bilinear", "nearest")
-WRAPS = ("repeat", "clamp", "mirror")
+FILTERS: tuple[Filter, ...] = get_args(Filter)
+WRAPS: tuple[Wrap, ...] = get_args(Wrap)
 MAX_SIDE = 16384
+
+
+class TextureOptions(TypedDict, total=False):
+    """The keyword arguments of `Texture`, for functions that pass them on."""
+
+    color_space: ColorSpace
+    filter: Filter
+    wrap: Wrap
+    name: str
 
 
 class Texture(Closed):
@@ -50,17 +62,17 @@ class Texture(Closed):
 
     name: str
     version: int
-    color_space = CheckedAttribute(one_of(COLOR_SPACES))
-    filter = CheckedAttribute(one_of(FILTERS))
-    wrap = CheckedAttribute(one_of(WRAPS))
+    color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
+    filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
+    wrap: CheckedAttribute[Wrap, Wrap] = CheckedAttribute(one_of(WRAPS))
 
     def __init__(
         self,
-        pixels,
+        pixels: ArrayLike,
         *,
-        color_space: str = "srgb",
-        filter: str = "trilinear",
-        wrap: str = "repeat",
+        color_space: ColorSpace = "srgb",
+        filter: Filter = "trilinear",
+        wrap: Wrap = "repeat",
         name: str = "",
     ) -> None:
         self.version = 0
@@ -71,11 +83,11 @@ class Texture(Closed):
         self.name = str(name)
 
     @property
-    def pixels(self) -> np.ndarray:
+    def pixels(self) -> NDArray[np.uint8]:
         return self._pixels
 
     @pixels.setter
-    def pixels(self, value) -> None:
+    def pixels(self, value: ArrayLike) -> None:
         self._pixels = as_rgba(value)
         self.version += 1
         tell(self)
@@ -92,7 +104,7 @@ class Texture(Closed):
         return f"Texture({self.width}x{self.height}, name={self.name!r})"
 
 
-def as_rgba(pixels) -> np.ndarray:
+def as_rgba(pixels: ArrayLike) -> NDArray[np.uint8]:
     """Return an image of one to four channels as (H, W, 4) uint8, C-contiguous and read-only.
 
     Alpha is 255 where the image has none. The result never shares memory that can be written to.

@@ -6,14 +6,21 @@ in C (csrc/scene/view.c), in float64 and a fixed order of operations: the same b
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import linalg
 from ._native.scene_graph import camera_view
 from .attributes import matrix4
 from .cameras import Camera
 from .errors import InvalidArgumentError
-from .scene import Node, Scene
+from .nodes import Node
+from .scene import Scene
+
+#: How a camera is chosen: the scene's own, a node that holds one, or a camera and its pose.
+CameraChoice: TypeAlias = Node | tuple[Camera, ArrayLike] | None
 
 
 class View:
@@ -72,7 +79,7 @@ class View:
         return near, far
 
 
-def find_camera(scene: Scene, camera) -> tuple[Camera, np.ndarray] | None:
+def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray] | None:
     """Return the camera to draw with, and its pose.
 
     Parameters

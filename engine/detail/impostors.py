@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import linalg
 from ..cameras import OrthographicCamera
@@ -86,7 +87,7 @@ class Impostor:
         turn = _widest_turn(self.directions)
         self.error = self._radius * (math.sin(turn) + 2.0 / texels)
 
-    def nearest(self, towards: np.ndarray, last: np.ndarray) -> np.ndarray:
+    def nearest(self, towards: NDArray[np.float64], last: NDArray[np.intp]) -> NDArray[np.intp]:
         """Return which direction is nearest to each of some, (N,) int.
 
         Parameters

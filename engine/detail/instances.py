@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..mesh import Mesh
-from ..scene import Node, Scene
+from ..nodes import Node
+from ..scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 from .impostors import Impostor, bounding_ball
 from .simplification import simplify
@@ -65,9 +67,9 @@ class DetailedInstances:
     def __init__(
         self,
         levels: Mesh | Sequence[tuple[Mesh, float]],
-        poses,
+        poses: ArrayLike,
         *,
-        colors=None,
+        colors: ArrayLike | None = None,
         pixels: float = 1.0,
         hysteresis: float = 0.3,
         impostor: Impostor | None = None,
@@ -87,7 +89,7 @@ class DetailedInstances:
         self._errors = np.array(errors)
         finest = InstancedMesh(mesh, poses, colors=colors)
         self._poses, self._colors = finest.poses, finest.colors
-        self.level = np.zeros(len(self._poses), np.intp)
+        self.level: NDArray[np.intp] = np.zeros(len(self._poses), np.intp)
         self._drawn = self.level  # as which of the instances
         cards = () if impostor is None else impostor.cards
         others = [InstancedMesh(mesh, finest.poses[:0]) for mesh, _ in self.levels[1:]]
@@ -107,7 +109,7 @@ class DetailedInstances:
             scene.add(instances, parent=group)._show_as(group)
         return group
 
-    def update(self, camera: Camera, pose, size: tuple[int, int]) -> bool:
+    def update(self, camera: Camera, pose: ArrayLike, size: tuple[int, int]) -> bool:
         """Choose the levels for a camera; returns whether any instance's changed.
 
         Parameters

@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import linalg
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
-from ..scene import Node, Scene
+from ..nodes import Node
+from ..scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 
 
@@ -41,7 +43,13 @@ class DetailedMeshes:
     InvalidArgumentError
     """
 
-    def __init__(self, levels: Sequence, *, pixels: float = 1.0, hysteresis: float = 0.3) -> None:
+    def __init__(
+        self,
+        levels: Sequence[tuple[Sequence[Mesh], float]],
+        *,
+        pixels: float = 1.0,
+        hysteresis: float = 0.3,
+    ) -> None:
         check_limits(hysteresis, pixels=pixels)
         self.levels = _checked(levels)
         self.pixels, self.hysteresis = float(pixels), float(hysteresis)
@@ -77,7 +85,7 @@ class DetailedMeshes:
             self._nodes.append(nodes)
         return self._group
 
-    def update(self, camera: Camera, pose, size: tuple[int, int]) -> bool:
+    def update(self, camera: Camera, pose: ArrayLike, size: tuple[int, int]) -> bool:
         """Choose the levels for a camera; returns whether any changed.
 
         Parameters

@@ -12,6 +12,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from ..choices import EulerOrder
 from ..errors import InvalidArgumentError
 from . import single
 from .trigonometry import atan2, cos, sin
@@ -173,7 +174,7 @@ def matrix_to_quaternion(m: npt.ArrayLike) -> FloatArray:
     return -q + 0.0 if q[3] < 0.0 else q + 0.0
 
 
-def euler_to_quaternion(angles: npt.ArrayLike, order: str = "XYZ") -> FloatArray:
+def euler_to_quaternion(angles: npt.ArrayLike, order: EulerOrder = "XYZ") -> FloatArray:
     """Return the quaternion of three rotations about the object's own axes.
 
     ``"XYZ"`` turns about x, then about the new y, then about the newest z: three.js's ``Euler``.
@@ -204,7 +205,7 @@ def euler_to_quaternion(angles: npt.ArrayLike, order: str = "XYZ") -> FloatArray
     return result
 
 
-def quaternion_to_euler(q: npt.ArrayLike, order: str = "XYZ") -> FloatArray:
+def quaternion_to_euler(q: npt.ArrayLike, order: EulerOrder = "XYZ") -> FloatArray:
     """Return the three rotations about the object's own axes that make up a quaternion's.
 
     The inverse of `euler_to_quaternion`: the second angle is between -pi/2 and pi/2; where it is

@@ -11,6 +11,7 @@ by its addition theorem from nine tabulated values, then its series.
 from __future__ import annotations
 
 import math
+from typing import overload
 
 import numpy as np
 import numpy.typing as npt
@@ -120,6 +121,14 @@ def _like(angle: npt.ArrayLike, value: FloatArray) -> FloatArray | float:
     return float(value) if np.ndim(angle) == 0 else value
 
 
+@overload
+def sin(angle: float) -> float: ...
+
+
+@overload
+def sin(angle: npt.ArrayLike) -> FloatArray: ...
+
+
 def sin(angle: npt.ArrayLike) -> FloatArray | float:
     """Return the sine of angles in radians.
 
@@ -137,15 +146,39 @@ def sin(angle: npt.ArrayLike) -> FloatArray | float:
     return _like(angle, _sine_cosine(angle)[0])
 
 
+@overload
+def cos(angle: float) -> float: ...
+
+
+@overload
+def cos(angle: npt.ArrayLike) -> FloatArray: ...
+
+
 def cos(angle: npt.ArrayLike) -> FloatArray | float:
     """Return the cosine of angles in radians; shapes as in `sin`."""
     return _like(angle, _sine_cosine(angle)[1])
+
+
+@overload
+def tan(angle: float) -> float: ...
+
+
+@overload
+def tan(angle: npt.ArrayLike) -> FloatArray: ...
 
 
 def tan(angle: npt.ArrayLike) -> FloatArray | float:
     """Return the tangent of angles in radians; shapes as in `sin`."""
     sine, cosine = _sine_cosine(angle)
     return _like(angle, sine / cosine)
+
+
+@overload
+def atan2(y: float, x: float) -> float: ...
+
+
+@overload
+def atan2(y: npt.ArrayLike, x: npt.ArrayLike) -> FloatArray: ...
 
 
 def atan2(y: npt.ArrayLike, x: npt.ArrayLike) -> FloatArray | float:

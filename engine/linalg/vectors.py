@@ -7,6 +7,7 @@ Sums run in the order x, y, z, so that the result does not depend on NumPy's sum
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -28,7 +29,7 @@ def as_vectors(name: str, values: npt.ArrayLike, size: int = 3) -> FloatArray:
     return vectors
 
 
-def dot(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray | np.float64:
+def dot(a: npt.ArrayLike, b: npt.ArrayLike) -> Any:
     """Return the scalar products of vectors.
 
     Parameters
@@ -77,7 +78,7 @@ def cross(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
     )
 
 
-def length(v: npt.ArrayLike) -> FloatArray | np.float64:
+def length(v: npt.ArrayLike) -> Any:
     """Return the Euclidean lengths of vectors, shape (..., 3) to shape (...)."""
     return np.sqrt(dot(v, v))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable
-from typing import BinaryIO
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,9 +14,12 @@ from ..mesh import Mesh
 from ..textures import Texture
 from .documents import Document
 from .registry import find_reader
-from .sources import Source, read_source
+from .sources import File, Source, read_source
 
-File = str | os.PathLike | bytes | BinaryIO
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ..textures import TextureOptions
 
 
 # Told the share of the work that is done; what it returns does not matter.
@@ -28,7 +31,7 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
 
     Parameters
     ----------
-    path : str, path-like, bytes or binary file object
+    path : str, path-like, bytes, binary file object or Traversable
         See `engine3d.loaders.formats` for what can be read. Files compressed by gzip are unpacked.
         Bytes are the content itself; what is not in a folder finds no material libraries and
         textures.
@@ -75,12 +78,14 @@ def load_document(
         return _read_document(source, format, progress, split=True)
 
 
-def load_texture(path: File, *, format: str | None = None, **options) -> Texture:
+def load_texture(
+    path: File, *, format: str | None = None, **options: Unpack[TextureOptions]
+) -> Texture:
     """Load an image as a texture.
 
     Parameters
     ----------
-    path : str, path-like, bytes or binary file object
+    path : str, path-like, bytes, binary file object or Traversable
         TGA, PNG, JPEG and whatever else Pillow reads. Bytes are the content itself.
     format : str, optional
         The format's name, such as ``"tga"``. Left out, it is told by the content and the name.

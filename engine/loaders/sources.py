@@ -9,13 +9,23 @@ from __future__ import annotations
 
 import os
 import stat
+import sys
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
 from .open_files import OpenFile, unreadable
+
+if TYPE_CHECKING:
+    if sys.version_info >= (3, 11):
+        from importlib.resources.abc import Traversable
+    else:
+        from importlib.abc import Traversable
+
+#: What is loaded from: a path, the content, a file, or a resource of a package.
+File: TypeAlias = "str | os.PathLike[str] | bytes | BinaryIO | Traversable"
 
 # A compressed file may unpack to this many bytes, and so many times its own size besides. Assign
 # other values to change it.
@@ -132,12 +142,12 @@ def stem_and_extension(path: str) -> tuple[str, str]:
     return stem, extension.lower()
 
 
-def read_source(file) -> Source:
+def read_source(file: File) -> Source:
     """Read a file whole.
 
     Parameters
     ----------
-    file : str, path-like, bytes-like or binary file object
+    file : str, path-like, bytes-like, binary file object or Traversable
         Bytes are the content itself. A file object is read from where it stands.
 
     Raises
@@ -155,6 +165,8 @@ def read_source(file) -> Source:
         source = _read_path(os.fspath(file))
     elif hasattr(file, "read"):
         source = _read_stream(file)
+    elif hasattr(file, "joinpath"):
+        source = _read_resource(file)
     else:
         raise InvalidArgumentError(f"not a path, bytes or a file object: {type(file).__name__}")
     if source.head(len(_GZIP)) == _GZIP:
@@ -179,6 +191,14 @@ def _read_path(path: str) -> Source:
     file = os.fdopen(handle, "rb", buffering=0)
     content = OpenFile(path, file)
     return Source(path, content if content.size >= _LARGE else content.whole())
+
+
+def _read_resource(file: Traversable) -> Source:
+    """Read a resource of a package that is not in a folder, but in an archive, say."""
+    try:
+        return Source(str(file), file.read_bytes())
+    except (OSError, KeyError, ValueError) as error:
+        raise FileAccessError(f"cannot read: {error}", str(file)) from error
 
 
 def _read_stream(file) -> Source:

@@ -7,19 +7,23 @@ from below upward, in arrays that never change. The layers are found in C (`csrc
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection
-from typing import Any
+from collections.abc import Callable, Collection, Iterable
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._native import navigation as _native
 from ..errors import InvalidArgumentError
+from ..instances import InstancedMesh
 from ..materials import Material
+from ..mesh import Mesh
+from ..scene import Scene
 from .placed_meshes import bounds_of, placed_meshes
 
 MAX_CELLS = 1 << 26
-Choice = Collection[str] | Callable[[Material], bool] | None
+Choice: TypeAlias = Collection[str] | Callable[[Material], bool] | None
 
 
 class NavigationGrid:
@@ -75,12 +79,12 @@ class NavigationGrid:
 
     def __init__(
         self,
-        thing,
+        thing: Scene | Mesh | InstancedMesh | Iterable[Mesh | InstancedMesh],
         *,
         cell: float = 0.5,
         walkable: Choice = None,
         ignore: Choice = (),
-        bounds=None,
+        bounds: ArrayLike | None = None,
         max_slope: float = math.radians(40.0),
         step: float = 0.4,
         headroom: float = 1.8,
@@ -114,7 +118,9 @@ class NavigationGrid:
             array.setflags(write=False)
         self.starts, self.heights, self._slope_x, self._slope_z, self.walkable = arrays
 
-    def sample_ground(self, x, z, y=None) -> tuple[Any, Any]:
+    def sample_ground(
+        self, x: ArrayLike, z: ArrayLike, y: ArrayLike | None = None
+    ) -> tuple[Any, Any]:
         """Return how high the ground is somewhere, and whether one can stand there.
 
         Parameters

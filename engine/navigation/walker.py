@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..attributes import Closed, finite
 from ..errors import InvalidArgumentError
@@ -66,7 +67,7 @@ class Walker(Closed):
         x: float,
         z: float,
         y: float | None = None,
-        eye_height=1.7,
+        eye_height: float = 1.7,
         *,
         survey: Callable[[float, float], NavigationGrid] | None = None,
     ) -> None:
@@ -81,7 +82,7 @@ class Walker(Closed):
         self.y = self._ground(self.x, self.z)
 
     @property
-    def eye(self) -> np.ndarray:
+    def eye(self) -> NDArray[np.float64]:
         """Where the eyes are, (3,) float64."""
         return np.array([self.x, self.y + self.eye_height, self.z])
 

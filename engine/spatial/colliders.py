@@ -9,9 +9,10 @@ mesh's own tree for its faces.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import BOX, SHOWN, NativeTree
@@ -33,7 +34,7 @@ class BoxCollider:
         Corners in the node's space; those of the node's own mesh if left out.
     """
 
-    def __init__(self, low=None, high=None) -> None:
+    def __init__(self, low: ArrayLike | None = None, high: ArrayLike | None = None) -> None:
         if (low is None) != (high is None):
             raise InvalidArgumentError("give both corners of a BoxCollider, or none")
         self.box = None if low is None else np.stack([vector3(low, "low"), vector3(high, "high")])
@@ -50,7 +51,7 @@ class SphereCollider:
     center : (3,) float
     """
 
-    def __init__(self, radius: float, center=(0, 0, 0)) -> None:
+    def __init__(self, radius: float, center: ArrayLike = (0, 0, 0)) -> None:
         self.radius, self.center = positive(radius, "radius"), vector3(center, "center")
 
 
@@ -69,6 +70,9 @@ class MeshCollider:
         self.mesh = mesh
 
 
+Collider: TypeAlias = BoxCollider | SphereCollider | MeshCollider
+
+
 class ColliderHit(NamedTuple):
     """Where a ray meets a collider.
 
@@ -82,7 +86,7 @@ class ColliderHit(NamedTuple):
 
     node: Node
     distance: float
-    position: np.ndarray
+    position: NDArray[np.float64]
 
 
 def check_collider(node: Node, collider) -> None:

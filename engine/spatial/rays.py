@@ -11,6 +11,7 @@ import numbers
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import linalg
 from .._native.rasterizer import CULLS
@@ -46,9 +47,9 @@ class RayHit(NamedTuple):
     instance: int
     face: int
     distance: float
-    position: np.ndarray
-    normal: np.ndarray
-    barycentric: np.ndarray
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    barycentric: NDArray[np.float64]
 
 
 class RayHits(NamedTuple):
@@ -63,13 +64,13 @@ class RayHits(NamedTuple):
     position, normal, barycentric : (N, 3) float64
     """
 
-    object_id: np.ndarray
-    instance: np.ndarray
-    face: np.ndarray
-    distance: np.ndarray
-    position: np.ndarray
-    normal: np.ndarray
-    barycentric: np.ndarray
+    object_id: NDArray[np.int32]
+    instance: NDArray[np.int32]
+    face: NDArray[np.int32]
+    distance: NDArray[np.float64]
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    barycentric: NDArray[np.float64]
 
 
 def raycast(scene, origin, direction, max_distance, cull) -> RayHit | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
+from typing import Any
 
 from ..atomic_write import checked_path
 from ..errors import Engine3DWarning, InvalidArgumentError
@@ -11,7 +12,9 @@ from ..mesh import Mesh
 from .registry import find_writer
 
 
-def save_mesh(mesh: Mesh, path: str | os.PathLike, *, format: str | None = None, **options) -> None:
+def save_mesh(
+    mesh: Mesh, path: str | os.PathLike[str], *, format: str | None = None, **options: Any
+) -> None:
     """Write a mesh to a file, so that it is there whole or not at all.
 
     Parameters

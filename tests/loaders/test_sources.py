@@ -6,12 +6,13 @@ import io
 import os
 import tracemalloc
 import warnings
+import zipfile
 
 import numpy as np
 import pytest
 from loaders.seeds import FILES
 
-from engine3d.errors import FileAccessError, FileFormatError, InvalidArgumentError
+from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError, InvalidArgumentError
 from engine3d.loaders import load_document, load_mesh, load_texture, sources
 
 OBJ = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"
@@ -166,3 +167,16 @@ def test_a_file_that_becomes_shorter(write, monkeypatch, name):
         os.truncate(path, 40)
         with pytest.raises(FileAccessError, match="became shorter"):
             list(large.pieces(0, 10, 5))
+
+
+def test_resources_in_archives(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr("models/a.obj", OBJ)
+    folder = zipfile.Path(tmp_path / "a.zip") / "models"
+    with pytest.warns(Engine3DWarning, match="a.mtl"):
+        mesh = load_mesh(folder / "a.obj")
+    assert len(mesh.faces) == 1
+    assert mesh.name == "a"
+    for name in ("b.obj", ""):
+        with pytest.raises(FileAccessError, match="cannot read"):
+            load_mesh(folder / name)

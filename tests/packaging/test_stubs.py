@@ -63,7 +63,8 @@ def public_functions():
         for key, item in members.items():
             item = getattr(item, "__func__", item)
             is_ours = getattr(item, "__module__", "").startswith("engine3d")
-            if inspect.isfunction(item) and is_ours and not key.startswith("_"):
+            is_public = not key.startswith("_") or key == "__init__"
+            if inspect.isfunction(item) and is_ours and is_public:
                 yield item
 
 
@@ -73,3 +74,29 @@ def test_public_functions_declare_what_they_return():
     assert len(functions) > 100
     missing = [item.__qualname__ for item in functions if "return" not in item.__annotations__]
     assert missing == []
+
+
+def test_public_functions_declare_what_they_take():
+    """Editors complete and check only arguments whose types they know."""
+    missing = [
+        f"{item.__qualname__}({parameter.name})"
+        for item in public_functions()
+        for parameter in inspect.signature(item).parameters.values()
+        if parameter.annotation is parameter.empty and parameter.name not in ("self", "cls")
+    ]
+    assert missing == []
+
+
+def test_public_properties_declare_what_they_return():
+    classes = [
+        value for value in (getattr(e3d, name) for name in e3d.__all__) if inspect.isclass(value)
+    ]
+    properties = [
+        (f"{owner.__name__}.{name}", member.fget)
+        for owner in classes
+        for name, member in vars(owner).items()
+        if isinstance(member, property) and not name.startswith("_")
+    ]
+    assert len(properties) > 30
+    assert [name for name, get in properties if "return" not in get.__annotations__] == []
+    assert [name for name, get in properties if get.__annotations__["return"] == "np.ndarray"] == []

@@ -1,0 +1,49 @@
+"""The values that arguments with few choices take, as types: editors complete them.
+
+Each is written once, here; what a module accepts at run time is the same list, which a test checks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, TypeAlias
+
+from numpy.typing import NDArray
+
+Backend = Literal["auto", "scalar", "portable", "sse41", "avx2", "avx512"]
+ColorSpace = Literal["srgb", "linear"]
+Samples = Literal[1, 4, 16]
+
+Mode = Literal["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]
+Wireframe = Literal["overlay", "only"]
+Cull = Literal["none", "back", "front"]
+Shading = Literal["deferred", "forward"]
+Normals = Literal["auto", "smooth", "flat"]
+HiddenSurfaces = Literal["zbuffer", "painter", "none"]
+Culling = Literal["all", "frustum", "none", "always"]
+Output = Literal[
+    "color",
+    "depth",
+    "ndc_depth",
+    "triangle_id",
+    "object_id",
+    "instance_id",
+    "material_id",
+    "albedo",
+    "normal",
+    "position",
+    "world_normal",
+    "world_position",
+    "uv",
+    "barycentric",
+]
+
+Filter = Literal["trilinear", "bilinear", "nearest"]
+Wrap = Literal["repeat", "clamp", "mirror"]
+Falloff = Literal["inverse_square", "window"]
+ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
+EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
+
+#: Three numbers: floats are linear light, integers from 0 to 255 sRGB.
+Color: TypeAlias = tuple[float, float, float]
+ColorLike: TypeAlias = Sequence[float] | NDArray[Any]

@@ -1,0 +1,156 @@
+"""Type checkers accept the Python of README.md and docs/, and know what the API takes and returns.
+
+An editable install is found by import hooks, which type checkers don't run: they are shown a folder
+in which the package lies under its name.
+"""
+
+import importlib.util
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import engine3d
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+# What editors and checkers are to know.
+RIGHT = """
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+import engine3d as e3d
+from engine3d.choices import Mode
+
+if TYPE_CHECKING:
+    from typing_extensions import assert_type
+
+mesh = e3d.load_mesh(files("engine3d.data") / "models" / "teapot.obj")
+mesh.faces = [(0, 1, 2)]
+mesh.normals = None
+mesh.materials[0].color = np.array([255, 0, 0], np.uint8)
+assert_type(mesh.positions, NDArray[np.float32])
+assert_type(mesh.faces, NDArray[np.int32])
+assert_type(mesh.normals, NDArray[np.float32])
+assert_type(mesh.uvs, NDArray[np.float32] | None)
+assert_type(mesh.edge_visible, NDArray[np.bool_] | None)
+assert_type(mesh.bounds, NDArray[np.float64])
+texture = e3d.Texture(np.zeros((4, 4, 3), np.uint8), filter="bilinear")
+texture.wrap = "mirror"
+assert_type(texture.filter, Literal["trilinear", "bilinear", "nearest"])
+assert_type(texture.pixels, NDArray[np.uint8])
+light = e3d.DirectionalLight(direction=(0, -1, 0))
+light.direction = [0, 0, -1]
+assert_type(light.direction, NDArray[np.float64])
+assert_type(light.intensity, float)
+scene = e3d.Scene(background=None)
+node = scene.add(mesh, translation=(0, 1, 0), scale=2.0)
+node.translation = np.zeros(3)
+assert_type(node.world_pose, NDArray[np.float64])
+camera = e3d.PerspectiveCamera()
+assert_type(camera.zfar, float)
+assert_type(camera.aspect, float | None)
+scene.add(camera, pose=e3d.look_at((0, 0, 5), (0, 0, 0)))
+mode: Mode = "depth"
+frame = e3d.render(scene, size=(64, 48), mode=mode, cull="none", outputs=("color", "depth"))
+assert_type(frame.color, NDArray[np.uint8])
+assert_type(frame.depth, NDArray[np.float32])
+assert_type(frame.object_id, NDArray[np.int32])
+assert_type(frame.stats, dict[str, Any])
+hit = scene.raycast((0, 0, 5), (0, 0, -1))
+if hit is not None:
+    assert_type(hit.position, NDArray[np.float64])
+assert_type(e3d.linalg.sin(0.5), float)
+for backend in e3d.backends():
+    e3d.Renderer(64, 48, backend=backend)
+"""
+# Each line is wrong.
+WRONG = """
+e3d.render(scene, mode="lti")
+e3d.render(scene, wirefame="only")
+e3d.Renderer(64, 48, backend="cuda")
+e3d.Renderer(64, 48, samples=8)
+e3d.Renderer(64, 48).render(scene, outputs=("colour",))
+e3d.Texture(mesh.positions, filter="linear")
+e3d.PointLight(falloff="linear")
+e3d.load_texture("a.png", wrap="tile")
+texture.filter = "linear"
+node.object = mesh
+mesh.nonsense = 1
+e3d.load_mesh(3)
+"""
+
+
+def blocks(page):
+    """The Python of a page, on the lines where it stands there."""
+    lines, inside = [], False
+    for line in page.read_text(encoding="utf-8").splitlines():
+        if line.startswith("```"):
+            inside = line == "```python"
+            line = "```"
+        lines.append(line if inside and line != "```" else "")
+    return "\n".join(lines) + "\n"
+
+
+@pytest.fixture(scope="module")
+def sources(tmp_path_factory):
+    """A folder of what is to be checked, with the package beside it."""
+    folder = tmp_path_factory.mktemp("typed")
+    (folder / "packages").mkdir()
+    (folder / "packages" / "engine3d").symlink_to(Path(engine3d.__file__).parent)
+    for page in PAGES:
+        text = blocks(page)
+        if text.strip():
+            (folder / f"{page.stem}_md.py").write_text(text, encoding="utf-8")
+    (folder / "right.py").write_text(RIGHT, encoding="utf-8")
+    (folder / "wrong.py").write_text(RIGHT + WRONG, encoding="utf-8")
+    (folder / "pyrightconfig.json").write_text('{"extraPaths": ["packages"]}', encoding="utf-8")
+    assert len(list(folder.glob("*_md.py"))) >= 4
+    return folder
+
+
+def run_mypy(folder, monkeypatch):
+    if importlib.util.find_spec("mypy") is None:
+        pytest.skip("mypy is not installed (pip install mypy)")
+    monkeypatch.setenv("MYPYPATH", str(folder / "packages"))
+    options = ["--follow-imports=silent", "--check-untyped-defs", "--hide-error-context"]
+    return [sys.executable, "-m", "mypy", *options, "--cache-dir", str(folder / "cache")]
+
+
+def run_pyright(folder, monkeypatch):
+    pyright = shutil.which("pyright", path=Path(sys.executable).parent) or shutil.which("pyright")
+    if pyright is None:
+        pytest.skip("pyright is not installed (pip install pyright)")
+    try:
+        started = subprocess.run([pyright, "--version"], capture_output=True, timeout=60)
+    except subprocess.TimeoutExpired:
+        started = None
+    if started is None or started.returncode:
+        pytest.skip("pyright is installed, but does not start (it fetches its program at first)")
+    return [pyright, "--pythonpath", sys.executable, "--level", "error"]
+
+
+@pytest.mark.parametrize(
+    "run",
+    [
+        pytest.param(run_mypy, id="mypy"),
+        pytest.param(run_pyright, id="pyright", marks=pytest.mark.slow),
+    ],
+)
+def test_a_type_checker_reads_the_examples(run, sources, monkeypatch):
+    command = run(sources, monkeypatch)
+    files = sorted(path.name for path in sources.glob("*.py"))
+    done = subprocess.run([*command, *files], cwd=sources, capture_output=True, text=True)
+    found = re.findall(r"^.*?(\w+)\.py:(\d+).*\berror\b.*$", done.stdout, re.MULTILINE)
+    others = [(name, line) for name, line in found if name != "wrong"]
+    assert not others, done.stdout
+    first = RIGHT.count("\n") + 2
+    expected = set(range(first, first + WRONG.count("\n") - 1))
+    assert {int(line) for name, line in found if name == "wrong"} == expected, done.stdout

@@ -1,0 +1,63 @@
+"""The choices that type checkers know are those that are accepted at run time."""
+
+import inspect
+from itertools import permutations
+from typing import get_args, get_type_hints
+
+import pytest
+
+import engine3d as e3d
+from engine3d import choices, colors, frame, frame_options, lights, textures
+from engine3d._native import rasterizer as native
+from engine3d.renderer import _SAMPLES
+
+ACCEPTED = {
+    "Backend": ["auto", *native.BACKENDS],
+    "ColorSpace": colors.COLOR_SPACES,
+    "Samples": _SAMPLES,
+    "Mode": native.MODES,
+    "Wireframe": [name for name in native.WIREFRAMES if name is not None],
+    "Cull": native.CULLS,
+    "Shading": native.SHADINGS,
+    "Normals": native.NORMALS,
+    "HiddenSurfaces": native.HIDDEN_SURFACES,
+    "Culling": native.CULLINGS,
+    "Output": frame.OUTPUTS,
+    "Filter": native.FILTERS,
+    "Wrap": native.WRAPS,
+    "Falloff": native.FALLOFFS,
+    "ImageFormat": frame._FORMATS,
+    "EulerOrder": ["".join(order) for order in permutations("XYZ")],
+}
+
+
+@pytest.mark.parametrize("name", ACCEPTED)
+def test_a_type_lists_what_is_accepted(name):
+    assert sorted(get_args(getattr(choices, name))) == sorted(ACCEPTED[name])
+
+
+def test_every_type_is_compared():
+    literals = {name for name, value in vars(choices).items() if "Literal[" in str(value)}
+    assert literals == set(ACCEPTED)
+
+
+def test_lists_of_modules_are_the_types():
+    assert get_args(choices.Falloff) == lights.FALLOFFS
+    assert get_args(choices.Filter) == textures.FILTERS
+    assert get_args(choices.Wrap) == textures.WRAPS
+
+
+def passed_on(function):
+    """The annotations of the keyword arguments of a function."""
+    parameters = inspect.signature(function).parameters.values()
+    return {p.name: p.annotation for p in parameters if p.kind is p.KEYWORD_ONLY}
+
+
+def test_options_that_functions_pass_on_are_those_of_the_function():
+    assert (
+        frame_options.RenderOptions.__annotations__.keys() == passed_on(e3d.Renderer.render).keys()
+    )
+    for name, annotation in passed_on(e3d.Renderer.render).items():
+        declared = frame_options.RenderOptions.__annotations__[name].__forward_arg__
+        assert declared == annotation, name
+    assert get_type_hints(textures.TextureOptions).keys() == passed_on(e3d.Texture.__init__).keys()

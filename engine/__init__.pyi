@@ -6,6 +6,7 @@ from . import linalg as linalg
 from . import loaders as loaders
 from . import primitives as primitives
 from .animation import Animator as Animator
+from .animation_saving import save_animation as save_animation
 from .backend_selection import backends as backends
 from .cameras import Camera as Camera
 from .cameras import IntrinsicsCamera as IntrinsicsCamera
@@ -41,6 +42,7 @@ from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
 from .node_selection import NodeSelection as NodeSelection
 from .nodes import Node as Node
+from .orbiting import orbit as orbit
 from .primitives import box as box
 from .primitives import cylinder as cylinder
 from .primitives import icosphere as icosphere

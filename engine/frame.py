@@ -12,7 +12,7 @@ import os
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ._native.images import encode_png
 from .atomic_write import atomic_write, checked_path
@@ -170,6 +170,33 @@ class Frame:
         if copy:
             return np.array(self.color, dtype)
         return np.asarray(self.color, dtype)
+
+    def project(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where points of the world are in the picture, and how far from the camera.
+
+        Parameters
+        ----------
+        points : (3,) or (N, 3) float
+            World space.
+
+        Returns
+        -------
+        pixels : (2,) or (N, 2) float64
+            Screen space, in pixels: x to the right and y down from the top left corner; the centre
+            of the top left pixel is (0.5, 0.5). Points outside of the picture have positions
+            outside of it. NaN where a point has none: behind the camera, or beside it.
+        depth : () or (N,) float64
+            Distance along the view axis in world units, as in ``frame.depth``; negative behind the
+            camera. A point shows if it is in the picture and nothing nearer is drawn there.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The points have another shape, or the frame was not drawn by a `Renderer`.
+        """
+        if self._seen is None:
+            raise InvalidArgumentError("the frame was not drawn by a Renderer")
+        return self._seen[0].project(points, self.width, self.height)
 
     def image(self) -> Image.Image:
         """Return the colour as an image of Pillow (``PIL.Image.Image``, RGBA), a copy."""

@@ -9,13 +9,14 @@ from __future__ import annotations
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
 from ._native.scene_graph import camera_view
 from .attributes import matrix4
 from .cameras import Camera
 from .errors import InvalidArgumentError
+from .linalg.vectors import as_vectors
 from .nodes import Node
 from .scene import Scene
 
@@ -64,6 +65,19 @@ class View:
             self._pose_bytes == pose.tobytes()
         )
 
+    def project(
+        self, points: ArrayLike, width: int, height: int
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """See `Frame.project`."""
+        points = as_vectors("points", points)
+        x, y, _, w = (_rise(row, points) for row in self.clip_from_world)
+        with np.errstate(all="ignore"):
+            w = np.where(w > 0.0, w, np.nan)
+            pixels = np.stack(
+                [(x / w + 1.0) * (0.5 * width), (1.0 - y / w) * (0.5 * height)], axis=-1
+            )
+        return pixels, -_rise(self.view_from_world[2], points)
+
     def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
         """Return the metric depths between which a world box lies, within the camera's range."""
         center = (bounds[0] + bounds[1]) * 0.5
@@ -77,6 +91,11 @@ class View:
         if not near < far or np.float32(near) == np.float32(far):
             near, far = middle - 0.5, middle + 0.5  # flat, or outside: any range shows as much
         return near, far
+
+
+def _rise(row: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A row of a matrix times points with w = 1."""
+    return linalg.dot(points, row[:3]) + row[3]
 
 
 def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray] | None:

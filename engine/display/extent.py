@@ -14,7 +14,8 @@ import numpy as np
 from .. import linalg
 from ..instances import InstancedMesh
 from ..mesh import Mesh
-from .viewpoint import Sphere, cosine, home_axes, sine
+from ..orbiting import cosine, home_axes, sine
+from .viewpoint import Sphere
 
 #: How finely `turning_outline` follows a scene.
 OUTLINE_BANDS = 24

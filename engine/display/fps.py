@@ -11,8 +11,9 @@ import math
 
 import numpy as np
 
+from ..orbiting import home_axes
 from .orbit import MAX_DISTANCE
-from .viewpoint import QUARTER_TURN, Sphere, Viewpoint, home_axes
+from .viewpoint import QUARTER_TURN, Sphere, Viewpoint
 
 #: Key positions (named as on a US keyboard) and the way each goes: right, up, forward.
 MOVES = {

@@ -11,7 +11,8 @@ import numpy as np
 
 from .. import linalg
 from ..mesh import Mesh
-from .viewpoint import Sphere, home_axes
+from ..orbiting import home_axes
+from .viewpoint import Sphere
 
 MINOR_COLOR = (92, 96, 104, 255)
 MAJOR_COLOR = (140, 146, 158, 255)

@@ -12,7 +12,8 @@ import math
 import numpy as np
 
 from ..lights import DirectionalLight, PointLight
-from .viewpoint import Sphere, home_axes
+from ..orbiting import home_axes
+from .viewpoint import Sphere
 
 #: Per set-up: the way the light travels, in camera space (or the home frame, if fixed), the linear
 #: colour, the intensity.

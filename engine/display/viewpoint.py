@@ -3,8 +3,7 @@
 In: a target, a distance, two angles and an up direction (world space, radians).
 Out: a camera with clip planes that enclose the scene, and its 4x4 pose (``world_from_view``).
 Always holds: the elevation stays within a quarter turn of the horizon, the distance above zero.
-The pose comes from the angles, not from a ``look_at``, so that straight up and down are no special
-cases; sines are rounded to 14 decimals, which makes right angles exact.
+The pose comes from the angles: see `engine3d.orbiting`.
 """
 
 from __future__ import annotations
@@ -19,6 +18,7 @@ from .. import linalg
 from ..cameras import OrthographicCamera, PerspectiveCamera
 from ..errors import InvalidArgumentError
 from ..framing import fit_frustum, frustum_reach
+from ..orbiting import home_axes, orbit_axes
 from ..reach import Reach, points_reach
 
 #: What ``up`` may be, as the command line spells it.
@@ -46,29 +46,6 @@ class Sphere(NamedTuple):
 
     center: tuple[float, float, float]
     radius: float
-
-
-def home_axes(up) -> np.ndarray:
-    """Return the axes that azimuth and elevation are measured from.
-
-    Parameters
-    ----------
-    up : (3,) sequence of float
-        The up direction in world space, of any length but zero.
-
-    Returns
-    -------
-    (3, 3) ndarray of float64
-        Rows: right, up, and back, which is where the camera stands at azimuth zero. For +Y that is
-        X, Y, Z; for +Z it is X, Z, -Y.
-    """
-    length = float(linalg.length(up))
-    if not 0.0 < length < math.inf:
-        raise InvalidArgumentError("an up direction must not be zero")
-    up = np.asarray(up, dtype=np.float64) / length
-    side = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.9 else np.array([0.0, 0.0, -up[0]])
-    right = linalg.normalize(side - up * _dot(side, up))
-    return np.array([right, up, linalg.cross(right, up)])
 
 
 @dataclass
@@ -106,14 +83,7 @@ class Viewpoint:
 
     def rotation(self) -> np.ndarray:
         """Return the camera's axes in world space: (3, 3), columns right, up and back."""
-        right, up, front = home_axes(self.up)
-        sin_a, cos_a = sine(self.azimuth), cosine(self.azimuth)
-        sin_e, cos_e = sine(self.elevation), cosine(self.elevation)
-        outward = right * sin_a + front * cos_a
-        camera_right = right * cos_a - front * sin_a
-        camera_up = up * cos_e - outward * sin_e
-        camera_back = outward * cos_e + up * sin_e
-        return np.stack([camera_right, camera_up, camera_back], axis=1)
+        return orbit_axes(self.up, self.azimuth, self.elevation)
 
     def position(self) -> np.ndarray:
         """Return where the camera stands, (3,), in world space."""
@@ -225,16 +195,6 @@ def clip_planes(position, bounds: Sphere, nearest: float = math.inf) -> tuple[fl
     zfar = (distance + bounds.radius) * 1.01
     znear = max((distance - bounds.radius) * 0.99, min(zfar * 5e-4, nearest))
     return znear, zfar
-
-
-def sine(angle: float) -> float:
-    """Return the sine, exact at right angles."""
-    return round(math.sin(angle), 14)
-
-
-def cosine(angle: float) -> float:
-    """Return the cosine, exact at right angles."""
-    return round(math.cos(angle), 14)
 
 
 def _dot(a, b) -> float:

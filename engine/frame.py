@@ -18,6 +18,7 @@ from ._native.images import encode_png
 from .atomic_write import atomic_write, checked_path
 from .choices import ImageFormat, Output
 from .errors import InvalidArgumentError, MissingOutputError
+from .picture_mark import TGA_MARK
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -47,7 +48,7 @@ _FORMATS: dict[ImageFormat, tuple[str, dict[str, Any]]] = {
     "png": ("PNG", {}),
     "jpg": ("JPEG", {"quality": 95, "subsampling": 0}),
     "jpeg": ("JPEG", {"quality": 95, "subsampling": 0}),
-    "tga": ("TGA", {"compression": "tga_rle"}),
+    "tga": ("TGA", {"compression": "tga_rle", "id_section": TGA_MARK}),
     "webp": ("WEBP", {"lossless": True}),
 }
 

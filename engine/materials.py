@@ -11,7 +11,7 @@ from typing import Any
 
 from .attributes import CheckedAttribute, Closed, ColorAttribute, NumberAttribute, not_negative
 from .choices import ColorLike
-from .colors import check_color
+from .colors import check_color, linear_color
 from .errors import InvalidArgumentError
 from .textures import Texture
 
@@ -98,3 +98,19 @@ class Material(Closed):
     def __repr__(self) -> str:
         texture = "" if self.texture is None else f", texture={self.texture!r}"
         return f"Material(name={self.name!r}, color={self.color}{texture})"
+
+
+def says_something(material: Material) -> bool:
+    """Return whether anything of a material but its name differs from a default one.
+
+    Its facets and sides do not count: an STL file sets them without a word on materials.
+    """
+    return material.texture is not None or _words(material) != _DEFAULT_WORDS
+
+
+def _words(material: Material) -> tuple:
+    colors = (material.color, material.specular, material.emissive)
+    return (*(tuple(linear_color(c).tolist()) for c in colors), material.shininess, material.extras)
+
+
+_DEFAULT_WORDS = _words(Material())

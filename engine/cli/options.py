@@ -13,6 +13,7 @@ import re
 from . import values
 from .inputs import model_file
 from .loading_bar import LoadingBar
+from .outputs import not_the_output
 from .usage import UsageError
 
 MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
@@ -78,8 +79,8 @@ def add_subject(parser) -> None:
     group.add_argument(
         "--texture",
         metavar="FILE",
-        help="texture of a model without materials (an image beside it that bears its name is "
-        "found without)",
+        help="texture of a model without materials, instead of the image beside it that bears its "
+        "name",
     )
     group.add_argument(
         "--color", type=values.color, metavar="COLOR", help="colour of a model without materials"
@@ -354,4 +355,10 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
 
     with LoadingBar() as progress:
         file = model_file(args.model)
-        return open_model(file, texture=args.texture, color=args.color, progress=progress)
+        return open_model(
+            file,
+            texture=args.texture,
+            color=args.color,
+            progress=progress,
+            companion=not_the_output(args.output),
+        )

@@ -8,7 +8,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from ..errors import FileAccessError
 from .usage import UsageError
@@ -36,6 +36,22 @@ def check_folder(output: str) -> None:
     """Raise `FileAccessError` if there is no folder for ``output``."""
     if not os.path.isdir(os.path.dirname(output) or os.curdir):
         raise FileAccessError(f"cannot write: {os.strerror(errno.ENOENT)}", output)
+
+
+def not_the_output(output: str | None) -> Callable[[str], bool]:
+    """Return what tells whether a path is another file than the one that is written."""
+
+    def is_other(path: str) -> bool:
+        try:
+            if output == STANDARD_OUTPUT:
+                written = os.fstat(sys.stdout.fileno())
+            else:
+                written = os.stat(output or "")
+            return not os.path.samestat(os.stat(path), written)
+        except (OSError, ValueError):
+            return True  # it is not there yet
+
+    return is_other
 
 
 def check_standard_output() -> None:

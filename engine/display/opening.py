@@ -10,8 +10,8 @@ import os
 import warnings
 
 from ..errors import Engine3DWarning
-from ..loaders import companion_texture, load_document, load_texture
-from ..materials import Material
+from ..loaders import load_document, load_texture
+from ..materials import says_something
 from ..scene_loading import scene_from_document
 from .subject import Subject
 
@@ -20,7 +20,7 @@ Z_UP_FORMATS = ("asc", "stl")
 BACKGROUND = (43, 46, 53)
 
 
-def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
+def open_model(path, *, texture=None, color=None, progress=None, companion=None) -> Subject:
     """Load a file to look at.
 
     Parameters
@@ -28,12 +28,13 @@ def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
     path : path-like or binary file object
         A file of any format that `engine3d.loaders` reads.
     texture : path-like, optional
-        The base colour texture of the meshes without materials. Left out, an image beside the
-        model that bears its name is taken.
+        The base colour texture of the meshes without materials.
     color : (3,) sequence, optional
         The base colour of the meshes without materials. If there are none, that is warned of.
     progress : callable, optional
         As in `engine3d.load_mesh`.
+    companion : callable, optional
+        As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
 
     Returns
     -------
@@ -44,17 +45,14 @@ def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
     FileFormatError, FileAccessError
         The file (or the texture asked for) cannot be read.
     """
-    document = load_document(path, progress=progress)
+    image = None if texture is None else load_texture(texture)
+    is_dressed = image is not None or color is not None
+    if is_dressed:
+        companion = _no_image
+    document = load_document(path, progress=progress, companion=companion)
     path = None if hasattr(path, "read") else os.fspath(path)
-    bare = [mesh for _, mesh, _ in document.objects if not has_materials(mesh)]
-    if bare:
-        image = texture
-        if image is None and color is None and path is not None:
-            image = companion_texture(path)
-        _dress(bare, image, color)
-    elif texture is not None or color is not None:
-        message = "the model has materials of its own: it gets no other texture or colour"
-        warnings.warn(message, Engine3DWarning, stacklevel=2)
+    if is_dressed:
+        _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     scene = scene_from_document(document)
     scene.background = BACKGROUND
     return Subject(
@@ -67,24 +65,30 @@ def open_model(path, *, texture=None, color=None, progress=None) -> Subject:
     )
 
 
+def _no_image(path: str) -> bool:
+    return False
+
+
 def has_materials(mesh) -> bool:
-    """Return whether a mesh brought materials, rather than the default one."""
-    default = mesh.materials[0]
-    return len(mesh.materials) > 1 or bool(default.name) or default.texture is not None
+    """Return whether any material of a mesh says how it looks; a name alone does not."""
+    return any(map(says_something, mesh.materials))
 
 
 def _dress(meshes, image, color) -> None:
-    """Give the meshes a material with the image and the colour."""
-    if image is None and color is None:
-        return
-    surface = {}
-    if image is not None:
-        surface["texture"] = load_texture(image)
-    if color is not None:
-        surface["color"] = color
-    for mesh in meshes:
-        # The facets of an STL file stay flat.
-        mesh.materials = [Material(**surface, flat_shading=mesh.materials[0].flat_shading)]
+    """Give the materials of the meshes the image and the colour; warn if that changes nothing."""
+    if not meshes:
+        _warn("the model has materials of its own: it gets no other texture or colour")
+    elif image is not None and all(mesh.uvs is None for mesh in meshes):
+        _warn("the model has no texture coordinates: the texture does not show")
+    for material in (material for mesh in meshes for material in mesh.materials):
+        if image is not None:
+            material.texture = image
+        if color is not None:
+            material.color = color
+
+
+def _warn(message: str) -> None:
+    warnings.warn(message, Engine3DWarning, stacklevel=4)
 
 
 def document_lines(document) -> list[str]:

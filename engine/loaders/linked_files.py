@@ -2,7 +2,8 @@
 
 In: a name as it stands in a file (``mtllib``, ``map_Kd``), written on any system. Out: the path of
 a regular file inside the folder, or the reason why there is none. Absolute names, ``..`` and
-symbolic links that lead out are refused; devices and FIFOs are never opened.
+symbolic links that lead out are refused; devices and FIFOs are never read. Whatever becomes of the
+folder meanwhile, what is read is a regular file that was inside it when it was opened.
 """
 
 from __future__ import annotations
@@ -14,9 +15,15 @@ from collections.abc import Callable
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+from ..errors import FileAccessError
+from .open_files import unreadable
+from .sources import READING, Source, opened_source, unpacked
+
 _MAX_NAME = 4096
 # A file that names more missing ones than this only wants to keep the disk busy.
 _MAX_FAILURES = 2000
+# A folder on the way to a file need not be readable, where the system can do without.
+_FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC
 
 
 _listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listeners", default=())
@@ -79,6 +86,43 @@ class LinkedFiles:
             self._failures += 1
             raise
 
+    def read(self, path: str) -> Source:
+        """Read a file that `find` returned.
+
+        It is looked for anew, opened once, and what was opened is read: a link that has taken the
+        place of the file, or of a folder on the way to it, since then leads nowhere.
+
+        Raises
+        ------
+        FileAccessError, FileFormatError
+        """
+        try:
+            handle = self._opened(path)
+        except LinkedFileError as error:
+            raise FileAccessError(str(error), path) from None
+        except (OSError, ValueError) as error:
+            raise unreadable(path, error) from error
+        return unpacked(opened_source(path, handle))
+
+    def _opened(self, path: str) -> int:
+        """Go from the root to the file, folder by folder, following no link."""
+        *folders, name = os.path.relpath(self._real_path(path), self._real_root).split(os.sep)
+        handle = os.open(self._real_root, _FOLDER)
+        try:
+            for folder in folders:
+                outer, handle = handle, os.open(folder, _FOLDER | os.O_NOFOLLOW, dir_fd=handle)
+                os.close(outer)
+            return os.open(name, READING | os.O_NOFOLLOW, dir_fd=handle)
+        finally:
+            os.close(handle)
+
+    def _real_path(self, path: str) -> str:
+        """The path without links, which must be inside."""
+        real = os.path.realpath(path)
+        if os.path.commonpath([self._real_root, real]) != self._real_root:
+            raise LinkedFileError("a path that leaves the model's folder is refused")
+        return real
+
     def _find(self, name: str, folder: str) -> str:
         name = name.strip().strip('"').replace("\\", "/")
         if not name or "\0" in name or len(name) > _MAX_NAME:
@@ -89,10 +133,7 @@ class LinkedFiles:
         try:
             if not os.path.lexists(path):
                 path = self._with_other_case(path)
-            real = os.path.realpath(path)
-            if os.path.commonpath([self._real_root, real]) != self._real_root:
-                raise LinkedFileError("a path that leaves the model's folder is refused")
-            mode = os.stat(real).st_mode
+            mode = os.stat(self._real_path(path)).st_mode
         except FileNotFoundError:
             raise LinkedFileError("not found") from None
         except (OSError, ValueError) as error:

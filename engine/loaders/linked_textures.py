@@ -14,6 +14,7 @@ from ..textures import Texture
 from .companions import companion_texture
 from .linked_files import LinkedFileError, LinkedFiles
 from .sources import Source
+from .text import shown
 from .warning_list import WarningList
 
 
@@ -48,7 +49,7 @@ class TextureCache:
         path, note = self._find(name, folder)
         key = (os.path.realpath(path), wrap)
         if key not in self._textures:
-            self._textures[key] = _load_texture(path, wrap)
+            self._textures[key] = _read_texture(self._files, path, wrap)
         return self._textures[key], note
 
     def _find(self, name: str, folder: str) -> tuple[str, str]:
@@ -76,20 +77,23 @@ class TextureCache:
 def give_companion_texture(
     source: Source, materials: list[Material], warnings: WarningList
 ) -> None:
-    """Paint materials with the image that bears the model's name, if there is one."""
-    path = companion_texture(source.path) if source.has_name else None
+    """Paint materials with the image that bears the model's name, if there is one, and say so."""
+    path = companion_texture(source.path, source.companion) if source.has_name else None
     if path is None:
         return
+    name = shown(os.path.basename(path))
     try:
-        texture = _load_texture(path, "repeat")
+        texture = _read_texture(LinkedFiles(source.folder), path, "repeat")
     except Engine3DError as error:
-        warnings.add(f"texture beside the model left out: {error}")
+        warnings.add(f"texture {name} beside the model left out: {error}")
         return
+    warnings.add(f"no materials: {name} beside the model is taken as its texture, for its name")
     for material in materials:
         material.texture = texture
 
 
-def _load_texture(path: str, wrap: str) -> Texture:
-    from .loading import load_texture
+def _read_texture(files: LinkedFiles, path: str, wrap: str) -> Texture:
+    from .loading import texture_of
 
-    return load_texture(path, wrap=wrap)
+    with files.read(path) as source:
+        return texture_of(source, wrap=wrap)

@@ -68,13 +68,25 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
 
 
 def load_document(
-    path: File, *, format: str | None = None, progress: Progress | None = None
+    path: File,
+    *,
+    format: str | None = None,
+    progress: Progress | None = None,
+    companion: Callable[[str], bool] | None = None,
 ) -> Document:
     """Load everything that a model file holds: its objects one by one, lights and cameras.
 
-    Parameters and exceptions are those of `load_mesh`.
+    Other parameters and exceptions are those of `load_mesh`.
+
+    Parameters
+    ----------
+    companion : callable, optional
+        ``companion(path)`` tells whether the image ``path`` beside a model without materials may
+        become its texture for its name alone (`companion_texture`); any may if left out.
     """
     with read_source(path) as source:
+        if companion is not None:
+            source = source._replace(companion=companion)
         return _read_document(source, format, progress, split=True)
 
 
@@ -102,7 +114,12 @@ def load_texture(
         There is no such ``format``, or ``path`` is none of these things.
     """
     with read_source(path) as source:
-        pixels = find_reader(source, "image", format).read(source)
+        return texture_of(source, format, **options)
+
+
+def texture_of(source: Source, format: str | None = None, **options) -> Texture:
+    """Return the texture of an open image; as `load_texture` otherwise."""
+    pixels = find_reader(source, "image", format).read(source)
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
     return Texture(pixels, **options)
 

@@ -12,7 +12,7 @@ from .linked_files import LinkedFileError, LinkedFiles
 from .linked_textures import TextureCache
 from .mtl import read_mtl
 from .obj_states import Setters
-from .sources import Source, read_source
+from .sources import Source
 from .text import shown
 from .warning_list import WarningList
 
@@ -43,7 +43,7 @@ def read_library(source: Source, statements: Setters, warnings: WarningList) -> 
                 continue
             seen.add(path)
             try:
-                found = read_mtl(read_source(path), textures, warnings)
+                found = read_mtl(files.read(path), textures, warnings)
             except Engine3DError as error:
                 warnings.add(f"material library left out: {error}", line)
                 continue

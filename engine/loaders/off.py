@@ -19,6 +19,7 @@ from ..errors import FileFormatError
 from ..materials import Material
 from .documents import Document, DocumentObject
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
+from .linked_textures import give_companion_texture
 from .number_arrays import NotANumberError, NumberRows, read_numbers
 from .registry import Reader
 from .sources import Source
@@ -48,6 +49,8 @@ def read_off(source: Source, split: bool = False) -> Document:
     geometry = reader.read()
     mesh = build_indexed_mesh(geometry, source.stem)
     mesh.materials = [Material()]
+    if mesh.uvs is not None:
+        give_companion_texture(source, mesh.materials, warnings)
     counts = {
         "vertices": len(geometry.positions),
         "faces": reader.face_count,

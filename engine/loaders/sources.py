@@ -32,6 +32,9 @@ File: TypeAlias = "str | os.PathLike[str] | bytes | BinaryIO | Traversable"
 MAX_UNPACKED_BASE = 16 << 20
 MAX_UNPACKED_RATIO = 50
 
+# How files are opened: without O_NONBLOCK, a FIFO that nobody writes to would wait for ever.
+READING = os.O_RDONLY | os.O_CLOEXEC | getattr(os, "O_NONBLOCK", 0)
+
 _GZIP = b"\x1f\x8b\x08"
 _GZIP_WINDOW = 16 + 15
 _CHUNK = 1 << 20
@@ -47,6 +50,10 @@ def _no_progress(fraction: float) -> None:
     """Nobody watches."""
 
 
+def _any_image(path: str) -> bool:
+    return True
+
+
 class Source(NamedTuple):
     """A file's content.
 
@@ -57,11 +64,14 @@ class Source(NamedTuple):
     content : bytes or OpenFile
     progress : callable
         ``progress(fraction)``: told by the reader how much of its work is done, 0..1.
+    companion : callable
+        ``companion(path) -> bool``: whether an image may become the texture for its name alone.
     """
 
     path: str
     content: bytes | OpenFile
     progress: Callable[[float], object] = _no_progress
+    companion: Callable[[str], bool] = _any_image
 
     def __enter__(self) -> Source:
         return self
@@ -169,18 +179,33 @@ def read_source(file: File) -> Source:
         source = _read_resource(file)
     else:
         raise InvalidArgumentError(f"not a path, bytes or a file object: {type(file).__name__}")
-    if source.head(len(_GZIP)) == _GZIP:
-        with source:
-            return Source(source.path, _unpacked(source))
-    return source
+    return unpacked(source)
+
+
+def unpacked(source: Source) -> Source:
+    """Return a source whose content is not compressed; raises as `read_source`."""
+    if source.head(len(_GZIP)) != _GZIP:
+        return source
+    with source:
+        return Source(source.path, _unpacked(source))
 
 
 def _read_path(path: str) -> Source:
     try:
-        # Without O_NONBLOCK, opening a FIFO that nobody writes to would wait for ever.
-        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | os.O_CLOEXEC)
+        handle = os.open(path, READING)
     except (OSError, ValueError) as error:
         raise unreadable(path, error) from error
+    return opened_source(path, handle)
+
+
+def opened_source(path: str, handle: int) -> Source:
+    """Return the source of an open file, which it owns from now on.
+
+    Raises
+    ------
+    FileAccessError
+        It is no regular file.
+    """
     mode = os.fstat(handle).st_mode
     if not stat.S_ISREG(mode):
         os.close(handle)

@@ -17,11 +17,13 @@ from urllib.parse import unquote
 import numpy as np
 
 from ..errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
+from ..materials import says_something
 from .documents import Document, DocumentObject
 from .gltf_limits import announced
 from .linked_files import LinkedFileError, LinkedFiles
+from .linked_textures import give_companion_texture
 from .registry import Reader
-from .sources import Source, read_source
+from .sources import Source
 from .text import shown
 from .warning_list import WarningList
 
@@ -97,6 +99,11 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
     ]
     if not any(len(entry.mesh.positions) for entry in objects):
         raise FileFormatError("no vertices in this file", source.path)
+    materials = [material for entry in objects for material in entry.mesh.materials]
+    if any(entry.mesh.uvs is not None for entry in objects) and not any(
+        map(says_something, materials)
+    ):
+        give_companion_texture(source, materials, warnings)
     counts = {
         "vertices": sum(len(entry.mesh.positions) for entry in objects),
         "faces": sum(len(entry.mesh.faces) for entry in objects),
@@ -203,7 +210,7 @@ def _resolver(trimesh, source: Source, warnings: WarningList):
 
         def get(self, name):
             try:
-                return read_source(_find(files, str(name))).data
+                return files.read(_find(files, str(name))).data
             except (LinkedFileError, Engine3DError) as error:
                 warnings.add(f"{name!r}: {error}")
                 raise FileNotFoundError(f"{name!r}: {error}") from None

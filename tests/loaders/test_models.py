@@ -19,6 +19,12 @@ def table():
         return []
 
 
+COMPANIONS = {
+    "african_head/african_head.obj": "african_head_diffuse.tga",
+    "spot/spot.obj": "spot_texture.png",
+}
+
+
 def own_models():
     folder = files("engine3d.data") / "models"
     return sorted(entry.name for entry in folder.iterdir() if entry.name.endswith((".obj", ".asc")))
@@ -34,7 +40,9 @@ def test_model(entry):
     mesh = document.objects[0].mesh
     assert np.allclose(mesh.bounds, entry["bbox"], atol=1e-5)
     assert np.allclose((mesh.normals.astype(np.float64) ** 2).sum(axis=1), 1, atol=0.01)
-    assert document.warnings == []
+    texture = COMPANIONS.get(entry["file"])
+    assert len(document.warnings) == (texture is not None)
+    assert texture is None or f"{texture!r} beside the model" in document.warnings[0]
 
 
 @needs_models

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import engine3d as e3d
 from engine3d.errors import Engine3DWarning
 from engine3d.loaders import companion_texture, load_mesh
 
@@ -210,30 +211,50 @@ def test_faces_before_any_material_get_a_plain_one(write, obj_mesh):
     assert [mesh.materials[k].color for k in mesh.material_ids] == [(1, 1, 1), (1, 0, 0)]
 
 
-@pytest.mark.parametrize("name", ["model.tga", "model_diffuse.png", "Model.PNG", "model.jpg"])
-def test_the_image_that_bears_the_models_name(image, write, obj_mesh, name):
+@pytest.mark.parametrize(
+    "name", ["model.tga", "Model.TGA", "model_diffuse.png", "model_texture.JPG", "model_color.bmp"]
+)
+def test_the_image_that_bears_the_models_name(image, write, name):
     expected = image(name)
-    mesh = obj_mesh(PLAIN)
+    path = write("model.obj", PLAIN)
+    with pytest.warns(Engine3DWarning, match=f"no materials: '{name}' beside the model is taken"):
+        mesh = load_mesh(path)
     assert mesh.materials[0].texture.name == name
-    assert companion_texture(write("model.obj", PLAIN)) == str(expected)
+    assert companion_texture(path) == str(expected)
+
+
+@pytest.mark.parametrize("name", ["model.png", "model.jpg", "model.webp", "model2.tga", "m.tga"])
+def test_pictures_of_the_model_and_of_others_are_no_companions(image, write, obj_mesh, name):
+    image(name)
+    assert companion_texture(write("model.obj", PLAIN)) is None
+    assert obj_mesh(PLAIN).materials[0].texture is None
+
+
+def test_a_picture_that_we_drew_is_no_companion(write, tmp_path):
+    scene = e3d.Scene()
+    scene.add(e3d.box())
+    for name in ("model.tga", "model_diffuse.tga"):
+        e3d.render(scene, size=(8, 8)).save(tmp_path / name)
+    assert companion_texture(write("model.obj", PLAIN)) is None
 
 
 def test_the_plain_name_comes_first_and_tga_before_png(image, write):
-    for name in ("model_diffuse.tga", "model.png"):
-        image(name)
     path = write("model.obj", PLAIN)
-    assert companion_texture(path).endswith("model.png")
-    image("model.tga")
-    assert companion_texture(path).endswith("model.tga")
+    found = []
+    for name in ("model_texture.png", "model_diffuse.png", "model_diffuse.tga", "model.tga"):
+        image(name)
+        found.append(companion_texture(path) == str(path.parent / name))
+    assert all(found)
+    assert companion_texture(path, lambda p: not p.endswith("l.tga")).endswith("_diffuse.tga")
 
 
 def test_a_model_with_materials_gets_no_companion(image, material):
-    image("model.png")
+    image("model.tga")
     assert material("Kd 1 0 0\n").texture is None
 
 
 def test_a_model_without_uvs_gets_no_companion(image, obj_mesh):
-    image("model.png")
+    image("model.tga")
     mesh = obj_mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     assert mesh.materials[0].texture is None
 
@@ -241,7 +262,7 @@ def test_a_model_without_uvs_gets_no_companion(image, obj_mesh):
 def test_a_companion_that_leads_out_is_not_followed(image, write, tmp_path):
     outside = image("outside.png")
     path = write("inside/model.obj", PLAIN)
-    (tmp_path / "inside" / "model.png").symlink_to(outside)
+    (tmp_path / "inside" / "model_diffuse.png").symlink_to(outside)
     assert companion_texture(path) is None
 
 

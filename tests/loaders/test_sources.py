@@ -53,7 +53,7 @@ def test_compressed_files(write, name):
 
 
 def test_a_compressed_model_finds_its_image(write):
-    write("a.ppm", PPM)
+    write("a_diffuse.ppm", PPM)
     content = OBJ.replace(b"mtllib a.mtl\n", b"vt 0 0\n").replace(b"f 1", b"f 1/1")
     assert load_mesh(write("a.obj.gz", gzip.compress(content))).materials[0].texture is not None
 

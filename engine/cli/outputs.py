@@ -40,18 +40,16 @@ def check_folder(output: str) -> None:
 
 def not_the_output(output: str | None) -> Callable[[str], bool]:
     """Return what tells whether a path is another file than the one that is written."""
+    return lambda path: output is None or not is_same_file(path, output)
 
-    def is_other(path: str) -> bool:
-        try:
-            if output == STANDARD_OUTPUT:
-                written = os.fstat(sys.stdout.fileno())
-            else:
-                written = os.stat(output or "")
-            return not os.path.samestat(os.stat(path), written)
-        except (OSError, ValueError):
-            return True  # it is not there yet
 
-    return is_other
+def is_same_file(path: str, output: str) -> bool:
+    """Return whether ``output``, or standard output for ``-``, is the file ``path``."""
+    try:
+        written = sys.stdout.fileno() if output == STANDARD_OUTPUT else output
+        return os.path.samestat(os.stat(path), os.stat(written))
+    except (OSError, ValueError):
+        return False  # it is not there yet
 
 
 def check_standard_output() -> None:

@@ -1,8 +1,8 @@
 """The material library and the images beside an OBJ file.
 
-In: materials. Out: the text of a library, and the PNG files that it names, all under the model's
-name. What a file said of a material beyond our own fields (``extras``) is written as it was read,
-but for the images of other maps, which stay where they are.
+In: materials. Out: the text of a library, and the PNG files that it names. What a file said of a
+material beyond our own fields (``extras``) is written as it was read, but for the images of other
+maps, which stay where they are.
 """
 
 from __future__ import annotations
@@ -13,102 +13,159 @@ import re
 from .._native.images import encode_png
 from ..atomic_write import AtomicFiles
 from ..colors import linear_color
-from ..materials import Material
-from .names import encoded
+from ..loaders.mtl import parse_map
+from ..materials import Material, says_something
+from .names import encoded, line_text, unique
 from .rows import float_words
+from .side_files import LIBRARY_MARK, SideFiles
 
 _COLORS = ("Ka", "Tf")
 _SCALARS = ("Ni", "d", "Tr", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "Pcor")
+# Keys of glTF, and ours, that are said by statements unless these are there already.
+_SYNONYMS = {"metallicFactor": ("Pm",), "roughnessFactor": ("Pr",), "opacity": ("d", "Tr")}
+_SAID_ELSEWHERE = {"illum", "maps", *_SYNONYMS}
+_OWN_WORDS = {"newmtl", "Kd", "Ks", "Ns", "Ke", "illum", *_COLORS, *_SCALARS, *_SYNONYMS}
+_OWN_WORDS |= {"maps", "bump", "disp", "decal", "refl", "norm"}
+# Options of map_Kd that the texture coordinates and the texture have taken over.
+_APPLIED = ("name", "s", "o", "clamp")
 
 
 def is_plain(materials: list[Material]) -> bool:
     """Tell whether a reader makes the same of a file without a library."""
-    return len(materials) == 1 and _fields(materials[0]) == _fields(Material())
-
-
-def _fields(material: Material) -> tuple:
-    return (
-        material.name,
-        tuple(linear_color(material.color).tolist()),
-        material.texture,
-        *(tuple(linear_color(c).tolist()) for c in (material.specular, material.emissive)),
-        material.extras,
-    )
+    return len(materials) == 1 and not materials[0].name and not says_something(materials[0])
 
 
 def material_names(materials: list[Material]) -> list[str]:
     """Return a name for each material that a library can hold, all different."""
-    copies: dict[str, int] = {}  # of each name that is taken, the last number behind it
-    names: list[str] = []
-    for number, material in enumerate(materials):
-        name = re.sub(r"(^|\s)#", r"\1_", " ".join(material.name.split())).rstrip("\\")
-        name = name or f"material_{number}"
-        candidate = name
-        while candidate in copies:
-            copies[name] += 1
-            candidate = f"{name}_{copies[name]}"
-        copies[candidate] = 1
-        names.append(candidate)
-    return names
-
-
-def write_library(
-    materials: list[Material], names: list[str], path: str, files: AtomicFiles
-) -> None:
-    """Write a library ``path``, and its images beside it; they appear with the other ``files``."""
-    folder, file_name = os.path.split(path)
-    images = _Images(folder, os.path.splitext(file_name)[0], files)
-    text = "\n".join(
-        line
-        for material, name in zip(materials, names, strict=True)
-        for line in [*_statements(material, name, images), ""]
+    return unique(
+        line_text(material.name) or f"material_{number}"
+        for number, material in enumerate(materials)
     )
-    files.create(path).write(b"# written by engine3d\n" + encoded(text))
 
 
-class _Images:
-    """Writes each texture once."""
+class Library:
+    """Writes a library, and its images beside it; they appear with the other ``files``.
 
-    def __init__(self, folder: str, stem: str, files: AtomicFiles) -> None:
-        self._folder = folder
-        self._stem = stem
+    Attributes
+    ----------
+    unwritten : dict of str to list of str
+        Of which materials what could not be written.
+    not_copied : list of str
+        The images that it names but does not bring along.
+    """
+
+    def __init__(self, side_files: SideFiles, files: AtomicFiles) -> None:
+        self._side_files = side_files
         self._files = files
-        self._names: dict[int, str] = {}
+        self._image_names: dict[int, str] = {}
+        self.unwritten: dict[str, list[str]] = {}
+        self.not_copied: list[str] = []
 
-    def name(self, texture) -> str:
-        name = self._names.get(id(texture))
+    def write(self, materials: list[Material], names: list[str]) -> None:
+        """Write the materials, each under its name."""
+        text = "\n".join(
+            line
+            for material, name in zip(materials, names, strict=True)
+            for line in [*self._statements(material, name), ""]
+        )
+        self._files.create(self._side_files.library).write(LIBRARY_MARK + encoded(text))
+
+    def _statements(self, material: Material, name: str) -> list[str]:
+        specular = linear_color(material.specular)
+        lines = [f"newmtl {name}", f"Kd {_numbers(linear_color(material.color))}"]
+        lines += [f"Ks {_numbers(specular)}", f"Ns {_numbers([material.shininess])}"]
+        if linear_color(material.emissive).any():
+            lines.append(f"Ke {_numbers(linear_color(material.emissive))}")
+        illum = material.extras.get("illum")
+        if not _are_numbers([illum]) or (illum < 2 and specular.any()):
+            illum = 2.0 if specular.any() else 1.0
+        lines.append(f"illum {_numbers([illum])}")
+        lines += self._extra_statements(material.extras, name)
+        return lines + self._map_statements(material, name)
+
+    def _extra_statements(self, extras: dict, name: str) -> list[str]:
+        lines = []
+        for key, value in extras.items():
+            line = _statement(key, value)
+            if line is not None:
+                lines.append(line)
+            elif key in _SYNONYMS and _are_numbers([value]):
+                if not any(statement in extras for statement in _SYNONYMS[key]):
+                    lines.append(f"{_SYNONYMS[key][0]} {_numbers([value])}")
+            elif key not in _SAID_ELSEWHERE or key in _SYNONYMS:
+                self._leave_out(f"extras[{key!r}]", name)
+        return lines
+
+    def _map_statements(self, material: Material, name: str) -> list[str]:
+        maps = material.extras.get("maps", {})
+        maps = dict(maps) if isinstance(maps, dict) else {}
+        texture, entry = material.texture, maps.pop("map_Kd", {})
+        lines = []
+        if texture is not None:
+            options = {"clamp": ["on"]} if texture.wrap == "clamp" else {}
+            rest = entry if isinstance(entry, dict) else {}
+            options |= {key: words for key, words in rest.items() if key not in _APPLIED}
+            image = self._image(texture)
+            lines.append(_map_statement("map_Kd", {**options, "name": image}) or f"map_Kd {image}")
+        elif entry:
+            self._leave_out("map_Kd without its image", name)
+        for key, entry in maps.items():
+            line = _map_statement(key, entry)
+            if line is None:
+                self._leave_out(f"extras['maps'][{key!r}]", name)
+            else:
+                lines.append(line)
+                self.not_copied.append(entry["name"])
+        return lines
+
+    def _leave_out(self, thing: str, name: str) -> None:
+        self.unwritten.setdefault(thing, []).append(name)
+
+    def _image(self, texture) -> str:
+        """The name of a texture's file, which is written the first time."""
+        name = self._image_names.get(id(texture))
         if name is None:
-            name = f"{self._stem}_{len(self._names)}.png"
-            file = self._files.create(os.path.join(self._folder, name))
-            file.write(encode_png(texture.pixels))
-            self._names[id(texture)] = name
+            path = self._side_files.next_image()
+            self._files.create(path).write(encode_png(texture.pixels))
+            name = self._image_names[id(texture)] = os.path.basename(path)
         return name
 
 
-def _statements(material: Material, name: str, images: _Images) -> list[str]:
-    specular = linear_color(material.specular)
-    extras = material.extras
-    lines = [f"newmtl {name}", f"Kd {_numbers(linear_color(material.color))}"]
-    lines += [f"Ks {_numbers(specular)}", f"Ns {_numbers([material.shininess])}"]
-    if linear_color(material.emissive).any():
-        lines.append(f"Ke {_numbers(linear_color(material.emissive))}")
-    illum = extras.get("illum", 2.0 if specular.any() else 1.0)
-    lines.append(f"illum {_numbers([illum])}")
-    lines += [f"{key} {_numbers(extras[key])}" for key in _COLORS if key in extras]
-    lines += [f"{key} {_numbers([extras[key]])}" for key in _SCALARS if key in extras]
-    if material.texture is not None:
-        clamp = "-clamp on " if material.texture.wrap == "clamp" else ""
-        lines.append(f"map_Kd {clamp}{images.name(material.texture)}")
-    for key, entry in extras.get("maps", {}).items():
-        if key != "map_Kd":
-            options = " ".join(
-                f"-{option} {' '.join(words)}"
-                for option, words in entry.items()
-                if option != "name"
-            )
-            lines.append(f"{key} {options + ' ' if options else ''}{entry['name']}")
-    return lines
+def _statement(key, value) -> str | None:
+    """The line that a reader makes these extras of, or None."""
+    if key in _COLORS:
+        return f"{key} {_numbers(value)}" if _are_numbers(value, 3) else None
+    if key in _SCALARS:
+        return f"{key} {_numbers([value])}" if _are_numbers([value]) else None
+    is_free = _is_word(key) and key not in _OWN_WORDS and not key.startswith("map_")
+    if not is_free or not isinstance(value, str) or line_text(value) != value:
+        return None
+    return f"{key} {value}".rstrip()
+
+
+def _map_statement(key: str, entry: dict) -> str | None:
+    """The line that a reader makes this map of, or None."""
+    try:
+        options = [
+            f"-{option} {' '.join(words)}" for option, words in entry.items() if option != "name"
+        ]
+        line = " ".join([key, *options, entry["name"]])
+    except (AttributeError, KeyError, TypeError):
+        return None
+    is_read_so = parse_map(line.partition(" ")[2]) == entry and line_text(line) == line
+    return line if is_read_so and _is_word(key) else None
+
+
+def _is_word(key) -> bool:
+    return isinstance(key, str) and re.fullmatch(r"[A-Za-z_][\w.-]*", key, re.ASCII) is not None
+
+
+def _are_numbers(values, count: int = 1) -> bool:
+    try:
+        return len(values) == count and all(abs(float(value)) < 3e38 for value in values)
+    except (TypeError, ValueError):
+        return False
 
 
 def _numbers(values) -> str:
-    return b" ".join(float_words(values)).decode()
+    return b" ".join(float_words([float(value) for value in values])).decode()

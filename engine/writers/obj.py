@@ -2,7 +2,7 @@
 
 Each vertex has its own ``vt`` and ``vn``; vertices that are one point of the surface share a ``v``.
 So a reader that numbers the combinations finds the vertices in their old order. Faces are written
-as the polygons that they were cut from.
+as the polygons that they were cut from, where these have one material and the same groups.
 """
 
 from __future__ import annotations
@@ -16,35 +16,62 @@ from ..atomic_write import AtomicFiles
 from ..colors import srgb_bytes
 from ..loaders.welding import number_rows
 from ..mesh import Mesh
-from .mtl import is_plain, material_names, write_library
-from .names import encoded
+from .losses import lost_of_materials, not_held
+from .mtl import Library, is_plain, material_names
+from .names import encoded, line_text, renamed, unique
 from .outlines import Outlines, polygon_outlines
 from .registry import Writer
 from .rows import write_floats, write_integers
+from .side_files import SideFiles
 
 _POINTS_A_LINE = 16
 _FACES_AT_ONCE = 1 << 16
 
 
 def write_obj(mesh: Mesh, path: str) -> list[str]:
-    """Write an OBJ file and its library; what it does not hold is nothing."""
-    library = None
-    names: list[str] = []
+    """Write an OBJ file and its library; returns what these do not hold."""
+    names, told = [], []
+    unwritten: dict[str, list[str]] = {}
     with AtomicFiles() as files:
+        side_files = None
         if not is_plain(mesh.materials):
-            library = os.path.splitext(path)[0] + ".mtl"
+            side_files = SideFiles(path)
             names = material_names(mesh.materials)
-            write_library(mesh.materials, names, library, files)
+            library = Library(side_files, files)
+            library.write(mesh.materials, names)
+            unwritten = library.unwritten
+            told += _about(side_files, library, mesh, names)
         file = files.create(path)
-        file.write(b"# written by engine3d\n")
-        if library is not None:
-            file.write(encoded(f"mtllib {os.path.basename(library)}\n"))
-        if mesh.name:
-            file.write(encoded(f"o {' '.join(mesh.name.split())}\n"))
-        position_of = _write_vertices(mesh, file)
-        _write_faces(mesh, file, position_of, names)
-        _write_lines_and_points(mesh, file, position_of)
-    return []
+        told += _write_model(mesh, file, side_files, names)
+    return [*lost_of_materials(mesh, unwritten), *told]
+
+
+def _about(side_files: SideFiles, library: Library, mesh: Mesh, names: list[str]) -> list[str]:
+    """What to say of the library."""
+    told = renamed("materials", [material.name for material in mesh.materials], names)
+    if library.not_copied:
+        images = ", ".join(map(repr, dict.fromkeys(library.not_copied)))
+        told.append(f"images that are named, but not copied: {images}")
+    if side_files.library != side_files.usual_library:
+        usual, actual = map(os.path.basename, (side_files.usual_library, side_files.library))
+        told.append(f"{usual!r} is not engine3d's to replace: the materials are in {actual!r}")
+    return told
+
+
+def _write_model(mesh: Mesh, file, side_files: SideFiles | None, names: list[str]) -> list[str]:
+    """Write the model's own text; returns what it does not hold."""
+    told = []
+    file.write(b"# written by engine3d\n")
+    if side_files is not None:
+        file.write(encoded(f"mtllib {os.path.basename(side_files.library)}\n"))
+    if mesh.name:
+        name = line_text(mesh.name)
+        file.write(encoded(f"o {name}\n"))
+        told += renamed("objects", [mesh.name], [name])
+    position_of = _write_vertices(mesh, file)
+    told += _write_faces(mesh, file, position_of, names)
+    _write_lines_and_points(mesh, file, position_of)
+    return told
 
 
 def _write_vertices(mesh: Mesh, file) -> np.ndarray:
@@ -83,17 +110,21 @@ def _positions(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     return np.cumsum(is_new) - 1, np.flatnonzero(is_new)
 
 
-def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) -> None:
-    outlines = polygon_outlines(mesh)
-    first = outlines.first_faces
-    if not len(first):
-        return
-    groups, labels = _group_sets(mesh)
+def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) -> list[str]:
+    """Write the faces with their states; returns what these do not hold."""
+    groups, labels, told = _group_sets(mesh)
     is_flat = np.array([material.flat_shading for material in mesh.materials])
     smooth = ~is_flat[mesh.material_ids] | mesh.has_normals
+    states = np.stack([mesh.material_ids, groups, smooth], axis=1)
+    outlines = polygon_outlines(mesh, states)
+    if outlines.lost_edges:
+        told += not_held("obj", [f"the hidden edges of {outlines.lost_edges} triangles"])
     if names:
         _declare_materials(mesh, file, names)
-    states = np.stack([mesh.material_ids, groups, smooth], axis=1)[first]
+    first = outlines.first_faces
+    if not len(first):
+        return told
+    states = states[first]
     starts = np.flatnonzero(np.r_[True, (states[1:] != states[:-1]).any(axis=1)])
     lines = _FaceLines(mesh, outlines, position_of)
     old = (-1, 0, True)
@@ -107,6 +138,7 @@ def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) ->
             file.write(b"s 1\n" if new[2] else b"s off\n")
         old = new
         lines.write(file, start, end)
+    return told
 
 
 def _declare_materials(mesh: Mesh, file, names: list[str]) -> None:
@@ -117,16 +149,21 @@ def _declare_materials(mesh: Mesh, file, names: list[str]) -> None:
         file.write(encoded("".join(f"usemtl {name}\n" for name in names)))
 
 
-def _group_sets(mesh: Mesh) -> tuple[np.ndarray, list[list[str]]]:
-    """The set of groups that each face is in, and the names in each set."""
+def _group_sets(mesh: Mesh) -> tuple[np.ndarray, list[list[str]], list[str]]:
+    """The set of groups that each face is in, the names in each set, and what is not held."""
     sets = np.zeros(len(mesh.faces), np.int64)
     labels: list[list[str]] = [[]]
-    for name, faces in mesh.groups.items():
-        label = "_".join(name.split()) or "group"
+    groups = {name: faces for name, faces in mesh.groups.items() if len(faces)}
+    wanted = ["_".join(line_text(name).split()) or "group" for name in groups]
+    written = unique(wanted)
+    for label, faces in zip(written, groups.values(), strict=True):
         old, number = np.unique(sets[faces], return_inverse=True)
         sets[faces] = len(labels) + number.reshape(-1)
         labels += [[*labels[k], label] for k in old.tolist()]
-    return sets, labels
+    told = renamed("groups", groups, written)
+    if len(groups) < len(mesh.groups):
+        told += not_held("obj", ["groups without faces"])
+    return sets, labels, told
 
 
 class _FaceLines:

@@ -2,7 +2,8 @@
 
 In: faces whose hidden edges tell which of them are one polygon. Out: the corners of each polygon,
 beginning where a reader has to begin to cut it into the same triangles. A polygon that no reader
-would cut so (its flags may say anything) is given out as its triangles.
+would cut so (its flags may say anything, its triangles differ in material) is given out as its
+triangles.
 """
 
 from __future__ import annotations
@@ -31,15 +32,25 @@ class Outlines(NamedTuple):
         Vertex indices, polygon after polygon.
     first_faces : (P,) int64
         The first triangle of each.
+    lost_edges : int
+        How many triangles with hidden edges are given out as such: these edges show then.
     """
 
     sizes: np.ndarray
     corners: np.ndarray
     first_faces: np.ndarray
+    lost_edges: int = 0
 
 
-def polygon_outlines(mesh: Mesh) -> Outlines:
-    """Return the polygons of a mesh, in the order of its faces."""
+def polygon_outlines(mesh: Mesh, states: np.ndarray | None = None) -> Outlines:
+    """Return the polygons of a mesh, in the order of its faces.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    states : (F, K) int array, optional
+        What all triangles of a polygon must have in common.
+    """
     count = len(mesh.faces)
     if mesh.edge_visible is None or mesh.edge_visible.all():
         return Outlines(np.full(count, 3), mesh.faces.ravel(), np.arange(count))
@@ -47,9 +58,10 @@ def polygon_outlines(mesh: Mesh) -> Outlines:
     polygons = np.where(is_fan, fans + count, mesh.polygons)
     first = np.flatnonzero(np.r_[True, polygons[1:] != polygons[:-1]])
     triangles = np.diff(np.r_[first, count])
+    is_mixed = _mixed(states, first)
     found: dict[int, np.ndarray] = {}
     for number in np.unique(triangles[triangles > 1]).tolist():
-        members = first[triangles == number]
+        members = first[(triangles == number) & ~is_mixed]
         rows = mesh.faces[members[:, np.newaxis] + np.arange(number)]
         fan = is_fan[members]
         outlines = np.concatenate([rows[fan, 0, :2], rows[fan, :, 2]], axis=1)
@@ -59,7 +71,18 @@ def polygon_outlines(mesh: Mesh) -> Outlines:
             if outline is not None:
                 found[face] = outline
     _turn(mesh, found)
-    return _joined(mesh.faces, first, triangles, found)
+    outlines = _joined(mesh.faces, first, triangles, found)
+    alone = outlines.first_faces[outlines.sizes == 3]
+    return outlines._replace(lost_edges=int((~mesh.edge_visible[alone]).any(axis=1).sum()))
+
+
+def _mixed(states: np.ndarray | None, first: np.ndarray) -> np.ndarray:
+    """Which polygons have triangles of different states."""
+    if states is None:
+        return np.zeros(len(first), bool)
+    differs = np.r_[False, (states[1:] != states[:-1]).any(axis=1)]
+    differs[first] = False
+    return np.add.reduceat(differs, first) > 0
 
 
 def _fans(faces: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

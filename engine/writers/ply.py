@@ -10,7 +10,7 @@ import numpy as np
 
 from ..atomic_write import atomic_write
 from ..mesh import Mesh
-from .losses import lost_parts
+from .losses import lost_parts, not_held
 from .outlines import Outlines, polygon_outlines
 from .registry import Writer
 from .rows import float_words
@@ -30,7 +30,10 @@ def write_ply(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
     with atomic_write(path) as file:
         file.write(header.encode())
         (_write_text if ascii else _write_binary)(file, columns, outlines, mesh.lines)
-    return lost_parts(mesh, "materials", *(["points"] if has_elements else []))
+    lost = lost_parts(mesh, "ply", "materials", *(["points"] if has_elements else []), "groups")
+    if outlines.lost_edges:
+        lost += not_held("ply", [f"the hidden edges of {outlines.lost_edges} triangles"])
+    return lost
 
 
 def _columns(mesh: Mesh) -> list[tuple[str, str, np.ndarray]]:

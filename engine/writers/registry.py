@@ -26,7 +26,7 @@ class Writer(NamedTuple):
     extensions : tuple of str
         Lower case, with the dot.
     write : callable
-        ``write(mesh, path, **options) -> list of str``: what the format could not hold.
+        ``write(mesh, path, **options) -> list of str``: a line for what the format did not hold.
     options : tuple of str
         The names of the options that it takes.
     """

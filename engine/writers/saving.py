@@ -7,7 +7,7 @@ import warnings
 from typing import Any
 
 from ..atomic_write import checked_path
-from ..errors import Engine3DWarning, InvalidArgumentError
+from ..errors import Engine3DWarning, InvalidArgumentError, located
 from ..mesh import Mesh
 from .registry import find_writer
 
@@ -44,7 +44,5 @@ def save_mesh(
     unknown = sorted(set(options) - set(writer.options))
     if unknown:
         raise InvalidArgumentError(f"{writer.name} files have no option {unknown[0]!r}")
-    lost = writer.write(mesh, path, **options)
-    if lost:
-        message = f"{path}: {writer.name} files do not hold {', '.join(lost)}"
-        warnings.warn(message, Engine3DWarning, stacklevel=2)
+    for message in writer.write(mesh, path, **options):
+        warnings.warn(located(message, path), Engine3DWarning, stacklevel=2)

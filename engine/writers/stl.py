@@ -8,7 +8,7 @@ from ..atomic_write import atomic_write
 from ..mesh import Mesh
 from ..normals import face_area_vectors, unit_vectors
 from .losses import lost_parts
-from .names import encoded
+from .names import encoded, line_text, renamed
 from .registry import Writer
 from .rows import write_float_rows
 
@@ -26,9 +26,11 @@ def write_stl(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
     facets = np.zeros(len(mesh.faces), _FACET)
     facets["normal"] = unit_vectors(face_area_vectors(mesh.positions, mesh.faces))
     facets["corners"] = mesh.positions[mesh.faces]
+    told: list[str] = []
     with atomic_write(path) as file:
         if ascii:
-            name = encoded(" ".join(mesh.name.split()))
+            name = encoded(line_text(mesh.name))
+            told = renamed("solids", [mesh.name], [name.decode()])
             file.write(b"solid " + name + b"\n")
             between = _TEXT.split(b"%s")
             for start in range(0, len(facets), _BLOCK):
@@ -39,7 +41,8 @@ def write_stl(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
         else:
             file.write(_HEADER + len(facets).to_bytes(4, "little"))
             file.write(facets.tobytes())
-    return lost_parts(mesh, "uvs", "colors", "materials", "lines", "points")
+    parts = ("uvs", "colors", "materials", "lines", "points", "groups", "normals", "edge_visible")
+    return told + lost_parts(mesh, "stl", *parts)
 
 
 WRITERS = (Writer("stl", "STL", (".stl",), write_stl, ("ascii",)),)

@@ -66,9 +66,12 @@ every_writer = pytest.mark.parametrize("name", WRITERS)
 
 def prepare(folder, name):
     """Put old files where new ones would go; returns the path to write to."""
-    names = [name, "mesh.mtl", "mesh_0.png"] if name == "mesh.obj" else [name]
-    for old in names:
-        (folder / old).write_bytes(BEFORE)
+    old = {name: BEFORE}
+    if name == "mesh.obj":
+        # Others' files would not be replaced.
+        old |= {"mesh.mtl": b"# written by engine3d\nmap_Kd mesh_0.png\n", "mesh_0.png": BEFORE}
+    for file, content in old.items():
+        (folder / file).write_bytes(content)
     return folder / name
 
 

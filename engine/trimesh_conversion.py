@@ -14,7 +14,7 @@ import numpy as np
 from .colors import linear_color, srgb_bytes
 from .errors import InvalidArgumentError
 from .linalg import normal_matrix, transform_directions, transform_points
-from .loaders.images import check_image_size
+from .loaders.images import check_image_size, rgba_pixels
 from .loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .materials import Material
 from .mesh import Mesh
@@ -42,17 +42,18 @@ def mesh_from_trimesh(geometry) -> Mesh:
     if hasattr(geometry, "graph") and hasattr(geometry, "geometry"):
         parts = scene_parts(geometry)
         return Mesh.concatenate([posed_mesh(part.mesh, part.pose) for part in parts])
-    return _mesh(geometry, "")
+    return _mesh(geometry, "", _Textures())
 
 
 def scene_parts(scene) -> list[TrimeshPart]:
     """Return the nodes of a trimesh scene; those of the same geometry share a mesh."""
     meshes: dict[str, Mesh] = {}
+    textures = _Textures()
     parts = []
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]
         if name not in meshes:
-            meshes[name] = _mesh(scene.geometry[name], str(name))
+            meshes[name] = _mesh(scene.geometry[name], str(name), textures)
         parts.append(TrimeshPart(str(node), meshes[name], np.array(pose, np.float64)))
     return parts
 
@@ -88,10 +89,10 @@ def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
     )
 
 
-def _mesh(geometry, name: str) -> Mesh:
+def _mesh(geometry, name: str, textures: _Textures) -> Mesh:
     """The mesh of a Trimesh, a PointCloud or a Path."""
     if hasattr(geometry, "faces"):
-        return _triangle_mesh(geometry, name)
+        return _triangle_mesh(geometry, name, textures)
     if hasattr(geometry, "entities"):
         return _path_mesh(geometry, name)
     if hasattr(geometry, "vertices"):
@@ -102,7 +103,7 @@ def _mesh(geometry, name: str) -> Mesh:
     raise InvalidArgumentError(f"not a geometry of trimesh: {type(geometry).__name__}")
 
 
-def _triangle_mesh(geometry, name: str) -> Mesh:
+def _triangle_mesh(geometry, name: str, textures: _Textures) -> Mesh:
     visual = geometry.visual
     kind = getattr(visual, "kind", None)
     indexed = IndexedGeometry(
@@ -118,13 +119,18 @@ def _triangle_mesh(geometry, name: str) -> Mesh:
     elif kind == "texture" and visual.uv is not None and len(visual.uv) == len(indexed.positions):
         indexed.uvs = np.nan_to_num(np.asarray(visual.uv, np.float32)[:, :2])
     mesh = build_indexed_mesh(indexed, name)
-    mesh.materials = [_material(visual.material)] if kind == "texture" else [Material()]
+    mesh.materials = [_material(visual.material, textures)] if kind == "texture" else [Material()]
     return mesh
 
 
 def _path_mesh(geometry, name: str) -> Mesh:
     vertices = np.asarray(geometry.vertices, np.float64)
-    runs = [np.asarray(entity.discrete(vertices), np.float64) for entity in geometry.entities]
+    # Without the scale a circle would get a point every twentieth of a unit, however large it is.
+    scale = float(np.ptp(vertices, axis=0).max(initial=0.0)) if len(vertices) else 1.0
+    runs = [
+        np.asarray(entity.discrete(vertices, scale=scale or 1.0), np.float64)
+        for entity in geometry.entities
+    ]
     runs = [run for run in runs if len(run) > 1]
     if not runs:
         return Mesh(np.zeros((0, 3)), name=name)
@@ -140,7 +146,7 @@ def _bytes(colors) -> np.ndarray:
     return np.array(colors, np.uint8).reshape(len(colors), -1)
 
 
-def _material(material) -> Material:
+def _material(material, textures: _Textures) -> Material:
     """A `SimpleMaterial` or a `PBRMaterial`; of a `MultiMaterial` the first."""
     material = (getattr(material, "materials", None) or [material])[0]
     factor = getattr(material, "baseColorFactor", None)
@@ -158,7 +164,7 @@ def _material(material) -> Material:
     return Material(
         name=str(getattr(material, "name", None) or ""),
         color=(1.0, 1.0, 1.0) if is_default else _linear(factor),
-        texture=None if image is None else _texture(image),
+        texture=None if image is None else textures.get(image),
         emissive=(0.0, 0.0, 0.0) if emissive is None else _linear(emissive),
         two_sided=bool(getattr(material, "doubleSided", False)),
         extras=extras,
@@ -171,9 +177,20 @@ def _linear(color) -> tuple[float, float, float]:
     return tuple(float(c) / scale for c in np.nan_to_num(color[:3]).clip(min=0).tolist())
 
 
-def _texture(image) -> Texture:
-    check_image_size(*image.size, "texture")
-    return Texture(np.asarray(image.convert("RGBA")), name=str(getattr(image, "name", None) or ""))
+class _Textures:
+    """The textures of images of Pillow's, one for each that several materials share."""
+
+    def __init__(self) -> None:
+        # The image is kept, too: another could get its identity.
+        self._textures: dict[int, tuple[object, Texture]] = {}
+
+    def get(self, image) -> Texture:
+        if id(image) not in self._textures:
+            name = str(getattr(image, "name", None) or "")
+            check_image_size(*image.size, "texture")
+            pixels = rgba_pixels(image, "texture")
+            self._textures[id(image)] = (image, Texture(pixels, name=name))
+        return self._textures[id(image)][1]
 
 
 def mesh_to_trimesh(mesh: Mesh):

@@ -2,6 +2,7 @@
 
 In: the bytes of an image file. Out: (H, W, 4) uint8 RGBA, the top row first. Pillow is imported
 when the first image is read, and is allowed the listed formats only (others may start programs).
+Sizes are checked here for all images, whoever decodes them.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import contextlib
 import io
 import re
 import warnings
+from contextvars import ContextVar
 
 import numpy as np
 
@@ -21,12 +23,39 @@ from .sources import Source
 # More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
 # another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
 MAX_PIXELS = 178_956_970
+# The images of one model may together have MAX_PIXELS, and so many for each byte of their files.
+PIXELS_PER_BYTE = 10
 # Pixels that are converted at a time.
 _STRIP = 1 << 20
 
+_left: ContextVar[list[int] | None] = ContextVar("pixels_left", default=None)
 
-def check_image_size(width: int, height: int, path: str) -> None:
-    """Refuse images without pixels, and those too large to be honest."""
+
+@contextlib.contextmanager
+def images_of_one_model():
+    """Limit the pixels of all images that are checked within the block together."""
+    token = _left.set([MAX_PIXELS])
+    try:
+        yield
+    finally:
+        _left.reset(token)
+
+
+def check_image_size(width: int, height: int, path: str, size: int = 0) -> None:
+    """Refuse images without pixels, and those too large to be honest.
+
+    Parameters
+    ----------
+    width, height : int
+    path : str
+        What the error names.
+    size : int
+        Bytes of the image's file.
+
+    Raises
+    ------
+    FileFormatError
+    """
     if width < 1 or height < 1:
         raise FileFormatError(f"an image of {width}x{height} pixels", path)
     if max(width, height) > MAX_SIDE:
@@ -35,6 +64,17 @@ def check_image_size(width: int, height: int, path: str) -> None:
         raise FileFormatError(
             f"{width}x{height} pixels: an image is limited to {MAX_PIXELS} pixels", path
         )
+    left = _left.get()
+    if left is None:
+        return
+    taken = max(width * height - PIXELS_PER_BYTE * size, 0)
+    if taken > left[0]:
+        raise FileFormatError(
+            f"{width}x{height} pixels: the images of a model are limited to {MAX_PIXELS} pixels "
+            "together",
+            path,
+        )
+    left[0] -= taken
 
 
 def read_image(source: Source) -> np.ndarray:
@@ -51,15 +91,10 @@ def read_image(source: Source) -> np.ndarray:
     """
     from PIL import Image
 
-    formats = [pillow_name for _, _, _, pillow_name, _ in _FORMATS]
     try:
-        with _quiet_pillow(), Image.open(io.BytesIO(source.data), formats=formats) as image:
-            check_image_size(*image.size, source.path)
-            if image.mode == "F":  # Pillow would make them 0 and 1 of 255
-                raise FileFormatError("pixels that are floats are not read", source.path)
-            pixels = _rgba(image)
-            pixels.setflags(write=False)
-            return pixels
+        with _quiet_pillow(), Image.open(io.BytesIO(source.data), formats=PILLOW_FORMATS) as image:
+            check_image_size(*image.size, source.path, source.size)
+            return rgba_pixels(image, source.path)
     except FileFormatError:
         raise
     except Image.DecompressionBombError as error:
@@ -80,25 +115,50 @@ def _quiet_pillow():
         yield
 
 
-def _rgba(image) -> np.ndarray:
-    if image.mode.startswith("I"):
-        # 16-bit grey; Pillow's own conversion would clip it at 255.
-        wide = np.asarray(image).astype(np.int64)
-        return _widened_grey(np.clip(wide >> 8, 0, 255).astype(np.uint8))
+def rgba_pixels(image, path: str) -> np.ndarray:
+    """Convert an image of Pillow's.
+
+    Parameters
+    ----------
+    image : PIL.Image.Image
+        Of any mode. The high byte counts of 16-bit channels.
+    path : str
+        What the error names.
+
+    Returns
+    -------
+    pixels : (H, W, 4) uint8, read-only
+
+    Raises
+    ------
+    FileFormatError
+        Its pixels have no range that is known: floats, or integers beyond 16 bits.
+    """
+    if image.mode == "F":  # Pillow would make them 0 and 1 of 255
+        raise FileFormatError("pixels that are floats are not read", path)
+    convert = _wide_grey if image.mode.startswith("I") else _converted
     # Strip by strip: Pillow's own conversion and the way from it to an array copy an image each.
     pixels = np.empty((image.height, image.width, 4), np.uint8)
     rows = max(_STRIP // image.width, 1)
     for top in range(0, image.height, rows):
         bottom = min(top + rows, image.height)
-        strip = image.crop((0, top, image.width, bottom))
-        pixels[top:bottom] = np.asarray(strip.convert("RGBA"))
+        convert(image, image.crop((0, top, image.width, bottom)), pixels[top:bottom], path)
+    pixels.setflags(write=False)  # so that a texture takes it over
     return pixels
 
 
-def _widened_grey(grey: np.ndarray) -> np.ndarray:
-    rgba = np.full((*grey.shape, 4), 255, np.uint8)
-    rgba[:, :, :3] = grey[:, :, np.newaxis]
-    return rgba
+def _converted(image, strip, pixels: np.ndarray, path: str) -> None:
+    pixels[:] = np.asarray(strip.convert("RGBA"))
+
+
+def _wide_grey(image, strip, pixels: np.ndarray, path: str) -> None:
+    """16-bit grey, which Pillow's own conversion would clip at 255."""
+    wide = np.asarray(strip)
+    if wide.dtype.itemsize > 2 and (wide.min() < 0 or wide.max() > 0xFFFF):
+        raise FileFormatError("pixels of more than 16 bits are not read", path)
+    pixels[:, :, :3] = (wide >> 8).astype(np.uint8)[:, :, np.newaxis]
+    transparent = image.info.get("transparency")
+    pixels[:, :, 3] = 255 if transparent is None else np.where(wide == transparent, 0, 255)
 
 
 def _starts_with(*signatures: bytes):
@@ -122,6 +182,8 @@ _FORMATS = (
     ("tiff", "TIFF", (".tif", ".tiff"), "TIFF", _starts_with(b"II*\0", b"MM\0*")),
     ("ppm", "Portable pixmap", (".ppm", ".pgm", ".pbm"), "PPM", _is_ppm),
 )
+# What Pillow may open, whatever a file claims to be.
+PILLOW_FORMATS = [pillow_name for _, _, _, pillow_name, _ in _FORMATS]
 
 READERS = tuple(
     Reader(name, description, "image", extensions, read_image, signature)

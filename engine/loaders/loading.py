@@ -13,6 +13,7 @@ from ..errors import Engine3DWarning, FileFormatError
 from ..mesh import Mesh
 from ..textures import Texture
 from .documents import Document
+from .images import images_of_one_model
 from .registry import find_reader
 from .sources import File, Source, read_source
 
@@ -133,7 +134,7 @@ def _read_document(
     source.progress(0.0)
     try:
         # What is beyond the range of numbers becomes infinite, and is dealt with as such.
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), images_of_one_model():
             document = reader.read(source, split=split)
     except MemoryError as error:
         raise FileFormatError("needs more memory than there is", source.path) from error

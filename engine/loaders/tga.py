@@ -117,7 +117,7 @@ def _read_header(source: Source) -> _Header:
         raise FileFormatError(f"TGA colour map of {map_bits} bits an entry", source.path)
     if flags & 0xC0:
         raise FileFormatError("TGA with interleaved lines", source.path)
-    check_image_size(width, height, source.path)
+    check_image_size(width, height, source.path, source.size)
     return _Header(
         kind=kind,
         run_length=bool(image_type & _RUN_LENGTH),

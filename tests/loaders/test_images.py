@@ -1,5 +1,6 @@
 """Images through Pillow, and the limits on them."""
 
+import io
 import struct
 import zlib
 
@@ -7,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from engine3d.errors import FileAccessError, FileFormatError
-from engine3d.loaders import images, load_texture
+from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError
+from engine3d.loaders import images, load_mesh, load_texture
 
 
 @pytest.fixture
@@ -49,6 +50,36 @@ def test_jpeg(saved):
 def test_modes(saved, mode, color, expected):
     texture = load_texture(saved(Image.new(mode, (1, 1), color), "a.png"))
     assert texture.pixels[0, 0].tolist() == expected
+
+
+@pytest.mark.parametrize("extension", ["png", "tiff", "pgm"])
+def test_16_bit_grey(saved, extension):
+    """The high byte, not what is clipped at 255."""
+    grey = np.array([[0, 0x00FF, 0x0100], [0x8000, 0x80FF, 0xFFFF]], np.uint16)
+    texture = load_texture(saved(Image.fromarray(grey), f"a.{extension}"))
+    assert texture.pixels[:, :, 0].tolist() == [[0, 0, 1], [128, 128, 255]]
+    assert (texture.pixels[:, :, 3] == 255).all()
+
+
+def test_16_bit_grey_with_a_transparent_value(write):
+    header = struct.pack(">IIBBBBB", 3, 1, 16, 0, 0, 0, 0)
+    rows = struct.pack(">x3H", 0x1234, 0x1235, 0xFFFF)
+    path = write("a.png", _png(header, rows, (b"tRNS", struct.pack(">H", 0x1235))))
+    assert load_texture(path).pixels[0, :, ::3].tolist() == [[18, 255], [18, 0], [255, 255]]
+
+
+@pytest.mark.parametrize(("kind", "channels"), [(4, 2), (2, 3), (6, 4)])
+def test_16_bit_channels(write, kind, channels):
+    header = struct.pack(">IIBBBBB", 1, 1, 16, kind, 0, 0, 0)
+    rows = struct.pack(">x4H", 0x12FF, 0x34FF, 0x56FF, 0x78FF)[: 1 + 2 * channels]
+    expected = {2: [18, 18, 18, 52], 3: [18, 52, 86, 255], 4: [18, 52, 86, 120]}[channels]
+    assert load_texture(write("a.png", _png(header, rows))).pixels[0, 0].tolist() == expected
+
+
+def test_integers_of_no_known_range_are_refused(saved):
+    path = saved(Image.fromarray(np.array([[0, 70000]], np.int32)), "a.tiff")
+    with pytest.raises(FileFormatError, match=r"a\.tiff: pixels of more than 16 bits"):
+        load_texture(path)
 
 
 @pytest.mark.parametrize("kind", ["tiff", "ppm"])
@@ -140,12 +171,28 @@ def test_unknown_formats_and_missing_files(write, tmp_path):
         load_texture(tmp_path / "none.png")
 
 
-def _png(header):
+def test_images_of_one_model_are_limited_together(write, monkeypatch):
+    """Each is small enough; a name of its own makes each a texture of its own."""
+    monkeypatch.setattr(images, "MAX_PIXELS", 100_000)
+    gif = io.BytesIO()
+    Image.new("P", (200, 200)).save(gif, "GIF")
+    names = [f"m{k}" for k in range(5)]
+    for name in names:
+        write(f"{name}.gif", gif.getvalue())
+    write("a.mtl", "".join(f"newmtl {name}\nmap_Kd {name}.gif\n" for name in names))
+    faces = "".join(f"usemtl {name}\nf 1/1 2/2 3/3\n" for name in names)
+    text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n" + faces
+    with pytest.warns(Engine3DWarning, match="images of a model are limited to 100000 pixels"):
+        mesh = load_mesh(write("a.obj", text))
+    assert [material.texture is not None for material in mesh.materials] == [True] * 2 + [False] * 3
+    assert len(mesh.warnings) == 3
+    assert all(load_texture(write("b.gif", gif.getvalue())).width == 200 for _ in range(5))
+
+
+def _png(header, rows=b"\0" * 1000, *chunks):
     def chunk(kind, data):
         crc = struct.pack(">I", zlib.crc32(kind + data))
         return struct.pack(">I", len(data)) + kind + data + crc
 
-    body = (
-        chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"\0" * 1000)) + chunk(b"IEND", b"")
-    )
-    return b"\x89PNG\r\n\x1a\n" + body
+    body = [(b"IHDR", header), *chunks, (b"IDAT", zlib.compress(rows)), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(*part) for part in body)

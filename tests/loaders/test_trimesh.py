@@ -53,7 +53,7 @@ def test_points_and_paths():
     cloud = e3d.Mesh(np.eye(3), points=[0, 2])
     assert e3d.Mesh.from_trimesh(cloud.to_trimesh()).positions.tolist() == [[1, 0, 0], [0, 0, 1]]
     ends = np.array([[0, 0, 0], [1, 0, 0], [5, 5, 5], [6, 5, 5]], float)
-    runs = [SimpleNamespace(discrete=lambda v, k=k: v[k : k + 2]) for k in (0, 2)]
+    runs = [SimpleNamespace(discrete=lambda v, scale, k=k: v[k : k + 2]) for k in (0, 2)]
     path = SimpleNamespace(vertices=ends, entities=runs)
     mesh = e3d.Mesh.from_trimesh(path)
     ends = mesh.positions[mesh.lines]

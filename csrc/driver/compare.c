@@ -153,9 +153,8 @@ static e3d_status draw_scene(const void *data, e3d_backend backend, int32_t thre
     e3d_stats stats;
     for (int times = threads > 3 ? 2 : 1; status == E3D_OK && times > 0; times--)
         status = e3d_render(renderer, &frame, targets, &stats);
-    /* Colour alone takes a shorter way, and so does whatever needs no depths. (Faces are not drawn at all for the lines of a
-     * wireframe alone.) */
-    if (status == E3D_OK && threads > 1 && targets->color && frame.wireframe != E3D_WIRE_ONLY) {
+    /* Colour alone takes a shorter way, and so does whatever needs no depths. */
+    if (status == E3D_OK && threads > 1 && targets->color) {
         e3d_targets fewer = {.color = targets->color};
         if (threads % 2 == 1)
             fewer = *targets;

@@ -147,9 +147,10 @@ static e3d_status add_mesh(scene *s, random_stream *r, int32_t index)
     if (colors == 2)
         desc.colors_f32 = random_floats(s, r, 4 * vertices, -0.2f, 1.3f);
     desc.material_ids = random_indices(s, r, faces, SCENE_MAX_MATERIALS);
-    desc.lines_count = random_below(r, 12);
+    int plain = random_once_in(r, 4); /* faces and edges only */
+    desc.lines_count = plain ? 0 : random_below(r, 12);
     desc.lines = random_indices(s, r, 2 * desc.lines_count, vertices);
-    desc.points_count = random_below(r, 12);
+    desc.points_count = plain ? 0 : random_below(r, 12);
     desc.points = random_indices(s, r, desc.points_count, vertices);
     desc.edges_count = random_below(r, 60);
     desc.edges = random_indices(s, r, 2 * desc.edges_count, vertices);

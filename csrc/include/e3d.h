@@ -250,7 +250,7 @@ typedef struct e3d_stats {
     /* Each of these is at most the one before it. Of a group of clusters that is occluded as a whole, all count as in
      * the frustum; clusters that face away are unoccluded, but not drawn. */
     int64_t clusters_in_frustum, clusters_unoccluded, clusters_drawn;
-    int64_t triangles_in_frustum, triangles_unoccluded, triangles_drawn; /* drawn: by a record of the raster */
+    int64_t triangles_in_frustum, triangles_unoccluded, triangles_drawn; /* drawn: by a record of the raster, or by edges alone */
     int64_t nodes_unoccluded, nodes_drawn; /* with such a cluster, or with lines or points */
     int64_t clusters_culled;    /* outside the frustum, or facing away */
     int64_t clusters_occluded;  /* behind what was drawn before */

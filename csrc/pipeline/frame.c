@@ -181,7 +181,7 @@ static int draw_remembered(e3d_context *context, e3d_stats *stats)
 static int draw_rounds(e3d_context *context, e3d_stats *stats)
 {
     int64_t count = context->item_count, done = 0;
-    if (!e3d_occlusion_pays(context) || !e3d_occlusion_begin(context))
+    if (!context->draw_faces || !e3d_occlusion_pays(context) || !e3d_occlusion_begin(context))
         return draw_round(context, stats, (e3d_round){.end = count, .last = 1});
     int remembered = e3d_remember(context);
     if (remembered < 0)

@@ -314,7 +314,7 @@ typedef struct e3d_context {
     int sorted;        /* painter or none: bins are made after sorting */
     int srgb;          /* the encoder of this frame (R34) */
     int blockwise;     /* samples are shaded in blocks, which few of the lights reach */
-    int draw_faces;    /* faces are needed at all */
+    int draw_faces;    /* faces are needed at all, not only counted */
     int wants;         /* E3D_WANT_* and E3D_NEED_* of the visible samples; 0: no shading */
     int32_t line_half, point_half; /* 1/256 sample */
     float background[3];                        /* clamped */

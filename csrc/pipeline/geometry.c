@@ -244,6 +244,8 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 static unsigned find_away(const walker *w, const e3d_group_box *group)
 {
     const e3d_context *context = w->context;
+    if (!context->draw_faces) /* edges are drawn whichever way faces face */
+        return 0;
     return context->kernels->face_away(&w->draw->mesh->clusters[group->first_cluster], group->clusters, &w->instance->facing,
                                        drop_sign(w), w->instance->clip, &context->viewport);
 }
@@ -339,6 +341,8 @@ static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cl
 {
     w->worker->counters.clusters[fate]++;
     w->worker->counters.triangles[fate] += cluster->triangles;
+    if (fate == E3D_FATE_DRAWN && !w->context->draw_faces)
+        w->worker->counters.triangles_drawn += cluster->triangles;
     mark(w, item, fate);
 }
 
@@ -376,7 +380,7 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE)
         shown = find_fates(w, item, group, asked, fates);
     int closely = w->context->round.tested && is_wide(&item->view.samples);
-    unsigned left = closely ? shown : shown & wanted;
+    unsigned left = !w->context->draw_faces ? 0 : closely ? shown : shown & wanted;
     if (left)
         transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->vertices[0]);
     for (int turn = 0; left; left &= left - 1, turn ^= 1) {

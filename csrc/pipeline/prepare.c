@@ -219,7 +219,7 @@ static e3d_status prepare_draws(e3d_context *context)
     }
     context->instance_count = (int32_t)instances;
     context->units = units;
-    context->groups = context->draw_faces ? groups : 0;
+    context->groups = groups;
     return E3D_OK;
 }
 
@@ -422,14 +422,22 @@ static void prepare_constants(e3d_context *context)
     prepare_background(context);
 }
 
-/* Whether any output needs faces: not a plain wireframe. */
+static int has_lines_or_points(const e3d_frame *frame)
+{
+    for (int32_t d = 0; d < frame->draw_count; d++)
+        if (frame->draws[d].mesh->desc.lines_count || frame->draws[d].mesh->desc.points_count)
+            return 1;
+    return 0;
+}
+
+/* Whether any output needs faces: not a plain wireframe, unless there are lines or points that faces hide (R36). */
 static int needs_faces(const e3d_context *context)
 {
     e3d_targets others = *context->targets;
     others.color = NULL;
     const e3d_targets none = {0};
     return context->frame->wireframe != E3D_WIRE_ONLY || context->frame->remove_hidden_lines ||
-           memcmp(&others, &none, sizeof none) != 0;
+           memcmp(&others, &none, sizeof none) != 0 || has_lines_or_points(context->frame);
 }
 
 e3d_status e3d_prepare(e3d_context *context)

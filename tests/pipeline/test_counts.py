@@ -157,3 +157,16 @@ def test_no_stage_has_more_than_the_one_before(culling):
             assert stats["clusters_drawn"] + left_out == stats["clusters"]
             if culling == "none":
                 assert (found[:2, 1] == found[:2, 3]).all()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_edges_alone_count_the_triangles_that_they_are_of(threads):
+    """Faces that are not drawn, because their edges hide nothing, count where they are in view."""
+    random = np.random.default_rng(3)
+    scene = boxes(random.uniform(-30, 30, (300, 3)))
+    view = e3d.PerspectiveCamera(0.8, znear=0.5, zfar=40.0), np.eye(4)
+    with e3d.Renderer(*SIZE, threads=threads) as renderer:
+        faces = counts(renderer.render(scene, view, culling="frustum").stats)
+        edges = counts(renderer.render(scene, view, wireframe="only", hidden_lines=True).stats)
+    assert (edges[1:, :3] == faces[1:, :3]).all() and 0 < edges[2, 1] < edges[2, 0]
+    assert (edges[1:, 3] == edges[1:, 1]).all()

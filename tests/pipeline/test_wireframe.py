@@ -59,3 +59,32 @@ def test_edges_of_front_faces_show(name, width):
         expected += front.sum()
         extra += (seen & ~front).sum()
     assert extra < 0.05 * expected, "edges of the back show through"
+
+
+def random_scene(random):
+    """Faces with lines and points before, among and behind them; now and then without either."""
+    scene = e3d.Scene(background=(20, 24, 30))
+    for _ in range(random.integers(1, 4)):
+        positions = random.uniform(-1, 1, (12, 3))
+        lines = random.integers(0, 12, (random.choice([0, 6]), 2))
+        points = random.integers(0, 12, random.choice([0, 6]))
+        scene.add(e3d.Mesh(positions, random.integers(0, 12, (5, 3)), lines=lines, points=points))
+    return scene, (e3d.PerspectiveCamera(0.9), e3d.look_at(random.normal(size=3) * 2, (0, 0, 0)))
+
+
+@pytest.mark.parametrize("hidden_lines", [False, True])
+@pytest.mark.parametrize("backend", [backend for backend in e3d.backends() if backend != "scalar"])
+def test_edges_alone_beside_lines_and_points(backend, hidden_lines):
+    """What faces hide depends neither on the backend nor on what else is asked for."""
+    random = np.random.default_rng(11)
+    for turn in range(24):
+        scene, camera = random_scene(random)
+        options = {"hidden_surfaces": ("zbuffer", "painter", "none")[turn % 3]}
+        options |= {"line_width": (1.0, 3.5)[turn % 2], "point_size": 5.0, "size": (90, 70)}
+        options |= {"wireframe": "only", "hidden_lines": hidden_lines}
+        wanted = e3d.render(scene, camera, backend="scalar", **options).color
+        for more in ((), ("triangle_id",), ("depth", "normal")):
+            frame = e3d.render(
+                scene, camera, backend=backend, threads=2, outputs=("color", *more), **options
+            )
+            assert np.array_equal(frame.color, wanted), (turn, more)

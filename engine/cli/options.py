@@ -74,19 +74,21 @@ def add_subject(parser) -> None:
         "--triangles",
         type=values.city_triangles,
         metavar="N",
-        help="of --scene city: how many, about; 20,000 to 50,000,000",
+        help="with --scene city: about how many triangles, 20,000 to 50,000,000",
     )
     group.add_argument(
         "--texture",
         metavar="FILE",
-        help="texture of a model without materials, instead of the image beside it that bears its "
-        "name",
+        help="texture for a model without materials; by default an image of the same name "
+        "beside the model",
     )
     group.add_argument(
-        "--color", type=values.color, metavar="COLOR", help="colour of a model without materials"
+        "--color", type=values.color, metavar="COLOR", help="colour for a model without materials"
     )
     group.add_argument(
-        "--verbose", action="store_true", help="print what is loaded and how long it takes"
+        "--verbose",
+        action="store_true",
+        help="print what is loaded and how long loading and each frame take",
     )
 
 
@@ -100,27 +102,38 @@ def add_picture(parser) -> None:
         help="size in pixels; 1280x720 by default",
     )
     group.add_argument(
-        "--samples", type=int, choices=SAMPLES, help="samples a pixel: more make smoother edges"
+        "--samples",
+        type=int,
+        choices=SAMPLES,
+        help="samples per pixel: more give smoother edges",
     )
     group.add_argument(
-        "--backend", choices=BACKENDS, default="auto", help="what computes the frame"
+        "--backend",
+        choices=BACKENDS,
+        default="auto",
+        help="instruction set to draw with; auto is the fastest. All give the same picture",
     )
     group.add_argument(
         "--threads",
         type=values.thread_count,
         default=0,
         metavar="N",
-        help="0: all that may be used",
+        help="number of threads; 0, the default, is one per available CPU",
     )
     group.add_argument(
         "--background-color",
         type=values.color,
         metavar="COLOR",
-        help="R,G,B from 0 to 1 or to 255, #rrggbb or a name, as everywhere",
+        help="R,G,B from 0 to 1 or from 0 to 255, #rrggbb, or a name; the same for every COLOR",
     )
-    group.add_argument("-g", "--grid", action="store_true", help="a grid under the model")
-    group.add_argument("-x", "--axis", action="store_true", help="the axes, in the corner")
-    group.add_argument("-m", "--metadata", action="store_true", help="what the file holds, as text")
+    group.add_argument("-g", "--grid", action="store_true", help="show a grid under the model")
+    group.add_argument("-x", "--axis", action="store_true", help="show the axes in the corner")
+    group.add_argument(
+        "-m",
+        "--metadata",
+        action="store_true",
+        help="show what the file holds, as text in the picture",
+    )
 
 
 def add_look(parser) -> None:
@@ -133,30 +146,56 @@ def add_look(parser) -> None:
         nargs="?",
         const=WIREFRAMES[-1],
         choices=WIREFRAMES,
-        help="draw edges over the faces, or (without a value) alone",
+        help="draw the edges: overlay over the faces, only (or no value) without them",
     )
     group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")
-    group.add_argument("--hidden-lines", action="store_true", help="draw edges behind faces too")
-    group.add_argument("--line-width", type=values.width, metavar="PIXELS", help="up to 256")
-    group.add_argument("--line-color", type=values.color, metavar="COLOR", help="of the edges")
-    group.add_argument("--point-size", type=values.width, metavar="PIXELS", help="up to 256")
+    group.add_argument(
+        "--hidden-lines",
+        action="store_true",
+        help="in a wireframe, draw the edges that faces hide as well",
+    )
+    group.add_argument(
+        "--line-width",
+        type=values.width,
+        metavar="PIXELS",
+        help="width of lines and edges, up to 256",
+    )
+    group.add_argument(
+        "--line-color", type=values.color, metavar="COLOR", help="colour of the edges"
+    )
+    group.add_argument(
+        "--point-size", type=values.width, metavar="PIXELS", help="size of points, up to 256"
+    )
     normals = group.add_mutually_exclusive_group()
     normals.add_argument(
-        "--flat", action="store_const", const="flat", dest="normals", help="a normal a face"
+        "--flat",
+        action="store_const",
+        const="flat",
+        dest="normals",
+        help="shade with one normal per face",
     )
     normals.add_argument(
-        "--smooth", action="store_const", const="smooth", dest="normals", help="a normal a corner"
+        "--smooth",
+        action="store_const",
+        const="smooth",
+        dest="normals",
+        help="shade with one normal per vertex",
     )
-    group.add_argument("--cull", choices=("back", "front", "none"), help="the faces to leave out")
+    group.add_argument(
+        "--cull",
+        choices=("back", "front", "none"),
+        help="which faces to leave out; back by default",
+    )
     group.add_argument(
         "--hidden-surfaces",
         choices=("zbuffer", "painter", "none"),
-        help="how nearer faces come to cover farther ones",
+        help="method of hidden-surface removal: depth buffer (the default), painter's algorithm "
+        "(drawing from far to near), or none",
     )
     group.add_argument(
         "--shading",
         choices=("deferred", "forward"),
-        help="when pixels are shaded; the picture is the same",
+        help="shade visible pixels once (the default) or every fragment; the picture is the same",
     )
 
 
@@ -167,14 +206,14 @@ def add_light(parser) -> None:
         "--light-position",
         type=values.vector,
         metavar="X,Y,Z",
-        help="one point light there, and no other",
+        help="light the model with one point light at this position only",
     )
     group.add_argument(
         "--light-intensity",
         type=values.not_negative,
         metavar="I",
-        help="of that light, whose illumination at the distance d is I/d2; without "
-        "--light-position a factor on the usual lights",
+        help="intensity of that light; it gives I/d² at distance d. Without --light-position, a "
+        "factor for the default lights",
     )
 
 
@@ -182,30 +221,50 @@ def add_camera(parser) -> None:
     """Add where to look from."""
     group = parser.add_argument_group("camera")
     group.add_argument(
-        "--up", type=values.up_direction, metavar="±X|±Y|±Z", help="+Y, or +Z for .asc and .stl"
+        "--up",
+        type=values.up_direction,
+        metavar="±X|±Y|±Z",
+        help="the model's up direction; +Y by default, +Z for .asc and .stl",
     )
     group.add_argument(
-        "--camera-position", type=values.vector, metavar="X,Y,Z", help="where it stands"
+        "--camera-position", type=values.vector, metavar="X,Y,Z", help="position of the camera"
     )
     group.add_argument(
-        "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="what to look at"
+        "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="point to look at"
     )
     group.add_argument(
-        "--camera-view-up", type=values.direction, metavar="X,Y,Z", help="what is up in the picture"
+        "--camera-view-up",
+        type=values.direction,
+        metavar="X,Y,Z",
+        help="direction that points up in the picture",
     )
     group.add_argument(
-        "--camera-view-angle", type=values.view_angle, metavar="DEGREES", help="vertical"
+        "--camera-view-angle",
+        type=values.view_angle,
+        metavar="DEGREES",
+        help="vertical field of view",
     )
     group.add_argument(
-        "--camera-azimuth-angle", type=values.number, metavar="DEGREES", help="then turn right"
+        "--camera-azimuth-angle",
+        type=values.number,
+        metavar="DEGREES",
+        help="move the camera around the model, to the right",
     )
     group.add_argument(
-        "--camera-elevation-angle", type=values.number, metavar="DEGREES", help="then rise"
+        "--camera-elevation-angle",
+        type=values.number,
+        metavar="DEGREES",
+        help="move the camera around the model, upwards",
     )
     group.add_argument(
-        "--camera-zoom-factor", type=values.positive, metavar="F", help="then approach"
+        "--camera-zoom-factor",
+        type=values.positive,
+        metavar="F",
+        help="divide the distance from the focal point by this",
     )
-    group.add_argument("--camera-orthographic", action="store_true", help="parallel projection")
+    group.add_argument(
+        "--camera-orthographic", action="store_true", help="use a parallel projection"
+    )
 
 
 def add_run(parser) -> None:
@@ -214,10 +273,13 @@ def add_run(parser) -> None:
     group.add_argument(
         "--animate",
         action=argparse.BooleanOptionalAction,
-        help="move from the start: the scene's animation, or a slow turn",
+        help="start with the scene's animation, or for a model a slow turn, playing",
     )
     group.add_argument(
-        "--camera", choices=("orbit", "fps"), default="orbit", help="turn the model, or walk"
+        "--camera",
+        choices=("orbit", "fps"),
+        default="orbit",
+        help="orbit around the model (the default), or walk with WASD and the mouse",
     )
     group.add_argument(
         "-z", "--fps", action="store_true", help="show frames per second and statistics"
@@ -226,17 +288,19 @@ def add_run(parser) -> None:
         "--vsync",
         action=argparse.BooleanOptionalAction,
         default=True,
-        help="wait for the screen's refresh (the default)",
+        help="wait for the screen's refresh (on by default)",
     )
     group.add_argument(
         "--watch", action="store_true", help="load the model again when its file changes"
     )
-    group.add_argument("--headless", action="store_true", help="open no window; write an animation")
+    group.add_argument(
+        "--headless", action="store_true", help="open no window; write an animation to a file"
+    )
     group.add_argument(
         "--frames",
         type=values.count,
         metavar="N",
-        help="how many frames to show, or to write if headless",
+        help="stop after N frames; with --headless, write N frames",
     )
     group.add_argument(
         "-o",
@@ -265,13 +329,15 @@ def add_render(parser) -> None:
         "--no-background", action="store_true", help="leave the background transparent"
     )
     group.add_argument(
-        "--reference", metavar="FILE", help="compare with this picture; exit with 1 if it differs"
+        "--reference",
+        metavar="FILE",
+        help="compare with this picture; exit status 1 if they differ",
     )
     group.add_argument(
         "--reference-threshold",
         type=values.fraction,
         metavar="D",
-        help="the largest root mean square difference, 0 to 1, that passes; 0 by default",
+        help="largest root mean square difference that still passes, 0 to 1; 0 by default",
     )
 
 

@@ -24,14 +24,17 @@ def make_parser() -> argparse.ArgumentParser:
     """Return the parser; ``load_command()`` of what it parsed returns the command's function."""
     parser = _Parser(
         prog="engine3d",
-        description="Draw 3D models on the CPU: in a window, or to a file where there is none.",
-        epilog="engine3d COMMAND --help lists a command's options. To begin with: engine3d run.",
+        description="Draw 3D models on the CPU: in a window, or to a file.",
+        epilog="engine3d COMMAND --help lists the options of a command. To begin: engine3d run",
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"engine3d {__version__}")
     parser.set_defaults(load_command=_missing_command)
     parser.add_argument(
-        "--list-readers", action=_ListReaders, nargs=0, help="print the formats that are read"
+        "--list-readers",
+        action=_ListReaders,
+        nargs=0,
+        help="print the file formats that can be read",
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
     _add_run(commands)
@@ -93,8 +96,8 @@ def _add_convert(commands) -> None:
     command = commands.add_parser(
         "convert",
         help="write a model in another format",
-        description="Write a model as OBJ with MTL, PLY or STL, as the extension of OUT says. What "
-        "that format does not hold is warned of. Coordinates stay as they are, whichever axis is "
+        description="Write a model as OBJ (with MTL), PLY or STL; the extension of OUT decides. A "
+        "warning names what that format cannot hold. Coordinates do not change, whichever axis is "
         "up.",
         allow_abbrev=False,
     )
@@ -109,9 +112,9 @@ def _add_convert(commands) -> None:
 def _add_city(commands) -> None:
     command = commands.add_parser(
         "city",
-        help="write a city of any size as a model",
-        description="Write a city as OBJ with MTL, PLY or STL, as the extension of OUT says: the "
-        "same bytes for the same numbers, on every machine.",
+        help="generate a city and write it as a model",
+        description="Generate a city and write it as OBJ (with MTL), PLY or STL; the extension of "
+        "OUT decides. The same options give the same bytes on every machine.",
         allow_abbrev=False,
     )
     command.set_defaults(load_command=_load_city)
@@ -121,10 +124,14 @@ def _add_city(commands) -> None:
         type=values.city_triangles,
         default=1_000_000,
         metavar="N",
-        help="how many, about: 20,000 to 50,000,000; a million by default",
+        help="about how many triangles, 20,000 to 50,000,000; a million by default",
     )
     command.add_argument(
-        "--seed", type=values.integer, default=0, metavar="N", help="another city for each"
+        "--seed",
+        type=values.integer,
+        default=0,
+        metavar="N",
+        help="each number gives another city; 0 by default",
     )
 
 
@@ -133,7 +140,8 @@ def _add_bench(commands) -> None:
     command = commands.add_parser(
         "bench",
         help="measure how fast this machine draws",
-        description="Measure how fast this machine draws scenes made here, stage by stage.",
+        description="Measure how fast this machine draws, stage by stage. The scenes are "
+        "generated; nothing is downloaded.",
         epilog="\n  ".join(["workloads:", *(f"{one:<15} {WORKLOADS[one]}" for one in names)]),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
@@ -144,7 +152,7 @@ def _add_bench(commands) -> None:
         type=values.some_of(names),
         default=list(names),
         metavar="NAME,…",
-        help="what to draw (default: everything below)",
+        help="workloads to measure (default: all of those below)",
     )
     command.add_argument(
         "--backends",
@@ -157,7 +165,7 @@ def _add_bench(commands) -> None:
         "--threads",
         type=values.thread_counts,
         metavar="N,…",
-        help="numbers of threads, 0 for as many as there may be (default: 1,0)",
+        help="numbers of threads to measure with; 0 is one per available CPU (default: 1,0)",
     )
     command.add_argument(
         "--resolution",
@@ -171,15 +179,17 @@ def _add_bench(commands) -> None:
         type=values.positive,
         default=45.0,
         metavar="N",
-        help="about how long to take in all; few slow frames may take longer (default: 45)",
+        help="about how long to measure in all; slow frames may take longer (default: 45)",
     )
     command.add_argument(
         "--against",
         choices=("llvmpipe",),
-        help="draw the plain picture in turns with Mesa's llvmpipe; needs engine3d[bench] and Mesa",
+        help="compare with Mesa's llvmpipe, drawing in turns; needs engine3d[bench] and Mesa",
     )
-    command.add_argument("--json", metavar="FILE", help="write the figures; - for standard output")
-    command.add_argument("--plot", metavar="FILE", help="draw a chart: SVG, PNG, JPEG or WebP")
+    command.add_argument(
+        "--json", metavar="FILE", help="write the results as JSON; - for standard output"
+    )
+    command.add_argument("--plot", metavar="FILE", help="write a chart as SVG, PNG, JPEG or WebP")
 
 
 def _missing_command():

@@ -29,7 +29,7 @@ SECTIONS = {
         Binding(("F",), "toggle_flat", "smooth or flat normals"),
         Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
         Binding(("V",), "cycle_hidden_surfaces", "depth buffer, painter, neither"),
-        Binding(("A",), "cycle_samples", "1, 4, 16 samples a pixel"),
+        Binding(("A",), "cycle_samples", "1, 4, 16 samples per pixel"),
         Binding(("+", "="), "widen_lines", "wider lines and points"),
         Binding(("-",), "narrow_lines", "thinner lines and points"),
     ),

@@ -46,7 +46,7 @@ class Material(Closed):
     two_sided : bool
         Draw and light the back of the faces as well, whatever is culled.
     flat_shading : bool
-        Use one normal a polygon instead of the vertex normals.
+        Use one normal per polygon instead of the vertex normals.
     name : str
     extras : dict, optional
         What else a file says about the material, by the file's own keys; not read by the renderer.

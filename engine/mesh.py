@@ -167,7 +167,7 @@ class Mesh(Closed):
 
     @property
     def face_normals(self) -> NDArray[np.float32]:
-        """One unit normal a face, (F, 3) float32, the same for all triangles of a polygon."""
+        """One unit normal per face, (F, 3) float32, the same for all triangles of a polygon."""
         return self._derive(
             "face_normals",
             lambda: _normals.face_normals(self.positions, self.faces, self.polygons),

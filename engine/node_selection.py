@@ -1,6 +1,6 @@
 """Many nodes of a scene at once: their poses, parts, switches and boxes as arrays.
 
-In: arrays of a row a node. Out: copies. Nothing here loops over nodes in Python but making a
+In: arrays with one row per node. Out: copies. Nothing here loops over nodes in Python but making a
 selection, once.
 """
 

@@ -124,7 +124,7 @@ def group_sums(vectors: np.ndarray, groups: np.ndarray, count: int) -> np.ndarra
 def face_normals(
     positions: np.ndarray, faces: np.ndarray, polygon_ids: np.ndarray | None = None
 ) -> np.ndarray:
-    """Return one normal a face, the same for all triangles of a polygon.
+    """Return one normal per face, the same for all triangles of a polygon.
 
     The normal of a polygon is that of the sum of its triangles' area vectors (Newell's normal).
 

@@ -1,7 +1,7 @@
 """The renderer: draws scenes into frames on the CPU.
 
 In: a `Scene`, a camera and the options of a picture. Out: a `Frame` with the outputs asked for;
-what isn't asked for isn't computed. One call of the core a frame, without the GIL. The same scene
+what isn't asked for isn't computed. One call of the core per frame, without the GIL. The same scene
 gives the same bytes on every backend and every number of threads.
 """
 
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 _WHITE = (1.0, 1.0, 1.0)
-_SAMPLES = {1: 1, 4: 2, 16: 4}  # samples a pixel -> samples along an axis
+_SAMPLES = {1: 1, 4: 2, 16: 4}  # samples per pixel -> samples along an axis
 
 
 class Renderer(Closed):
@@ -167,7 +167,7 @@ class Renderer(Closed):
 
         That is, of each mesh, the clusters and the normals or edges that are missing; of each
         texture, the mip levels. It stays with the mesh or the texture, whoever draws it next. Of
-        the frame, memory for the outputs and, 8 bytes a sample, for the depths that tell what is
+        the frame, memory for the outputs and, 8 bytes per sample, for the depths that tell what is
         hidden; the renderer keeps it.
 
         Parameters
@@ -236,7 +236,7 @@ class Renderer(Closed):
             A node of this scene. None is its first visible camera; a scene without one is framed
             automatically.
         mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
-            What the colour shows: light, plain surface colour, a random colour a triangle,
+            What the colour shows: light, plain surface colour, a random colour per triangle,
             nearness, view-space normals, identities as colours, or how often each pixel was
             covered.
         wireframe : {None, "overlay", "only"}

@@ -306,7 +306,7 @@ class Scene(Closed):
         max_distance: float = math.inf,
         cull: Cull = "none",
     ) -> RayHits:
-        """Cast many rays at once; as `raycast`, a row a ray.
+        """Cast many rays at once; as `raycast`, a row per ray.
 
         Parameters
         ----------

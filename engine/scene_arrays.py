@@ -1,4 +1,4 @@
-"""The nodes of a scene as arrays: a row a node, in the order in which they were added.
+"""The nodes of a scene as arrays: a row per node, in the order in which they were added.
 
 In: slots. Out: arrays that C keeps up to date (csrc/scene/). A removed node keeps its slot until
 the rows of those that are left are packed into new arrays; the old ones stay with whoever still

@@ -2,7 +2,7 @@
 
 In:  nothing but engine3d itself.
 Out: scenes with as many lights as asked for, a walk along the same street in a city of any size, a
-     view from above; CPU and wall-clock milliseconds a frame, the medians of several.
+     view from above; CPU and wall-clock milliseconds per frame, the medians of several.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..scene import Scene
 
 #: Where the walk begins: eyes over the pavement of the street in the middle, looking along it.
 START, TARGET = (6.2, 1.85, 60.0), (0.0, 5.0, -60.0)
-STEP = 0.06  # metres a frame: a walk at 60 frames a second
+STEP = 0.06  # metres per frame: a walk at 60 frames per second
 ABOVE, ABOVE_TARGET = (150.0, 320.0, 420.0), (-20.0, 0.0, -40.0)
 
 

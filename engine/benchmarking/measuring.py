@@ -121,7 +121,7 @@ def measure(workload: Workload, size, backend="auto", threads=0, seconds: float 
     Returns
     -------
     dict
-        ``workload``, ``backend``, ``threads``, ``frames``, ``milliseconds`` a frame, those of the
+        ``workload``, ``backend``, ``threads``, ``frames``, ``milliseconds`` per frame, those of the
         stages (``ms_geometry`` …), ``triangles_per_second``, ``pixels_per_second``.
     """
     drawing = Drawing(workload, size, backend, threads)

@@ -44,7 +44,7 @@ def heading(size, against: str | None) -> list[str]:
     picture = "plain picture" if against else "default picture"
     return [
         f"engine3d {about['engine3d']}, {about['processor']}, {about['cpus']} CPUs",
-        f"{size[0]}x{size[1]}, {picture}, median milliseconds a frame, as an array",
+        f"{size[0]}x{size[1]}, {picture}, median milliseconds per frame, as an array",
     ]
 
 
@@ -91,7 +91,7 @@ def chart(rows: Iterable[dict]) -> tuple[str, list, list[str]]:
     """Return the title, the bars and their series, for `bar_chart.save`.
 
     Each workload is a group of bars: how many times as fast as the peer where there is one, else
-    pictures a second.
+    pictures per second.
     """
     rows = list(rows)
     against = any("peer" in row for row in rows)
@@ -101,7 +101,7 @@ def chart(rows: Iterable[dict]) -> tuple[str, list, list[str]]:
         value = row["times_as_fast"] if against else 1e3 / row["milliseconds"]
         groups.setdefault(row["workload"], {})[_series(row)] = value
     bars = [(name, [values.get(one) for one in series]) for name, values in groups.items()]
-    title = "frames a second"
+    title = "frames per second"
     if against:
         title = f"times as fast as {next(row['peer']['name'] for row in rows if 'peer' in row)}"
     return title, bars, series

@@ -1,7 +1,7 @@
 """The command line: ``engine3d run``, ``render``, ``info``, ``convert``, ``city``, ``bench``.
 
 In: arguments. Out: an exit status: 0, 1 after an error (one line on standard error that names the
-file and the line), 2 after wrong usage. One file a command; a command's module, and with it NumPy
+file and the line), 2 after wrong usage. One file per command; a command's module, and with it NumPy
 and the core, loads only when it runs.
 """
 

@@ -1,7 +1,7 @@
 """Instances that are drawn coarser the smaller they are on the screen.
 
 In: meshes from fine to coarse with their errors, poses, and before each frame a camera. Out: an
-`InstancedMesh` a level, of those instances whose error is then less than some pixels. An instance
+`InstancedMesh` per level, of those instances whose error is then less than some pixels. An instance
 turns coarser only well within the limit, so that it does not flicker between two levels.
 """
 
@@ -53,7 +53,7 @@ class DetailedInstances:
     ----------
     levels : tuple of (Mesh, float)
     instances : tuple of InstancedMesh
-        One a level, then one a card of the impostor.
+        One per level, then one per card of the impostor.
     level : (N,) int
         The level of each instance; the number of levels where it is the impostor.
 

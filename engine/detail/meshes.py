@@ -60,7 +60,7 @@ class DetailedMeshes:
         boxes = [mesh.bounds if len(mesh.positions) else nothing for mesh in meshes]
         self._boxes = np.array(boxes, np.float64).reshape(-1, 2, 3)
         self._group: Node | None = None
-        self._nodes: list[list[Node]] = []  # of each mesh, one a level
+        self._nodes: list[list[Node]] = []  # of each mesh, one per level
 
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
         """Add all to a scene, once; returns the node that groups them.

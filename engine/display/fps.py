@@ -29,7 +29,7 @@ LOOKS = {"Up": (0, 1), "Down": (0, -1), "Left": (-1, 0), "Right": (1, 0)}
 RADIANS_A_PIXEL = 0.0025
 #: How fast the arrows turn the gaze.
 RADIANS_A_SECOND = 1.6
-#: Scene radii a second; Shift goes faster, the wheel changes the speed by the step.
+#: Scene radii per second; Shift goes faster, the wheel changes the speed by the step.
 RADII_A_SECOND = 0.6
 FAST = 4.0
 SPEED_STEP = 1.15

@@ -126,7 +126,7 @@ def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[st
     rate = 1.0 / seconds if seconds > 0.0 else 0.0
     lines = [
         f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
-        f"{size[0]}x{size[1]}" + (f", {samples} samples a pixel" if samples > 1 else ""),
+        f"{size[0]}x{size[1]}" + (f", {samples} samples per pixel" if samples > 1 else ""),
     ]
     tabled = count_names()
     if tabled <= stats.keys():

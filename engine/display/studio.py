@@ -126,7 +126,7 @@ class Studio:
             self.renderer.resize(width, height)
 
     def resample(self, samples: int) -> None:
-        """Take another number of samples a pixel from now on."""
+        """Take another number of samples per pixel from now on."""
         self.samples = samples
         self.renderer.close()
         self.renderer = self._make_renderer()

@@ -57,7 +57,7 @@ def toggle_unlit(viewer, step: int) -> None:
 
 
 def toggle_flat(viewer, step: int) -> None:
-    """One normal a face, or smooth normals."""
+    """One normal per face, or smooth normals."""
     look = viewer.studio.look
     look.normals = "smooth" if look.normals == "flat" else "flat"
     viewer.say(f"normals: {look.normals}")
@@ -85,10 +85,10 @@ def cycle_lights(viewer, step: int) -> None:
 
 
 def cycle_samples(viewer, step: int) -> None:
-    """Next number of samples a pixel."""
+    """Next number of samples per pixel."""
     samples = following(viewer.studio.samples, SAMPLES, step)
     viewer.studio.resample(samples)
-    viewer.say(f"samples a pixel: {samples}")
+    viewer.say(f"samples per pixel: {samples}")
 
 
 def _scale_lines(viewer, factor: float) -> None:

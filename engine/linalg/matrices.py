@@ -2,7 +2,7 @@
 
 In: float-like arrays; matrices are row-major arrays that act on column vectors from the left, and
 functions that take matrices take stacks of them, shape (..., 4, 4). Out: float64.
-Products sum over the inner index in ascending order, one rounding an operation.
+Products sum over the inner index in ascending order, one rounding per operation.
 """
 
 from __future__ import annotations

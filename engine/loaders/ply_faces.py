@@ -149,7 +149,7 @@ def _checked(table: PlyTable, found: PlyList, count: int, others: tuple = ()) ->
 
 
 def _corner_uvs(table: PlyTable, sizes: np.ndarray, warnings: WarningList) -> np.ndarray | None:
-    """The property ``texcoord`` of faces: two numbers a corner, (C, 2); None without it.
+    """The property ``texcoord`` of faces: two numbers per corner, (C, 2); None without it.
 
     A face with another number of them has none, which counts as zero.
     """

@@ -110,7 +110,7 @@ def _read_header(source: Source) -> _Header:
     if kind not in _DEPTHS:
         raise FileFormatError(f"unknown TGA image type {image_type}", source.path)
     if bits not in _DEPTHS[kind]:
-        raise FileFormatError(f"TGA type {image_type} with {bits} bits a pixel", source.path)
+        raise FileFormatError(f"TGA type {image_type} with {bits} bits per pixel", source.path)
     if map_type > 1 or (kind == _MAPPED and map_type == 0):
         raise FileFormatError(f"TGA type {image_type} with colour map {map_type}", source.path)
     if kind == _MAPPED and map_bits not in _DEPTHS[_TRUE_COLOR]:
@@ -178,7 +178,7 @@ def _check_length(source: Source, header: _Header, start: int) -> None:
 
 
 def _stored_pixels(source: Source, header: _Header, start: int, room: np.ndarray) -> np.ndarray:
-    """The pixels as they are stored, (N, bytes a pixel) uint8.
+    """The pixels as they are stored, (N, bytes per pixel) uint8.
 
     Run-length packets are unpacked to the end of ``room``, (N, 4). Pixels can take their place in
     it from the first to the last: none lands behind the bytes that it is made of.

@@ -53,7 +53,7 @@ class RayHit(NamedTuple):
 
 
 class RayHits(NamedTuple):
-    """Where many rays meet faces: a row a ray.
+    """Where many rays meet faces: a row per ray.
 
     Attributes
     ----------

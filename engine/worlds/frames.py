@@ -1,6 +1,6 @@
 """Frames to build in: an origin on the ground, a direction to the right, and what is outward.
 
-In: frames and lengths s (to the right), y (up) and o (outward), each an array of one number a quad.
+In: frames and arrays of lengths s (to the right), y (up) and o (outward), one number per quad.
 Out: corners of quads (N, 4, 3) float64, counter-clockwise from the front. Facades, boxes, roofs and
 bridges are all said in these terms, so none of them knows which way it faces.
 """

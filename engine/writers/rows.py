@@ -1,7 +1,7 @@
 """Arrays as lines of text.
 
-In: arrays of numbers. Out: bytes, a line a row. Floats are written with the fewest digits that read
-back as the same float32; nothing depends on the locale.
+In: arrays of numbers. Out: bytes, a line per row. Floats are written with the fewest digits that
+read back as the same float32; nothing depends on the locale.
 """
 
 from __future__ import annotations

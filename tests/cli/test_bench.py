@@ -141,7 +141,7 @@ def test_table():
 def test_chart_groups_bars_by_workload():
     rows = [row(), row(threads=2, milliseconds=4.0), row("grid", milliseconds=500.0)]
     title, bars, series = report.chart(rows)
-    assert title == "frames a second" and series == ["avx2 x1", "avx2 x2"]
+    assert title == "frames per second" and series == ["avx2 x1", "avx2 x2"]
     assert bars == [("mesh", [500.0, 250.0]), ("grid", [2.0, None])]
     title, bars, _ = report.chart([beside_peer([10.0, 20.0, 30.0])])
     assert title == "times as fast as peer 1" and bars == [("mesh", [3.0])]

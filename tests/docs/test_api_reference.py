@@ -32,7 +32,9 @@ def documented():
             yield f"{name}.{member}", getattr(thing, member)
 
 
-@pytest.mark.parametrize(("name", "thing"), list(documented()), ids=lambda value: str(value)[:40])
+@pytest.mark.parametrize(
+    ("name", "thing"), list(documented()), ids=lambda value: value if isinstance(value, str) else ""
+)
 def test_every_public_name_has_a_docstring(name, thing):
     text = inspect.getdoc(thing) or ""
     assert text, f"{name} has no docstring"

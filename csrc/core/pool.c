@@ -3,7 +3,8 @@
  * Threads sleep on a condition between jobs, but only once they have watched for the next one as long as waking takes: a
  * frame is several jobs. While frames follow each other closely, and nobody else wants the CPU, they watch from one to the
  * next. Who has not come when the caller has nothing left to do is not waited for: there is nothing left.
- * A second caller does not wait: it works alone, which cannot deadlock and gives the same picture.
+ * A second caller does not wait: it works alone, which cannot deadlock and gives the same picture. So does the owner as long
+ * as helpers are waited for more than they help.
  */
 #include "core/pool.h"
 
@@ -14,6 +15,7 @@
 
 #include "core/clock.h"
 #include "core/fpenv.h"
+#include "core/helping.h"
 #include "core/limits.h"
 #include "e3d.h"
 
@@ -31,9 +33,11 @@ static struct {
     int threads;           /* made so far, without the caller */
     int called;            /* helpers, to the last job, */
     int wanted, running;   /* that may still join it: none once it is over; that are at work */
+    int64_t used;          /* CPU time that they have had for it */
     unsigned long job;
     void (*work)(void *, int);
     void *argument;
+    e3d_helping helping;   /* the owner's */
     atomic_int watches;    /* there is a CPU for each thread */
     atomic_ulong posted;   /* the last job, once nobody holds the lock for it */
     atomic_ulong finished; /* the last one that was over before its helpers had returned, and now they have */
@@ -139,7 +143,9 @@ static void *helper(void *number)
         e3d_fpenv saved = e3d_fpenv_enter();
         work(argument, worker);
         e3d_fpenv_leave(saved);
+        int64_t used = e3d_thread_ns() - own.used;
         pthread_mutex_lock(&pool.lock);
+        pool.used += used;
         int last = --pool.running == 0 && !pool.wanted;
         if (last)
             pthread_cond_signal(&pool.done);
@@ -172,8 +178,8 @@ static void make_helpers(int wanted)
     pthread_sigmask(SIG_SETMASK, &saved, NULL);
 }
 
-/* The job is over, but for those who are at work. */
-static void await_helpers(void)
+/* The job is over, but for those who are at work; the CPU time that helpers have had for it. */
+static int64_t await_helpers(void)
 {
     pthread_mutex_lock(&pool.lock);
     pool.wanted = 0;
@@ -185,7 +191,23 @@ static void await_helpers(void)
     }
     while (pool.running)
         pthread_cond_wait(&pool.done, &pool.lock);
+    int64_t used = pool.used;
     pthread_mutex_unlock(&pool.lock);
+    return used;
+}
+
+static void post_job(int helpers, void (*work)(void *, int), void *argument)
+{
+    pthread_mutex_lock(&pool.lock);
+    pool.job++;
+    make_helpers(helpers);
+    pool.called = pool.wanted = helpers < pool.threads ? helpers : pool.threads;
+    pool.work = work;
+    pool.argument = argument;
+    pool.used = 0;
+    pthread_cond_broadcast(&pool.start);
+    pthread_mutex_unlock(&pool.lock);
+    atomic_store(&pool.posted, pool.job);
 }
 
 static e3d_pool_runner borrowed; /* NULL: this copy's own pool */
@@ -205,18 +227,16 @@ void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
         work(argument, 0);
         return;
     }
-    pthread_mutex_lock(&pool.lock);
-    pool.job++;
-    make_helpers(threads - 1);
-    pool.called = pool.wanted = threads - 1 < pool.threads ? threads - 1 : pool.threads;
-    pool.work = work;
-    pool.argument = argument;
-    pthread_cond_broadcast(&pool.start);
-    pthread_mutex_unlock(&pool.lock);
-    atomic_store(&pool.posted, pool.job);
-
+    int64_t began = e3d_now_ns(), used = e3d_thread_ns();
+    int alone = pool.helping.alone;
+    if (!alone)
+        post_job(threads - 1, work, argument);
     work(argument, 0);
-    await_helpers();
+    used = e3d_thread_ns() - used;
+    if (!alone)
+        used += await_helpers();
+    int64_t now = e3d_now_ns();
+    e3d_helping_note(&pool.helping, used, now - began, now);
     pthread_mutex_unlock(&pool.owner);
 }
 

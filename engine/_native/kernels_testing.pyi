@@ -7,6 +7,7 @@ _Bytes = npt.NDArray[np.uint8]
 _Words = npt.NDArray[np.uint32]
 _Floats = npt.NDArray[np.float32]
 _Integers = npt.NDArray[np.int32]
+_Doubles = npt.NDArray[np.float64]
 
 STRUCT_SIZES: dict[str, int]
 LIMITS: dict[str, int]
@@ -16,6 +17,7 @@ ROUND_UP: int
 def clusters_of(
     positions: _Floats, faces: _Integers, threads: int
 ) -> tuple[list[int], list[tuple], list[tuple]]: ...
+def jobs_alone(rates: _Doubles, passed: int, alone: _Bytes) -> None: ...
 def float_control() -> int: ...
 def set_float_control(value: int) -> None: ...
 

@@ -8,13 +8,14 @@ Always: nothing but the sizes of structs is checked. What a kernel expects of it
      (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
 """
 
-from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t, uint32_t, uint64_t
 from libc.string cimport memcpy, memset
 
 from e3d cimport (
     E3D_OK, e3d_backend, e3d_filter, e3d_light, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_wrap
 )
 from e3d_clusters cimport *
+from e3d_helping cimport e3d_helping, e3d_helping_note
 from e3d_kernels cimport *
 
 cdef extern from *:
@@ -644,3 +645,15 @@ cdef mesh_parts(const e3d_mesh_parts *mesh, int32_t faces_count, int components)
         g = &mesh.groups[i]
         groups.append((g.first_cluster, g.clusters, g.triangles, triple(g.lo) + triple(g.hi) if g.any_finite else None))
     return [mesh.faces[i] for i in range(faces_count)], clusters, groups
+
+
+def jobs_alone(const double[:, ::1] rates, int64_t passed, uint8_t[::1] alone):
+    """Tell which jobs are done without helpers, if each takes so many nanoseconds.
+
+    rates: (n, 2), what a job gets of the CPUs with helpers and without; alone: (n,).
+    """
+    cdef e3d_helping helping
+    memset(&helping, 0, sizeof(helping))
+    for i in range(alone.shape[0]):
+        alone[i] = helping.alone
+        e3d_helping_note(&helping, <int64_t>(rates[i, helping.alone] * passed), passed, (i + 1) * passed)

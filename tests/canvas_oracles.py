@@ -33,7 +33,11 @@ def thick_line_corners(x0, y0, x1, y1, line_width):
         x0, y0, x1, y1 = x1, y1, x0, y0
     slope = Fraction(y1 - y0, (x1 - x0) or 1)
     lead = math.floor(slope * 128 + Fraction(1, 2))
-    half = math.floor(Fraction(line_width) * 128 + Fraction(1, 2))
+    run, rise = float(x1 - x0), float(y1 - y0)
+    longer = 128.0 * line_width
+    if run:
+        longer = longer * math.sqrt(run * run + rise * rise) / run
+    half = math.floor(longer + 0.5)
     start, end = 256 * y0 + 128 - lead, 256 * y1 + 128 + lead
     left, right = 256 * x0, 256 * (x1 + 1)
     return [

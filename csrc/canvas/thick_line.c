@@ -1,7 +1,7 @@
 /* Lines wider than a pixel.
  *
  * In:  the pixels at a line's two ends, and its width.
- * Out: the parallelogram along the line through the ends' centres, `width` thick along the minor axis,
+ * Out: the parallelogram along the line through the ends' centres, as wide as it says at any angle,
  *      filled as two triangles. It reaches half a pixel beyond each end along the major axis, so
  *      that it covers the rows or columns of the thin line between the same pixels.
  * Always: the same pixels from either end; each pixel once, since the two triangles share their
@@ -9,11 +9,12 @@
  */
 #include "canvas_pixels.h"
 
-/* Half of the width in 1/256 pixel, rounded to nearest; positions then stay within 2^40. */
-static int64_t half_width(double width)
+/* Half of the line's extent along the minor axis in 1/256 pixel, rounded to nearest: at an angle more than
+ * half of its width. Positions then stay within 2^40. */
+static int64_t half_extent(double width, double run, double rise)
 {
-    const double limit = 2.0 * POSITION_LIMIT;
-    return (int64_t)floor((width < limit ? width : limit) * HALF_PIXEL + 0.5);
+    const double half = HALF_PIXEL * (width < POSITION_LIMIT ? width : POSITION_LIMIT);
+    return (int64_t)floor((run > 0.0 ? half * sqrt(run * run + rise * rise) / run : half) + 0.5);
 }
 
 /* Half of rise / run pixels, in 1/256 pixel, rounded to nearest. */
@@ -39,7 +40,7 @@ void e3d_canvas_thick_line(const e3d_canvas *canvas, int64_t x0, int64_t y0, int
     const int64_t major = (steep ? (backward ? y1 : y0) : (backward ? x1 : x0)) * SUBPIXELS;
     const int64_t minor = (steep ? (backward ? x1 : x0) : (backward ? y1 : y0)) * SUBPIXELS;
 
-    const int64_t half = half_width(width);
+    const int64_t half = half_extent(width, (double)run, (double)rise);
     const int64_t lead = rise_in_half_pixel(rise, run);
     const int64_t major_end = major + (run + 1) * SUBPIXELS;
     const int64_t start = minor + HALF_PIXEL - lead;

@@ -2,8 +2,8 @@
  *
  * Coverage (docs/exactness.md, R12): in a tile of T samples an edge that crosses it has
  * |E / 256| <= (T - 1)(|a| + |b|). |a| and |b| are at most 256 * (clip region), so 32-bit lanes are
- * exact while (T - 1) * 2 * 256 * region < 2^31: T = 64 allows regions up to 66,576 samples. The guard
- * band is 65,536 wide; a line adds at most 512 on each side, which gives 66,560.
+ * exact while (T - 1) * 256 * (width + height of the region) < 2^31: T = 64 allows a sum of 133,152 samples.
+ * The guard band is 65,536 wide and high; a point adds 1024 to both, and a line 1449 to one of them.
  */
 #ifndef E3D_LIMITS_H
 #define E3D_LIMITS_H
@@ -15,7 +15,8 @@ enum {
     E3D_BLOCK = 8,               /* samples a side: what the hierarchical depth bounds */
     E3D_SUBPIXEL = 256,          /* positions are snapped to 1/256 sample */
     E3D_GUARD = 32768,           /* samples from the viewport's centre to the guard band */
-    E3D_MAX_LINE_SAMPLES = 1024, /* line width or point size: 256 pixels of 4 samples */
+    E3D_MAX_POINT_SAMPLES = 1024, /* point size, or line width across: 256 pixels of 4 samples */
+    E3D_MAX_LINE_SAMPLES = 1449, /* of a column or row that a line covers: at 45 degrees its width times the root of 2 */
     E3D_CLUSTER_TRIANGLES = 64,  /* a cluster's triangles and vertices: 8-bit local indices */
     E3D_CLUSTER_VERTICES = 128,
     E3D_GROUP_CLUSTERS = 8,      /* clusters that are culled together first */
@@ -23,8 +24,8 @@ enum {
     E3D_MAX_THREADS = 256
 };
 
-_Static_assert((long long)(E3D_TILE - 1) * 2 * E3D_SUBPIXEL * (2 * E3D_GUARD + E3D_MAX_LINE_SAMPLES) <
-                   (1LL << 31),
+_Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
+                   (long long)(E3D_TILE - 1) * E3D_SUBPIXEL * 2 * (2 * E3D_GUARD + E3D_MAX_POINT_SAMPLES) < (1LL << 31),
                "edge functions of a tile fit 32-bit lanes");
 
 #define E3D_W_MIN 0x1p-20f      /* behind this the eye is too near: clipped away */

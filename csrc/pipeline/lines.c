@@ -1,4 +1,6 @@
 /* geometry: lines, points and wireframe edges, each a parallelogram of two triangles (R6-R8, R11). */
+#include <math.h>
+
 #include "pipeline/frame.h"
 
 /* Where a thread stands: one instance of one draw. */
@@ -38,7 +40,26 @@ static e3d_corner moved(e3d_corner c, int32_t x, int32_t y)
 
 static int32_t distance(int32_t a, int32_t b) { return a < b ? b - a : a - b; }
 
-/* R11 */
+/* How far a line of such extents reaches along its minor axis (R11). */
+static int32_t offset_of(const e3d_context *context, double dx, double dy)
+{
+    if (!context->wide_lines)
+        return context->line_half;
+    return (int32_t)lrint((double)context->line_half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
+}
+
+/* Of its ends on the screen. */
+static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int pass)
+{
+    int32_t across = distance(end[1].x, end[0].x), down = distance(end[1].y, end[0].y);
+    if (!across && !down)
+        return;
+    int32_t offset = offset_of(w->context, across, down), dx = across < down ? offset : 0, dy = across < down ? 0 : offset;
+    const e3d_corner quad[4] = {moved(end[0], -dx, -dy), moved(end[1], -dx, -dy),
+                                moved(end[1], dx, dy), moved(end[0], dx, dy)};
+    emit_quad(w, quad, order, pass);
+}
+
 static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int pass)
 {
     const e3d_viewport *viewport = &w->context->viewport;
@@ -65,11 +86,7 @@ static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int pas
         if (pass == E3D_PASS_WIRE)
             end[i].zn = end[i].zn - E3D_WIRE_PULL;
     }
-    int steep = distance(end[1].x, end[0].x) < distance(end[1].y, end[0].y);
-    int32_t h = w->context->line_half, dx = steep ? h : 0, dy = steep ? 0 : h;
-    const e3d_corner quad[4] = {moved(end[0], -dx, -dy), moved(end[1], -dx, -dy),
-                                moved(end[1], dx, dy), moved(end[0], dx, dy)};
-    emit_quad(w, quad, order, pass);
+    draw_band(w, end, order, pass);
 }
 
 static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)

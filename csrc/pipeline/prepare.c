@@ -395,6 +395,19 @@ static int prepare_lights(e3d_context *context)
     return 1;
 }
 
+/* R11 */
+static void prepare_lines(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    float axis = (float)frame->samples_axis;
+    int32_t line = (int32_t)lrintf(frame->line_width * axis * 128.0f);
+    int32_t point = (int32_t)lrintf(frame->point_size * axis * 128.0f);
+    context->line_half = line > 1 ? line : 1;
+    context->point_half = point > 1 ? point : 1;
+    context->wide_lines = frame->line_width > 1.0f;
+    context->line_reach = context->wide_lines ? (int32_t)lrint((double)context->line_half * sqrt(2.0)) : context->line_half;
+}
+
 static void prepare_constants(e3d_context *context)
 {
     const e3d_frame *frame = context->frame;
@@ -405,12 +418,8 @@ static void prepare_constants(e3d_context *context)
     memcpy(context->lighting.ambient, frame->ambient, sizeof frame->ambient);
     memcpy(context->lighting.clamp, frame->light_clamp, sizeof frame->light_clamp);
     memcpy(context->lighting.eye, frame->eye, sizeof frame->eye);
+    prepare_lines(context);
     int bits = 0;
-    float axis = (float)frame->samples_axis;
-    int32_t line = (int32_t)lrintf(frame->line_width * axis * 128.0f);
-    int32_t point = (int32_t)lrintf(frame->point_size * axis * 128.0f);
-    context->line_half = line > 1 ? line : 1;
-    context->point_half = point > 1 ? point : 1;
     context->wants = wants_of(frame, context->targets);
     context->srgb = frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
     while ((1 << bits) < context->renderer->threads)

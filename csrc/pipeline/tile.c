@@ -135,7 +135,7 @@ static void find_edge_limits(tile_job *job)
 {
     e3d_tile_memory *memory = job->worker->tile;
     const e3d_visible_tile *visible = job->worker->visible;
-    float reach = (float)job->context->line_half * (1.0f / 256.0f) + 0.5f;
+    float reach = (float)job->context->line_reach * (1.0f / 256.0f) + 0.5f;
     for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
         memory->edge_limit[i] = E3D_BEYOND_FAR;
         if (visible->id[i] < 0)

@@ -47,7 +47,7 @@ static void keep_fragment(const ref_scene *scene, const ref_piece *piece, int64_
 /* R36: how far behind the kept depth an edge still shows: the slope of that piece over the line's reach. */
 static float edge_slack(const ref_scene *scene, const ref_piece *kept)
 {
-    float reach = (float)ref_half_size(scene, scene->frame->line_width) * (1.0f / 256.0f) + 0.5f;
+    float reach = (float)ref_greatest_offset(scene) * (1.0f / 256.0f) + 0.5f;
     float slope = (fabsf(kept->z_dx) + fabsf(kept->z_dy)) * reach;
     return ref_min(slope, kept->z_max - kept->z_min);
 }

@@ -210,6 +210,21 @@ int32_t ref_half_size(const ref_scene *scene, float size)
     return half > 1 ? half : 1;
 }
 
+/* R11: how far a line reaches along its minor axis, in 1/256 sample. */
+static int32_t line_offset(const ref_scene *scene, double dx, double dy)
+{
+    int32_t half = ref_half_size(scene, scene->frame->line_width);
+    if (scene->frame->line_width <= 1.0f)
+        return half;
+    return (int32_t)lrint((double)half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
+}
+
+int32_t ref_greatest_offset(const ref_scene *scene)
+{
+    int32_t half = ref_half_size(scene, scene->frame->line_width);
+    return scene->frame->line_width <= 1.0f ? half : (int32_t)lrint((double)half * sqrt(2.0));
+}
+
 e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, const ref_corner ends[2],
                           int clipped)
 {
@@ -219,9 +234,11 @@ e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, cons
     if (primitive->kind == REF_EDGE)
         for (int k = 0; k < 2; k++)
             v[k].z = v[k].z - E3D_WIRE_PULL;
-    int32_t half = ref_half_size(scene, scene->frame->line_width);
-    int x_major = labs((long)v[1].x - v[0].x) >= labs((long)v[1].y - v[0].y);
-    int32_t dx = x_major ? 0 : half, dy = x_major ? half : 0;
+    long across = labs((long)v[1].x - v[0].x), down = labs((long)v[1].y - v[0].y);
+    if (across == 0 && down == 0)
+        return E3D_OK;
+    int32_t offset = line_offset(scene, (double)across, (double)down);
+    int32_t dx = across >= down ? 0 : offset, dy = across >= down ? offset : 0;
     screen_corner quad[4] = {shifted(v[0], -dx, -dy), shifted(v[1], -dx, -dy), shifted(v[1], dx, dy),
                              shifted(v[0], dx, dy)};
     return setup_quad(scene, primitive, quad);

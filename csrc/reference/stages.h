@@ -114,6 +114,8 @@ int ref_clip_line(const ref_scene *scene, const ref_corner in[2], ref_corner out
 e3d_status ref_setup_triangle(ref_scene *scene, const ref_primitive *primitive, const ref_corner corners[3],
                               int clipped);
 int32_t ref_half_size(const ref_scene *scene, float size);
+/* Of any line along its minor axis, in 1/256 sample. */
+int32_t ref_greatest_offset(const ref_scene *scene);
 e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, const ref_corner ends[2],
                           int clipped);
 e3d_status ref_setup_point(ref_scene *scene, const ref_primitive *primitive, const ref_corner *corner);

@@ -311,7 +311,7 @@ static void add_lights(scene *s, random_stream *r)
     }
 }
 
-/* The eye is at (0, 0, distance) and looks down -Z; a small distance puts triangles behind it. */
+/* The eye is at (0, 0, distance) and looks down -Z, now and then into a mirror; a small distance puts triangles behind it. */
 static void aim_camera(scene *s, random_stream *r)
 {
     e3d_frame *frame = &s->frame;
@@ -319,11 +319,13 @@ static void aim_camera(scene *s, random_stream *r)
     double near = 0.05, far = random_once_in(r, 4) ? 4.5 : 100.0;
     double aspect = (double)frame->width / frame->height;
     int orthographic = random_once_in(r, 4);
+    double mirror = random_once_in(r, 4) ? -1.0 : 1.0;
     double *clip = frame->clip_from_world, *view = frame->view_from_world;
     for (int k = 0; k < 4; k++)
         view[5 * k] = 1.0;
+    view[0] = mirror;
     view[11] = -distance;
-    clip[0] = (orthographic ? 0.5 : 1.5) / aspect;
+    clip[0] = mirror * (orthographic ? 0.5 : 1.5) / aspect;
     clip[5] = orthographic ? 0.5 : 1.5;
     clip[10] = orthographic ? -2.0 / (far - near) : -(far + near) / (far - near);
     double offset = orthographic ? -(far + near) / (far - near) : -2.0 * far * near / (far - near);

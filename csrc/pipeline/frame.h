@@ -319,6 +319,7 @@ typedef struct e3d_context {
     int32_t line_half, point_half; /* 1/256 sample */
     int32_t line_reach; /* of any line along its minor axis: no less than half, where */
     int wide_lines;     /* they are as wide across as they say */
+    int mirrors;        /* the camera does: R2 */
     float background[3];                        /* clamped */
     float background_sample[4], line_sample[4]; /* colour, and whether it counts (e3d_samples) */
     uint32_t background_rgba, line_rgba;        /* of a pixel of nothing else */

@@ -51,21 +51,28 @@ static void multiply_pose(const double a[16], const e3d_draw *draw, int32_t inst
     multiply_rows(a, rows, out);
 }
 
-/* R2 */
-static void normal_matrix(const double m[16], e3d_instance *out)
+/* Those of the upper left 3x3; its determinant. */
+static double find_cofactors(const double m[16], double cofactor[9])
 {
-    double cofactor[9], big = 0;
-    int finite = 1;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) {
             int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            double v = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
-            cofactor[3 * r + c] = v;
-            big = fabs(v) > big ? fabs(v) : big;
-            finite = finite && isfinite(v);
+            cofactor[3 * r + c] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
         }
-    double det = (m[0] * cofactor[0] + m[1] * cofactor[1]) + m[2] * cofactor[2];
-    out->mirrored = det < 0;
+    return (m[0] * cofactor[0] + m[1] * cofactor[1]) + m[2] * cofactor[2];
+}
+
+/* R2 */
+static void normal_matrix(const e3d_context *context, const double m[16], e3d_instance *out)
+{
+    double cofactor[9], big = 0;
+    int finite = 1;
+    double det = find_cofactors(m, cofactor);
+    for (int k = 0; k < 9; k++) {
+        big = fabs(cofactor[k]) > big ? fabs(cofactor[k]) : big;
+        finite = finite && isfinite(cofactor[k]);
+    }
+    out->mirrored = (det < 0) != context->mirrors;
     double scale = 1.0 / big;
     finite = finite && isfinite(scale);
     for (int k = 0; k < 9; k++)
@@ -95,12 +102,12 @@ static void world_matrix(const e3d_draw *draw, int32_t instance, double out[16])
 }
 
 /* Besides clip space, which tells whether more is needed. */
-static void prepare_surface(const e3d_viewport *viewport, const double world[16], e3d_instance *out)
+static void prepare_surface(const e3d_context *context, const double world[16], e3d_instance *out)
 {
     for (int k = 0; k < 12; k++)
         out->world[k] = (float)world[k];
-    normal_matrix(world, out);
-    e3d_facing_prepare(viewport, out->clip, &out->facing);
+    normal_matrix(context, world, out);
+    e3d_facing_prepare(&context->viewport, out->clip, &out->facing);
     out->ready = 1;
 }
 
@@ -109,12 +116,12 @@ void e3d_prepare_surface(const e3d_context *context, e3d_instance *instance)
     double world[16];
     const e3d_draw_state *state = &context->draws[instance->draw];
     world_matrix(state->draw, (int32_t)(instance - context->instances - state->instance_base), world);
-    prepare_surface(&context->viewport, world, instance);
+    prepare_surface(context, world, instance);
 }
 
-static void prepare_instance(const e3d_frame *frame, const e3d_viewport *viewport, const e3d_draw *draw, int32_t instance, int units,
-                             e3d_instance *out)
+static void prepare_instance(const e3d_context *context, const e3d_draw *draw, int32_t instance, int units, e3d_instance *out)
 {
+    const e3d_frame *frame = context->frame;
     double world[16];
     world_matrix(draw, instance, world);
     clip_matrix(frame->clip_from_world, world, out->clip);
@@ -128,7 +135,7 @@ static void prepare_instance(const e3d_frame *frame, const e3d_viewport *viewpor
                  (mesh->any_finite && (one || e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
     out->ready = 0;
     if (units || (out->shows && !later)) /* lines and points are wider than the box */
-        prepare_surface(viewport, world, out);
+        prepare_surface(context, world, out);
 }
 
 enum { INSTANCES_A_TASK = 256 };
@@ -145,8 +152,7 @@ static void instances_work(void *argument, int worker)
         for (int64_t i = first; i < first + INSTANCES_A_TASK && i < context->instance_count; i++) {
             while (i >= state->instance_base + state->draw->instances)
                 state++;
-            prepare_instance(context->frame, &context->viewport, state->draw, (int32_t)(i - state->instance_base), state->units,
-                             &context->instances[i]);
+            prepare_instance(context, state->draw, (int32_t)(i - state->instance_base), state->units, &context->instances[i]);
             context->instances[i].draw = (int32_t)(state - context->draws);
             if (state->draw->pose_kind != E3D_POSE_NODES)
                 context->instances[i].order =
@@ -411,6 +417,7 @@ static void prepare_lines(e3d_context *context)
 static void prepare_constants(e3d_context *context)
 {
     const e3d_frame *frame = context->frame;
+    double cofactor[9];
     for (int k = 0; k < 12; k++)
         context->view[k] = (float)frame->view_from_world[k];
     for (int c = 0; c < 256; c++)
@@ -418,6 +425,7 @@ static void prepare_constants(e3d_context *context)
     memcpy(context->lighting.ambient, frame->ambient, sizeof frame->ambient);
     memcpy(context->lighting.clamp, frame->light_clamp, sizeof frame->light_clamp);
     memcpy(context->lighting.eye, frame->eye, sizeof frame->eye);
+    context->mirrors = find_cofactors(frame->view_from_world, cofactor) < 0;
     prepare_lines(context);
     int bits = 0;
     context->wants = wants_of(frame, context->targets);

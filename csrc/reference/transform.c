@@ -33,25 +33,33 @@ static void read_pose(double out[16], const e3d_draw *draw, int32_t number)
     out[15] = 1.0;
 }
 
-/* R2: proportional to the inverse transpose, scaled so that the greatest element is 1. */
-static void make_normal_matrix(ref_instance *instance, const double m[16])
+/* Of the upper left 3x3 of a matrix; returns its determinant. */
+static double find_cofactors(const double m[16], double cofactors[3][3])
 {
-    double cofactors[3][3], big = 0.0;
-    int finite = 1;
     for (int r = 0; r < 3; r++) {
         int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
         for (int c = 0; c < 3; c++) {
             int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            double v = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
-            cofactors[r][c] = v;
-            finite = finite && isfinite(v);
-            big = fabs(v) > big ? fabs(v) : big;
+            cofactors[r][c] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
         }
     }
-    double det = (m[0] * cofactors[0][0] + m[1] * cofactors[0][1]) + m[2] * cofactors[0][2];
+    return (m[0] * cofactors[0][0] + m[1] * cofactors[0][1]) + m[2] * cofactors[0][2];
+}
+
+/* R2: proportional to the inverse transpose, scaled so that the greatest element is 1. */
+static void make_normal_matrix(ref_instance *instance, const double m[16], const double view_from_world[16])
+{
+    double cofactors[3][3], of_view[3][3], big = 0.0;
+    int finite = 1;
+    double det = find_cofactors(m, cofactors);
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            finite = finite && isfinite(cofactors[r][c]);
+            big = fabs(cofactors[r][c]) > big ? fabs(cofactors[r][c]) : big;
+        }
     double scale = (det < 0.0 ? -1.0 : 1.0) / big;
     int usable = finite && isfinite(scale);
-    instance->mirrored = det < 0.0;
+    instance->mirrored = (det < 0.0) != (find_cofactors(view_from_world, of_view) < 0.0);
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             instance->normal_matrix[r][c] = usable ? (float)(cofactors[r][c] * scale) : 0.0f;
@@ -85,7 +93,7 @@ void ref_instance_init(ref_instance *out, const e3d_frame *frame, const e3d_draw
     out->number = number;
     ref_round_rows(out->clip_from_object, clip_from_object, 4);
     ref_round_rows(out->world_from_object, world_from_object, 3);
-    make_normal_matrix(out, world_from_object);
+    make_normal_matrix(out, world_from_object, frame->view_from_world);
 }
 
 static float transform_row(const float row[4], const float p[3])

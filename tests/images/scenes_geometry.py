@@ -229,7 +229,7 @@ def layers(key):
 
 
 variant("layers", layers, lambda rng, level: rng.permutation(len(level)))
-variant("layers_back_to_front", layers, lambda rng, level: np.argsort(-level))
+variant("layers_back_to_front", layers, lambda rng, level: np.argsort(-level, kind="stable"))
 
 
 @picture

@@ -73,6 +73,20 @@ def transparent_wireframe_samples_4():
 
 
 @picture
+def wireframe_only_beside_lines():
+    """Hidden edges show; lines and points that faces hide do not."""
+    scene = still_life()
+    ends = [
+        (x, 0.1 + 0.2 * k, z) for k, x in enumerate((-1.2, -0.6, 0.2, 0.9)) for z in (-1.2, 1.2)
+    ]
+    lines = [(2 * k, 2 * k + 1) for k in range(4)]
+    scene.add(e3d.Mesh(ends, lines=lines, points=[0, 2, 4, 6]))
+    return look(
+        scene, wireframe="only", hidden_lines=True, line_color=(70, 90, 120), point_size=6.0
+    )
+
+
+@picture
 def two_sided_inside():
     """The eye is inside a box: its walls show because its material has two sides."""
     room = with_material(e3d.box(6), color=CORAL, two_sided=True)

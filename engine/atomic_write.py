@@ -3,12 +3,14 @@
 In: the paths of output files. Out: binary file objects to write to. The bytes go to a temporary
 name in the same folder, which takes the target's name only when everything was written; whatever
 stood there before stays untouched until then, and a failure, or a signal that Python turns into an
-exception, leaves nothing behind. Files that belong together appear one right after the other.
+exception, leaves nothing behind. The bytes are on the disk before the name is: after a power cut
+there is the old file or the new one. Files that belong together appear one right after the other.
 """
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import stat
 from collections.abc import Iterator
@@ -24,8 +26,9 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
     Parameters
     ----------
     path : str or path-like
-        The output file. An existing file is replaced and its permissions are kept. What is not a
-        regular file (a device such as ``/dev/stdout``, a FIFO) is written to directly.
+        The output file. An existing file is replaced and its permissions are kept, but for bits
+        that let it run as another user. What is not a regular file (a device such as
+        ``/dev/stdout``, a FIFO that somebody reads) is written to directly.
 
     Yields
     ------
@@ -34,7 +37,8 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
     Raises
     ------
     FileAccessError
-        The folder does not exist, cannot be written to, or the disk is full.
+        The folder does not exist, cannot be written to, the disk is full, the path is none, or is
+        a FIFO that nobody reads.
     """
     with AtomicFiles() as files:
         yield files.create(path)
@@ -103,18 +107,19 @@ class _Part:
 
     def __init__(self, path: str) -> None:
         self.path = path
-        self._target = os.path.realpath(path)
         self._temporary: str | None = None
         self._mode: int | None = None
 
     def open(self) -> None:
+        self._target = os.path.realpath(self.path)
         if os.path.exists(self.path) and not os.path.isfile(self.path):
-            self.file = os.fdopen(os.open(self.path, os.O_WRONLY | os.O_CLOEXEC), "wb")
+            self.file = os.fdopen(_opened_device(self.path), "wb")
             return
         with contextlib.suppress(FileNotFoundError):
-            self._mode = stat.S_IMODE(os.stat(self._target).st_mode)
+            self._mode = stat.S_IMODE(os.stat(self._target).st_mode) & 0o777
         folder, name = os.path.split(self._target)
-        self._temporary = os.path.join(folder, f".{name[:64]}.{os.urandom(8).hex()}.part")
+        # Some letters of the name, which take at most 128 of the 255 bytes that a name may have.
+        self._temporary = os.path.join(folder, f".{name[:32]}.{os.urandom(8).hex()}.part")
         # What replaces a private file is private from the beginning.
         mode = 0o666 if self._mode is None else 0o600
         flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
@@ -124,6 +129,8 @@ class _Part:
         self.file.flush()
         if self._mode is not None:
             os.fchmod(self.file.fileno(), self._mode)
+        if self._temporary is not None:
+            os.fsync(self.file.fileno())
         self.file.close()
 
     def appear(self) -> None:
@@ -140,6 +147,18 @@ class _Part:
                 os.unlink(self._temporary)
 
 
+def _opened_device(path: str) -> int:
+    """Open what is no regular file; a FIFO that nobody reads is an error, not a wait for ever."""
+    try:
+        handle = os.open(path, os.O_WRONLY | os.O_CLOEXEC | os.O_NONBLOCK)
+    except OSError as error:
+        if error.errno == errno.ENXIO and stat.S_ISFIFO(os.stat(path).st_mode):
+            raise OSError(errno.ENXIO, "a FIFO that nobody reads") from error
+        raise
+    os.set_blocking(handle, True)
+    return handle
+
+
 @contextlib.contextmanager
 def _named(path: str | None) -> Iterator[None]:
     """Let errors of the system name the file."""
@@ -147,6 +166,6 @@ def _named(path: str | None) -> Iterator[None]:
         yield
     except FileAccessError:
         raise
-    except OSError as error:
-        message = f"cannot write: {error.strerror or error}"
+    except (OSError, ValueError) as error:
+        message = f"cannot write: {getattr(error, 'strerror', None) or error}"
         raise FileAccessError(message, path) from error

@@ -107,10 +107,10 @@ class Engine3DWarning(UserWarning):
 def located(message: str, path: str | None, line: int | None = None) -> str:
     """Return ``message`` with the place it speaks of in front: ``FILE:LINE: message``."""
     if path is None:
-        return message
-    path = printable(path) or "''"
+        return printable(message)
+    path = path or "''"
     place = path if line is None else f"{path}:{line}"
-    return f"{place}: {message}"
+    return printable(f"{place}: {message}")
 
 
 def printable(text: str) -> str:

@@ -31,7 +31,7 @@ def file_stamp(path: str | os.PathLike) -> FileStamp | None:
     """Return what differs once a file was written; None if there is no such file."""
     try:
         status = os.stat(path)
-    except OSError:
+    except (OSError, ValueError):
         return None
     rights = status.st_mode, status.st_uid, status.st_gid, status.st_nlink
     times = status.st_mtime_ns, status.st_ctime_ns
@@ -77,10 +77,15 @@ class FileState:
         return any(abs(now - at) < _STEP for at in times)
 
 
+def _opened_at_once(path: str, flags: int) -> int:
+    return os.open(path, flags | os.O_NONBLOCK)
+
+
 def _digest(path: str | os.PathLike) -> bytes | None:
     digest = hashlib.blake2b(digest_size=20)
     try:
-        with open(path, "rb") as file:
+        # What has become a FIFO meanwhile must not be waited for.
+        with open(path, "rb", opener=_opened_at_once) as file:
             while piece := file.read(1 << 20):
                 digest.update(piece)
     except OSError:

@@ -17,6 +17,7 @@ from .errors import Engine3DError, Engine3DWarning, InvalidArgumentError
 from .file_states import FileState
 from .loaders import load_mesh, load_texture
 from .loaders.linked_files import found_files
+from .loaders.open_files import unreadable
 from .materials import Material
 from .mesh import Mesh
 from .textures import Texture
@@ -134,7 +135,7 @@ class Resources:
             kind = type(path).__name__
             raise InvalidArgumentError(f"resources are loaded by their paths, not from {kind}")
         self._loads += 1
-        name = os.path.realpath(os.fspath(path))
+        name = _real_path(path)
         key = (load.__name__, name, tuple(sorted(options.items())))
         thing = self._by_file.get(key)
         if thing is not None and self._files[key].versions == _versions(thing):
@@ -163,6 +164,13 @@ class Resources:
         for content, other in list(self._by_content.items()):
             if other is thing:
                 del self._by_content[content]
+
+
+def _real_path(path: str | os.PathLike) -> str:
+    try:
+        return os.path.realpath(os.fspath(path))
+    except (OSError, ValueError) as error:
+        raise unreadable(os.fspath(path), error) from error
 
 
 class _Loaded:

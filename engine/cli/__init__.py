@@ -12,7 +12,9 @@ import contextlib
 import gc
 import os
 import sys
+from collections.abc import Callable
 
+from .said import say
 from .usage import UsageError
 
 INTERRUPTED = 130
@@ -20,13 +22,15 @@ INTERRUPTED = 130
 ENDED_BY_SIGNAL = 128
 
 
-def main(argv: list[str] | None = None) -> int:
+def main(argv: list[str] | None = None, begin: Callable[[], None] | None = None) -> int:
     """Run one command.
 
     Parameters
     ----------
     argv : list of str, optional
         The arguments without the program's name; those of the process by default.
+    begin : callable, optional
+        Called when everything that the command needs is imported, before it runs.
 
     Returns
     -------
@@ -36,7 +40,7 @@ def main(argv: list[str] | None = None) -> int:
     # NumPy's linear algebra, which draws nothing here, would start a thread for each CPU.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _replace_closed_streams()
-    return _run(sys.argv[1:] if argv is None else argv)
+    return _run(sys.argv[1:] if argv is None else argv, begin)
 
 
 def _replace_closed_streams() -> None:
@@ -46,13 +50,13 @@ def _replace_closed_streams() -> None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
 
 
-def _run(arguments: list[str]) -> int:
+def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
     """Do what the arguments say, and turn every foreseen exception into a line."""
     from ..errors import Engine3DError
 
     try:
         with _short_warnings(), _ended_politely():
-            status = _obey(arguments)
+            status = _obey(arguments, begin)
             sys.stdout.flush()
         return status
     except BrokenPipeError:
@@ -71,7 +75,7 @@ def _run(arguments: list[str]) -> int:
         return _fail("out of memory")
 
 
-def _obey(arguments: list[str]) -> int:
+def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
     """Parse the arguments, run the command that they name, and return its exit status."""
     from .options import join_values
     from .parser import make_parser
@@ -81,7 +85,10 @@ def _obey(arguments: list[str]) -> int:
         if unknown:
             program = " ".join(filter(None, ("engine3d", args.command)))
             raise UsageError(f"unknown arguments: {' '.join(unknown)} (see {program} --help)")
-        return _load(args)(args)
+        command = _load(args)
+        if begin is not None:
+            begin()
+        return command(args)
     except UsageError as error:
         return _usage(str(error))
     except SystemExit as stop:
@@ -148,16 +155,16 @@ def _one_line(error: Exception) -> str:
     if isinstance(error, OSError) and error.strerror:
         place = "" if error.filename is None else f"{os.fsdecode(error.filename)}: "
         text = place + error.strerror
-    return " ".join(text.split()) or type(error).__name__
+    return text or type(error).__name__
 
 
 def _fail(message: str) -> int:
-    print(f"engine3d: error: {message}", file=sys.stderr)
+    say(f"error: {message}")
     return 1
 
 
 def _usage(message: str) -> int:
-    print(f"engine3d: error: {message}", file=sys.stderr)
+    say(f"error: {message}")
     return 2
 
 
@@ -179,4 +186,4 @@ class _short_warnings:
 
 
 def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
-    print(f"engine3d: warning: {' '.join(str(message).split())}", file=sys.stderr)
+    say(f"warning: {message}")

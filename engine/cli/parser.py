@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 
 from ..benchmarking.names import WORKLOADS
+from ..errors import printable
 from ..version import __version__
 from . import options, values
 from .usage import UsageError
@@ -17,7 +18,7 @@ class _Parser(argparse.ArgumentParser):
     """A parser whose errors are a line, not lost below all the options that there are."""
 
     def error(self, message):
-        self.exit(2, f"{self.prog}: error: {message} (see {self.prog} --help)\n")
+        self.exit(2, f"{self.prog}: error: {printable(message)} (see {self.prog} --help)\n")
 
 
 def make_parser() -> argparse.ArgumentParser:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from ..display import headless
 from ..display.animation_files import (
@@ -22,6 +21,7 @@ from .outputs import (
     write_standard_output,
 )
 from .report import Report
+from .said import say
 from .usage import UsageError
 
 DEFAULT_SIZE = (1280, 720)
@@ -97,5 +97,5 @@ def _compare(args: argparse.Namespace, pixels) -> int:
     result = compare(pixels, args.reference)
     if result.difference <= (args.reference_threshold or 0.0):
         return 0
-    print(f"engine3d: error: {args.reference}: {result}", file=sys.stderr)
+    say(f"error: {args.reference}: {result}")
     return 1

@@ -6,6 +6,7 @@ import sys
 import time
 
 from ..display.counts import count_line
+from ..errors import printable
 
 
 class Report:
@@ -25,7 +26,9 @@ class Report:
     def line(self, text: str) -> None:
         """Print one line with the seconds since the start."""
         if self._verbose:
-            print(f"[{time.perf_counter() - self._start:7.3f} s] {text}", file=sys.stderr)
+            print(
+                f"[{time.perf_counter() - self._start:7.3f} s] {printable(text)}", file=sys.stderr
+            )
 
     def loaded(self, subject) -> None:
         """Say what is shown."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from ..display import headless
@@ -20,6 +19,7 @@ from . import options
 from .inputs import STANDARD_INPUT
 from .outputs import check_output, with_progress
 from .report import Report
+from .said import say
 from .usage import UsageError
 
 WINDOW_SIZE = (1280, 720)
@@ -107,7 +107,7 @@ def _write(args: argparse.Namespace, subject, reason: str | None, report: Report
     count = args.frames or FILE_FRAMES
     path = Path(args.output) if args.output else _new_path(subject, count)
     if reason is not None:
-        print(f"engine3d: {reason}: rendering a turntable to {path} instead", file=sys.stderr)
+        say(f"{reason}: rendering a turntable to {path} instead")
     with _studio(args, subject, FILE_SIZE, FILE_SAMPLES, report) as studio:
         view = options.place_view(args, studio)
         walks = args.camera == "fps"
@@ -120,7 +120,7 @@ def _write(args: argparse.Namespace, subject, reason: str | None, report: Report
             pictures = with_progress(pictures, count, "rendering")
             save_animation(pictures, path, headless.seconds_a_frame(studio, count))
     if reason is None and args.output is None:
-        print(f"engine3d: wrote {path}", file=sys.stderr)
+        say(f"wrote {path}")
     return 0
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import warnings
 
-from ..errors import Engine3DWarning
+from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
 from ..materials import says_something
 from ..scene_loading import scene_from_document
@@ -57,7 +57,7 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
     scene.background = BACKGROUND
     return Subject(
         scene,
-        "model" if path is None else os.path.basename(path),
+        "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
         path=path,
         details=document_lines(document),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import Engine3DWarning, FileFormatError
+from ..errors import Engine3DWarning, FileFormatError, InvalidArgumentError
 from ..mesh import Mesh
 from ..textures import Texture
 from .documents import Document
@@ -138,6 +138,8 @@ def _read_document(
             document = reader.read(source, split=split)
     except MemoryError as error:
         raise FileFormatError("needs more memory than there is", source.path) from error
+    except InvalidArgumentError as error:  # more of something than a mesh can hold
+        raise FileFormatError(str(error), source.path) from error
     source.progress(1.0)
     for message in document.warnings:
         warnings.warn(message, Engine3DWarning, stacklevel=3)

@@ -93,6 +93,32 @@ class AtomicFiles:
                 part.discard()
 
 
+class StreamFiles:
+    """Takes the place of `AtomicFiles` where one file goes to an open stream.
+
+    Parameters
+    ----------
+    stream : binary file object
+        Stays open.
+    """
+
+    def __init__(self, stream: BinaryIO) -> None:
+        self._stream = stream
+
+    def create(self, path: str) -> BinaryIO:
+        """Return the stream, whatever the path."""
+        return self._stream
+
+    def __enter__(self) -> StreamFiles:
+        return self
+
+    def __exit__(self, *_) -> None:
+        """Nothing has to appear."""
+
+
+Files = AtomicFiles | StreamFiles
+
+
 class _Part:
     """A file that is being written.
 

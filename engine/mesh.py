@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any, BinaryIO, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -279,7 +279,7 @@ class Mesh(Closed):
         return mesh_to_trimesh(self)
 
     def save(
-        self, path: str | os.PathLike[str], *, format: str | None = None, **options: Any
+        self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
     ) -> None:
         """Write the mesh to an OBJ, PLY or STL file; parameters and exceptions of `save_mesh`."""
         from .writers import save_mesh

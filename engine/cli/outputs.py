@@ -55,7 +55,7 @@ def is_same_file(path: str, output: str) -> bool:
 def check_standard_output() -> None:
     """Raise `UsageError` if binary output would go to a terminal."""
     if sys.stdout.isatty():
-        raise UsageError("-o - would write a picture to the terminal; redirect standard output")
+        raise UsageError("-o - would write to the terminal; redirect standard output")
 
 
 def write_standard_output(data: bytes) -> None:

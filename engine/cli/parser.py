@@ -13,6 +13,8 @@ from ..version import __version__
 from . import options, values
 from .usage import UsageError
 
+MODEL_FORMATS = ("obj", "ply", "stl")
+
 
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are a line, not lost below all the options that there are."""
@@ -106,7 +108,18 @@ def _add_convert(commands) -> None:
     command.add_argument(
         "model", metavar="IN", help="the file to read, of any format; - for standard input"
     )
-    command.add_argument("output", metavar="OUT", help="the file to write")
+    command.add_argument(
+        "output", metavar="OUT", nargs="?", help="the file to write; - for standard output"
+    )
+    command.add_argument(
+        "-o", "--output", dest="output_option", metavar="OUT", help="another way to say OUT"
+    )
+    command.add_argument(
+        "--format",
+        choices=MODEL_FORMATS,
+        help="what to write whatever the extension; OBJ with materials is several files, and does "
+        "not go to standard output",
+    )
     command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")
 
 

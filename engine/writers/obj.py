@@ -12,8 +12,9 @@ import os
 import numpy as np
 
 from .._native import writers as native
-from ..atomic_write import AtomicFiles
+from ..atomic_write import Files, StreamFiles
 from ..colors import srgb_bytes
+from ..errors import InvalidArgumentError
 from ..loaders.welding import number_rows
 from ..mesh import Mesh
 from .losses import lost_of_materials, not_held
@@ -28,21 +29,24 @@ _POINTS_A_LINE = 16
 _FACES_AT_ONCE = 1 << 16
 
 
-def write_obj(mesh: Mesh, path: str) -> list[str]:
+def write_obj(mesh: Mesh, path: str, files: Files) -> list[str]:
     """Write an OBJ file and its library; returns what these do not hold."""
     names, told = [], []
     unwritten: dict[str, list[str]] = {}
-    with AtomicFiles() as files:
-        side_files = None
-        if not is_plain(mesh.materials):
-            side_files = SideFiles(path)
-            names = material_names(mesh.materials)
-            library = Library(side_files, files)
-            library.write(mesh.materials, names)
-            unwritten = library.unwritten
-            told += _about(side_files, library, mesh, names)
-        file = files.create(path)
-        told += _write_model(mesh, file, side_files, names)
+    side_files = None
+    if not is_plain(mesh.materials):
+        if isinstance(files, StreamFiles):
+            raise InvalidArgumentError(
+                "obj files have their materials in a library beside them, for which a stream has "
+                "no place: write to a path, or take the materials off"
+            )
+        side_files = SideFiles(path)
+        names = material_names(mesh.materials)
+        library = Library(side_files, files)
+        library.write(mesh.materials, names)
+        unwritten = library.unwritten
+        told += _about(side_files, library, mesh, names)
+    told += _write_model(mesh, files.create(path), side_files, names)
     return [*lost_of_materials(mesh, unwritten), *told]
 
 

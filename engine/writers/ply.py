@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..atomic_write import atomic_write
+from ..atomic_write import Files
 from ..mesh import Mesh
 from .losses import lost_parts, not_held
 from .outlines import Outlines, polygon_outlines
@@ -19,7 +19,7 @@ _TYPES = {"<f4": "float", "u1": "uchar", "<i4": "int"}
 _BLOCK = 1 << 15
 
 
-def write_ply(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
+def write_ply(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[str]:
     """Write a PLY file; returns what it does not hold."""
     has_elements = len(mesh.faces) or len(mesh.lines)
     # Vertices alone are points.
@@ -27,9 +27,9 @@ def write_ply(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
     columns = [(name, code, values[chosen]) for name, code, values in _columns(mesh)]
     outlines = polygon_outlines(mesh)
     header = _header(mesh, columns, outlines, "ascii" if ascii else "binary_little_endian")
-    with atomic_write(path) as file:
-        file.write(header.encode())
-        (_write_text if ascii else _write_binary)(file, columns, outlines, mesh.lines)
+    file = files.create(path)
+    file.write(header.encode())
+    (_write_text if ascii else _write_binary)(file, columns, outlines, mesh.lines)
     lost = lost_parts(mesh, "ply", "materials", *(["points"] if has_elements else []), "groups")
     if outlines.lost_edges:
         lost += not_held("ply", [f"the hidden edges of {outlines.lost_edges} triangles"])

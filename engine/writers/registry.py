@@ -26,7 +26,8 @@ class Writer(NamedTuple):
     extensions : tuple of str
         Lower case, with the dot.
     write : callable
-        ``write(mesh, path, **options) -> list of str``: a line for what the format did not hold.
+        ``write(mesh, path, files, **options) -> list of str``: a line for what the format did not
+        hold. ``files`` is an `AtomicFiles`, or a `StreamFiles`, which has room for one file.
     options : tuple of str
         The names of the options that it takes.
     """

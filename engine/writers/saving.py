@@ -4,27 +4,32 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any
+from typing import Any, BinaryIO
 
-from ..atomic_write import checked_path
+from ..atomic_write import AtomicFiles, StreamFiles, checked_path
 from ..errors import Engine3DWarning, InvalidArgumentError, located
 from ..mesh import Mesh
 from .registry import find_writer
 
 
 def save_mesh(
-    mesh: Mesh, path: str | os.PathLike[str], *, format: str | None = None, **options: Any
+    mesh: Mesh,
+    path: str | os.PathLike[str] | BinaryIO,
+    *,
+    format: str | None = None,
+    **options: Any,
 ) -> None:
     """Write a mesh to a file, so that it is there whole or not at all.
 
     Parameters
     ----------
     mesh : Mesh
-    path : str or path-like
+    path : str, path-like or binary file object
         Its extension names the format: ``.obj`` (materials go to an ``.mtl`` beside it and textures
-        to PNG files beside that, all under the model's name), ``.ply`` or ``.stl``. Read again, the
-        file gives the same arrays, as far as its format holds them; what it does not hold is warned
-        of as `Engine3DWarning`.
+        to PNG files beside that, all under the model's name; of files that others wrote there under
+        these names none is replaced), ``.ply`` or ``.stl``. Read again, the file gives the same
+        arrays, as far as its format holds them; what it does not hold is warned of as
+        `Engine3DWarning`. A file object needs ``format``, and takes no materials of OBJ.
     format : str, optional
         The format's name, whatever the extension.
     **options
@@ -35,14 +40,17 @@ def save_mesh(
     FileAccessError
         The file cannot be written.
     InvalidArgumentError
-        The format is not known, or has no such option.
+        The format is not known, has no such option, or needs files beside a file object.
     """
     if not isinstance(mesh, Mesh):
         raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
-    path = checked_path(path)
-    writer = find_writer(path, format)
+    is_stream = hasattr(path, "write")
+    name = "<stream>" if is_stream else checked_path(path)
+    writer = find_writer(name, format)
     unknown = sorted(set(options) - set(writer.options))
     if unknown:
         raise InvalidArgumentError(f"{writer.name} files have no option {unknown[0]!r}")
-    for message in writer.write(mesh, path, **options):
-        warnings.warn(located(message, path), Engine3DWarning, stacklevel=2)
+    with StreamFiles(path) if is_stream else AtomicFiles() as files:
+        told = writer.write(mesh, name, files, **options)
+    for message in told:
+        warnings.warn(located(message, name), Engine3DWarning, stacklevel=2)

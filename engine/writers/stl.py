@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..atomic_write import atomic_write
+from ..atomic_write import Files
 from ..mesh import Mesh
 from ..normals import face_area_vectors, unit_vectors
 from .losses import lost_parts
@@ -21,28 +21,32 @@ _TEXT = (
 )
 
 
-def write_stl(mesh: Mesh, path: str, ascii: bool = False) -> list[str]:
+def write_stl(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[str]:
     """Write an STL file; returns what it does not hold."""
     facets = np.zeros(len(mesh.faces), _FACET)
     facets["normal"] = unit_vectors(face_area_vectors(mesh.positions, mesh.faces))
     facets["corners"] = mesh.positions[mesh.faces]
     told: list[str] = []
-    with atomic_write(path) as file:
-        if ascii:
-            name = encoded(line_text(mesh.name))
-            told = renamed("solids", [mesh.name], [name.decode()])
-            file.write(b"solid " + name + b"\n")
-            between = _TEXT.split(b"%s")
-            for start in range(0, len(facets), _BLOCK):
-                block = facets[start : start + _BLOCK]
-                numbers = np.concatenate([block["normal"], block["corners"].reshape(-1, 9)], axis=1)
-                write_float_rows(file, between, numbers)
-            file.write(b"endsolid " + name + b"\n")
-        else:
-            file.write(_HEADER + len(facets).to_bytes(4, "little"))
-            file.write(facets.tobytes())
+    file = files.create(path)
+    if ascii:
+        name = line_text(mesh.name)
+        told += renamed("solids", [mesh.name], [name])
+        _write_text(file, encoded(name), facets)
+    else:
+        file.write(_HEADER + len(facets).to_bytes(4, "little"))
+        file.write(facets.tobytes())
     parts = ("uvs", "colors", "materials", "lines", "points", "groups", "normals", "edge_visible")
     return told + lost_parts(mesh, "stl", *parts)
+
+
+def _write_text(file, name: bytes, facets: np.ndarray) -> None:
+    file.write(b"solid " + name + b"\n")
+    between = _TEXT.split(b"%s")
+    for start in range(0, len(facets), _BLOCK):
+        block = facets[start : start + _BLOCK]
+        numbers = np.concatenate([block["normal"], block["corners"].reshape(-1, 9)], axis=1)
+        write_float_rows(file, between, numbers)
+    file.write(b"endsolid " + name + b"\n")
 
 
 WRITERS = (Writer("stl", "STL", (".stl",), write_stl, ("ascii",)),)

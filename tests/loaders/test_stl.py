@@ -122,3 +122,16 @@ def test_text_may_begin_with_a_mark_and_blanks(load, start):
 def test_errors_name_file_and_place(load, content, message):
     with pytest.raises(FileFormatError, match=message):
         load(content)
+
+
+def test_more_facets_than_there_are_numbers(tmp_path):
+    """A file with holes, which takes no room on the disk."""
+    path, count = tmp_path / "a.stl", 1 << 31
+    with path.open("wb") as file:
+        file.write(bytes(80) + count.to_bytes(4, "little"))
+        try:
+            file.truncate(84 + 50 * count)
+        except OSError as error:
+            pytest.skip(f"no file of 100 GB fits here: {error}")
+    with pytest.raises(FileFormatError, match=r"a\.stl: more rows than 32 bits number"):
+        load_mesh(path)

@@ -113,8 +113,9 @@ def test_paths_may_be_bytes(frame, tmp_path):
 def test_what_is_no_path(frame, path):
     with pytest.raises(e3d.InvalidArgumentError, match="path must be"):
         frame.save(path)
-    with pytest.raises(e3d.InvalidArgumentError, match="path must be"):
-        e3d.box().save(path, format="ply")
+    if not isinstance(path, io.BytesIO):  # models go to streams as well
+        with pytest.raises(e3d.InvalidArgumentError, match="path must be"):
+            e3d.box().save(path, format="ply")
 
 
 def test_saving_without_colour(tmp_path):

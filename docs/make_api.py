@@ -69,7 +69,7 @@ CHAPTERS = {
         "ResourceStats",
     ),
     "The canvas": ("Canvas",),
-    "The low-level door": ("rasterize", "RasterizeResult"),
+    "Low-level rasterization": ("rasterize", "RasterizeResult"),
     "Errors": (
         "Engine3DError",
         "InvalidArgumentError",

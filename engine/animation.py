@@ -28,8 +28,8 @@ class Animator(Closed):
     ----------
     scene : Scene
     full_rate_distance : float
-        `advance` moves what is within this distance of the eye every time, what is up to twice as
-        far every second time, and so on, down to every 64th. Infinite: everything every time.
+        `advance` moves nodes within this distance of the eye every time, nodes up to twice as far
+        every second time, and so on, down to every 64th time. Infinite: all nodes every time.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class Animator(Closed):
         ----------
         seconds : float
         eye : (3,) float, optional
-            World position of who looks: what is far from there moves less often.
+            World position of the viewer: nodes far from there move less often.
         """
         if not self.paused:
             self.time += finite(seconds, "seconds")

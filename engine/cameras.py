@@ -196,7 +196,7 @@ class IntrinsicsCamera(Camera):
     Notes
     -----
     The camera still looks along -Z with +Y up. A pose from software whose cameras look along +Z
-    with +Y down (OpenCV, COLMAP) becomes one of ours by negating its second and third columns.
+    with +Y down (OpenCV, COLMAP) is converted by negating its second and third columns.
 
     Raises
     ------

@@ -185,7 +185,7 @@ class Frame:
         pixels : (2,) or (N, 2) float64
             Screen space, in pixels: x to the right and y down from the top left corner; the centre
             of the top left pixel is (0.5, 0.5). Points outside of the picture have positions
-            outside of it. NaN where a point has none: behind the camera, or beside it.
+            outside of it. NaN for points that are not in front of the camera.
         depth : () or (N,) float64
             Distance along the view axis in world units, as in ``frame.depth``; negative behind the
             camera. A point shows if it is in the picture and nothing nearer is drawn there.

@@ -25,7 +25,7 @@ def _check_mesh(value: Mesh, what: str) -> Mesh:
 
 
 class InstancedMesh(Closed):
-    """A mesh at many poses; one node of a scene, drawn far faster than a node for each.
+    """A mesh at many poses: one node of a scene, drawn far faster than one node per pose.
 
     Parameters
     ----------

@@ -35,8 +35,8 @@ class Node:
     """An object's place in a scene; made by `Scene.add`.
 
     ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
-    w), ``euler`` and ``scale`` are the same pose in parts. Assign any of them at any time; what is
-    read is read-only. Setting a part of a pose that is sheared drops the shear.
+    w), ``euler`` and ``scale`` are the same pose in parts. Assign any of them at any time; the
+    arrays that are read are read-only. Setting a part of a pose that is sheared drops the shear.
     """
 
     __slots__ = (
@@ -103,7 +103,7 @@ class Node:
         raise TypeError("a Node belongs to its Scene: it cannot be copied or pickled")
 
     def reparent(self, parent: Node | None, *, keep_world_pose: bool = False) -> None:
-        """Hang the node, with everything below it, under another one.
+        """Give the node, with everything below it, another parent.
 
         Parameters
         ----------

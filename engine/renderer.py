@@ -69,7 +69,7 @@ class Renderer(Closed):
         ``"srgb"``: 8-bit colours and textures are decoded to linear light, the result is encoded.
         ``"linear"``: 8-bit values are taken as they are, and written so.
     samples : {1, 4, 16}
-        Samples a pixel; more smooth the edges.
+        Samples per pixel; more samples give smoother edges.
 
     Attributes
     ----------
@@ -163,12 +163,11 @@ class Renderer(Closed):
         outputs: Iterable[Output] = ("color",),
         normals: Normals = "auto",
     ) -> None:
-        """Make what the first frame of a scene would make, so that it takes as long as others.
+        """Do beforehand what the first frame of a scene would do, so that it is as fast as others.
 
-        That is, of each mesh, the clusters and the normals or edges that are missing; of each
-        texture, the mip levels. It stays with the mesh or the texture, whoever draws it next. Of
-        the frame, memory for the outputs and, 8 bytes per sample, for the depths that tell what is
-        hidden; the renderer keeps it.
+        Each mesh gets its clusters and the normals or edges that are missing, each texture its mip
+        levels. They stay with the mesh or the texture, for every renderer. The renderer allocates
+        memory for the outputs and, 8 bytes per sample, for the depths that tell what is hidden.
 
         Parameters
         ----------
@@ -242,7 +241,7 @@ class Renderer(Closed):
         wireframe : {None, "overlay", "only"}
             Draw the visible edges over the picture, or instead of its faces.
         cull : {"back", "front", "none"}
-            Which faces are left out, by the side that they show.
+            Which faces are left out: those that show their back, or those that show their front.
         shading : {"deferred", "forward"}
             When pixels are shaded: once each, or as they are drawn. Both give the same bytes.
         outputs : iterable of str
@@ -255,7 +254,8 @@ class Renderer(Closed):
         normals : {"auto", "smooth", "flat"}
             Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``.
         hidden_surfaces : {"zbuffer", "painter", "none"}
-            How what is hidden is left out: by depth, by drawing from far to near, or not at all.
+            The method of hidden-surface removal: depth buffer, painter's algorithm (drawing from
+            far to near), or none.
         line_width, point_size : float
             Pixels, more than 0 and up to 256.
         line_color : sequence of 3 numbers
@@ -263,12 +263,13 @@ class Renderer(Closed):
         hidden_lines : bool
             With ``wireframe="only"``: show the edges that faces hide as well.
         culling : {"all", "frustum", "none", "always"}
-            What is left out before it is drawn: what is outside the view frustum and what is
-            behind what was drawn before it (tried where it may pay, or always); what is outside the
-            frustum; or nothing. The picture is the same.
+            What is left out before it is drawn. ``"all"``: what is outside the view frustum, and
+            what is hidden by what is drawn already, tested where that may pay; ``"always"`` tests
+            it in every frame. ``"frustum"``: only what is outside the frustum. ``"none"``: nothing.
+            The picture is the same.
         culling_camera : Node or (Camera, pose), optional
-            Draw only what this camera's frustum holds, seen from ``camera``: to look at what
-            culling leaves out.
+            Cull as seen from this camera, but draw as seen from ``camera``, to look at what culling
+            leaves out.
         batching : bool
             Hand nodes of the same mesh to the core as one draw. The picture is the same.
 

@@ -40,7 +40,7 @@ _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, DirectionalLight, PointLight)
 
 
 class Scene(Closed):
-    """What is drawn, and the light that is everywhere.
+    """A tree of nodes to draw, with a background and ambient light.
 
     Parameters
     ----------
@@ -245,7 +245,7 @@ class Scene(Closed):
         return self._names.get(name)
 
     def select(self, nodes: Iterable[Node] | None = None) -> NodeSelection:
-        """Return nodes as one thing, to read or to move them together by arrays.
+        """Return a selection of nodes, to read or to move them together as arrays.
 
         Parameters
         ----------
@@ -282,7 +282,7 @@ class Scene(Closed):
         max_distance : float
             World units.
         cull : {"none", "back", "front"}
-            Which faces the ray passes, by the side that they show it.
+            Which faces the ray passes through: none, or those that show it their back or front.
 
         Returns
         -------
@@ -306,12 +306,12 @@ class Scene(Closed):
         max_distance: float = math.inf,
         cull: Cull = "none",
     ) -> RayHits:
-        """Cast many rays at once; as `raycast`, a row per ray.
+        """Cast many rays at once, like `raycast`; the results have one row per ray.
 
         Parameters
         ----------
         origins, directions : (N, 3) or (3,) float
-            One of either may serve for all of the other.
+            World space. One origin may serve for many directions, and the other way round.
         max_distance : float
         cull : {"none", "back", "front"}
 
@@ -331,8 +331,9 @@ class Scene(Closed):
     def pick(self, frame: Frame, x: int, y: int) -> RayHit | None:
         """Return what a pixel of a frame of this scene shows.
 
-        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` tells exactly;
-        otherwise it is what the ray through the pixel's centre meets, as the scene is now.
+        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` tells exactly.
+        Without these, the answer is what the ray through the pixel's centre meets in the scene as
+        it is now.
 
         Parameters
         ----------
@@ -343,8 +344,8 @@ class Scene(Closed):
         Returns
         -------
         hit : RayHit or None
-            Its distance is that from the camera, or without perspective from the near plane. Of a
-            line or a point ``face`` is -1, and where it is is unknown (NaN).
+            The distance is from the camera, or without perspective from the near plane. For a
+            line or a point, ``face`` is -1 and the position is unknown (NaN).
 
         Raises
         ------

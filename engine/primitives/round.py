@@ -41,7 +41,7 @@ def uv_sphere(radius: float = 0.5, segments: npt.ArrayLike = (32, 16)) -> Mesh:
     """Return a sphere of meridians and parallels, as on a globe.
 
     The texture is a map: u grows eastward with its middle at +Z, v from the south pole (-Y) to
-    the north pole. Each pole has one vertex a wedge, with u in the wedge's middle.
+    the north pole. Each pole has one vertex per wedge, with u in the wedge's middle.
 
     Parameters
     ----------

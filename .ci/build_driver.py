@@ -38,8 +38,11 @@ def rules_for(compiler):
     return rules
 
 
-def compile_all(compiler, rules, fuzz, folder):
-    """Compile the core and the driver, or the targets; return the object of each source."""
+def compile_all(compiler, rules, fuzz, folder, more=()):
+    """Compile the core and the driver, or the targets; return the object of each source.
+
+    more: flags for all of them.
+    """
     driver = [str(path) for path in Path("csrc/driver").glob("*.c")]
     if fuzz:
         driver.remove("csrc/driver/driver.c")
@@ -53,7 +56,7 @@ def compile_all(compiler, rules, fuzz, folder):
     def compile_one(job):
         source, flags, macros = job
         target = str(Path(folder) / (source.replace("/", "_") + ".o"))
-        extra = FUZZ_FLAGS if fuzz else []
+        extra = [*more, *(FUZZ_FLAGS if fuzz else [])]
         if fuzz and not source.startswith(TRACED):
             extra = [*extra, *UNTRACED_FLAGS]
         command = [compiler, *macros, *includes, *flags, *extra, "-c", source, "-o", target]

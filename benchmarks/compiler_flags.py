@@ -1,12 +1,14 @@
 """What -O0 to -O3, -march=native and the intrinsics each bring to the kernels.
 
 In:  the C files of this checkout, a compiler, this CPU; setuptools, since setup.py has the flags.
-Out: two tables, or with --json one object: nanoseconds for each kernel and way to build it, and how
-     many times as fast each is as the plain C of -O3 (backend portable).
+Out: two tables, or with --json one object: nanoseconds for each kernel and way to build it, and
+     frames a second of a whole picture; how many times as fast each is as the plain C of -O3
+     (backend portable).
 
-The timer (kernel_timer.c) is always built alike: only the file that holds the kernels of an
-instruction set takes the flags of its row. The hash of all outputs tells whether the bytes are
-those of the first row: they are, unless the compiler may fuse a * b + c, as the last row lets it.
+The timers (kernel_timer.c, frame_timer.c) and the rest of the core are always built alike: only the
+file that holds the kernels of an instruction set takes the flags of its row. The hash of all
+outputs tells whether the bytes are those of the first row: they are, unless the compiler may fuse
+a * b + c, as the row that says so lets it.
 """
 
 import argparse
@@ -22,15 +24,18 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SETUP = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")
-BACKENDS = ["portable", *(SETUP["ISA_FLAGS"] if SETUP["IS_X86_64"] else {})]
+X86 = SETUP["IS_X86_64"]
+BACKENDS = ["portable", *(SETUP["ISA_FLAGS"] if X86 else {})]
 LEVELS = ["-O0", "-O1", "-O2", "-O3"]
 BASELINE = ("portable", "-O3")
 # The name of an instruction set for __builtin_cpu_supports.
 LEANS_ON = {"avx512": ["avx512", "avx2"]}  # narrow pieces are rastered by the other table
 CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
 CPU_LACKS_IT = 3  # exit status of the timer
-TIMER_SOURCES = ["benchmarks/kernel_timer.c"]
-TIMER_SOURCES += ["csrc/core/encode_tables.c", "csrc/core/srgb_tables.c"]
+TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}
+# What frames need beside the kernels, and of that what the kernels do.
+CORE = ["csrc/core/*.c", "csrc/pipeline/*.c", "csrc/reference/*.c"]
+TABLES = ["core_encode_tables", "core_srgb_tables"]
 # Kernel -> its heading, and the element that a time is given for.
 KERNELS = {
     "transform": ("transform", "vertex"),
@@ -41,6 +46,7 @@ KERNELS = {
     "light": ("light", "sample"),
     "encode": ("encode", "pixel"),
 }
+FRAMES = ("frames", "a second")
 
 
 def builds(backends, levels):
@@ -55,38 +61,56 @@ def builds(backends, levels):
         yield "portable", "... and fused a*b + c", [*native, "-ffp-contract=fast"]
 
 
-def build_timer(compiler, backend, flags, folder):
-    """Compile the kernels with `flags`, link them with the timer, return the program's path."""
-    exact = [*SETUP["EXACT"], *SETUP["HYGIENE"], "-w"]
-    common = [f"-I{ROOT / path}" for path in SETUP["INCLUDE_DIRS"]]
-    baseline = ["-march=x86-64", "-mtune=generic"] if SETUP["IS_X86_64"] else []
-    x86 = ["-DE3D_HAVE_X86=1"] if SETUP["IS_X86_64"] else []
+def common_flags():
+    """Of all that is compiled."""
+    flags = [*SETUP["EXACT"], *SETUP["HYGIENE"], "-w", "-pthread"]
+    flags += [f"-I{ROOT / path}" for path in SETUP["INCLUDE_DIRS"]]
+    return [*flags, "-march=x86-64", "-mtune=generic", "-DE3D_HAVE_X86=1"] if X86 else flags
+
+
+def build_core(compiler, folder, pool):
+    """Compile what is the same for all rows; return the object files."""
+
+    def compile_one(source):
+        target = Path(folder) / f"{source.parent.name}_{source.stem}.o"
+        subprocess.run([compiler, *common_flags(), "-O2", "-c", source, "-o", target], check=True)
+        return target
+
+    return list(pool.map(compile_one, sorted(path for p in CORE for path in ROOT.glob(p))))
+
+
+def build_timers(compiler, backend, flags, core, folder):
+    """Compile the kernels with `flags`, link them with each timer, return the programs' paths."""
     objects = []
     for name in LEANS_ON.get(backend, [backend]):
         isa = SETUP["ISA_FLAGS"].get(name, [])
         source = ROOT / "csrc" / "kernels" / f"isa_{name}.c"
         objects.append(Path(folder) / f"{name}.o")
-        command = [compiler, *common, *baseline, *exact, *isa, *flags, *x86, "-c", source]
+        command = [compiler, *common_flags(), *isa, *flags, "-c", source]
         subprocess.run([*command, "-o", objects[-1]], check=True)
 
-    program = Path(folder) / "timer"
-    macros = [*x86, f"-DE3D_TABLE=e3d_kernels_{backend}"]
+    macros = [f"-DE3D_TABLE=e3d_kernels_{backend}", f"-DE3D_TIMED=E3D_BACKEND_{backend.upper()}"]
     if backend in CPU_FEATURES:
         macros.append(f'-DCPU_FEATURE="{CPU_FEATURES[backend]}"')
-    sources = [ROOT / path for path in TIMER_SOURCES]
-    command = [compiler, *common, *baseline, *exact, "-O2", *macros, *sources, *objects]
-    subprocess.run([*command, "-lm", "-o", program], check=True)
-    return program
+    programs = [Path(folder) / name for name in TIMERS]
+    for program in programs:
+        needed = core if program.name == "frame" else [o for o in core if o.stem in TABLES]
+        linked = [ROOT / TIMERS[program.name], *objects, *needed]
+        command = [compiler, *common_flags(), "-O2", *macros, *linked]
+        subprocess.run([*command, "-lm", "-o", program], check=True)
+    return programs
 
 
-def run_timer(program):
-    """Return ({kernel: nanoseconds an element}, hash of all outputs), or None without the ISA."""
-    done = subprocess.run([program], capture_output=True, text=True)
-    if done.returncode == CPU_LACKS_IT:
-        return None
-    done.check_returncode()
-    fields = [line.split() for line in done.stdout.splitlines()]
-    times = {name: 1e9 * float(took) / int(count) for name, count, took, _ in fields}
+def run_timers(programs):
+    """Return ({kernel: seconds an element}, hash of all outputs), or None without the ISA."""
+    fields = []
+    for program in programs:
+        done = subprocess.run([program], capture_output=True, text=True)
+        if done.returncode == CPU_LACKS_IT:
+            return None
+        done.check_returncode()
+        fields += [line.split() for line in done.stdout.splitlines()]
+    times = {name: float(took) / int(count) for name, count, took, _ in fields}
     return times, "-".join(output_hash for *_, output_hash in fields)
 
 
@@ -97,47 +121,59 @@ def measure(compiler, backends, levels):
         tempfile.TemporaryDirectory() as top,
         ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool,
     ):
+        core = build_core(compiler, top, pool)
         folders = [Path(top) / str(k) for k in range(len(rows))]
         for folder in folders:
             folder.mkdir()
         jobs = [
-            pool.submit(build_timer, compiler, backend, flags, folder)
+            pool.submit(build_timers, compiler, backend, flags, core, folder)
             for (backend, _, flags), folder in zip(rows, folders, strict=True)
         ]
         programs = [job.result() for job in jobs]
         first_hash = None
-        for (backend, name, _), program in zip(rows, programs, strict=True):
-            outcome = run_timer(program)
+        for (backend, name, _), timers in zip(rows, programs, strict=True):
+            outcome = run_timers(timers)
             if outcome is None:
                 print(f"this CPU lacks {backend}", file=sys.stderr)
                 continue
             times, output_hash = outcome
             first_hash = first_hash or output_hash
-            same = output_hash == first_hash
-            yield {"backend": backend, "flags": name, "nanoseconds": times, "same_bytes": same}
+            yield {
+                "backend": backend,
+                "flags": name,
+                "frames_a_second": 1.0 / times.pop("frame"),
+                "nanoseconds": {kernel: 1e9 * took for kernel, took in times.items()},
+                "same_bytes": output_hash == first_hash,
+            }
 
 
-def print_table(rows, title, cell):
-    """Print one line a row: `cell(row, kernel)` for each kernel, whether the bytes are equal."""
+def print_table(rows, title, cell, frames):
+    """Print one line a row: `cell(row, kernel)`, `frames(row)`, whether the bytes are equal."""
     print(f"\n{title}")
     for part, last in [(0, ""), (1, "bytes")]:
-        headings = "".join(f"{heading[part]:>11}" for heading in KERNELS.values())
+        headings = "".join(f"{heading[part]:>11}" for heading in [*KERNELS.values(), FRAMES])
         print(f"{'':<9}{'':<22}{headings}  {last}")
     for row in rows:
-        cells = "".join(f"{cell(row, kernel):>11}" for kernel in KERNELS)
+        cells = "".join(f"{cell(row, kernel):>11}" for kernel in KERNELS) + f"{frames(row):>11}"
         same = "same" if row["same_bytes"] else "other"
         print(f"{row['backend']:<9}{row['flags']:<22}{cells}  {same}")
 
 
 def print_tables(rows):
-    print_table(rows, "Nanoseconds", lambda row, kernel: f"{row['nanoseconds'][kernel]:.2f}")
+    print_table(
+        rows,
+        "Nanoseconds, and frames a second",
+        lambda row, kernel: f"{row['nanoseconds'][kernel]:.2f}",
+        lambda row: f"{row['frames_a_second']:.0f}",
+    )
     chosen = [row for row in rows if (row["backend"], row["flags"]) == BASELINE]
     if chosen:
-        base = chosen[0]["nanoseconds"]
+        base, frames = chosen[0]["nanoseconds"], chosen[0]["frames_a_second"]
         print_table(
             rows,
             "Times as fast as " + " ".join(BASELINE),
             lambda row, kernel: f"{base[kernel] / row['nanoseconds'][kernel]:.2f}",
+            lambda row: f"{row['frames_a_second'] / frames:.2f}",
         )
 
 

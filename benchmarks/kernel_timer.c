@@ -58,7 +58,7 @@ enum { CLUSTERS = 12, TRIANGLES = E3D_CLUSTER_VERTICES / 3, PIECES = CLUSTERS * 
 
 typedef struct raster_work {
     e3d_vertices vertices[CLUSTERS];
-    e3d_record records[PIECES];
+    e3d_record records[PIECES + E3D_PAD]; /* kernels write whole vectors */
     uint32_t ids[PIECES];
     int count;
     _Alignas(64) e3d_visible_tile tile;
@@ -163,7 +163,7 @@ static void make_texture(random_stream *r)
     e3d_texture_view *view = &shade_work.texture;
     uint16_t *texels = shade_work.texels;
     for (size_t i = 0; i < sizeof shade_work.texels / sizeof *texels; i++)
-        texels[i] = (uint16_t)random_bits(r);
+        texels[i] = (uint16_t)(random_bits(r) & 0x7FFF); /* 15 bits (R28) */
     *view = (e3d_texture_view){.level_count = TEXTURE_LEVELS, .channel_bits = 16, .filter = E3D_TRILINEAR};
     for (int l = 0, side = TEXTURE_SIDE; l < TEXTURE_LEVELS; l++, side /= 2) {
         view->levels[l] = (e3d_level){texels, side, side};
@@ -294,7 +294,7 @@ int main(void)
     const workload works[] = {
         {"transform", E3D_CLUSTER_VERTICES, run_transform, transform_work.out.x,
          sizeof(float) * E3D_CLUSTER_VERTICES},
-        {"record", PIECES, run_record, small_work.records, sizeof small_work.records},
+        {"record", PIECES, run_record, small_work.records, sizeof(e3d_record) * (size_t)small_work.count},
         {"visible_large", covered_samples(&large_work), run_visible_large, large_work.tile.id,
          sizeof(int32_t) * E3D_TILE_SAMPLES},
         {"visible_small", small_work.count, run_visible_small, small_work.tile.z,

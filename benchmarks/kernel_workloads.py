@@ -169,7 +169,7 @@ def textured(filter_name):
     """Rough noise, read along a line as surfaces do."""
     rng, batch, _ = shading_inputs()
     sizes = np.array([(256, 256), (128, 128), (64, 64)], np.int32)
-    texels = rng.integers(0, 256, 8 * 258 * 258 * 2, np.uint8)
+    texels = rng.integers(0, 2**15, 4 * 258 * 258 * 2, np.uint16).view(np.uint8)
     fields = batch.view(BATCH_RECORD)
     fields["uv"][0] = np.linspace(0.1, 1.3, LANES) + np.array([[0], [0.4]])
     fields["lod"] = rng.integers(0, 512, LANES)

@@ -28,7 +28,7 @@ ROOT = Path(__file__).resolve().parents[1]
 STAGES = ["geometry", "raster", "shade", "resolve"]
 WARM_UP = 2
 FUNCTIONS = 12
-DRIVER_SCENES = "1200"
+DRIVER_SCENES = 1200
 
 
 def draw(scene, arguments, frames):
@@ -101,21 +101,22 @@ def perf_functions(name, arguments):
     return [(float(percent), function) for percent, function in found]
 
 
-def gprof_functions(backend):
+def gprof_functions(backend, scenes):
     """[(percent, function)] of the C driver's random scenes on one backend, built with -pg."""
     build = runpy.run_path(str(ROOT / ".ci" / "build_driver.py"), run_name="rules")
     compiler = os.environ.get("CC", "cc")
     os.chdir(ROOT)
     with tempfile.TemporaryDirectory() as folder:
         rules = build["rules_for"](compiler)
-        objects = build["compile_all"](compiler, rules, ["-pg"], folder)
+        objects = build["compile_all"](compiler, rules, False, folder, ["-pg"])
         program = f"{folder}/driver"
-        subprocess.run([compiler, "-pg", "-pthread", *objects, "-lm", "-o", program], check=True)
-        run = [program, "--scenes", DRIVER_SCENES, "--threads", "1", "--backend", backend]
+        linked = [compiler, "-pg", "-pthread", *objects.values(), "-lm", "-o", program]
+        subprocess.run(linked, check=True)
+        run = [program, "--scenes", str(scenes), "--threads", "1", "--backend", backend]
         subprocess.run(run, cwd=folder, check=True, capture_output=True)
         report = ["gprof", "-b", "-p", program, f"{folder}/gmon.out"]
         done = subprocess.run(report, check=True, capture_output=True, text=True)
-        own = functions_of(path for path in objects if "csrc_driver" in Path(path).name)
+        own = functions_of(o for source, o in objects.items() if source.startswith("csrc/driver/"))
     found = re.findall(r"^\s*([\d.]+)\s+[\d.]+\s+[\d.]+\s.*?(\S+)$", done.stdout, re.MULTILINE)
     core = [(float(percent), function) for percent, function in found if function not in own]
     whole = sum(percent for percent, _ in core) or 1.0
@@ -136,7 +137,9 @@ def profile_functions(arguments, backend):
     if tool == "perf":
         return {name: perf_functions(name, arguments)[:FUNCTIONS] for name in arguments.workload}
     if tool == "gprof":
-        return {"random scenes of the C driver": gprof_functions(backend)[:FUNCTIONS]}
+        return {
+            "random scenes of the C driver": gprof_functions(backend, arguments.scenes)[:FUNCTIONS]
+        }
     return {}
 
 
@@ -162,6 +165,9 @@ def parse_arguments():
     parser.add_argument("--frames", type=int, default=20)
     parser.add_argument("--resolution", type=resolution, default=(1280, 720))
     parser.add_argument("--functions", choices=["auto", "perf", "gprof", "none"], default="auto")
+    parser.add_argument(
+        "--scenes", type=int, default=DRIVER_SCENES, help="random ones, for gprof (default: 1200)"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--draw-only", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()

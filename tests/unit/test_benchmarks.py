@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from patience import HUNG
 
+import engine3d as e3d
 from engine3d.benchmarking import line_chart
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
@@ -53,13 +54,23 @@ def test_simd_vs_scalar(tmp_path, suffix):
         assert row["over"]["portable"]["portable"] == 1
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
 def test_compiler_flags():
+    """Every instruction set has the bytes of plain C, which only fused operations change."""
     pytest.importorskip("setuptools")
-    arguments = ["--backend", "portable", "--level", "O0", "--compiler", "cc"]
-    rows = report("compiler_flags.py", *arguments)["rows"]
-    assert [row["flags"] for row in rows][:2] == ["-O0", "-O3 -march=native"]
-    assert rows[1]["same_bytes"]
+    vectors = [name for name in ("sse41", "avx2") if name in e3d.backends()]
+    chosen = [word for name in ("portable", *vectors) for word in ("--backend", name)]
+    rows = report("compiler_flags.py", *chosen, "--level", "O0", "--compiler", "cc")["rows"]
+    fused = "... and fused a*b + c"
+    assert [row["flags"] for row in rows] == [
+        "-O0",
+        "-O3 -march=native",
+        fused,
+        *["-O0"] * len(vectors),
+    ]
+    assert all(row["same_bytes"] for row in rows if row["flags"] != fused)
+    assert all(row["frames_a_second"] > 0 for row in rows)
     assert all(nanoseconds > 0 for row in rows for nanoseconds in row["nanoseconds"].values())
 
 
@@ -70,6 +81,22 @@ def test_profile():
     for row in rows:
         assert abs(sum(row["milliseconds"].values()) - row["wall"]) < 0.5 * row["wall"]
         assert row["pixels_shaded"] > 0
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("gprof") is None, reason="needs gprof")
+def test_profile_by_gprof():
+    pytest.importorskip("setuptools")
+    small = ["--frames", "1", "--resolution", "64x36", "--workload", "lights", "--scenes", "40"]
+    functions = report("profile.py", *small, "--functions", "gprof")["functions"]
+    (found,) = functions.values()
+    assert len(found) > 3 and 0 < sum(percent for percent, _ in found) < 100.5
+
+
+def test_busy():
+    quick = ["--workload", "textured", "--busy", "1", "--rounds", "1", "--seconds", "0.1"]
+    (row,) = report("busy.py", *quick, "--threads", "2")["rows"]
+    assert row["times_as_fast"] == row["one_milliseconds"] / row["several_milliseconds"] > 0
 
 
 def test_overhead():

@@ -30,7 +30,7 @@ def _meridians(count: int) -> FloatArray:
 
 
 def _wedges(first: int, ring: int, count: int, upward: bool) -> tuple[IntArray, BoolArray]:
-    """Return triangles between a pole that has one vertex a wedge and the ring next to it."""
+    """Return triangles between a pole that has one vertex per wedge and the ring next to it."""
     k = np.arange(count, dtype=np.int32)
     around = (ring + k, ring + k + 1) if upward else (ring + k + 1, ring + k)
     faces = np.stack((first + k, *around), axis=1).astype(np.int32)

@@ -134,6 +134,13 @@ def add_picture(parser) -> None:
         action="store_true",
         help="show what the file holds, as text in the picture",
     )
+    group.add_argument(
+        "--ui-scale",
+        type=values.ui_scale,
+        metavar="N",
+        help="how many times larger texts are, 1 to 8; by default as the screen and the picture "
+        "want it",
+    )
 
 
 def add_look(parser) -> None:
@@ -373,6 +380,7 @@ def settings(args: argparse.Namespace):
         grid=args.grid,
         axes=args.axis,
         metadata=args.metadata,
+        ui_scale=args.ui_scale,
     )
 
 

@@ -15,6 +15,7 @@ UPS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 MAX_SIDE = 16384
 MAX_THREADS = 256
 MAX_WIDTH = 256  # of lines and points
+MAX_UI_SCALE = 8
 CITY_TRIANGLES = 20_000, 50_000_000
 
 
@@ -76,6 +77,13 @@ def count(text: str) -> int:
     """Parse an integer of at least one."""
     if not re.fullmatch(r"\d{1,9}", text) or int(text) < 1:
         raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
+    return int(text)
+
+
+def ui_scale(text: str) -> int:
+    """Parse a factor on the size of texts."""
+    if not re.fullmatch(r"\d", text) or not 1 <= int(text) <= MAX_UI_SCALE:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 to {MAX_UI_SCALE}")
     return int(text)
 
 

@@ -1,38 +1,42 @@
-"""Text and marks over the picture: help, statistics, metadata, messages, the axes.
+"""Text and marks over the picture: statistics, metadata, messages, the axes.
 
 In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text sits on dark,
-translucent blocks in the corners; what does not fit the picture is clipped.
+translucent blocks in the corners; lines that are wider than the picture are wrapped.
 """
 
 from __future__ import annotations
 
+import textwrap
 from itertools import zip_longest
 
 from ..canvas import text_size
 from .counts import count_names, count_table
-from .keymap import GESTURES, SECTIONS
 from .viewpoint import Viewpoint
 
 TEXT = (235, 238, 242, 255)
-KEY = (255, 206, 115, 255)
-TITLE = (130, 190, 255, 255)
 BLOCK = (16, 18, 24, 210)
 PADDING = 8
 MARGIN = 10
 LINE_GAP = 3
 #: Pictures at least this high get text twice the size.
 LARGE_HEIGHT = 1400
+#: Larger text stays legible where this many characters fit into a line.
+FEWEST_COLUMNS = 40
 #: X, Y and Z, the usual red, green and blue, light enough for a dark background.
 AXIS_COLORS = ((235, 80, 80, 255), (95, 205, 95, 255), (95, 140, 255, 255))
 AXIS_LENGTH = 34
 
 
-def text_scale(canvas) -> int:
-    """Return the factor on the font's size that suits the picture."""
-    return 2 if canvas.pixels.shape[0] >= LARGE_HEIGHT else 1
+def text_scale(canvas, screen: int = 1) -> int:
+    """Return the factor on the font's size that suits the picture, on a screen of some scale."""
+    height, width = canvas.pixels.shape[:2]
+    scale = max(screen, 2 if height >= LARGE_HEIGHT else 1)
+    return max(1, min(scale, width // (FEWEST_COLUMNS * text_size("M")[0])))
 
 
-def draw_block(canvas, lines: list[str], *, corner: str = "top left") -> None:
+def draw_block(
+    canvas, lines: list[str], *, corner: str = "top left", scale: int | None = None
+) -> None:
     """Draw lines of text on a dark block.
 
     Parameters
@@ -40,24 +44,40 @@ def draw_block(canvas, lines: list[str], *, corner: str = "top left") -> None:
     canvas : Canvas
         Over the frame.
     lines : list of str
-        The text.
+        The text. What is wider than the picture goes on in the next line; what is higher ends with
+        a line of dots.
     corner : str
         ``"top left"``, ``"top right"``, ``"bottom left"``, ``"bottom"`` or ``"middle"``.
+    scale : int, optional
+        Factor on the font's size; by default what suits the picture.
     """
+    scale = scale or text_scale(canvas)
+    lines = _fitting(canvas, lines, scale)
     if not lines:
         return
-    scale = text_scale(canvas)
     sizes = [text_size(line, scale) for line in lines]
     line_height = text_size("M", scale)[1] + LINE_GAP * scale
     width = max(size[0] for size in sizes) + 2 * PADDING
     height = line_height * len(lines) - LINE_GAP * scale + 2 * PADDING
-    x, y = _place(canvas, width, height, corner)
+    x, y = place(canvas, width, height, corner)
     canvas.rectangle(x, y, width, height, BLOCK)
     for row, line in enumerate(lines):
         canvas.text(x + PADDING, y + PADDING + row * line_height, line, TEXT, scale=scale)
 
 
-def _place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
+def _fitting(canvas, lines: list[str], scale: int) -> list[str]:
+    """Return the lines, wrapped to the picture's width and cut to its height."""
+    cell_width, cell_height = text_size("M", scale)
+    room = canvas.width - 2 * PADDING - MARGIN, canvas.height - 2 * PADDING - MARGIN
+    columns = max(room[0] // cell_width, 1)
+    rows = max(room[1] // (cell_height + LINE_GAP * scale), 1)
+    wrapped = []
+    for line in lines:
+        wrapped += [line] if len(line) <= columns else textwrap.wrap(line, columns)
+    return wrapped if len(wrapped) <= rows else [*wrapped[: rows - 1], "..."[:columns]]
+
+
+def place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
     """Return the top left pixel of a block in the given corner."""
     picture_height, picture_width = canvas.pixels.shape[:2]
     x, y = MARGIN, MARGIN
@@ -70,43 +90,6 @@ def _place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
     if corner == "middle":
         y = (picture_height - height) // 2
     return max(x, 0), max(y, 0)
-
-
-def help_columns() -> list[list[tuple[str, str]]]:
-    """Return the help: two columns of (key, what it does); a title has no second part."""
-
-    def rows(title: str) -> list[tuple[str, str]]:
-        bindings = SECTIONS[title]
-        return [(title, ""), *((" ".join(binding.keys), binding.help) for binding in bindings)]
-
-    gap = ("", "")
-    left = [*rows("Drawing"), gap, ("Mouse", ""), *GESTURES]
-    right = [*rows("View"), gap, *rows("Overlays"), gap, *rows("Window")]
-    return [left, right]
-
-
-def draw_help(canvas) -> None:
-    """Draw every key and gesture on a block in the middle."""
-    scale = text_scale(canvas)
-    character, line_height = text_size("M", scale)[0], text_size("M", scale)[1] + LINE_GAP * scale
-    columns = help_columns()
-    indents = [max(len(key) for key, text in column if text) + 2 for column in columns]
-    widths = [
-        (indent + max(len(text) for _, text in column)) * character
-        for indent, column in zip(indents, columns, strict=True)
-    ]
-    gutter = 3 * character
-    width = sum(widths) + gutter + 4 * PADDING
-    height = line_height * max(map(len, columns)) - LINE_GAP * scale + 4 * PADDING
-    left, top = _place(canvas, width, height, "middle")
-    canvas.rectangle(left, top, width, height, BLOCK)
-    x = left + 2 * PADDING
-    for column, indent, column_width in zip(columns, indents, widths, strict=True):
-        for row, (key, text) in enumerate(column):
-            y = top + 2 * PADDING + row * line_height
-            canvas.text(x, y, key, KEY if text else TITLE, scale=scale)
-            canvas.text(x + indent * character, y, text, TEXT, scale=scale)
-        x += column_width + gutter
 
 
 def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[str]:
@@ -149,9 +132,9 @@ def _in_two_columns(entries: list[str]) -> list[str]:
     return ["   ".join(pair).rstrip() for pair in pairs]
 
 
-def draw_axes(canvas, view: Viewpoint) -> None:
+def draw_axes(canvas, view: Viewpoint, scale: int | None = None) -> None:
     """Draw the world's axes, as the camera sees their directions, in the bottom left corner."""
-    scale = text_scale(canvas)
+    scale = scale or text_scale(canvas)
     length = AXIS_LENGTH * scale
     reach = length + 14 * scale
     x0, y0 = reach, canvas.pixels.shape[0] - reach

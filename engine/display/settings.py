@@ -26,6 +26,8 @@ class Settings:
         See `lighting.PlacedLight` and `lighting.Lighting`.
     grid, axes, metadata : bool
         What to draw besides the scene.
+    ui_scale : int or None
+        Factor on the size of texts; None chooses by the screen and the picture.
     """
 
     look: dict
@@ -36,3 +38,4 @@ class Settings:
     grid: bool = False
     axes: bool = False
     metadata: bool = False
+    ui_scale: int | None = None

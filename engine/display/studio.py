@@ -36,6 +36,11 @@ class Studio:
         Whether pixels that show no surface get alpha 0.
     report : callable, optional
         Called with each frame.
+
+    Attributes
+    ----------
+    screen_scale : int
+        How many times finer than usual the screen is that shows the frames.
     """
 
     def __init__(
@@ -56,6 +61,7 @@ class Studio:
         self.samples = samples
         self.size = size
         self._culling_camera = None
+        self.screen_scale = 1
         self.renderer = self._make_renderer()
         self.settings = settings
         self.show(subject)
@@ -187,10 +193,17 @@ class Studio:
     def _draw_overlays(self, canvas, view: Viewpoint) -> None:
         from .overlay import draw_axes, draw_block
 
+        scale = self.text_scale(canvas)
         if self.settings.axes:
-            draw_axes(canvas, view)
+            draw_axes(canvas, view, scale)
         if self.settings.metadata:
-            draw_block(canvas, self.metadata(), corner="top right")
+            draw_block(canvas, self.metadata(), corner="top right", scale=scale)
+
+    def text_scale(self, canvas) -> int:
+        """Return the factor on the font's size of texts over a picture."""
+        from .overlay import text_scale
+
+        return self.settings.ui_scale or text_scale(canvas, self.screen_scale)
 
     def _clip_bounds(self) -> Sphere:
         """Return what the clip planes must enclose: animated parts and the grid included."""

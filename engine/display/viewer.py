@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections import deque
 
-from ..errors import Engine3DError
+from ..errors import Engine3DError, printable
 from . import input as events
 from . import viewer_actions
 from .fps import LOOKS, MOVES, FpsController
+from .frame_times import FrameTimes
+from .help_panel import draw_help
 from .keymap import ORBIT_ARROWS, action_for
 from .opening import open_model
 from .orbit import OrbitController
-from .overlay import draw_block, draw_help, statistics_lines
+from .overlay import draw_block, statistics_lines
 from .studio import Studio
 from .watch import FileWatch
 
@@ -26,7 +27,6 @@ from .watch import FileWatch
 IDLE_SECONDS = 0.25
 MESSAGE_SECONDS = 2.5
 TITLE_SECONDS = 0.5
-AVERAGED_FRAMES = 30
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
 ARROW_RADIANS = math.radians(7.5)
@@ -66,6 +66,7 @@ class Viewer:
     ):
         self.studio = studio
         self.window = window
+        studio.screen_scale = window.scale
         self.first_view = view or studio.view()
         self.view = self.first_view.copy()
         self.orbit = OrbitController(self.view)
@@ -73,6 +74,8 @@ class Viewer:
         self.time = 0.0
         self.playing = studio.subject.plays if playing is None else playing
         self.show_help = False
+        self.help_page = 0
+        self.help_pages = 1
         self.show_statistics = statistics
         self.running = True
         self.changed = True
@@ -82,7 +85,8 @@ class Viewer:
         self.drag: str | None = None
         self._message = ""
         self._message_ends = 0.0
-        self._frame_costs = deque(maxlen=AVERAGED_FRAMES)
+        self.frame_times = FrameTimes()
+        self._title = ""
         self._title_due = 0.0
         self._watch = FileWatch(studio.subject.path if watch else None)
         if walking:
@@ -91,10 +95,14 @@ class Viewer:
     # The loop
 
     def run(self, frames: int | None = None) -> None:
-        """Show frames until the window closes, or until ``frames`` have been drawn."""
+        """Show frames until the window closes, or until ``frames`` have been drawn.
+
+        A number of frames is drawn whether or not anything moves.
+        """
         drawn = 0
         last = clock.monotonic()
         while self.running and (frames is None or drawn < frames):
+            self.changed |= frames is not None
             for event in self.window.events(0.0 if self._lively() else IDLE_SECONDS):
                 self.handle(event)
             now = clock.monotonic()
@@ -103,6 +111,7 @@ class Viewer:
             if self.changed and self.running and not self.window.minimised:
                 self.draw()
                 drawn += 1
+            self._update_title()
 
     def _lively(self) -> bool:
         """Return whether the next frame should come at once rather than wait for an event."""
@@ -141,46 +150,42 @@ class Viewer:
         self.changed = False
         self.frame = self.studio.draw(self.view, self.time)
         self._draw_overlays()
+        drawn = clock.monotonic()
         self.window.present(self.frame.color)
-        self._frame_costs.append(clock.monotonic() - start)
-        self._update_title()
+        self.frame_times.add(drawn - start, clock.monotonic() - start)
 
     def _draw_overlays(self) -> None:
         if not (self.show_help or self.show_statistics or self._message):
             return
         canvas = self.frame.canvas()
+        scale = self.studio.text_scale(canvas)
         if self.show_help:
-            draw_help(canvas)
+            self.help_pages = draw_help(canvas, self.help_page, scale)
         elif self.show_statistics:
-            draw_block(canvas, self._statistics())
+            draw_block(canvas, self._statistics(), scale=scale)
         if self._message:
-            draw_block(canvas, [self._message], corner="bottom")
+            draw_block(canvas, [self._message], corner="bottom", scale=scale)
 
     def _statistics(self) -> list[str]:
         studio = self.studio
         return statistics_lines(
-            self.frame_seconds(),
+            self.frame_times.seconds,
             studio.size,
             studio.samples,
             self.frame.stats,
         )
 
-    def frame_seconds(self) -> float:
-        """Return the mean time that the last frames took to draw and to show; 0 if unknown.
-
-        The wait for the screen's refresh counts, the sleep between events does not.
-        """
-        costs = self._frame_costs
-        return sum(costs) / len(costs) if costs else 0.0
-
     def _update_title(self) -> None:
-        now = clock.monotonic()
-        if now < self._title_due:
+        """Write the name and what frames take, now and then; at once where nothing moves."""
+        now, idle = clock.monotonic(), not self._lively()
+        if now < self._title_due and not idle:
             return
         self._title_due = now + TITLE_SECONDS
-        seconds = self.frame_seconds()
-        rate = f" - {1.0 / seconds:.0f} fps" if seconds > 0.0 else ""
-        self.window.set_title(f"{self.studio.subject.title} - engine3d{rate}")
+        parts = (self.studio.subject.title, "engine3d", self.frame_times.text(idle))
+        title = printable(" - ".join(filter(None, parts)))
+        if title != self._title:
+            self._title = title
+            self.window.set_title(title)
 
     def say(self, message: str) -> None:
         """Show a message for a moment."""
@@ -196,6 +201,7 @@ class Viewer:
             self.say(str(error))
             return
         self.studio.show(subject, keep_look=keep_view)
+        self._title_due = 0.0
         if not keep_view:
             self.time = 0.0
             self.playing = subject.plays

@@ -199,8 +199,10 @@ def toggle_metadata(viewer, step: int) -> None:
 
 
 def toggle_help(viewer, step: int) -> None:
-    """The keys, or none."""
-    viewer.show_help = not viewer.show_help
+    """The keys, or none; in a small window page by page."""
+    page = viewer.help_page + step if viewer.show_help else 0
+    viewer.show_help = 0 <= page < viewer.help_pages or not viewer.show_help
+    viewer.help_page = page
 
 
 def toggle_fullscreen(viewer, step: int) -> None:

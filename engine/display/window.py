@@ -20,6 +20,8 @@ from .input import Translator
 #: SDL's drivers that draw nowhere: it falls back to them when there is no screen.
 SCREENLESS_DRIVERS = ("offscreen", "dummy", "evdev")
 MIN_SIDE = 64
+USUAL_DPI = 96.0
+PLAUSIBLE_DPI = 50.0, 400.0
 GL_RENDERER = 0x1F01
 #: Part of the names under which OpenGL draws without a graphics card.
 SOFTWARE_OPENGL = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software")
@@ -43,6 +45,16 @@ def find_screen() -> None:
         return
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         raise DisplayError("no screen (neither DISPLAY nor WAYLAND_DISPLAY is set)")
+
+
+def scale_of(dpi: float) -> int:
+    """Return how many times larger than usual texts should be on a screen of so many dots an inch.
+
+    Projectors and televisions tell sizes that are no sizes: those count as usual screens.
+    """
+    if not PLAUSIBLE_DPI[0] <= dpi <= PLAUSIBLE_DPI[1]:
+        return 1
+    return max(1, int(dpi / USUAL_DPI + 0.5))
 
 
 class Window:
@@ -132,6 +144,22 @@ class Window:
         if self._sdl.SDL_GetWindowDisplayMode(self._window, mode) == 0 and mode.refresh_rate > 0:
             return mode.refresh_rate
         return 60
+
+    @property
+    def scale(self) -> int:
+        """How many times finer than usual the window's screen is; 1 where it is unknown.
+
+        Only X11 leaves it to programs to draw larger on such a screen.
+        """
+        import ctypes
+
+        sdl, dpi = self._sdl, ctypes.c_float()
+        if sdl.SDL_GetCurrentVideoDriver() != b"x11":
+            return 1
+        screen = sdl.SDL_GetWindowDisplayIndex(self._window)
+        if sdl.SDL_GetDisplayDPI(screen, ctypes.byref(dpi), None, None) != 0:
+            return 1
+        return scale_of(dpi.value)
 
     @property
     def size(self) -> tuple[int, int]:

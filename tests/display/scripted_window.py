@@ -15,6 +15,7 @@ class ScriptedWindow:
         self.titles = []
         self.captured = False
         self.fullscreen = False
+        self.scale = 1
 
     def events(self, timeout=0.0):
         from engine3d.display.input import CloseRequested

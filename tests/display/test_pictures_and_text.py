@@ -13,7 +13,8 @@ from engine3d.display.animation_files import (
 )
 from engine3d.display.counts import count_names
 from engine3d.display.guides import grid, grid_step
-from engine3d.display.overlay import draw_axes, draw_block, draw_help, statistics_lines
+from engine3d.display.help_panel import draw_help
+from engine3d.display.overlay import draw_axes, draw_block, statistics_lines
 from engine3d.display.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from engine3d.display.watch import FileWatch
 from engine3d.errors import FileAccessError

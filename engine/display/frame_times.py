@@ -1,0 +1,54 @@
+"""What the last frames took: for the title and for the statistics.
+
+In: for each frame, how long it took to draw and until it was shown. Out: means over the frames of
+the last moment. Frames from before a rest don't count: they tell nothing of what is shown now.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+
+#: How far back frames count, and how many of them at most.
+RECENT_SECONDS = 1.0
+RECENT_FRAMES = 120
+
+
+class FrameTimes:
+    """Durations of the recent frames.
+
+    `seconds` counts the wait for the screen's refresh, `drawing_seconds` doesn't.
+    """
+
+    def __init__(self) -> None:
+        self._frames: deque[tuple[float, float, float]] = deque(maxlen=RECENT_FRAMES)
+
+    def add(self, drawing: float, shown: float) -> None:
+        """Count a frame that took ``drawing`` seconds to draw, ``shown`` until it was shown."""
+        now = time.monotonic()
+        while self._frames and self._frames[0][0] < now - RECENT_SECONDS:
+            self._frames.popleft()
+        self._frames.append((now, drawing, shown))
+
+    @property
+    def seconds(self) -> float:
+        """Mean time that the recent frames took to draw and to show; 0 if there was none."""
+        return self._mean(2)
+
+    @property
+    def drawing_seconds(self) -> float:
+        """Mean time that the recent frames took to draw; 0 if there was none."""
+        return self._mean(1)
+
+    def _mean(self, column: int) -> float:
+        frames = self._frames
+        return sum(frame[column] for frame in frames) / len(frames) if frames else 0.0
+
+    def text(self, idle: bool) -> str:
+        """Return what a title says: of the recent frames, or of the last one while none is due."""
+        if not self._frames:
+            return ""
+        if idle:
+            return f"idle, last frame {self._frames[-1][1] * 1000:.1f} ms"
+        rate = 1.0 / max(self.seconds, 1e-6)
+        return f"{self.drawing_seconds * 1000:.1f} ms, {rate:.0f} fps"

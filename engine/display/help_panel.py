@@ -1,0 +1,119 @@
+"""The keys and gestures over the picture: side by side where there is room, else page by page.
+
+In: a `Canvas` over the frame's pixels and the number of a page. Out: the same pixels, drawn on.
+"""
+
+from __future__ import annotations
+
+import textwrap
+
+from ..canvas import text_size
+from .keymap import GESTURES, SECTIONS
+from .overlay import BLOCK, LINE_GAP, PADDING, TEXT, place, text_scale
+
+KEY = (255, 206, 115, 255)
+TITLE = (130, 190, 255, 255)
+#: A row is a key and what it does; a title has no second part, an empty row neither.
+Row = tuple[str, str]
+GAP: Row = ("", "")
+#: Columns of text between two columns of the help.
+GUTTER = 3
+
+
+def help_sections() -> list[list[Row]]:
+    """Return the help, a list of rows for each section; the first row is its title."""
+    sections = [
+        [(title, ""), *((" ".join(binding.keys), binding.help) for binding in bindings)]
+        for title, bindings in SECTIONS.items()
+    ]
+    return [*sections, [("Mouse", ""), *GESTURES]]
+
+
+def help_columns() -> list[list[Row]]:
+    """Return the help in two columns."""
+    drawing, view, overlays, window, mouse = help_sections()
+    return [[*drawing, GAP, *mouse], [*view, GAP, *overlays, GAP, *window]]
+
+
+def draw_help(canvas, page: int = 0, scale: int | None = None) -> int:
+    """Draw keys and gestures on a block in the middle.
+
+    Parameters
+    ----------
+    canvas : Canvas
+        Over the frame.
+    page : int
+        Which part, from 0, where not all of it fits.
+    scale : int, optional
+        Factor on the font's size; by default what suits the picture.
+
+    Returns
+    -------
+    int
+        How many pages there are.
+    """
+    scale = scale or text_scale(canvas)
+    cell_width, cell_height = _cell(scale)
+    room = (canvas.width - 4 * PADDING) // cell_width, (canvas.height - 4 * PADDING) // cell_height
+    columns = help_columns()
+    if sum(_widths(columns)) + GUTTER <= room[0] and max(map(len, columns)) <= room[1]:
+        _draw_columns(canvas, columns, scale)
+        return 1
+    pages = _pages(*room)
+    page = min(page, len(pages) - 1)
+    more = f"{page + 1} of {len(pages)}; H: " + ("more" if page + 1 < len(pages) else "close")
+    _draw_columns(canvas, [[*pages[page], (more, "")]], scale)
+    return len(pages)
+
+
+def _cell(scale: int) -> tuple[int, int]:
+    width, height = text_size("M", scale)
+    return width, height + LINE_GAP * scale
+
+
+def _pages(columns: int, rows: int) -> list[list[Row]]:
+    """Return the help in lists of at most ``rows`` - 1 rows, as wide as ``columns`` characters."""
+    rows, pages = max(rows - 1, 2), []
+    for title, *entries in help_sections():
+        indent = _indent(entries)
+        page = [title]
+        for key, text in entries:
+            lines = textwrap.wrap(text, max(columns - indent, 1))
+            if len(page) + len(lines) > rows and len(page) > 1:
+                pages.append(page)
+                page = [title]
+            page += zip([key, *[""] * (len(lines) - 1)], lines, strict=True)
+        if pages and len(pages[-1]) + 1 + len(page) <= rows:
+            pages[-1] += [GAP, *page]
+        else:
+            pages.append(page)
+    return pages
+
+
+def _indent(rows: list[Row]) -> int:
+    return max((len(key) for key, text in rows if text), default=-2) + 2
+
+
+def _widths(columns: list[list[Row]]) -> list[int]:
+    """Return how many characters wide each column is."""
+    return [
+        max(_indent(column) + len(text) if text else len(key) for key, text in column)
+        for column in columns
+    ]
+
+
+def _draw_columns(canvas, columns: list[list[Row]], scale: int) -> None:
+    cell_width, cell_height = _cell(scale)
+    widths = _widths(columns)
+    width = (sum(widths) + GUTTER * (len(columns) - 1)) * cell_width + 4 * PADDING
+    height = cell_height * max(map(len, columns)) - LINE_GAP * scale + 4 * PADDING
+    left, top = place(canvas, width, height, "middle")
+    canvas.rectangle(left, top, width, height, BLOCK)
+    x = left + 2 * PADDING
+    for column, column_width in zip(columns, widths, strict=True):
+        indent = _indent(column) * cell_width
+        for row, (key, text) in enumerate(column):
+            y = top + 2 * PADDING + row * cell_height
+            canvas.text(x, y, key, KEY if text else TITLE, scale=scale)
+            canvas.text(x + indent, y, text, TEXT, scale=scale)
+        x += (column_width + GUTTER) * cell_width

@@ -77,14 +77,14 @@ def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
 
 def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
     """Parse the arguments, run the command that they name, and return its exit status."""
-    from .options import join_values
-    from .parser import make_parser
+    from .parser import parse
+    from .quietness import set_quiet
 
     try:
-        args, unknown = make_parser().parse_known_args(join_values(arguments))
-        if unknown:
-            program = " ".join(filter(None, ("engine3d", args.command)))
-            raise UsageError(f"unknown arguments: {' '.join(unknown)} (see {program} --help)")
+        args = parse(arguments)
+        if getattr(args, "verbose", False) and args.quiet:
+            raise UsageError("--verbose does not go with --quiet")
+        set_quiet(getattr(args, "quiet", False))
         command = _load(args)
         if begin is not None:
             begin()
@@ -186,4 +186,6 @@ class _short_warnings:
 
 
 def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
-    say(f"warning: {message}")
+    from .quietness import remark
+
+    remark(f"warning: {message}")

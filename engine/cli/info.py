@@ -7,24 +7,34 @@ import json
 import sys
 import warnings
 
-from ..errors import Engine3DWarning, printable
+from ..errors import Engine3DError, Engine3DWarning, printable
 from ..linalg import transform_points
 from ..loaders import load_document
 from ..mesh import Mesh
-from .inputs import model_file
+from .inputs import model_files
 from .loading_bar import LoadingBar
 
 
 def info(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     sys.stdout.reconfigure(errors="backslashreplace")
-    report = describe(model_file(args.model))
+    reports, failures = [], 0
+    for file in model_files(args.models):
+        try:
+            report = describe(file)
+        except Engine3DError as error:
+            if len(args.models) == 1:
+                raise
+            print(f"engine3d: error: {printable(str(error))}", file=sys.stderr)
+            failures += 1
+            continue
+        reports.append(report)
+        if not args.json:
+            # Names from the file must neither steer the terminal nor look like other lines.
+            print("\n".join(map(printable, report_lines(report))))
     if args.json:
-        print(json.dumps(report, indent=2))
-    else:
-        # Names from the file must neither steer the terminal nor look like other lines.
-        print("\n".join(map(printable, report_lines(report))))
-    return 0
+        print(json.dumps(reports if len(args.models) > 1 else reports[0], indent=2))
+    return 1 if failures else 0
 
 
 def describe(path) -> dict:

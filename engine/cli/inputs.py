@@ -6,6 +6,7 @@ In: what was given as MODEL. Out: a path, or a binary file object, as `engine3d.
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from typing import BinaryIO
 
 from .usage import UsageError
@@ -22,3 +23,10 @@ def model_file(name: str) -> str | BinaryIO:
     if sys.stdin.isatty():
         raise UsageError("- would read a model from the terminal; redirect standard input")
     return sys.stdin.buffer
+
+
+def model_files(names: Sequence[str]) -> list[str | BinaryIO]:
+    """Return what several names stand for; standard input can be read once."""
+    if names.count(STANDARD_INPUT) > 1:
+        raise UsageError("- stands for standard input, which can be read only once")
+    return [model_file(name) for name in names]

@@ -6,8 +6,9 @@ gone when the model is there. Where standard error is no terminal, nothing.
 
 from __future__ import annotations
 
-import sys
 import time
+
+from . import quietness
 
 _PATIENCE = 1.0
 
@@ -26,7 +27,7 @@ class LoadingBar:
     def __call__(self, fraction: float) -> None:
         """Show a fraction, once a second has passed."""
         if self._bar is None:
-            if time.monotonic() - self._start < _PATIENCE or not sys.stderr.isatty():
+            if time.monotonic() - self._start < _PATIENCE or not quietness.shows_progress():
                 return
             self._begin()
         self._bar.update(self._task, completed=fraction)

@@ -11,7 +11,7 @@ import math
 import re
 
 from . import values
-from .inputs import model_file
+from .inputs import model_files
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
 from .usage import UsageError
@@ -65,7 +65,16 @@ def add_subject(parser) -> None:
     """Add what to show."""
     group = parser.add_argument_group("what to show")
     group.add_argument(
-        "model", metavar="MODEL", nargs="?", help="a model file; - for standard input"
+        "models",
+        metavar="MODEL",
+        nargs="*",
+        help="model files; - for standard input. Several are shown together, each where it places "
+        "itself",
+    )
+    group.add_argument(
+        "--side-by-side",
+        action="store_true",
+        help="stand several models in a row, upright and in their own sizes",
     )
     group.add_argument(
         "--scene", choices=SCENES, metavar="NAME", help=f"a scene: {', '.join(SCENES)}"
@@ -90,6 +99,11 @@ def add_subject(parser) -> None:
         action="store_true",
         help="print what is loaded and how long loading and each frame take",
     )
+
+
+def add_quiet(parser) -> None:
+    """Add what says less."""
+    parser.add_argument("--quiet", action="store_true", help="print errors only, no warnings")
 
 
 def add_picture(parser) -> None:
@@ -313,7 +327,8 @@ def add_run(parser) -> None:
         "-o",
         "--output",
         metavar="FILE",
-        help="what --headless writes: .gif, .webp, .apng; a picture if N is 1",
+        help="what --headless writes: .gif, .webp, .apng, .mp4, or numbered pictures like "
+        "frame_%%04d.png or frame_{:04}.png; one picture if N is 1",
     )
 
 
@@ -330,7 +345,8 @@ def add_render(parser) -> None:
         "--turntable",
         type=values.count,
         metavar="N",
-        help="N pictures of one turn, to .gif, .webp or .apng",
+        help="N pictures of one turn, to .gif, .webp, .apng, .mp4 (with engine3d[video]), or "
+        "numbered pictures like frame_%%04d.png or frame_{:04}.png",
     )
     group.add_argument(
         "--no-background", action="store_true", help="leave the background transparent"
@@ -412,11 +428,13 @@ def place_view(args: argparse.Namespace, studio, *, turns: bool = True):
 
 def subject(args: argparse.Namespace, default_scene: str | None = None):
     """Return the `Subject` that the options name; ``default_scene`` if they name none."""
-    if args.model is not None and args.scene is not None:
+    if args.models and args.scene is not None:
         raise UsageError("give a MODEL or --scene, not both")
+    if args.side_by_side and len(args.models) < 2:
+        raise UsageError("--side-by-side needs several MODELs")
     if args.triangles is not None and args.scene != "city":
         raise UsageError("--triangles goes with --scene city")
-    if args.model is None:
+    if not args.models:
         if args.texture is not None or args.color is not None:
             raise UsageError("--texture and --color need a MODEL")
         if args.scene is None and default_scene is None:
@@ -425,14 +443,18 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
 
         size = {} if args.triangles is None else {"triangles": args.triangles}
         return load_demo(args.scene or default_scene, **size)
-    from ..display.opening import open_model
+    from ..display.gathering import open_models
 
     with LoadingBar() as progress:
-        file = model_file(args.model)
-        return open_model(
-            file,
-            texture=args.texture,
-            color=args.color,
-            progress=progress,
-            companion=not_the_output(args.output),
-        )
+        return open_models(model_files(args.models), **opening(args), progress=progress)
+
+
+def opening(args: argparse.Namespace) -> dict:
+    """Return how the options say that models are to be opened."""
+    return {
+        "side_by_side": args.side_by_side,
+        "up": args.up,
+        "texture": args.texture,
+        "color": args.color,
+        "companion": not_the_output(args.output),
+    }

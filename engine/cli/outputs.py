@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 
 from ..errors import FileAccessError
+from . import quietness
 from .usage import UsageError
 
 STANDARD_OUTPUT = "-"
@@ -30,6 +31,39 @@ def check_output(output: str, formats: Iterable[str], what: str) -> str:
         raise UsageError(f"{what} needs one of the extensions {known}; {named} is not one of them")
     check_folder(output)
     return extension
+
+
+def check_animation(output: str, *, transparent: bool = False) -> None:
+    """Raise, before any work, if an animation cannot be written to ``output``."""
+    from ..display.animation_files import (
+        ANIMATION_SUFFIXES,
+        OPAQUE_SUFFIXES,
+        PICTURE_SUFFIXES,
+        VIDEO_SUFFIX,
+        is_numbered,
+    )
+
+    if is_numbered(output):
+        extension = check_output(output, PICTURE_SUFFIXES, "a numbered picture").lower()
+    else:
+        extension = check_output(output, ANIMATION_SUFFIXES, "an animation").lower()
+    if extension == VIDEO_SUFFIX:
+        from ..display.video_files import find_ffmpeg
+
+        find_ffmpeg(output)
+    if transparent and extension in (*OPAQUE_SUFFIXES, VIDEO_SUFFIX):
+        raise UsageError(f"--no-background needs transparency, which {extension} lacks")
+
+
+def check_picture(output: str, *, transparent: bool = False, series: str) -> None:
+    """Raise, before any work, if a picture cannot be written; ``series`` makes several."""
+    from ..display.animation_files import OPAQUE_SUFFIXES, PICTURE_SUFFIXES, is_numbered
+
+    if is_numbered(output):
+        raise UsageError(f"{output!r} has a place for numbers: several pictures come of {series}")
+    extension = check_output(output, PICTURE_SUFFIXES, "a picture").lower()
+    if transparent and extension in OPAQUE_SUFFIXES:
+        raise UsageError(f"--no-background needs transparency, which {extension} lacks")
 
 
 def check_folder(output: str) -> None:
@@ -68,7 +102,7 @@ def write_standard_output(data: bytes) -> None:
 
 def with_progress(items: Iterable, total: int, label: str) -> Iterator:
     """Yield the items; on a terminal, and if there are many, show a progress bar meanwhile."""
-    if total < FEW_FRAMES or not sys.stderr.isatty():
+    if total < FEW_FRAMES or not quietness.shows_progress():
         yield from items
         return
     from rich.console import Console

@@ -8,24 +8,43 @@ from __future__ import annotations
 import argparse
 
 from ..benchmarking.names import WORKLOADS
-from ..errors import printable
 from ..version import __version__
-from . import options, values
+from . import options, suggestions, values
+from .suggestions import Parser
 from .usage import UsageError
 
 MODEL_FORMATS = ("obj", "ply", "stl")
 
 
-class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are a line, not lost below all the options that there are."""
+def parse(arguments: list[str]) -> argparse.Namespace:
+    """Return what the arguments say.
 
-    def error(self, message):
-        self.exit(2, f"{self.prog}: error: {printable(message)} (see {self.prog} --help)\n")
+    Raises `UsageError`, or `SystemExit` after argparse has printed its line.
+    """
+    parser = make_parser()
+    args, unknown = parser.parse_known_args(options.join_values(arguments))
+    # Of positional arguments with options between them argparse takes only the first ones.
+    models = getattr(args, "models", None)
+    if models and not any(_is_option(argument) for argument in unknown):
+        models += unknown
+        unknown = []
+    if unknown:
+        program = " ".join(filter(None, ("engine3d", args.command)))
+        command = parser.commands.get(args.command, parser)
+        wrong = next(filter(_is_option, unknown), "").partition("=")[0]
+        hint = suggestions.meant(wrong, suggestions.option_strings(command))
+        message = f"unknown arguments: {' '.join(unknown)}{hint}"
+        raise UsageError(f"{message} (see {program} --help)")
+    return args
 
 
-def make_parser() -> argparse.ArgumentParser:
+def _is_option(argument: str) -> bool:
+    return argument.startswith("-") and argument != "-"
+
+
+def make_parser() -> Parser:
     """Return the parser; ``load_command()`` of what it parsed returns the command's function."""
-    parser = _Parser(
+    parser = Parser(
         prog="engine3d",
         description="Draw 3D models on the CPU: in a window, or to a file.",
         epilog="engine3d COMMAND --help lists the options of a command. To begin: engine3d run",
@@ -46,6 +65,10 @@ def make_parser() -> argparse.ArgumentParser:
     _add_convert(commands)
     _add_city(commands)
     _add_bench(commands)
+    _add_completion(commands)
+    parser.commands = commands.choices
+    for name in ("run", "render", "info", "convert", "city"):
+        options.add_quiet(commands.choices[name])
     return parser
 
 
@@ -86,13 +109,17 @@ def _add_shared(command) -> None:
 def _add_info(commands) -> None:
     command = commands.add_parser(
         "info",
-        help="print what a model file holds",
-        description="Print the lists that a model file holds, its bounds and its warnings.",
+        help="print what model files hold",
+        description="Print the lists that model files hold, their bounds and their warnings.",
         allow_abbrev=False,
     )
     command.set_defaults(load_command=_load_info)
-    command.add_argument("model", metavar="MODEL", help="the file; - for standard input")
-    command.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument(
+        "models", metavar="MODEL", nargs="+", help="the files; - for standard input"
+    )
+    command.add_argument(
+        "--json", action="store_true", help="print JSON: a list where there are several files"
+    )
 
 
 def _add_convert(commands) -> None:
@@ -206,9 +233,22 @@ def _add_bench(commands) -> None:
     command.add_argument("--plot", metavar="FILE", help="write a chart as SVG, PNG, JPEG or WebP")
 
 
+def _add_completion(commands) -> None:
+    command = commands.add_parser(
+        "completion",
+        help="print what lets a shell complete commands and options",
+        description="Print a script for a shell. To try it: source <(engine3d completion bash), "
+        "the same with zsh, or engine3d completion fish | source.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_completion)
+    command.add_argument("shell", choices=("bash", "zsh", "fish"), help="which shell")
+
+
 def _missing_command():
     raise UsageError(
-        "say which command: run, render, info, convert, city or bench (see engine3d --help)"
+        "say which command: run, render, info, convert, city, bench or completion "
+        "(see engine3d --help)"
     )
 
 
@@ -246,6 +286,12 @@ def _load_bench():
     from .bench import bench
 
     return bench
+
+
+def _load_completion():
+    from .completion import completion
+
+    return completion
 
 
 class _ListReaders(argparse.Action):

@@ -5,17 +5,13 @@ from __future__ import annotations
 import argparse
 
 from ..display import headless
-from ..display.animation_files import (
-    ANIMATION_FORMATS,
-    OPAQUE_SUFFIXES,
-    PICTURE_SUFFIXES,
-    save_animation,
-)
+from ..display.animation_files import save_animation
 from ..display.studio import Studio
 from . import options
 from .outputs import (
     STANDARD_OUTPUT,
-    check_output,
+    check_animation,
+    check_picture,
     check_standard_output,
     with_progress,
     write_standard_output,
@@ -65,14 +61,12 @@ def _check(args: argparse.Namespace) -> None:
     if args.turntable is not None:
         if args.output == STANDARD_OUTPUT or args.reference is not None:
             raise UsageError("--turntable writes to a file, and compares with none")
-        check_output(args.output, ANIMATION_FORMATS, "an animation")
+        check_animation(args.output, transparent=args.no_background)
         return
     if args.output == STANDARD_OUTPUT:
         check_standard_output()
         return
-    extension = check_output(args.output, PICTURE_SUFFIXES, "a picture")
-    if args.no_background and extension.lower() in OPAQUE_SUFFIXES:
-        raise UsageError(f"--no-background needs transparency, which {extension} lacks")
+    check_picture(args.output, transparent=args.no_background, series="--turntable N")
 
 
 def _write_turntable(args: argparse.Namespace, studio: Studio, view) -> None:

@@ -6,20 +6,15 @@ import argparse
 from pathlib import Path
 
 from ..display import headless
-from ..display.animation_files import (
-    ANIMATION_FORMATS,
-    PICTURE_SUFFIXES,
-    numbered_path,
-    save_animation,
-)
+from ..display.animation_files import numbered_path, save_animation
 from ..display.ground import controller
 from ..display.studio import Studio
 from ..errors import DisplayError
 from . import options
 from .inputs import STANDARD_INPUT
-from .outputs import check_output, with_progress
+from .outputs import check_animation, check_picture, with_progress
+from .quietness import remark
 from .report import Report
-from .said import say
 from .usage import UsageError
 
 WINDOW_SIZE = (1280, 720)
@@ -49,10 +44,11 @@ def _check(args: argparse.Namespace) -> None:
     if args.output is not None:
         if not args.headless:
             raise UsageError("-o goes with --headless")
-        formats = PICTURE_SUFFIXES if args.frames == 1 else ANIMATION_FORMATS
-        what = "a picture (--frames 1)" if args.frames == 1 else "an animation"
-        check_output(args.output, formats, what)
-    if args.watch and args.model in (None, STANDARD_INPUT):
+        if args.frames == 1:
+            check_picture(args.output, series="--frames 2 or more")
+        else:
+            check_animation(args.output)
+    if args.watch and (not args.models or STANDARD_INPUT in args.models):
         raise UsageError("--watch needs a MODEL that is a file")
 
 
@@ -81,6 +77,7 @@ def _studio(args: argparse.Namespace, subject, size, samples: int, report: Repor
 
 def _show(args: argparse.Namespace, subject, report: Report) -> None:
     """Open a window and stay until it closes."""
+    from ..display.model_files import ModelFiles
     from ..display.viewer import Viewer
     from ..display.window import Window
 
@@ -96,7 +93,7 @@ def _show(args: argparse.Namespace, subject, report: Report) -> None:
             walking=args.camera == "fps",
             playing=args.animate,
             statistics=args.fps,
-            watch=args.watch,
+            files=ModelFiles(args.models, watch=args.watch, **options.opening(args)),
         )
         viewer.say("H: help")
         viewer.run(args.frames)
@@ -107,7 +104,7 @@ def _write(args: argparse.Namespace, subject, reason: str | None, report: Report
     count = args.frames or FILE_FRAMES
     path = Path(args.output) if args.output else _new_path(subject, count)
     if reason is not None:
-        say(f"{reason}: rendering a turntable to {path} instead")
+        remark(f"{reason}: rendering a turntable to {path} instead")
     with _studio(args, subject, FILE_SIZE, FILE_SAMPLES, report) as studio:
         view = options.place_view(args, studio)
         walks = args.camera == "fps"
@@ -120,7 +117,7 @@ def _write(args: argparse.Namespace, subject, reason: str | None, report: Report
             pictures = with_progress(pictures, count, "rendering")
             save_animation(pictures, path, headless.seconds_a_frame(studio, count))
     if reason is None and args.output is None:
-        say(f"wrote {path}")
+        remark(f"wrote {path}")
     return 0
 
 

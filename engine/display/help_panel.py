@@ -54,7 +54,8 @@ def draw_help(canvas, page: int = 0, scale: int | None = None) -> int:
     """
     scale = scale or text_scale(canvas)
     cell_width, cell_height = _cell(scale)
-    room = (canvas.width - 4 * PADDING) // cell_width, (canvas.height - 4 * PADDING) // cell_height
+    inset = 5 * PADDING
+    room = (canvas.width - inset) // cell_width, (canvas.height - inset) // cell_height
     columns = help_columns()
     if sum(_widths(columns)) + GUTTER <= room[0] and max(map(len, columns)) <= room[1]:
         _draw_columns(canvas, columns, scale)

@@ -63,10 +63,10 @@ class Resized:
 
 
 @dataclass(frozen=True)
-class FileDropped:
-    """A file was dropped on the window."""
+class FilesDropped:
+    """Files were dropped on the window, all at once."""
 
-    path: str
+    paths: tuple[str, ...]
 
 
 class Exposed:
@@ -93,11 +93,13 @@ class Translator:
     """Makes this module's classes of SDL's events, in the order in which they came.
 
     Clicks bear no modifier keys, and SDL tells of these what is so by now, several events later
-    where a frame takes long. So they are taken from the keys' events.
+    where a frame takes long. So they are taken from the keys' events. Files that are dropped
+    together come one by one: they are one event, when the last of them has come.
     """
 
     def __init__(self) -> None:
         self._modifiers = 0
+        self._dropped: list[str] = []
 
     def translate(self, event):
         """Return ``event`` (an ``SDL_Event``) as one of this module's classes, or None."""
@@ -105,6 +107,12 @@ class Translator:
 
         if event.type in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
             self._modifiers = event.key.keysym.mod
+        if event.type == sdl2.SDL_DROPFILE:
+            self._dropped += _dropped(sdl2, event.drop)
+            return None
+        if event.type == sdl2.SDL_DROPCOMPLETE:
+            paths, self._dropped = tuple(self._dropped), []
+            return FilesDropped(paths) if paths else None
         return _translated(sdl2, event, self._modifiers)
 
 
@@ -121,8 +129,6 @@ def _translated(sdl2, event, modifiers: int):
     if kind == sdl2.SDL_MOUSEWHEEL:
         flipped = event.wheel.direction == sdl2.SDL_MOUSEWHEEL_FLIPPED
         return Wheel(-event.wheel.y if flipped else event.wheel.y)
-    if kind == sdl2.SDL_DROPFILE:
-        return _dropped(sdl2, event.drop)
     if kind == sdl2.SDL_WINDOWEVENT:
         return _window(sdl2, event.window)
     return None
@@ -152,17 +158,17 @@ def _button(sdl2, number: int, down: bool, modifiers: int):
     return MouseButton(names[number], down, shift, control)
 
 
-def _dropped(sdl2, event):
-    """Return the dropped file's path; SDL's copy of the name is ours to free."""
+def _dropped(sdl2, event) -> list[str]:
+    """Return the dropped file's path, if there is one; SDL's copy of the name is ours to free."""
     import ctypes
     import os
 
     if not event.file:
-        return None
+        return []
     path = os.fsdecode(event.file)
     address = ctypes.c_void_p.from_buffer(event, type(event).file.offset).value
     sdl2.SDL_free(ctypes.c_void_p(address))
-    return FileDropped(path)
+    return [path]
 
 
 def _window(sdl2, event):

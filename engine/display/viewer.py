@@ -17,15 +17,19 @@ from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
 from .keymap import ORBIT_ARROWS, action_for
-from .opening import open_model
+from .model_files import ModelFiles
 from .orbit import OrbitController
 from .overlay import draw_block, statistics_lines
 from .studio import Studio
-from .watch import FileWatch
+from .viewpoint import Sphere
 
 #: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
 IDLE_SECONDS = 0.25
 MESSAGE_SECONDS = 2.5
+#: Characters of a message that one reads in a second.
+READ_A_SECOND = 15.0
+#: A model that became so many times larger or smaller is framed anew.
+ALIKE = 8.0
 TITLE_SECONDS = 0.5
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
@@ -49,8 +53,8 @@ class Viewer:
         Whether to move from the start; by default as the subject likes.
     statistics : bool
         Show statistics from the start.
-    watch : bool
-        Load the subject's file again when it changes.
+    files : ModelFiles, optional
+        Where the subject came from: it is loaded again when they change, if they are watched.
     """
 
     def __init__(
@@ -62,7 +66,7 @@ class Viewer:
         walking: bool = False,
         playing: bool | None = None,
         statistics: bool = False,
-        watch: bool = False,
+        files: ModelFiles | None = None,
     ):
         self.studio = studio
         self.window = window
@@ -88,7 +92,9 @@ class Viewer:
         self.frame_times = FrameTimes()
         self._title = ""
         self._title_due = 0.0
-        self._watch = FileWatch(studio.subject.path if watch else None)
+        self._last_turn = clock.monotonic()
+        self._files = files or ModelFiles()
+        self._trouble = ""
         if walking:
             viewer_actions.toggle_walking(self)
 
@@ -100,18 +106,23 @@ class Viewer:
         A number of frames is drawn whether or not anything moves.
         """
         drawn = 0
-        last = clock.monotonic()
+        self._last_turn = clock.monotonic()
         while self.running and (frames is None or drawn < frames):
             self.changed |= frames is not None
-            for event in self.window.events(0.0 if self._lively() else IDLE_SECONDS):
-                self.handle(event)
-            now = clock.monotonic()
-            self.advance(min(now - last, LONGEST_STEP))
-            last = now
-            if self.changed and self.running and not self.window.minimised:
-                self.draw()
-                drawn += 1
-            self._update_title()
+            drawn += self.run_once()
+
+    def run_once(self) -> bool:
+        """Obey what has happened, and return whether a frame was drawn for it."""
+        for event in self.window.events(0.0 if self._lively() else IDLE_SECONDS):
+            self.handle(event)
+        now = clock.monotonic()
+        self.advance(min(now - self._last_turn, LONGEST_STEP))
+        self._last_turn = now
+        drawn = self.changed and self.running and not self.window.minimised
+        if drawn:
+            self.draw()
+        self._update_title()
+        return drawn
 
     def _lively(self) -> bool:
         """Return whether the next frame should come at once rather than wait for an event."""
@@ -132,8 +143,8 @@ class Viewer:
         if self._message and clock.monotonic() >= self._message_ends:
             self._message = ""
             self.changed = True
-        if self._watch.changed():
-            self.open(self._watch.path, keep_view=True)
+        if self._files.changed():
+            self._reload()
 
     def _play(self, seconds: float) -> None:
         subject = self.studio.subject
@@ -155,7 +166,8 @@ class Viewer:
         self.frame_times.add(drawn - start, clock.monotonic() - start)
 
     def _draw_overlays(self) -> None:
-        if not (self.show_help or self.show_statistics or self._message):
+        messages = [line for line in (self._trouble, self._message) if line]
+        if not (self.show_help or self.show_statistics or messages):
             return
         canvas = self.frame.canvas()
         scale = self.studio.text_scale(canvas)
@@ -163,8 +175,7 @@ class Viewer:
             self.help_pages = draw_help(canvas, self.help_page, scale)
         elif self.show_statistics:
             draw_block(canvas, self._statistics(), scale=scale)
-        if self._message:
-            draw_block(canvas, [self._message], corner="bottom", scale=scale)
+        draw_block(canvas, messages, corner="bottom", scale=scale)
 
     def _statistics(self) -> list[str]:
         studio = self.studio
@@ -188,27 +199,62 @@ class Viewer:
             self.window.set_title(title)
 
     def say(self, message: str) -> None:
-        """Show a message for a moment."""
-        self._message = message
-        self._message_ends = clock.monotonic() + MESSAGE_SECONDS
+        """Show a message for a moment, which is longer for more words."""
+        self._message = printable(message)
+        seconds = max(MESSAGE_SECONDS, len(message) / READ_A_SECOND)
+        self._message_ends = clock.monotonic() + seconds
         self.changed = True
 
-    def open(self, path, *, keep_view: bool = False) -> None:
-        """Show another file; one that cannot be read leaves what is there, and says why."""
+    def open(self, paths) -> None:
+        """Show other files; where one cannot be read, what is there stays, and why is said."""
         try:
-            subject = open_model(path)
-        except Engine3DError as error:
-            self.say(str(error))
+            subject = self._files.replace(paths)
+        except (Engine3DError, MemoryError) as error:
+            self.say(_reason(error))
             return
-        self.studio.show(subject, keep_look=keep_view)
-        self._title_due = 0.0
-        if not keep_view:
-            self.time = 0.0
-            self.playing = subject.plays
-            self.first_view = self.studio.view()
-            viewer_actions.reset_view(self)
-        self._watch.follow(path if self._watch.path else None)
+        self._show(subject)
+        self.time = 0.0
+        self.playing = subject.plays
+        self.first_view = self.studio.view()
+        viewer_actions.reset_view(self)
         self.say(subject.warnings[0] if subject.warnings else f"opened {subject.title}")
+
+    def _reload(self) -> None:
+        """Show the files as they are now; what is wrong with them is said until they are whole."""
+        self.changed = True
+        if missing := self._files.missing():
+            self._trouble = printable(f"{', '.join(missing)} is not there: this is what it was")
+            return
+        try:
+            subject = self._files.reload()
+        except (Engine3DError, MemoryError) as error:
+            self._trouble = printable(_reason(error))
+            return
+        before = self.studio.bounds
+        self._show(subject, keep_look=True)
+        said = subject.warnings[0] if subject.warnings else f"loaded {subject.title} again"
+        if not self._in_view(before):
+            said += "; it was out of view"
+            self._frame_again()
+        self.say(said)
+
+    def _show(self, subject, *, keep_look: bool = False) -> None:
+        self.studio.show(subject, keep_look=keep_look)
+        self._trouble = ""
+        self._title_due = 0.0
+
+    def _frame_again(self) -> None:
+        """Look at all of what is shown now, from the same side; a reset does so from now on."""
+        if self.walker is not None:
+            viewer_actions.toggle_walking(self)
+        for view in (self.view, self.first_view):
+            self.studio.frame(view)
+
+    def _in_view(self, before: Sphere) -> bool:
+        """Return whether the subject, which had other bounds before, is still worth looking at."""
+        now = self.studio.bounds
+        alike = 1 / ALIKE < now.radius / before.radius < ALIKE
+        return alike and self.view.sees(now, self.studio.aspect)
 
     # Events
 
@@ -295,7 +341,7 @@ class Viewer:
         self.drag = None
 
     def _dropped(self, event) -> None:
-        self.open(event.path)
+        self.open(event.paths)
 
     def _close(self, event) -> None:
         self.running = False
@@ -312,6 +358,10 @@ _HANDLERS = {
     events.Restored: Viewer._redraw,
     events.Minimised: Viewer._release_keys,
     events.FocusLost: Viewer._release_keys,
-    events.FileDropped: Viewer._dropped,
+    events.FilesDropped: Viewer._dropped,
     events.CloseRequested: Viewer._close,
 }
+
+
+def _reason(error: Exception) -> str:
+    return "out of memory" if isinstance(error, MemoryError) else str(error)

@@ -37,6 +37,8 @@ DEFAULT_ELEVATION = math.radians(18.0)
 QUARTER_TURN = math.pi / 2
 #: Space left round what is framed.
 FRAMING_MARGIN = 1.06
+#: What is less than this share of the picture's height is a dot.
+SMALLEST = 0.01
 #: Seen steeper than this from above or below, a step upward hardly shows.
 STEEPEST = 1e-6
 
@@ -170,6 +172,20 @@ class Viewpoint:
         right, up, _ = self.rotation().T
         directions = np.array([right, -right, up, -up])
         return tuple((reach(directions) - linalg.dot(directions, center)).tolist())
+
+    def sees(self, sphere: Sphere, aspect: float) -> bool:
+        """Return whether a sphere reaches into the picture, and is more than a dot there."""
+        right, up, back = linalg.dot(self.rotation().T, np.subtract(sphere.center, self.position()))
+        slopes, ahead = self._slopes(aspect), -float(back)
+        if self.orthographic:
+            ahead = self.distance
+        if ahead + sphere.radius <= 0.0:
+            return False
+        for aside, slope in ((abs(float(right)), slopes[0]), (abs(float(up)), slopes[1])):
+            # How far the sphere's middle is beyond the side of the frustum.
+            if aside - ahead * slope > sphere.radius * math.sqrt(1.0 + slope * slope):
+                return False
+        return sphere.radius > SMALLEST * slopes[1] * max(ahead, sphere.radius)
 
     def look_from(self, position, focal_point) -> None:
         """Stand at ``position`` and look at ``focal_point`` (both (3,), world space)."""

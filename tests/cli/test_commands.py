@@ -11,38 +11,15 @@ import time
 
 import numpy as np
 import pytest
+from cli.conftest import OBJ
 from patience import HUNG
 from PIL import Image
 
 import engine3d as e3d
 from engine3d.cli import main
 
-OBJ = """o square
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-f 1/1 2/2 3/3 4/4
-"""
 SMALL = ("--resolution", "48x32")
-
-
-@pytest.fixture
-def model(tmp_path):
-    path = tmp_path / "square.obj"
-    path.write_text(OBJ)
-    return path
-
-
-@pytest.fixture(autouse=True)
-def no_screen(monkeypatch, tmp_path):
-    for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("no_screen")
 
 
 def pixels(path):
@@ -308,12 +285,18 @@ def test_a_folder_that_is_not_there_is_found_before_any_work(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "program"),
-    [(["--versoin"], "engine3d"), (["info", "square.obj", "--jsn"], "engine3d info")],
+    ("arguments", "meant", "program"),
+    [
+        (["--versoin"], "--version", "engine3d"),
+        (["info", "square.obj", "--jsn"], "--json", "engine3d info"),
+    ],
 )
-def test_a_misspelt_option_leads_to_the_help_that_lists_it(model, capsys, arguments, program):
+def test_a_misspelt_option_leads_to_the_help_that_lists_it(
+    model, capsys, arguments, meant, program
+):
     assert main(arguments) == 2
-    expected = f"engine3d: error: unknown arguments: {arguments[-1]} (see {program} --help)\n"
+    wrong = f"{arguments[-1]}: did you mean {meant}?"
+    expected = f"engine3d: error: unknown arguments: {wrong} (see {program} --help)\n"
     assert capsys.readouterr().err == expected
 
 

@@ -145,7 +145,7 @@ def test_wireframe_without_a_value_is_only():
     assert parse("run", "--wireframe").wireframe == "only"
     assert parse("run", "--wireframe", "overlay").wireframe == "overlay"
     before_model = parse("run", "--wireframe", "a.obj")
-    assert (before_model.wireframe, before_model.model) == ("only", "a.obj")
+    assert (before_model.wireframe, before_model.models) == ("only", ["a.obj"])
     assert parse("run", "--wireframe=overlay", "a.obj").wireframe == "overlay"
     assert parse("run", "--wireframe", "--edges").wireframe == "only"
 

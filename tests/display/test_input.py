@@ -123,15 +123,26 @@ def test_window_events():
     assert translate(window_event(sdl2.SDL_WINDOWEVENT_MOVED)) is None
 
 
-def test_a_dropped_file_gives_its_path():
-    name = "/tmp/päth.obj".encode()
-    sdl2.SDL_malloc.restype = ctypes.c_void_p
-    memory = sdl2.SDL_malloc(len(name) + 1)
-    ctypes.memmove(memory, name + b"\0", len(name) + 1)
+def drop_event(kind, name=None):
     event = sdl2.SDL_Event()
-    event.type = sdl2.SDL_DROPFILE
-    event.drop.file = ctypes.cast(memory, ctypes.c_char_p)
-    assert translate(event) == events.FileDropped("/tmp/päth.obj")
+    event.type = kind
+    if name is not None:
+        sdl2.SDL_malloc.restype = ctypes.c_void_p
+        memory = sdl2.SDL_malloc(len(name) + 1)
+        ctypes.memmove(memory, name + b"\0", len(name) + 1)
+        event.drop.file = ctypes.cast(memory, ctypes.c_char_p)
+    return event
+
+
+def test_files_that_are_dropped_together_are_one_event():
+    translator = events.Translator()
+    for names in (("/tmp/päth.obj",), ("/a.stl", "/b.stl", "/c.ply")):
+        for name in names:
+            event = drop_event(sdl2.SDL_DROPFILE, name.encode())
+            assert translator.translate(event) is None
+        complete = drop_event(sdl2.SDL_DROPCOMPLETE)
+        assert translator.translate(complete) == events.FilesDropped(names)
+    assert translator.translate(drop_event(sdl2.SDL_DROPCOMPLETE)) is None
 
 
 def test_other_events_mean_nothing():

@@ -6,8 +6,8 @@ import pytest
 
 from engine3d.display import viewer_actions
 from engine3d.display.fps import LOOKS, MOVES
-from engine3d.display.keymap import BINDINGS, action_for
 from engine3d.display.help_panel import help_columns
+from engine3d.display.keymap import BINDINGS, action_for
 
 
 def test_no_key_is_bound_twice():

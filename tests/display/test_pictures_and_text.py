@@ -13,7 +13,7 @@ from engine3d.display.animation_files import (
 )
 from engine3d.display.counts import count_names
 from engine3d.display.guides import grid, grid_step
-from engine3d.display.help_panel import draw_help
+from engine3d.display.help_panel import draw_help, help_columns
 from engine3d.display.overlay import draw_axes, draw_block, statistics_lines
 from engine3d.display.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from engine3d.display.watch import FileWatch
@@ -51,11 +51,44 @@ def fits(canvas):
     return all(edge.all() for edge in (rows[:4], rows[-4:], columns[:4], columns[-4:]))
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (800, 600)])
-def test_the_help_fits_usual_windows(size):
-    canvas = Canvas(*size)
-    draw_help(canvas)
-    assert fits(canvas)
+@pytest.mark.parametrize("size", [(1280, 720), (800, 600), (640, 480), (320, 240)])
+def test_the_help_fits_the_window(size, monkeypatch):
+    """All of it, on as many pages as it takes."""
+    shown, text = [], Canvas.text
+
+    def note(canvas, x, y, string, color, **options):
+        shown.append(string)
+        text(canvas, x, y, string, color, **options)
+
+    monkeypatch.setattr(Canvas, "text", note)
+    pages = draw_help(Canvas(*size))
+    assert (pages == 1) == (size[0] >= 800)
+    shown.clear()
+    for page in range(pages):
+        canvas = Canvas(*size)
+        assert draw_help(canvas, page) == pages
+        assert canvas.pixels[..., :3].any() and fits(canvas)
+    said = " ".join(shown).split()
+    words = " ".join(part for row in sum(help_columns(), []) for part in row).split()
+    assert set(words) <= set(said)
+
+
+@pytest.mark.parametrize("corner", ["top left", "bottom", "top right"])
+def test_long_lines_are_wrapped(corner, monkeypatch):
+    error = "/a/folder/with/a/very/long/name/that/never/ends/model.obj:12345: there is no vertex 99"
+    shown, text = [], Canvas.text
+
+    def note(canvas, x, y, string, color, **options):
+        shown.append(string)
+        text(canvas, x, y, string, color, **options)
+
+    monkeypatch.setattr(Canvas, "text", note)
+    canvas = Canvas(320, 240)
+    draw_block(canvas, [error], corner=corner)
+    assert fits(canvas) and len(shown) > 2
+    assert "".join(shown).replace(" ", "") == error.replace(" ", "")
+    draw_block(canvas, [error] * 99, corner=corner)
+    assert fits(canvas) and shown[-1] == "..."
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (640, 480)])
@@ -159,8 +192,22 @@ def test_a_file_watch_reports_a_change_once_it_has_settled(tmp_path, monkeypatch
     path.write_text("after that")
     assert [watch.changed() for _ in range(3)] == [False, True, False]
     path.unlink()
-    assert not watch.changed()
-    assert not FileWatch(None).changed()
+    assert [watch.changed() for _ in range(3)] == [False, True, False]
+    assert watch.missing
+    path.write_text("after that")
+    assert [watch.changed() for _ in range(3)] == [False, True, False]
+    assert not watch.missing
+
+
+def test_a_file_watch_does_not_report_what_is_away_for_a_moment(tmp_path, monkeypatch):
+    monkeypatch.setattr("engine3d.display.watch.CHECK_SECONDS", 0.0)
+    path, other = tmp_path / "model", tmp_path / "other"
+    path.write_text("one")
+    watch = FileWatch(path)
+    path.rename(other)
+    assert not watch.changed() and not watch.missing
+    other.rename(path)
+    assert not watch.changed() and not watch.missing
 
 
 def test_the_table_of_counts_is_that_of_the_frame():

@@ -1,6 +1,8 @@
 """The viewer's loop and its keys, with a scripted window and the real renderer."""
 
 import math
+import re
+import time
 
 import numpy as np
 import pytest
@@ -86,11 +88,53 @@ def test_frames_limit_the_loop():
     assert len(window.shown) == 5
 
 
-def test_the_title_has_the_name_and_the_rate():
+@pytest.mark.parametrize("plays", [True, False])
+def test_as_many_frames_as_asked_for_are_shown_though_nothing_moves(plays):
+    viewer, window = make_viewer([[]] * 100, make_subject(plays=plays))
+    viewer.run(frames=3)
+    assert len(window.shown) == 3
+    assert len(window._script) == 97
+
+
+def test_the_title_has_the_name_and_what_frames_take():
     viewer, window = make_viewer([[]] * 400, make_subject(plays=True))
     viewer.run(frames=300)
-    assert window.titles[0].startswith("torus.obj - engine3d - ")
-    assert window.titles[0].endswith(" fps")
+    assert re.fullmatch(r"torus.obj - engine3d - \d+\.\d ms, \d+ fps", window.titles[0])
+
+
+def test_the_title_tells_what_recent_frames_take_and_that_nothing_moves(monkeypatch):
+    """The first frames are slow; what moves later is fast, and then comes to rest."""
+    now = [100.0]
+    monkeypatch.setattr("time.monotonic", lambda: now[0])
+    viewer, window = make_viewer(subject=make_subject(plays=True))
+    take = [0.125]
+    window.present = lambda pixels: now.__setitem__(0, now[0] + take[0])
+
+    def turn(times):
+        window._script = [[]] * times
+        for _ in range(times):
+            viewer.run_once()
+
+    turn(8)
+    assert window.titles[-1].endswith(" ms, 8 fps")
+    take[0] = 1 / 150
+    turn(400)
+    assert window.titles[-1].endswith(" ms, 150 fps")
+    viewer.handle(key("Space"))
+    turn(2)
+    assert re.search(r"idle, last frame \d+\.\d ms$", window.titles[-1])
+
+
+def test_the_title_names_what_is_shown(tmp_path):
+    path = tmp_path / "triangle.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    viewer, window = make_viewer([[]] * 3, make_subject(plays=True))
+    viewer.run(frames=3)
+    viewer.handle(events.FilesDropped((str(path),)))
+    viewer.playing = True
+    window._script = [[]]
+    viewer.run(frames=1)
+    assert window.titles[-1].startswith("triangle.obj - engine3d - ")
 
 
 def test_q_and_the_close_button_end_the_loop():
@@ -293,25 +337,26 @@ def test_a_screenshot_is_the_picture_without_overlays(tmp_path, monkeypatch):
 def test_a_dropped_file_opens(tmp_path):
     path = tmp_path / "triangle.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    viewer, window = play(events.FileDropped(str(path)), events.Exposed())
+    viewer, window = play(events.FilesDropped((str(path),)), events.Exposed())
     assert viewer.studio.subject.title == "triangle.obj"
 
 
 def test_a_dropped_file_that_cannot_be_read_leaves_the_picture(tmp_path):
     path = tmp_path / "broken.obj"
     path.write_text("v 0 0\nf 1 2 3\n")
-    viewer, _ = play(events.FileDropped(str(path)))
+    viewer, _ = play(events.FilesDropped((str(path),)))
     assert viewer.studio.subject.title == "torus.obj"
 
 
 def test_a_watched_file_is_loaded_again(tmp_path, monkeypatch):
     from engine3d.display import watch
+    from engine3d.display.model_files import ModelFiles
     from engine3d.display.opening import open_model
 
     monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)
     path = tmp_path / "shape.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    viewer, _ = make_viewer(subject=open_model(path), watch=True)
+    viewer, _ = make_viewer(subject=open_model(path), files=ModelFiles([path], watch=True))
     viewer.handle(key("N"))
     path.write_text("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 0\nf 1 2 3\nf 2 4 3\n")
     for _ in range(3):
@@ -319,3 +364,132 @@ def test_a_watched_file_is_loaded_again(tmp_path, monkeypatch):
     meshes = [node.object for node in viewer.studio.subject.scene.nodes]
     assert [len(mesh.faces) for mesh in meshes if isinstance(mesh, e3d.Mesh)] == [2]
     assert viewer.studio.look.mode == "normal"
+
+
+TRIANGLE = "v {0} 0 0\nv {1} 0 0\nv {0} 1 0\nf 1 2 3\n"
+
+
+def watching(tmp_path, monkeypatch, *names, **options):
+    """A viewer of triangles in files that it watches, and their paths."""
+    from engine3d.display import watch
+    from engine3d.display.model_files import ModelFiles
+
+    monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)
+    paths = [tmp_path / name for name in names]
+    for path in paths:
+        path.write_text(TRIANGLE.format(0, 1))
+    files = ModelFiles(paths, watch=True, **options)
+    viewer, window = make_viewer(subject=files.reload(), files=files)
+    return viewer, window, paths
+
+
+def look(viewer):
+    """Let the viewer find out what became of its files, and draw."""
+    for _ in range(3):
+        viewer.advance(0.01)
+    viewer.draw()
+
+
+def faces(viewer):
+    meshes = [node.object for node in viewer.studio.subject.scene.nodes]
+    return [len(mesh.faces) for mesh in meshes if isinstance(mesh, e3d.Mesh)]
+
+
+def test_a_watched_file_that_is_broken_or_gone_is_told_until_it_is_whole(tmp_path, monkeypatch):
+    viewer, window, (path,) = watching(tmp_path, monkeypatch, "shape.obj")
+    now = [time.monotonic()]
+    monkeypatch.setattr("engine3d.display.viewer.clock.monotonic", lambda: now[0])
+    look(viewer)
+    plain = window.shown[-1]
+    path.write_text("v 0 0\n")
+    for _ in range(3):
+        look(viewer)
+        assert "shape.obj:1: " in viewer._trouble
+        assert (window.shown[-1][80:] != plain[80:]).any() and faces(viewer) == [1]
+        now[0] += 60.0
+    path.unlink()
+    look(viewer)
+    assert viewer._trouble == "shape.obj is not there: this is what it was"
+    path.write_text(TRIANGLE.format(0, 1) + "# whole\n")
+    look(viewer)
+    assert viewer._trouble == ""
+    now[0] += 60.0
+    look(viewer)
+    assert (window.shown[-1] == plain).all()
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "framed"), [(0, 1.2, False), (500, 501, True), (0, 0.001, True), (0, 900, True)]
+)
+def test_a_watched_model_that_leaves_the_view_is_framed(tmp_path, monkeypatch, low, high, framed):
+    viewer, window, (path,) = watching(tmp_path, monkeypatch, "shape.obj")
+    viewer.handle(key("Right"))
+    look(viewer)
+    before = viewer.view.copy()
+    path.write_text(TRIANGLE.format(low, high).replace(" 1 0\n", f" {high - low} 0\n"))
+    look(viewer)
+    assert (viewer.view.distance != before.distance) == framed
+    assert viewer.view.azimuth == before.azimuth
+    assert viewer.view.sees(viewer.studio.bounds, viewer.studio.aspect)
+    if framed:
+        viewer.handle(key("R"))
+        assert viewer.view.sees(viewer.studio.bounds, viewer.studio.aspect)
+
+
+def test_a_watched_model_keeps_its_colour(tmp_path, monkeypatch):
+    viewer, _, (path,) = watching(tmp_path, monkeypatch, "shape.obj", color=(255, 0, 0))
+    path.write_text(TRIANGLE.format(0, 1) + "f 1 3 2\n")
+    look(viewer)
+    nodes = viewer.studio.subject.scene.nodes
+    (mesh,) = (node.object for node in nodes if isinstance(node.object, e3d.Mesh))
+    assert len(mesh.faces) == 2
+    assert tuple(mesh.materials[0].color) == (255, 0, 0)
+
+
+def test_files_that_are_dropped_together_show_together(tmp_path):
+    paths = [tmp_path / name for name in ("a.obj", "b.obj", "broken.obj")]
+    for path, place in zip(paths, (0, 3, 6), strict=True):
+        path.write_text(TRIANGLE.format(place, place + 1))
+    viewer, window = make_viewer()
+    viewer.open([str(path) for path in paths[:2]])
+    assert viewer.studio.subject.title == "a.obj, b.obj"
+    assert faces(viewer) == [1, 1]
+    low, high = viewer.studio.subject.scene.bounds
+    assert (low[0], high[0]) == (0, 4)
+    paths[2].write_text("v 0 0\n")
+    viewer.open([str(path) for path in paths])
+    assert viewer.studio.subject.title == "a.obj, b.obj"
+    assert "broken.obj:1: " in viewer._message
+
+
+def test_help_goes_page_by_page_in_a_small_window():
+    viewer, window = make_viewer()
+    pages = []
+    for _ in range(100):
+        viewer.handle(key("H"))
+        if not viewer.show_help:
+            break
+        viewer.draw()
+        pages.append(window.shown[-1].tobytes())
+    assert not viewer.show_help
+    assert len(set(pages)) == len(pages) == viewer.help_pages > 1
+    viewer.handle(key("H"))
+    viewer.handle(key("H", shift=True))
+    assert not viewer.show_help
+
+
+def test_texts_are_as_large_as_the_screen_is_fine():
+    sizes = []
+    for screen, given in ((1, None), (2, None), (1, 2), (2, 1)):
+        viewer, window = make_viewer([])
+        window.size = (800, 600)
+        window.scale = screen
+        studio = Studio(make_subject(), Settings({}, ui_scale=given), window.size)
+        viewer = Viewer(studio, window)
+        viewer.draw()
+        plain = window.shown[-1]
+        viewer.say("hello")
+        viewer.draw()
+        sizes.append(int((window.shown[-1] != plain).any(axis=2).any(axis=1).sum()))
+    assert sizes[1] == sizes[2] > 1.4 * sizes[0]
+    assert sizes[3] == sizes[0]

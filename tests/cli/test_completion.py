@@ -1,0 +1,74 @@
+"""What shells complete with the scripts that ``engine3d completion`` prints."""
+
+import shutil
+import subprocess
+
+import pytest
+
+from engine3d.cli import main
+from engine3d.cli.completion import command_list
+from engine3d.cli.parser import make_parser
+
+
+def script(shell, capsys):
+    assert main(["completion", shell]) == 0
+    return capsys.readouterr().out
+
+
+def run(shell, code, folder):
+    program = shutil.which(shell) or pytest.skip(f"needs {shell}")
+    done = subprocess.run(
+        [program, "-c", code], capture_output=True, text=True, cwd=folder, timeout=60
+    )
+    assert done.stderr == ""
+    return done.stdout.split("\n")
+
+
+def test_all_commands_and_options_are_listed():
+    commands = {command.name: command for command in command_list()}
+    parsers = make_parser().commands
+    assert commands.keys() - {""} == parsers.keys() and len(parsers) > 5
+    for name, parser in parsers.items():
+        found = {one for option in commands[name].options for one in option.names}
+        assert found == {one for action in parser._actions for one in action.option_strings}
+
+
+def test_bash_completes(tmp_path, capsys):
+    (tmp_path / "model.obj").touch()
+    code = script("bash", capsys)
+    for words, expected in (
+        (["ren"], ["render"]),
+        (["--ver"], ["--version"]),
+        (["render", "--turn"], ["--turntable"]),
+        (["run", "--mode", "n"], ["normal"]),
+        (["run", "--threads", ""], []),
+        (["render", "-o", "mo"], ["model.obj"]),
+        (["render", "mo"], ["model.obj"]),
+        (["completion", "z"], ["zsh"]),
+        (["run", "--wireframe", "mo"], ["model.obj"]),
+    ):
+        typed = " ".join(f"'{word}'" for word in ["engine3d", *words])
+        call = f"COMP_WORDS=({typed}); COMP_CWORD={len(words)}; _engine3d"
+        out = run("bash", f"{code}\n{call}\nprintf '%s\\n' \"${{COMPREPLY[@]}}\"", tmp_path)
+        assert list(filter(None, out)) == expected
+
+
+def test_fish_completes(tmp_path, capsys):
+    (tmp_path / "model.obj").touch()
+    code = script("fish", capsys)
+    for line, expected in (
+        ("ren", "render"),
+        ("render --turn", "--turntable"),
+        ("run --mode n", "normal"),
+        ("render -o mo", "model.obj"),
+        ("completion z", "zsh"),
+    ):
+        out = run("fish", f"{code}\ncomplete -C 'engine3d {line}'", tmp_path)
+        assert [entry.split("\t")[0] for entry in out if entry] == [expected]
+
+
+def test_zsh_takes_the_script(tmp_path, capsys):
+    code = script("zsh", capsys)
+    setup = "autoload -U compinit; compinit -u -D\n"
+    out = run("zsh", f"{setup}{code}\nprint $_comps[engine3d]; whence -w _engine3d", tmp_path)
+    assert out[:2] == ["_engine3d", "_engine3d: function"]

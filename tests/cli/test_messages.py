@@ -1,0 +1,52 @@
+"""What commands say: nothing if quiet, what was probably meant."""
+
+import pytest
+from cli.conftest import OBJ
+
+from engine3d.cli import main
+
+pytestmark = pytest.mark.usefixtures("no_screen")
+SMALL = ("--resolution", "48x32")
+
+
+def test_quiet_prints_errors_only(model, capsys, tmp_path):
+    noisy = tmp_path / "noisy.obj"
+    noisy.write_text("mtllib missing.mtl\n" + OBJ)
+    for arguments in (
+        ["render", str(noisy), *SMALL, "-o", "a.png"],
+        ["run", str(noisy), *SMALL, "--frames", "2"],
+        ["convert", str(noisy), "a.ply"],
+    ):
+        assert main(arguments) == 0
+        assert capsys.readouterr().err != ""
+        assert main([*arguments, "--quiet"]) == 0
+        assert capsys.readouterr() == ("", "")
+    assert main(["render", "nothing.obj", "-o", "a.png", "--quiet"]) == 1
+    assert capsys.readouterr().err.startswith("engine3d: error: nothing.obj: ")
+    assert main(["render", str(noisy), "-o", "a.png", "--quiet", "--verbose"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "meant"),
+    [
+        (["rendr", "a.obj"], "there is no command 'rendr': did you mean render?"),
+        (
+            ["render", "a.obj", "--resolutoin", "3x4"],
+            "--resolutoin 3x4: did you mean --resolution?",
+        ),
+        (["render", "a.obj", "--resolutoin=3x4"], "=3x4: did you mean --resolution?"),
+        (["run", "--mode", "deph"], "did you mean depth?"),
+        (["run", "--scene", "sity"], "did you mean city?"),
+        (["square.obj"], "'square.obj' is no command; to see that file: engine3d run square.obj"),
+    ],
+)
+def test_what_was_probably_meant_is_named(model, capsys, arguments, meant):
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert meant in error and error.count("\n") == 1
+
+
+def test_what_resembles_nothing_gets_no_guess(model, capsys):
+    for arguments in (["zzzz"], ["run", "--zzzz"], ["run", "--mode", "zzzz"]):
+        assert main(arguments) == 2
+        assert "did you mean" not in capsys.readouterr().err

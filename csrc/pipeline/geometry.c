@@ -346,19 +346,23 @@ static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cl
     mark(w, item, fate);
 }
 
-/* Of a group that is hidden, without a look at each cluster where all count. */
-static void count_hidden(walker *w, const e3d_group_box *group, unsigned counted)
+/* Of a group that is hidden, without a look at each cluster where all count and are in the frustum. */
+static void count_hidden(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned counted)
 {
     e3d_counters *counters = &w->worker->counters;
     const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
-    if (counted == (1u << group->clusters) - 1) {
+    const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
+    int inside = item->view.state == E3D_BOX_INSIDE;
+    if (inside && counted == (1u << group->clusters) - 1) {
         counters->clusters[E3D_FATE_OCCLUDED] += group->clusters;
         counters->triangles[E3D_FATE_OCCLUDED] += group->triangles;
         return;
     }
     for (unsigned left = counted; left; left &= left - 1) {
-        counters->clusters[E3D_FATE_OCCLUDED]++;
-        counters->triangles[E3D_FATE_OCCLUDED] += clusters[__builtin_ctz(left)].triangles;
+        const e3d_cluster *cluster = &clusters[__builtin_ctz(left)];
+        int outside = !inside && e3d_box_state(clip, cluster->lo, cluster->hi) == E3D_BOX_OUTSIDE;
+        counters->clusters[outside ? E3D_FATE_OUTSIDE : E3D_FATE_OCCLUDED]++;
+        counters->triangles[outside ? E3D_FATE_OUTSIDE : E3D_FATE_OCCLUDED] += cluster->triangles;
     }
 }
 
@@ -371,7 +375,7 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     unsigned shown = asked;
     e3d_fate fates[E3D_GROUP_CLUSTERS] = {E3D_FATE_DRAWN};
     if (w->context->round.tested && e3d_is_hidden(w->context, &item->view)) {
-        count_hidden(w, group, asked & wanted);
+        count_hidden(w, item, group, asked & wanted);
         return 0;
     }
     w->order = w->instance->order;

@@ -62,7 +62,6 @@ def city(triangles: int | None = None) -> Subject:
         elevation=math.radians(24.0),
         update=traffic.drive,
         period=PERIOD,
-        plays=True,
         follow=lamps.follow,
         walker=functools.cache(lambda: _walker(town)),
         gaze=GAZE,

@@ -170,3 +170,25 @@ def test_edges_alone_count_the_triangles_that_they_are_of(threads):
         edges = counts(renderer.render(scene, view, wireframe="only", hidden_lines=True).stats)
     assert (edges[1:, :3] == faces[1:, :3]).all() and 0 < edges[2, 1] < edges[2, 0]
     assert (edges[1:, 3] == edges[1:, 1]).all()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_in_frustum_does_not_depend_on_what_is_hidden(threads):
+    """Nor on freezing what is culled: large meshes across the sides of the view, behind a wall."""
+    scene = e3d.Scene()
+    scene.add(square(3), translation=(0, 0, -2))
+    mesh = e3d.uv_sphere(1.0, (96, 48))
+    random = np.random.default_rng(4)
+    for place in random.uniform((-14, -9, -14), (14, 9, -6), (60, 3)):
+        scene.add(mesh, translation=place)
+    camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=40.0)
+    with e3d.Renderer(*SIZE, threads=threads) as renderer:
+        for k in range(6):
+            view = camera, e3d.look_at((0.1 * k, 0, 0), (0, 0, -10))
+            expected = counts(renderer.render(scene, view, culling="frustum").stats)[:, 1]
+            for options in ({"culling": "always"}, {}, {"culling_camera": view}):
+                for _ in range(5):
+                    found = counts(renderer.render(scene, view, **options).stats)
+                    assert (found[:, 1] == expected).all()
+            assert (found[:, 2] < found[:, 0]).all()
+    assert 0 < expected[1] < found[1, 0]

@@ -182,10 +182,17 @@ def add_look(parser) -> None:
         help="width of lines and edges, up to 256",
     )
     group.add_argument(
-        "--line-color", type=values.color, metavar="COLOR", help="colour of the edges"
+        "--line-color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour of the edges; by default dark over faces, and in contrast to the background "
+        "without them",
     )
     group.add_argument(
-        "--point-size", type=values.width, metavar="PIXELS", help="size of points, up to 256"
+        "--point-size",
+        type=values.width,
+        metavar="PIXELS",
+        help="size of points, up to 256; by default larger the fewer points there are",
     )
     normals = group.add_mutually_exclusive_group()
     normals.add_argument(

@@ -13,7 +13,7 @@ from ..renderer import Renderer
 from .extent import turning_outline
 from .guides import grid
 from .lighting import Lighting, PlacedLight
-from .look import Look
+from .look import Look, count_points, point_size
 from .settings import Settings
 from .subject import Subject
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
@@ -92,6 +92,7 @@ class Studio:
             self._outline = turning_outline(subject.scene, UP_DIRECTIONS[self.up])
         self._reach = scene_reach(subject.scene) if subject.focus is None else None
         self._grid = None
+        self._points = count_points(subject.scene)
         if self._transparent:
             subject.scene.background = None
         elif settings.background is not None:
@@ -175,7 +176,7 @@ class Studio:
             self.subject.scene,
             (self._camera(view), pose),
             culling_camera=self._culling_camera,
-            **self.look.arguments(),
+            **self.look.arguments(self.subject.scene.background, self.point_size),
         )
         if self.settings.axes or self.settings.metadata:
             self._draw_overlays(frame.canvas(), view)
@@ -183,8 +184,17 @@ class Studio:
             self._report(frame)
         return frame
 
+    @property
+    def point_size(self) -> float:
+        """How large points are, in pixels."""
+        if self.look.point_size is not None:
+            return self.look.point_size
+        return point_size(self._points, self.size)
+
     def _camera(self, view: Viewpoint):
-        return view.camera(self._clip_bounds(), self.subject.nearest)
+        clearance = self.subject.clearance
+        free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
+        return view.camera(self._clip_bounds(), self.subject.nearest, free)
 
     def freeze_culling(self, view: Viewpoint | None) -> None:
         """Draw only what this view shows, wherever it is seen from; None: what each frame shows."""

@@ -57,6 +57,9 @@ class Subject:
         Where the walker looks first: yaw and pitch in radians.
     nearest : float
         World units: inside the scene the near plane is not farther than this.
+    clearance : callable or None
+        Called with the camera's position, (3,) float64 in world space: returns a distance within
+        which nothing is, so that the near plane may be as far as that.
     path : str or None
         The file it came from.
     details : list of str
@@ -79,6 +82,7 @@ class Subject:
     walker: Callable[[], Walker] | None = None
     gaze: tuple[float, float] = (0.0, 0.0)
     nearest: float = math.inf
+    clearance: Callable[[np.ndarray], float] | None = None
     path: str | None = None
     details: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)

@@ -95,7 +95,7 @@ def _scale_lines(viewer, factor: float) -> None:
     look = viewer.studio.look
     low, high = LINE_WIDTHS
     look.line_width = min(high, max(low, look.line_width * factor))
-    look.point_size = min(high, max(low, look.point_size * factor))
+    look.point_size = min(high, max(low, viewer.studio.point_size * factor))
     viewer.say(f"line width: {look.line_width:g}, point size: {look.point_size:g}")
 
 

@@ -98,12 +98,12 @@ class Viewpoint:
         pose[:3, 3] = self.position()
         return pose
 
-    def camera(self, bounds: Sphere, nearest: float = math.inf):
+    def camera(self, bounds: Sphere, nearest: float = math.inf, free: float = 0.0):
         """Return a camera whose clip planes enclose ``bounds`` as seen from here.
 
-        From inside, the near plane is at ``nearest`` or nearer.
+        From inside, the near plane is at ``nearest`` or nearer, but not nearer than ``free``.
         """
-        znear, zfar = clip_planes(self.position(), bounds, nearest)
+        znear, zfar = clip_planes(self.position(), bounds, nearest, free)
         if self.orthographic:
             ymag = self.distance * math.tan(self.yfov / 2)
             return OrthographicCamera(ymag, znear=-zfar, zfar=zfar)  # what is behind shows too
@@ -163,6 +163,11 @@ class Viewpoint:
         self.target = center + axes[0] * x + axes[1] * y
         self.distance = FRAMING_MARGIN * distance or 1.0
 
+    def stretch(self, aspect: float) -> float:
+        """Return how many times farther away the corner of a picture's plane is than its middle."""
+        across, upward = self._slopes(aspect)
+        return math.sqrt(1.0 + across * across + upward * upward)
+
     def _slopes(self, aspect: float) -> tuple[float, float]:
         slope = math.tan(self.yfov / 2)
         return slope * aspect, slope
@@ -204,13 +209,15 @@ class Viewpoint:
         self.azimuth = math.atan2(_dot(offset, right), _dot(offset, front))
 
 
-def clip_planes(position, bounds: Sphere, nearest: float = math.inf) -> tuple[float, float]:
+def clip_planes(
+    position, bounds: Sphere, nearest: float = math.inf, free: float = 0.0
+) -> tuple[float, float]:
     """Return the near and far distances that enclose ``bounds`` as seen from ``position``."""
     offset = np.asarray(position, dtype=np.float64) - np.array(bounds.center)
     distance = float(linalg.length(offset))
     zfar = (distance + bounds.radius) * 1.01
-    znear = max((distance - bounds.radius) * 0.99, min(zfar * 5e-4, nearest))
-    return znear, zfar
+    znear = max((distance - bounds.radius) * 0.99, min(zfar * 5e-4, nearest), free)
+    return min(znear, zfar * 0.5), zfar
 
 
 def _dot(a, b) -> float:

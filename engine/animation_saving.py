@@ -1,4 +1,4 @@
-"""The function that saves animations: frames in, one file out.
+"""The function that saves animations: frames in, one file out, or one for each of them.
 
 In: frames, or their pixels, as they are drawn. Out: an animated file, whole or not at all.
 `display.animation_files` encodes; this checks what callers give.
@@ -26,7 +26,7 @@ def save_animation(
     *,
     fps: float = 25.0,
 ) -> None:
-    """Write frames to an animated file that repeats without end, whole or not at all.
+    """Write frames to an animated file, whole or not at all, or to numbered pictures.
 
     Parameters
     ----------
@@ -34,25 +34,33 @@ def save_animation(
         At least one, all of one size. Of a frame its colour counts; an array is RGBA, top row
         first. They are asked for one after another, so a generator may draw them.
     path : str or path-like
-        The suffix decides the format: .gif, .webp or .apng.
+        The suffix decides the format: .gif, .webp and .apng repeat without end; .mp4 needs
+        ``pip install engine3d[video]``, leaves out alpha, and has even sides (a warning says so
+        where a row or column is doubled). A picture's name with a place for a number, such as
+        ``frame_{:04}.png`` or ``frame_%04d.png``, gives a picture for each frame, from number 0.
     fps : float
-        Frames per second, greater than 0 and at most 50: viewers of GIF files show nothing faster.
+        Frames per second, greater than 0 and at most 50, since viewers of GIF files show nothing
+        faster; at most 240 for .mp4.
 
     Raises
     ------
     InvalidArgumentError
         The suffix is none of those, there is no frame, or the frames differ in size.
     FileAccessError
-        The file cannot be written.
+        The file cannot be written, or MP4 lacks what it needs.
     """
-    formats = animation_files.ANIMATION_FORMATS
-    suffix = os.path.splitext(checked_path(path))[1].lower()
+    path = checked_path(path)
+    numbered = animation_files.is_numbered(path)
+    formats = animation_files.PICTURE_SUFFIXES if numbered else animation_files.ANIMATION_SUFFIXES
+    suffix = os.path.splitext(path)[1].lower()
     if suffix not in formats:
+        what = "a numbered picture" if numbered else "an animation"
         raise InvalidArgumentError(
-            f"an animation's suffix is one of {', '.join(formats)}, not {suffix!r}"
+            f"{what}'s suffix is one of {', '.join(formats)}, not {suffix!r}"
         )
-    if not isinstance(fps, numbers.Real) or not 0.0 < fps <= 50.0 or not math.isfinite(1.0 / fps):
-        raise InvalidArgumentError(f"fps must be greater than 0 and at most 50, not {fps!r}")
+    most = 240.0 if suffix == animation_files.VIDEO_SUFFIX else 50.0
+    if not isinstance(fps, numbers.Real) or not 0.0 < fps <= most or not math.isfinite(1.0 / fps):
+        raise InvalidArgumentError(f"fps must be greater than 0 and at most {most:g}, not {fps!r}")
     if isinstance(frames, Frame) or not isinstance(frames, Iterable):
         raise InvalidArgumentError(f"frames must be an iterable of frames, not {frames!r}")
     animation_files.save_animation(_pictures(frames), path, 1.0 / float(fps))

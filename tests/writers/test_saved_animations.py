@@ -41,6 +41,8 @@ def test_arrays_do_as_well_as_frames(tmp_path):
     [
         (turned(1), "a.avi", 25, "suffix is one of .gif, .webp, .apng"),
         (turned(1), "a", 25, "suffix"),
+        (turned(1), "a%d.gif", 25, "a numbered picture's suffix is one of .png"),
+        (turned(1), "a.mp4", 241, "fps must be greater than 0 and at most 240"),
         (turned(1), "a.gif", 0, "fps"),
         (turned(1), "a.gif", 60, "fps"),
         (turned(1), "a.gif", "fast", "fps"),
@@ -56,6 +58,22 @@ def test_what_is_no_animation_leaves_no_file(tmp_path, frames, name, fps, messag
     with pytest.raises(e3d.InvalidArgumentError, match=message):
         e3d.save_animation(frames, tmp_path / name, fps=fps)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_for_each_frame(tmp_path):
+    e3d.save_animation(turned(3), tmp_path / "turn_{:03}.png")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"turn_00{k}.png" for k in range(3)]
+    for number, frame in enumerate(turned(3)):
+        assert (tmp_path / f"turn_00{number}.png").read_bytes() == frame.encode("png")
+
+
+def test_a_video(tmp_path):
+    pytest.importorskip("imageio_ffmpeg", reason="needs engine3d[video]")
+    import imageio_ffmpeg
+
+    e3d.save_animation(turned(6), tmp_path / "turn.mp4", fps=60)
+    count, seconds = imageio_ffmpeg.count_frames_and_secs(tmp_path / "turn.mp4")
+    assert count == 6 and seconds == pytest.approx(0.1, abs=0.02)
 
 
 def test_a_frame_is_not_an_animation(tmp_path):

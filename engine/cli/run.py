@@ -95,7 +95,8 @@ def _show(args: argparse.Namespace, subject, report: Report) -> None:
             statistics=args.fps,
             files=ModelFiles(args.models, watch=args.watch, **options.opening(args)),
         )
-        viewer.say("H: help")
+        still = subject.update is not None and not viewer.playing
+        viewer.say("H: help" + ("; Space: play" if still else ""))
         viewer.run(args.frames)
 
 

@@ -21,7 +21,7 @@ LIGHTS = 256
 CARS_AT_LEAST = 40
 LAMP = {"color": (1.0, 0.74, 0.42), "intensity": 1.5, "range": 17.0, "falloff": "window"}
 #: The share of the way to the nearest lamp that is dark on which lamps grow dim.
-FADE = 0.35
+FADE = 0.25
 _HEADLIGHT = {"color": (0.95, 0.95, 1.0), "intensity": 1.2, "range": 14.0, "falloff": "window"}
 _TAIL_LIGHT = {"color": (1.0, 0.08, 0.05), "intensity": 0.5, "range": 5.0, "falloff": "window"}
 _TAXI_SIGN = {"color": (1.0, 0.82, 0.35), "intensity": 0.4, "range": 5.0, "falloff": "window"}
@@ -64,7 +64,7 @@ class Lamps:
 
     def follow(self, eye: np.ndarray) -> None:
         """Let the lamps nearest to ``eye`` shine, the dimmer the nearer they are to the last."""
-        offsets = self._lamps - eye
+        offsets = (self._lamps - eye) * (1.0, 0.0, 1.0)  # over the ground: all are equally high
         distances = np.sqrt(linalg.dot(offsets, offsets))
         order = np.argsort(distances, kind="stable")
         # In the lamps' own order: what shines is a function of the eye alone, not of its way there.

@@ -64,7 +64,7 @@ GESTURES = (
     ("left drag", "orbit"),
     ("wheel", "approach (also middle drag)"),
     ("right drag", "pan (also Shift+left)"),
-    ("drop", "open a file"),
+    ("drop", "open files"),
 )
 #: Arrow keys in orbit mode: radians of azimuth and elevation.
 ORBIT_ARROWS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}

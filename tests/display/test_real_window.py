@@ -13,6 +13,8 @@ import pytest
 from patience import HUNG
 from PIL import Image, ImageGrab, features
 
+from engine3d.canvas import Canvas
+from engine3d.display.help_panel import draw_help
 from engine3d.display.viewer import MESSAGE_SECONDS
 
 MISSING = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
@@ -155,7 +157,8 @@ def test_keys_mouse_and_screenshot(desktop):
     first = desktop.settle()
     assert 0.1 < covered(first) / (WINDOW[0] * WINDOW[1]) < 0.9
     assert (desktop.press("h") != first).sum() > 1000
-    desktop.press("h")
+    for _ in range(draw_help(Canvas(*WINDOW))):
+        desktop.press("h")
     plain = desktop.without_message()
     assert (desktop.drag(1, 60, 20) != plain).any()
     desktop.do("click", 4, "click", 4, "click", 4)
@@ -197,6 +200,64 @@ def test_walking_resizing_hiding_and_turning(desktop):
     assert covered(turned) > 0
     ask_to_close(desktop)
     assert desktop.finish() == (0, b"")
+
+
+def title(desktop):
+    return desktop.do("getwindowname", desktop.window).strip()
+
+
+def test_a_number_of_frames_ends_though_nothing_moves(screen, tmp_path):
+    (tmp_path / "cube.obj").write_text(CUBE)
+    environment = {**os.environ, "DISPLAY": screen}
+    command = [sys.executable, "-m", "engine3d", "run", "cube.obj", "--frames", "3"]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+
+
+def processor_ticks(process):
+    with open(f"/proc/{process.pid}/stat") as file:
+        fields = file.read().rpartition(")")[2].split()
+    return int(fields[11]) + int(fields[12])
+
+
+@pytest.mark.parametrize("camera", ["fps", "orbit"])
+def test_who_stands_still_in_the_city_costs_nothing(screen, tmp_path, camera):
+    arguments = ["--scene", "city", "--triangles", "100000", "--camera", camera]
+    desktop = Desktop(screen, tmp_path, *arguments, "--resolution", "400x300")
+    try:
+        desktop.without_message()
+        before, start = processor_ticks(desktop.process), time.monotonic()
+        time.sleep(3.0)
+        spent = (processor_ticks(desktop.process) - before) / os.sysconf("SC_CLK_TCK")
+        assert spent < 0.02 * (time.monotonic() - start)
+        assert "city - engine3d - idle, last frame" in title(desktop)
+    finally:
+        desktop.process.kill()
+        desktop.process.communicate()
+
+
+def test_a_small_window_shows_all_keys_and_what_is_wrong_with_the_file(screen, tmp_path):
+    (tmp_path / "cube.obj").write_text(CUBE)
+    desktop = Desktop(screen, tmp_path, "cube.obj", "--resolution", "320x240", "--watch")
+    try:
+        plain = desktop.without_message()
+        pages = []
+        while (desktop.press("h") != plain).any():
+            pages.append(desktop.settle().tobytes())
+        assert len(set(pages)) == len(pages) > 2
+        (tmp_path / "cube.obj").write_text("v 1 2\n")
+        desktop.wait_for_change(plain)
+        broken = desktop.without_message()
+        assert (broken != plain).any()
+        (tmp_path / "cube.obj").write_text(CUBE)
+        desktop.wait_for_change(broken)
+        assert (desktop.without_message() == plain).all()
+        desktop.do("key", "q")
+        assert desktop.finish() == (0, b"")
+    finally:
+        if desktop.process.poll() is None:
+            desktop.process.kill()
+            desktop.process.communicate()
 
 
 def ask_to_close(desktop):

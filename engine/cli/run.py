@@ -48,6 +48,9 @@ def _check(args: argparse.Namespace) -> None:
             check_picture(args.output, series="--frames 2 or more")
         else:
             check_animation(args.output)
+    for option, given in (("--watch", args.watch), ("--fps", args.fps)):
+        if given and args.headless:
+            raise UsageError(f"{option} needs a window: it does not go with --headless")
     if args.watch and (not args.models or STANDARD_INPUT in args.models):
         raise UsageError("--watch needs a MODEL that is a file")
 

@@ -216,8 +216,8 @@ def clip_planes(
     offset = np.asarray(position, dtype=np.float64) - np.array(bounds.center)
     distance = float(linalg.length(offset))
     zfar = (distance + bounds.radius) * 1.01
-    znear = max((distance - bounds.radius) * 0.99, min(zfar * 5e-4, nearest), free)
-    return min(znear, zfar * 0.5), zfar
+    znear = max((distance - bounds.radius) * 0.99, min(zfar * 5e-4, nearest), min(free, zfar * 0.5))
+    return znear, zfar
 
 
 def _dot(a, b) -> float:

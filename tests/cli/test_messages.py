@@ -50,3 +50,9 @@ def test_what_resembles_nothing_gets_no_guess(model, capsys):
     for arguments in (["zzzz"], ["run", "--zzzz"], ["run", "--mode", "zzzz"]):
         assert main(arguments) == 2
         assert "did you mean" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--watch", "--fps"])
+def test_options_of_the_window_do_nothing_unseen(model, capsys, option):
+    assert main(["run", str(model), "--headless", option, "--frames", "1", "-o", "a.png"]) == 2
+    assert f"{option} needs a window" in capsys.readouterr().err

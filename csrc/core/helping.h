@@ -10,31 +10,37 @@
 
 #include <stdint.h>
 
+/* Nanoseconds of jobs. */
+typedef struct e3d_job_times {
+    int64_t own, all;        /* of CPUs: the caller's, and that of all threads */
+    int64_t working, passed; /* the caller's, without and with waiting for helpers */
+} e3d_job_times;
+
 typedef struct e3d_helping {
     int alone;             /* how jobs are done now: without helpers; */
     double rate[2];        /* what each way gets of the CPUs, lately; 0: not measured yet */
-    int64_t used, passed;  /* since the last measurement */
+    double share;          /* what the caller has of its own as long as it does not wait */
+    e3d_job_times times;   /* since the last measurement */
     int64_t try_at, pause; /* when the other way is tried again, and how long it was until then */
 } e3d_helping;
 
-/* Helpers are let go only for what is plainly better: a single thread never gets more than one CPU. */
-#define E3D_GOOD_RATE 0.7
-#define E3D_PLAINLY 1.1
+/* Nothing is tried as long as helpers get much done, or plainly more than the caller would go on to do meanwhile. Alone is chosen
+ * for what is plainly better only. */
+#define E3D_MUCH 0.7
+#define E3D_PLAINLY_MORE 1.2
+#define E3D_PLAINLY_BETTER 1.1
 
-/* After a job. The longer it stays the same, the seldomer the other way is tried. */
-static inline void e3d_helping_note(e3d_helping *h, int64_t used, int64_t passed, int64_t now)
+static inline int e3d_helping_pays(const e3d_helping *h)
 {
-    enum { HELPED_NS = 50000000, ALONE_NS = 150000000, SHORTEST_NS = 200000000 }; /* a scheduler takes its time to move others */
+    return h->rate[0] >= E3D_MUCH || h->rate[0] >= E3D_PLAINLY_MORE * h->share;
+}
+
+/* The next way, after a measurement of this one. The longer it stays the same, the seldomer the other is tried. */
+static inline void e3d_helping_choose(e3d_helping *h, int64_t now)
+{
+    enum { SHORTEST_NS = 200000000 };
     const int64_t longest_ns = 3200000000;
-    h->used += used;
-    h->passed += passed;
-    if (h->passed < (h->alone ? ALONE_NS : HELPED_NS))
-        return;
-    double rate = (double)h->used / (double)h->passed, *mean = &h->rate[h->alone];
-    int better = !h->alone && rate >= E3D_GOOD_RATE && *mean < E3D_GOOD_RATE;
-    *mean = *mean == 0 || better ? rate : *mean + (rate - *mean) / 4;
-    h->used = h->passed = 0;
-    if (!h->alone && *mean >= E3D_GOOD_RATE) {
+    if (!h->alone && e3d_helping_pays(h)) {
         h->pause = 0;
     } else if (now >= h->try_at) {
         h->pause = h->pause ? 2 * h->pause : SHORTEST_NS;
@@ -42,8 +48,29 @@ static inline void e3d_helping_note(e3d_helping *h, int64_t used, int64_t passed
         h->try_at = now + h->pause;
         h->alone = !h->alone;
     } else {
-        h->alone = h->rate[1] > E3D_PLAINLY * h->rate[0];
+        h->alone = h->rate[1] > E3D_PLAINLY_BETTER * h->rate[0];
     }
+}
+
+/* After a job. */
+static inline void e3d_helping_note(e3d_helping *h, const e3d_job_times *job, int64_t now)
+{
+    enum { HELPED_NS = 50000000, ALONE_NS = 150000000 }; /* a scheduler takes its time to move others */
+    e3d_job_times *sum = &h->times;
+    sum->own += job->own;
+    sum->all += job->all;
+    sum->working += job->working;
+    sum->passed += job->passed;
+    if (sum->passed < (h->alone ? ALONE_NS : HELPED_NS))
+        return;
+    double rate = (double)sum->all / (double)sum->passed, *mean = &h->rate[h->alone];
+    double share = (double)sum->own / (double)sum->working;
+    int better = !h->alone && rate >= E3D_MUCH && *mean < E3D_MUCH;
+    *mean = *mean == 0 || better ? rate : *mean + (rate - *mean) / 4;
+    if (!h->alone)
+        h->share = h->share == 0 || better ? share : h->share + (share - h->share) / 4;
+    *sum = (e3d_job_times){0};
+    e3d_helping_choose(h, now);
 }
 
 #endif

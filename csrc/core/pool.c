@@ -210,6 +210,20 @@ static void post_job(int helpers, void (*work)(void *, int), void *argument)
     atomic_store(&pool.posted, pool.job);
 }
 
+/* As the pool's owner. */
+static void run_job(int helpers, void (*work)(void *, int), void *argument)
+{
+    int64_t began = e3d_now_ns(), used = e3d_thread_ns();
+    if (helpers)
+        post_job(helpers, work, argument);
+    work(argument, 0);
+    e3d_job_times times = {.own = e3d_thread_ns() - used, .working = e3d_now_ns() - began};
+    times.all = times.own + (helpers ? await_helpers() : 0);
+    int64_t now = e3d_now_ns();
+    times.passed = now - began;
+    e3d_helping_note(&pool.helping, &times, now);
+}
+
 static e3d_pool_runner borrowed; /* NULL: this copy's own pool */
 
 void e3d_pool_borrow(e3d_pool_runner runner) { borrowed = runner; }
@@ -227,16 +241,7 @@ void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
         work(argument, 0);
         return;
     }
-    int64_t began = e3d_now_ns(), used = e3d_thread_ns();
-    int alone = pool.helping.alone;
-    if (!alone)
-        post_job(threads - 1, work, argument);
-    work(argument, 0);
-    used = e3d_thread_ns() - used;
-    if (!alone)
-        used += await_helpers();
-    int64_t now = e3d_now_ns();
-    e3d_helping_note(&pool.helping, used, now - began, now);
+    run_job(pool.helping.alone ? 0 : threads - 1, work, argument);
     pthread_mutex_unlock(&pool.owner);
 }
 

@@ -15,7 +15,7 @@ from e3d cimport (
     E3D_OK, e3d_backend, e3d_filter, e3d_light, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_wrap
 )
 from e3d_clusters cimport *
-from e3d_helping cimport e3d_helping, e3d_helping_note
+from e3d_helping cimport e3d_helping, e3d_helping_note, e3d_job_times
 from e3d_kernels cimport *
 
 cdef extern from *:
@@ -650,10 +650,16 @@ cdef mesh_parts(const e3d_mesh_parts *mesh, int32_t faces_count, int components)
 def jobs_alone(const double[:, ::1] rates, int64_t passed, uint8_t[::1] alone):
     """Tell which jobs are done without helpers, if each takes so many nanoseconds.
 
-    rates: (n, 2), what a job gets of the CPUs with helpers and without; alone: (n,).
+    rates: (n, 3), what a job gets of the CPUs with helpers, what its caller does who waits for them half of the time, and
+    what it does alone; alone: (n,).
     """
     cdef e3d_helping helping
+    cdef e3d_job_times job
     memset(&helping, 0, sizeof(helping))
     for i in range(alone.shape[0]):
         alone[i] = helping.alone
-        e3d_helping_note(&helping, <int64_t>(rates[i, helping.alone] * passed), passed, (i + 1) * passed)
+        job.passed = passed
+        job.working = passed if helping.alone else passed // 2
+        job.all = <int64_t>(rates[i, 2 * helping.alone] * passed)
+        job.own = job.all if helping.alone else <int64_t>(rates[i, 1] * job.working)
+        e3d_helping_note(&helping, &job, (i + 1) * passed)

@@ -7,8 +7,6 @@ as its loaders make them of the numbers in files; vertex colours are sRGB bytes 
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from .colors import linear_color, srgb_bytes
@@ -16,25 +14,12 @@ from .errors import InvalidArgumentError
 from .linalg import normal_matrix, transform_directions, transform_points
 from .loaders.images import check_image_size, rgba_pixels
 from .loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
+from .loaders.posed_parts import PosedPart
+from .loaders.warning_list import WarningList
 from .materials import Material
 from .mesh import Mesh
 from .normals import unit_vectors
 from .textures import Texture
-
-
-class TrimeshPart(NamedTuple):
-    """One node of a trimesh scene.
-
-    Attributes
-    ----------
-    name : str
-    mesh : Mesh
-    pose : (4, 4) float64
-    """
-
-    name: str
-    mesh: Mesh
-    pose: np.ndarray
 
 
 def mesh_from_trimesh(geometry) -> Mesh:
@@ -45,16 +30,19 @@ def mesh_from_trimesh(geometry) -> Mesh:
     return _mesh(geometry, "", _Textures())
 
 
-def scene_parts(scene) -> list[TrimeshPart]:
-    """Return the nodes of a trimesh scene; those of the same geometry share a mesh."""
+def scene_parts(scene, warnings: WarningList | None = None) -> list[PosedPart]:
+    """Return the nodes of a trimesh scene; those of the same geometry share a mesh.
+
+    With ``warnings``, images that cannot be read are left out.
+    """
     meshes: dict[str, Mesh] = {}
-    textures = _Textures()
+    textures = _Textures(warnings)
     parts = []
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]
         if name not in meshes:
             meshes[name] = _mesh(scene.geometry[name], str(name), textures)
-        parts.append(TrimeshPart(str(node), meshes[name], np.array(pose, np.float64)))
+        parts.append(PosedPart(str(node), meshes[name], np.array(pose, np.float64)))
     return parts
 
 
@@ -180,17 +168,28 @@ def _linear(color) -> tuple[float, float, float]:
 class _Textures:
     """The textures of images of Pillow's, one for each that several materials share."""
 
-    def __init__(self) -> None:
+    def __init__(self, warnings: WarningList | None = None) -> None:
+        self._warnings = warnings
         # The image is kept, too: another could get its identity.
-        self._textures: dict[int, tuple[object, Texture]] = {}
+        self._textures: dict[int, tuple[object, Texture | None]] = {}
 
-    def get(self, image) -> Texture:
+    def get(self, image) -> Texture | None:
         if id(image) not in self._textures:
-            name = str(getattr(image, "name", None) or "")
-            check_image_size(*image.size, "texture")
-            pixels = rgba_pixels(image, "texture")
-            self._textures[id(image)] = (image, Texture(pixels, name=name))
+            self._textures[id(image)] = (image, self._texture(image))
         return self._textures[id(image)][1]
+
+    def _texture(self, image) -> Texture | None:
+        name = str(getattr(image, "name", None) or "")
+        try:
+            check_image_size(*image.size, "texture")
+            return Texture(rgba_pixels(image, "texture"), name=name)
+        # Pillow decodes an image only now, and raises what damaged ones lead it to.
+        except Exception as error:
+            if self._warnings is None:
+                raise
+            reason = str(error) or type(error).__name__
+            self._warnings.add(f"texture {name!r} is left out: {reason}")
+            return None
 
 
 def mesh_to_trimesh(mesh: Mesh):

@@ -11,9 +11,10 @@ from __future__ import annotations
 import os
 import re
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import contextmanager
 from contextvars import ContextVar
+from urllib.parse import unquote
 
 from ..errors import FileAccessError
 from .open_files import unreadable
@@ -37,6 +38,13 @@ def found_files(note: Callable[[str], object]):
         yield
     finally:
         _listeners.reset(token)
+
+
+def tell_found(paths: Iterable[str]) -> None:
+    """Call what `found_files` was given with paths that were found elsewhere."""
+    for path in paths:
+        for note in _listeners.get():
+            note(path)
 
 
 class LinkedFileError(Exception):
@@ -79,8 +87,7 @@ class LinkedFiles:
             raise LinkedFileError("not looked for, too many files are missing")
         try:
             path = self._find(name, self.root if folder is None else folder)
-            for note in _listeners.get():
-                note(path)
+            tell_found([path])
             return path
         except LinkedFileError:
             self._failures += 1
@@ -122,6 +129,21 @@ class LinkedFiles:
         if os.path.commonpath([self._real_root, real]) != self._real_root:
             raise LinkedFileError("a path that leaves the model's folder is refused")
         return real
+
+    def find_uri(self, uri: str) -> str:
+        """Return the path of the file beside the model that a URI, or a plain name, means.
+
+        Raises
+        ------
+        LinkedFileError
+        """
+        try:
+            return self.find(uri)
+        except LinkedFileError:
+            plain = unquote(uri)
+            if plain == uri:
+                raise
+            return self.find(plain)
 
     def _find(self, name: str, folder: str) -> str:
         name = name.strip().strip('"').replace("\\", "/")

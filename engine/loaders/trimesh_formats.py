@@ -1,48 +1,44 @@
-"""glTF and other formats that the package trimesh reads, where it is installed.
+"""COLLADA, 3MF and other formats that the package trimesh reads, where it is installed.
 
-In: the bytes of a file. Out: a `Document` with one object for each node. trimesh is imported when
-the first such file is read. The files that one of them names are looked for as for any model: in
-its folder only.
+In: the bytes of a file. Out: a `Document` with one object for each node. trimesh and the libraries
+that it calls are given a process of their own, see `limited_process`: a few hundred bytes can lead
+them to any amount of memory and time. The files that a model names are looked for as for any model:
+in its folder only.
 """
 
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import io
-import json
 import logging
-import os
-from urllib.parse import unquote
-
-import numpy as np
+import zipfile
 
 from ..errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
-from ..materials import says_something
-from .documents import Document, DocumentObject
-from .gltf_limits import announced
+from . import sources
+from .documents import Document
+from .limited_process import in_limited_process
 from .linked_files import LinkedFileError, LinkedFiles
-from .linked_textures import give_companion_texture
-from .registry import Reader
+from .posed_parts import MAX_REPEATED, counts_of, document_objects
+from .registry import Reader, find_reader
 from .sources import Source
-from .text import shown
 from .warning_list import WarningList
 
 # What trimesh reads by itself, and what it reads with further packages.
-_EXTENSIONS = (".glb", ".gltf", ".xyz", ".dxf", ".dae", ".zae", ".3mf", ".3dxml", ".xaml")
-_GLB = b"glTF"
+_EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3mf", ".3dxml", ".xaml")
 # What files of a kind begin with, if anything.
-_BEGINNINGS = {"glb": _GLB, **dict.fromkeys(("3mf", "3dxml", "zae"), b"PK")}
-_BEGINNINGS |= dict.fromkeys(("dae", "xaml"), b"<")
-# A file may announce, and its nodes may repeat, so many numbers and vertices, and besides as many
-# as it has bytes. Assign another value to change it.
-MAX_REPEATED = 1 << 20
+_ZIP = b"PK"
+_BEGINNINGS = {
+    **dict.fromkeys(("3mf", "3dxml", "zae"), _ZIP),
+    **dict.fromkeys(("dae", "xaml"), b"<"),
+}
 # Letters of what trimesh says that are passed on.
 _SAID = 200
 _BYTE_ORDER_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
 
 
 def read_with_trimesh(source: Source, split: bool = False) -> Document:
-    """Read a file with trimesh.
+    """Read a file with trimesh, in a process of its own.
 
     Parameters
     ----------
@@ -53,19 +49,32 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
     Raises
     ------
     FileFormatError
-        It is damaged, or trimesh is not installed or lacks a package for it.
+        It is damaged, needs more memory or time than it may, or trimesh is not installed or lacks
+        a package for it.
     """
-    trimesh = _trimesh(source)
-    from ..trimesh_conversion import posed_mesh, scene_parts
-
-    kind = "glb" if source.data.startswith(_GLB) else source.extension.removeprefix(".") or "glb"
+    kind = source.extension.removeprefix(".")
     _check_beginning(source, kind)
+    if importlib.util.find_spec("trimesh") is None:
+        raise FileFormatError(
+            f"{source.extension or 'such'} files need the package trimesh: "
+            "pip install engine3d[formats]",
+            source.path,
+        )
+    return in_limited_process(read_here, source, split, size=_unpacked_size(source))
+
+
+def read_here(source: Source, split: bool) -> Document:
+    """Read a file with trimesh in this process."""
+    import trimesh
+
+    from ..trimesh_conversion import scene_parts
+
+    kind = source.extension.removeprefix(".")
     if kind not in trimesh.available_formats():
         raise FileFormatError(
             f"trimesh needs further packages for {kind} files: pip install trimesh[easy]",
             source.path,
         )
-    limit = _limit(source, kind)
     warnings = WarningList(source.path)
     try:
         with _said(warnings):
@@ -76,10 +85,10 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
                 process=False,
             )
         scene = loaded if isinstance(loaded, trimesh.Scene) else trimesh.Scene(loaded)
-        parts = scene_parts(scene)
+        parts = scene_parts(scene, warnings)
     except InvalidArgumentError as error:
         raise FileFormatError(f"damaged: {error}", source.path) from error
-    except Engine3DError:
+    except (Engine3DError, MemoryError):
         raise
     except FileNotFoundError as error:
         raise FileFormatError(f"trimesh cannot read it: {error}", source.path) from error
@@ -88,76 +97,34 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
         said = " ".join(str(error).split())
         reason = f"{type(error).__name__}: {said}" if said else type(error).__name__
         raise FileFormatError(
-            f"damaged, or no {kind} file (trimesh ended with {reason})", source.path
-        ) from error
-    _check_parts(source, parts, None if split else limit)
-    objects = [
-        DocumentObject(part.name, part.mesh, part.pose)
-        if split
-        else DocumentObject(part.name, posed_mesh(part.mesh, part.pose))
-        for part in parts
-    ]
-    if not any(len(entry.mesh.positions) for entry in objects):
-        raise FileFormatError("no vertices in this file", source.path)
-    materials = [material for entry in objects for material in entry.mesh.materials]
-    if any(entry.mesh.uvs is not None for entry in objects) and not any(
-        map(says_something, materials)
-    ):
-        give_companion_texture(source, materials, warnings)
-    counts = {
-        "vertices": sum(len(entry.mesh.positions) for entry in objects),
-        "faces": sum(len(entry.mesh.faces) for entry in objects),
-        "triangles": sum(len(entry.mesh.faces) for entry in objects),
-        "objects": [entry.name for entry in objects],
-    }
-    return Document(kind, objects, counts=counts, warnings=warnings.messages())
-
-
-def _limit(source: Source, kind: str) -> int:
-    """How many vertices the file may have in the end; refuses glTF that announces more numbers."""
-    if kind not in ("glb", "gltf"):
-        return MAX_REPEATED + source.size
-    numbers, names = announced(source.data)
-    limit = MAX_REPEATED + source.size + _sizes_of(names, source)
-    if numbers > limit:
-        raise FileFormatError(
-            f"announces {numbers} numbers, more than the limit for its size, {limit}", source.path
-        )
-    return limit
-
-
-def _sizes_of(names: list[str], source: Source) -> int:
-    """The bytes of the files beside the model that bear these names."""
-    files, total = LinkedFiles(source.folder), 0
-    for name in names:
-        with contextlib.suppress(LinkedFileError, OSError):
-            total += os.path.getsize(_find(files, name))
-    return total
-
-
-def _find(files: LinkedFiles, name: str) -> str:
-    """A file that is named as it is, or as a URI."""
-    try:
-        return files.find(name)
-    except LinkedFileError:
-        plain = unquote(name)
-        if plain == name:
-            raise
-        return files.find(plain)
-
-
-def _check_parts(source: Source, parts, most_vertices: int | None) -> None:
-    """Refuse poses that are none, and nodes that repeat their meshes without end."""
-    for part in parts:
-        if not (np.isfinite(part.pose).all() and np.array_equal(part.pose[3], (0, 0, 0, 1))):
-            raise FileFormatError(f"node {shown(part.name)} has no affine pose", source.path)
-    vertices = sum(len(part.mesh.positions) for part in parts)
-    if most_vertices is not None and vertices > most_vertices:
-        raise FileFormatError(
-            f"{vertices} vertices where meshes are repeated: one mesh of them is limited to "
-            f"{most_vertices}; load_scene keeps the meshes apart",
+            f"damaged, or no {kind} file (trimesh ended with {printable(reason[:_SAID])})",
             source.path,
+        ) from error
+    objects = document_objects(source, parts, MAX_REPEATED + source.size, split)
+    return Document(kind, objects, counts=counts_of(objects), warnings=warnings.messages())
+
+
+def _unpacked_size(source: Source) -> int:
+    """The bytes that a file unpacks to if it is a ZIP archive, else its own.
+
+    Raises
+    ------
+    FileFormatError
+        They are too many, or the archive is damaged.
+    """
+    if source.head(len(_ZIP)) != _ZIP:
+        return source.size
+    try:
+        with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
+            total = sum(entry.file_size for entry in archive.infolist())
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
+        raise FileFormatError(f"damaged archive: {error}", source.path) from error
+    limit = sources.MAX_UNPACKED_BASE + sources.MAX_UNPACKED_RATIO * source.size
+    if total > limit:
+        raise FileFormatError(
+            f"unpacks to more than {limit} bytes, the limit for its size", source.path
         )
+    return total
 
 
 @contextlib.contextmanager
@@ -175,33 +142,14 @@ def _said(warnings: WarningList):
 
 def _check_beginning(source: Source, kind: str) -> None:
     """Refuse what is no such file at all: trimesh would find fault with something else."""
-    if kind == "gltf":
-        try:
-            is_sound = isinstance(json.loads(source.data), dict)
-        except (ValueError, RecursionError):
-            is_sound = False
-    else:
-        head = source.data[:64]
-        is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
-        is_sound = is_marked or head.lstrip().startswith(_BEGINNINGS.get(kind, b""))
-    if not is_sound:
+    head = source.head(64)
+    is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
+    if not is_marked and not head.lstrip().startswith(_BEGINNINGS.get(kind, b"")):
         raise FileFormatError(f"not a {kind} file", source.path)
 
 
-def _trimesh(source: Source):
-    try:
-        import trimesh
-    except ImportError:
-        raise FileFormatError(
-            f"{source.extension or 'glTF'} files need the package trimesh: "
-            "pip install engine3d[formats]",
-            source.path,
-        ) from None
-    return trimesh
-
-
 def _resolver(trimesh, source: Source, warnings: WarningList):
-    """Gives trimesh the files beside the model, and no others."""
+    """Gives trimesh the images beside the model, and nothing else."""
     files = LinkedFiles(source.folder)
 
     class FolderResolver(trimesh.resolvers.Resolver):
@@ -210,7 +158,7 @@ def _resolver(trimesh, source: Source, warnings: WarningList):
 
         def get(self, name):
             try:
-                return files.read(_find(files, str(name))).data
+                return _image(files.read(files.find_uri(str(name))))
             except (LinkedFileError, Engine3DError) as error:
                 warnings.add(f"{name!r}: {error}")
                 raise FileNotFoundError(f"{name!r}: {error}") from None
@@ -227,17 +175,22 @@ def _resolver(trimesh, source: Source, warnings: WarningList):
     return FolderResolver()
 
 
-def _is_glb(head: bytes) -> bool:
-    return head.startswith(_GLB)
+def _image(source: Source) -> bytes:
+    """An image as trimesh can open it, decoded as all others are."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    pixels = find_reader(source, "image").read(source)
+    Image.fromarray(pixels).save(file, "PNG", compress_level=0)
+    return file.getvalue()
 
 
 READERS = (
     Reader(
         "trimesh",
-        "glTF, COLLADA, 3MF and others, through trimesh",
+        "COLLADA, 3MF, DXF and others, through trimesh",
         "mesh",
         _EXTENSIONS,
         read_with_trimesh,
-        signature=_is_glb,
     ),
 )

@@ -23,6 +23,31 @@ _COLORS = {"Ka", "Kd", "Ks", "Ke", "Tf"}
 _SCALARS = {"Ns", "Ni", "d", "Tr", "illum", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr"}
 _SCALARS |= {"aniso", "anisor", "Pcor"}
 _MAPS = {"bump", "disp", "decal", "refl", "norm"}
+_PHYSICAL = ("Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor")
+# What is said of maps that are not drawn, by their keywords in lower case.
+_UNDRAWN_MAPS = {
+    "norm": "normal map",
+    "map_norm": "normal map",
+    "map_kn": "normal map",
+    "bump": "bump map",
+    "map_bump": "bump map",
+    "disp": "displacement",
+    "map_disp": "displacement",
+    "decal": "decal",
+    "map_decal": "decal",
+    "refl": "reflection",
+    "map_refl": "reflection",
+    "map_d": "opacity map",
+    "map_tr": "opacity map",
+    "map_opacity": "opacity map",
+    "map_ke": "emission map",
+    "map_ks": "specular map",
+    "map_ns": "specular map",
+    "map_ao": "occlusion",
+    **{f"map_{key.lower()}": "physical" for key in _PHYSICAL},
+    "map_rma": "physical",
+    "map_orm": "physical",
+}
 # Keys of ``extras`` that are ours: no statement's.
 _RESERVED = {"maps", "opacity"}
 # The words that follow each option of a map; the last three of -s, -o and -t may be left out.
@@ -189,15 +214,20 @@ def _finish(current, materials, textures, warnings, source) -> None:
         extras["maps"] = {
             key: {k: v for k, v in entry.items() if k != "line"} for key, entry in maps.items()
         }
-    materials[current["name"]] = Material(
-        name=current["name"],
-        color=color,
-        texture=texture,
-        specular=_specular(values),
-        shininess=max(values.get("Ns", 32.0), 0.0),
-        emissive=values.get("Ke", (0.0, 0.0, 0.0)),
-        extras=extras,
-    )
+    material = Material._plain(current["name"])
+    given = {
+        "color": color if color != (1.0, 1.0, 1.0) else None,
+        "texture": texture,
+        "specular": _specular(values) if "Ks" in values else None,
+        "shininess": max(values["Ns"], 0.0) if "Ns" in values else None,
+        # Where an image says what gives off light, all of it would be too much.
+        "emissive": None if "map_Ke" in maps else values.get("Ke"),
+        "extras": extras or None,
+    }
+    for name, value in given.items():
+        if value is not None:
+            setattr(material, name, value)
+    materials[current["name"]] = material
 
 
 def _specular(values: dict) -> tuple[float, float, float]:
@@ -219,6 +249,21 @@ def _texture(entry: dict | None, textures: TextureCache, warnings, source) -> Te
     except (LinkedFileError, Engine3DError) as error:
         warnings.add(f"texture {shown(name)}: {error}", line, source.path)
     return None
+
+
+def undrawn_kinds(material: Material) -> set[str]:
+    """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
+    extras = material.extras
+    maps = extras.get("maps", {})
+    kinds = {_UNDRAWN_MAPS[key.lower()] for key in maps if key.lower() in _UNDRAWN_MAPS}
+    # Most exporters name the image of the colour here, too.
+    if maps.get("map_Ka", {}).get("name") not in (None, maps.get("map_Kd", {}).get("name")):
+        kinds.add("ambient map")
+    if any(extras.get(key) for key in _PHYSICAL):
+        kinds.add("physical")
+    if extras.get("opacity", 1.0) < 1:
+        kinds.add("transparent")
+    return kinds
 
 
 def uv_transform(material: Material) -> tuple[float, float, float, float]:

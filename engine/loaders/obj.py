@@ -13,6 +13,7 @@ from ..materials import Material
 from .corner_mesh import Triangles
 from .documents import Document
 from .linked_textures import give_companion_texture
+from .mtl import undrawn_kinds
 from .obj_file import Elements, ObjFile, read_obj_file
 from .obj_materials import read_library, used_materials
 from .obj_parts import ObjParts
@@ -21,6 +22,7 @@ from .registry import Reader
 from .smoothing import fill_normals
 from .sources import Source
 from .triangulation import Triangulation, WorkBudget, triangulate
+from .undrawn import warn_of_undrawn
 from .warning_list import WarningList
 
 
@@ -68,6 +70,8 @@ def _materials(source, file: ObjFile, states: ObjStates, cut: Triangulation | No
     """
     library = read_library(source, states.libraries, warnings)
     materials, material_of_use = used_materials(states.materials, library, warnings)
+    if library:
+        warn_of_undrawn(map(undrawn_kinds, materials), warnings)
     faces = len(file.faces.sizes)
     lengths = run_lengths(states.materials, faces)
     ids = np.repeat(np.array([len(materials), *material_of_use], np.int32), lengths)

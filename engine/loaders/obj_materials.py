@@ -69,7 +69,7 @@ def used_materials(
         if name in number:
             continue
         number[name] = len(materials)
-        materials.append(library.get(name) or Material(name=name))
+        materials.append(library.get(name) or Material._plain(name))
         if library and name not in library:
             warnings.add(f"material {shown(name)} is in no library", line)
     return materials, [number[name] for name in names]

@@ -168,7 +168,8 @@ class _HeaderParser:
             b"property": self._property,
         }.get(words[0])
         if read is None:
-            self._fail(f"not a header line: {shown(line)}")
+            self._warnings.add(f"not a header line, left out: {shown(line)}", number)
+            return
         read(line if words[0] == b"comment" else words)
 
     def header(self, body_start: int, body_line: int) -> PlyHeader:

@@ -28,6 +28,8 @@ KINDS = {
     "occlusion": ("has an occlusion map", "have occlusion maps", "drawn without"),
     "reflection": ("has a reflection map", "have reflection maps", "drawn without"),
     "specular map": ("has a map of its highlight", "have maps of their highlights", "left out"),
+    "ambient map": ("has an ambient map", "have ambient maps", "drawn without"),
+    "decal": ("has a decal", "have decals", "drawn without"),
     "unlit": ("is to be drawn unlit", "are to be drawn unlit", "lit like others"),
     "wraps": (
         "has an image that wraps differently along its sides",

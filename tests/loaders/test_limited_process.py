@@ -1,5 +1,6 @@
 """What trimesh reads has a process of its own, with so much memory and time and no more."""
 
+import importlib
 import json
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import engine3d as e3d
 from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError
 from engine3d.loaders import limited_process, load_document, load_mesh
 from engine3d.loaders.linked_files import found_files
+from engine3d.loaders.sources import Source
 
 pytest.importorskip("trimesh")
 
@@ -64,24 +66,39 @@ def test_a_small_archive_that_unpacks_to_much(tmp_path):
     assert own < 64 * MEGABYTE
 
 
+GREEDY = """
+def read(source, split):
+    if split:
+        while True:
+            pass
+    return [bytearray(1 << 20) for _ in range(1 << 20)]
+"""
+
+
+def read_greedily(write, monkeypatch, split):
+    """Read with what takes all memory, or with ``split`` all time."""
+    monkeypatch.syspath_prepend(write("greedy.py", GREEDY).parent)
+    read = importlib.import_module("greedy").read
+    try:
+        limited_process.in_limited_process(read, Source("a.xyz", b"0 0 0"), split, size=5)
+    finally:
+        del sys.modules["greedy"]
+
+
 def test_memory_is_limited(write, monkeypatch):
-    path = write("a.xyz", "0.25 0.5 0.75\n" * 400_000)
-    assert len(load_mesh(path).points) == 400_000
-    monkeypatch.setattr(limited_process, "MAX_MEMORY_BASE", 100 * MEGABYTE)
-    monkeypatch.setattr(limited_process, "MAX_MEMORY_RATIO", 0)
-    with pytest.raises(FileFormatError, match=r"a\.xyz: needs more than \d+ bytes of memory"):
-        load_mesh(path)
+    limit = limited_process.MAX_MEMORY_BASE + limited_process.MAX_MEMORY_RATIO * 5
+    with pytest.raises(FileFormatError, match=rf"a\.xyz: needs more than {limit} bytes of memory"):
+        read_greedily(write, monkeypatch, split=False)
+    assert limit < 300 * MEGABYTE
 
 
-@pytest.mark.parametrize("clock", [False, True])
-def test_time_is_limited(write, monkeypatch, clock):
-    if clock:  # by the clock, as where the system knows no limits
-        monkeypatch.setattr(limited_process, "_PATIENCE", 1e-4)
-    else:
-        monkeypatch.setattr(limited_process, "MAX_SECONDS_BASE", 0)
-        monkeypatch.setattr(limited_process, "MAX_SECONDS_PER_MEGABYTE", 0)
-    with pytest.raises(FileFormatError, match=r"a\.xyz: takes longer than \d+ seconds"):
-        load_mesh(write("a.xyz", "0 0 0\n" * 1000))
+@pytest.mark.parametrize("by_clock", [False, True])
+def test_time_is_limited(write, monkeypatch, by_clock):
+    monkeypatch.setattr(limited_process, "MAX_SECONDS_BASE", 1000 if by_clock else 1)
+    if by_clock:  # as where the system knows no limits
+        monkeypatch.setattr(limited_process, "_PATIENCE", 1e-3)
+    with pytest.raises(FileFormatError, match=r"a\.xyz: takes longer than 1(000)? seconds"):
+        read_greedily(write, monkeypatch, split=True)
 
 
 def test_a_process_that_ends_is_an_error(write, monkeypatch):

@@ -1,6 +1,7 @@
 """MTL, textures that files name, and the image that bears a model's name."""
 
 import os
+import time
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.errors import Engine3DWarning
 from engine3d.loaders import companion_texture, load_mesh
+from engine3d.materials import Material
 
 MODEL = (
     "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
@@ -272,3 +274,42 @@ def test_a_texture_is_read_once_for_several_materials(image, write, obj_mesh):
     mesh = obj_mesh(MODEL + "usemtl n\nf 1 2 3\n")
     assert mesh.materials[0].texture is mesh.materials[1].texture
     assert np.array_equal(mesh.material_ids, [0, 1])
+
+
+def test_what_is_not_drawn_is_told_once_a_kind(write):
+    write(
+        "a.mtl",
+        "newmtl a\nd 0.5\nmap_Bump a.png\nPr 0.5\nnewmtl b\nTr 0.25\nbump a.png\n"
+        "newmtl c\nmap_d a.png\nnorm a.png\ndisp a.png\nrefl -type sphere a.png\n"
+        "newmtl d\nKe 1 1 1\nmap_Ke a.png\nmap_Pr a.png\nmap_Ks a.png\n"
+        "newmtl plain\nd 1\nKe 0 1 0\nnewmtl unused\nd 0\n",
+    )
+    uses = "".join(f"usemtl {name}\nf 1 2 3\n" for name in ("a", "b", "c", "d", "plain"))
+    path = write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + uses)
+    with pytest.warns(Engine3DWarning):
+        mesh = load_mesh(path)
+    assert [warning.removeprefix(f"{path}: ") for warning in mesh.warnings] == [
+        "2 materials are transparent: drawn opaque",
+        "1 material has an opacity map: drawn opaque",
+        "1 material has an emission map: drawn without emission",
+        "1 material has a normal map: drawn without",
+        "2 materials have bump maps: drawn without",
+        "1 material has a displacement map: drawn without",
+        "2 materials have physically based values or maps: drawn as a matt surface",
+        "1 material has a reflection map: drawn without",
+        "1 material has a map of its highlight: left out",
+    ]
+    assert [material.emissive for material in mesh.materials[3:]] == [(0, 0, 0), (0, 1, 0)]
+
+
+def test_very_many_materials(write):
+    """Making one may not take long: a file of eight megabytes may name half a million."""
+    lines = "".join(f"usemtl m{k}\nf 1 2 3\n" for k in range(50_000))
+    path = write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + lines)
+    start = time.process_time()
+    mesh = load_mesh(path)
+    assert time.process_time() - start < 1.5
+    assert [material.name for material in mesh.materials[::49_999]] == ["m0", "m49999"]
+    made = Material(name="m0")
+    assert {**vars(made), "version": 0} == {**vars(mesh.materials[0]), "version": 0}
+    assert mesh.materials[0].extras is not mesh.materials[1].extras

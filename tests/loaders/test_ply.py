@@ -7,7 +7,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from engine3d.errors import FileFormatError
+from engine3d.errors import Engine3DWarning, FileFormatError
 from engine3d.loaders import load_document, load_mesh
 
 SQUARE = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"]
@@ -178,6 +178,14 @@ def test_counts(write):
     assert document.counts["elements"] == ["vertex", "face"]
 
 
+def test_header_lines_without_a_keyword_are_left_out(write):
+    """Such as the name of the program that wrote the file."""
+    text = square_ply().replace("element face", "Created by Blender3D 2.0\nelement face")
+    path = write("a.ply", text)
+    with pytest.warns(Engine3DWarning, match=r"a\.ply:7: not a header line, left out: 'Created by"):
+        assert len(load_mesh(path).faces) == 2
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [
@@ -193,7 +201,7 @@ def test_counts(write):
         (ply("element vertex 99999999999999", *XYZ), "the file ends before the 99999999999999"),
         (ply("element nothing 99999999999999"), "no vertices"),
         (ply("element vertex 1", "property float x", rows=["1"]), "no x, y and z"),
-        (ply("elephant vertex 1"), r"a\.ply:3: not a header line: 'elephant vertex 1'"),
+        (ply("elephant vertex 1"), "no vertices"),
         ("ply\nelement vertex 0\nend_header\n", "no format line"),
         ("ply\nformat ascii 1.0\n", "no end_header"),
         ("ply\nformat binary 1.0\nend_header\n", r"a\.ply:2: unknown format 'binary'"),

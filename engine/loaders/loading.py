@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import warnings
 from collections.abc import Callable
@@ -62,7 +63,8 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
     with read_source(path) as source:
         document = _read_document(source, format, progress, split=False)
     meshes = [entry.mesh for entry in document.objects]
-    mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
+    with _faults_of(source):
+        mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
     mesh.name = mesh.name or source.stem
     mesh.warnings = list(document.warnings)
     return mesh
@@ -120,7 +122,9 @@ def load_texture(
 
 def texture_of(source: Source, format: str | None = None, **options) -> Texture:
     """Return the texture of an open image; as `load_texture` otherwise."""
-    pixels = find_reader(source, "image", format).read(source)
+    reader = find_reader(source, "image", format)
+    with _faults_of(source):
+        pixels = reader.read(source)
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
     return Texture(pixels, **options)
 
@@ -132,15 +136,21 @@ def _read_document(
     if progress is not None:
         source = source._replace(progress=progress)
     source.progress(0.0)
-    try:
-        # What is beyond the range of numbers becomes infinite, and is dealt with as such.
-        with np.errstate(all="ignore"), images_of_one_model():
-            document = reader.read(source, split=split)
-    except MemoryError as error:
-        raise FileFormatError("needs more memory than there is", source.path) from error
-    except InvalidArgumentError as error:  # more of something than a mesh can hold
-        raise FileFormatError(str(error), source.path) from error
+    # What is beyond the range of numbers becomes infinite, and is dealt with as such.
+    with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
+        document = reader.read(source, split=split)
     source.progress(1.0)
     for message in document.warnings:
         warnings.warn(message, Engine3DWarning, stacklevel=3)
     return document
+
+
+@contextlib.contextmanager
+def _faults_of(source: Source):
+    """Name the file in errors of what is made of its content."""
+    try:
+        yield
+    except MemoryError as error:
+        raise FileFormatError("needs more memory than there is", source.path) from error
+    except (InvalidArgumentError, OverflowError) as error:  # more than a mesh can hold, say
+        raise FileFormatError(str(error), source.path) from error

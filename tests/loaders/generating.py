@@ -6,9 +6,13 @@ off by a little, indices about the ends of their range, numbers that are not qui
 
 from __future__ import annotations
 
+import copy
+import json
 import random
 import re
 import struct
+
+from loaders.seeds import GLTF
 
 WORDS = [b"f ", b"v ", b"vt", b"/", b"-", b"\n", b"1e999", b"nan", b"\\\n", b"#", b"s 3\n"]
 WORDS += [b"usemtl q\n", b"mtllib .\n", b"99999999999", b"\xff", b"\0", b'"', b"o x\n"]
@@ -300,7 +304,40 @@ def _tga(choice: random.Random) -> bytes:
     return head + choice.randbytes(id_length + choice.choice([honest, honest, honest // 2, 7]))
 
 
+_VALUES = [None, True, -1, 0, 1, 2, 3, 4, 7, 0.5, 3.0, 5121, 5123, 5126, 2**31, 2**53, 2**64]
+_VALUES += [1e39, 1e308, "", "2.0", "BLEND", "VEC3", "\ud800", "house.tga", "data:,x", [], {}, [{}]]
+
+
+def _gltf(choice: random.Random) -> bytes:
+    """Some values of the JSON are others, some are left out or stand elsewhere."""
+    tree = json.loads(GLTF)
+    for _ in range(choice.randint(1, 3)):
+        places = list(_places(tree))
+        parent, key = choice.choice(places)
+        kind = choice.random()
+        if kind < 0.15:
+            del parent[key]
+        elif kind < 0.3:
+            other, name = choice.choice(places)
+            parent[key] = copy.deepcopy(other[name])
+        elif kind < 0.4 and isinstance(parent, list):
+            parent.append(copy.deepcopy(parent[key]))
+        else:
+            parent[key] = choice.choice(_VALUES)
+    return json.dumps(tree).encode()
+
+
+def _places(tree):
+    """Every value of a JSON tree, as what holds it and its name or number there."""
+    entries = tree.items() if isinstance(tree, dict) else enumerate(tree)
+    for key, value in list(entries):
+        yield tree, key
+        if isinstance(value, (dict, list)):
+            yield from _places(value)
+
+
 GENERATORS = {
+    ".gltf": _gltf,
     ".obj": _obj,
     ".mtl": _mtl,
     ".asc": _asc,

@@ -4,6 +4,8 @@ In: nothing. Out: `FILES`, from a name to bytes; files that name others (a mater
 those here. The tests of damaged files and the fuzzers start from them.
 """
 
+import base64
+import json
 import struct
 
 OBJ = b"""# a house
@@ -112,6 +114,76 @@ OFF = b"""COFF
 4 0 1 2 3
 """
 
+_NUMBERS = struct.pack("<9f3H2x", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)
+_NUMBERS += struct.pack("<6fH2x3f", *range(6), 1, 5, 6, 7)
+_GLTF = {
+    "asset": {"version": "2.0"},
+    "extensionsUsed": ["KHR_texture_transform", "KHR_materials_clearcoat"],
+    "scenes": [{"nodes": [0]}],
+    "nodes": [
+        {"children": [1], "matrix": [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 2, 3, 1]},
+        {"mesh": 0, "name": "roof", "rotation": [0, 0, 0.6, 0.8], "scale": [1, 2, 3]},
+    ],
+    "meshes": [
+        {
+            "primitives": [
+                {"attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1, "material": 0},
+                {"attributes": {"POSITION": 0, "COLOR_0": 0}, "mode": 3, "targets": [{}]},
+            ]
+        }
+    ],
+    "materials": [
+        {
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [1, 0.5, 0.5, 1],
+                "baseColorTexture": {
+                    "index": 0,
+                    "extensions": {"KHR_texture_transform": {"scale": [2, 2], "rotation": 0.5}},
+                },
+            },
+            "alphaMode": "BLEND",
+            "emissiveFactor": [0.5, 0, 0],
+        }
+    ],
+    "textures": [{"source": 0, "sampler": 0}],
+    "samplers": [{"wrapS": 33071, "magFilter": 9728}],
+    "images": [{"uri": "house.tga"}],
+    "accessors": [
+        {
+            "bufferView": 0,
+            "componentType": 5126,
+            "count": 3,
+            "type": "VEC3",
+            "sparse": {
+                "count": 1,
+                "indices": {"bufferView": 3, "componentType": 5123},
+                "values": {"bufferView": 4},
+            },
+        },
+        {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
+        {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2"},
+    ],
+    "bufferViews": [
+        {"buffer": 0, "byteOffset": 0, "byteLength": 36, "byteStride": 12},
+        {"buffer": 0, "byteOffset": 36, "byteLength": 6},
+        {"buffer": 0, "byteOffset": 44, "byteLength": 24},
+        {"buffer": 0, "byteOffset": 68, "byteLength": 2},
+        {"buffer": 0, "byteOffset": 72, "byteLength": 12},
+    ],
+}
+
+
+def _gltf(buffer: dict) -> bytes:
+    text = json.dumps({**_GLTF, "buffers": [{"byteLength": len(_NUMBERS), **buffer}]}).encode()
+    return text + b" " * (-len(text) % 4)
+
+
+_URI = "data:application/octet-stream;base64," + base64.b64encode(_NUMBERS).decode()
+GLTF = _gltf({"uri": _URI})
+_JSON = _gltf({})
+GLB = struct.pack("<4sIIII", b"glTF", 2, 28 + len(_JSON) + len(_NUMBERS), len(_JSON), 0x4E4F534A)
+GLB += _JSON + struct.pack("<II", len(_NUMBERS), 0x4E4942) + _NUMBERS
+
 FILES = {
     "house.obj": OBJ,
     "house.mtl": MTL,
@@ -122,4 +194,6 @@ FILES = {
     "a.stl": STL,
     "binary.stl": BINARY_STL,
     "a.off": OFF,
+    "a.gltf": GLTF,
+    "a.glb": GLB,
 }

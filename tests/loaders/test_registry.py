@@ -4,21 +4,22 @@ import contextlib
 import subprocess
 import sys
 import tracemalloc
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 
 from engine3d import Mesh, box
-from engine3d.errors import Engine3DError, FileFormatError
-from engine3d.loaders import formats, load_mesh, load_texture
+from engine3d.errors import Engine3DError, FileFormatError, InvalidArgumentError
+from engine3d.loaders import formats, load_document, load_mesh, load_texture, loading
 
 MIB = 1 << 20
 
 
 def test_formats_are_listed():
     names = {entry.name for entry in formats()}
-    assert {"obj", "asc", "ply", "stl", "off", "tga", "png", "jpeg"} <= names
+    assert {"obj", "asc", "ply", "stl", "off", "gltf", "tga", "png", "jpeg"} <= names
     assert {entry.name for entry in formats("mesh")} >= {"obj", "asc", "ply", "stl", "off"}
     assert all(extension.startswith(".") for f in formats() for extension in f.extensions)
 
@@ -73,6 +74,17 @@ def test_memory_stays_within_its_limit(kinds):
             assert tracemalloc.get_traced_memory()[1] - before <= limit, case["file"]
     finally:
         tracemalloc.stop()
+
+
+@pytest.mark.parametrize("kind", [MemoryError, OverflowError, InvalidArgumentError])
+@pytest.mark.parametrize("load", [load_mesh, load_document, load_texture])
+def test_whatever_a_reader_meets_names_the_file(write, monkeypatch, load, kind):
+    def read(source, split=False):
+        raise kind("more than 2147483647 rows")
+
+    monkeypatch.setattr(loading, "find_reader", lambda *_: SimpleNamespace(read=read))
+    with pytest.raises(FileFormatError, match=r"a\.ply: (more than|needs more memory)"):
+        load(write("a.ply", "ply"))
 
 
 _VERTICES = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n" + "".join(

@@ -21,8 +21,9 @@ from .sources import Source
 from .undrawn import warn_of_undrawn
 from .warning_list import WarningList
 
-# Each takes some kilobytes, however little the file says of it.
+# Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
 _MAX_OBJECTS = 50_000
+_MAX_PRIMITIVES = 10_000
 
 
 def read_gltf(source: Source, split: bool = False) -> Document:
@@ -47,10 +48,13 @@ def read_gltf(source: Source, split: bool = False) -> Document:
     materials = GltfMaterials(file, buffers, warnings)
     primitives = GltfPrimitives(file, buffers, materials)
     meshes: dict[int, list[Mesh]] = {}
-    parts = []
+    parts, made = [], 0
     for node in placed:
         if node.mesh not in meshes:
             meshes[node.mesh] = _meshes(file, primitives, node.mesh)
+            made += len(meshes[node.mesh])
+            if made > _MAX_PRIMITIVES:
+                raise file.error(f"more than {_MAX_PRIMITIVES} primitives")
         shown = meshes[node.mesh]
         names = [node.name] if len(shown) == 1 else [f"{node.name}_{k}" for k in range(len(shown))]
         parts += [PosedPart(*pair, node.pose) for pair in zip(names, shown, strict=True)]
@@ -71,7 +75,10 @@ def _meshes(file: GltfFile, primitives: GltfPrimitives, index: int) -> list[Mesh
     entry = file.entries("meshes")[index]
     where = f"meshes[{index}]"
     found = []
-    for number, primitive in enumerate(file.entries("primitives", entry, f"{where}.")):
+    entries = file.entries("primitives", entry, f"{where}.")
+    if len(entries) > _MAX_PRIMITIVES:
+        raise file.error(f"{where} has more than {_MAX_PRIMITIVES} primitives")
+    for number, primitive in enumerate(entries):
         name = str(entry.get("name") or f"mesh_{index}")
         mesh = primitives.read(primitive, f"{where}.primitives[{number}]", name)
         if mesh is not None:

@@ -152,5 +152,5 @@ def _faults_of(source: Source):
         yield
     except MemoryError as error:
         raise FileFormatError("needs more memory than there is", source.path) from error
-    except (InvalidArgumentError, OverflowError) as error:  # more than a mesh can hold, say
+    except InvalidArgumentError as error:  # more of something than a mesh can hold
         raise FileFormatError(str(error), source.path) from error

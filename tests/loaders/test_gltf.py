@@ -463,6 +463,19 @@ def test_nodes_nested_deeply(write):
     assert load_mesh(write("a.gltf", json.dumps(tree))).positions[0, 0] == 20_000
 
 
+def test_very_many_primitives_are_refused(write):
+    tree = triangle_tree()
+    tree["meshes"][0]["primitives"] *= 10_001
+    with pytest.raises(FileFormatError, match=r"a\.gltf: meshes\[0\] has more than 10000 prim"):
+        load_mesh(write("a.gltf", json.dumps(tree)))
+    half = tree["meshes"][0]["primitives"][:3]
+    tree["meshes"] = [{"primitives": half}] * 4000
+    tree["nodes"] = [{"mesh": k} for k in range(4000)]
+    tree["scenes"][0]["nodes"] = list(range(4000))
+    with pytest.raises(FileFormatError, match=r"a\.gltf: more than 10000 primitives"):
+        load_mesh(write("a.gltf", json.dumps(tree)))
+
+
 @pytest.mark.parametrize("nodes", [[{"children": [0]}], [{"children": [1, 1]}, {"mesh": 0}]])
 def test_nodes_that_are_no_tree(write, nodes):
     tree = triangle_tree()

@@ -80,6 +80,7 @@ CHAPTERS = {
         "DisplayError",
         "MissingOutputError",
         "SceneChangedError",
+        "RendererBusyError",
         "Engine3DWarning",
     ),
 }

@@ -26,6 +26,7 @@ _PUBLIC = {
     "InvalidArgumentError": "errors",
     "MissingOutputError": "errors",
     "OutOfMemoryError": "errors",
+    "RendererBusyError": "errors",
     "SceneChangedError": "errors",
     "Mesh": "mesh",
     "Material": "materials",

@@ -26,6 +26,7 @@ from .errors import FileFormatError as FileFormatError
 from .errors import InvalidArgumentError as InvalidArgumentError
 from .errors import MissingOutputError as MissingOutputError
 from .errors import OutOfMemoryError as OutOfMemoryError
+from .errors import RendererBusyError as RendererBusyError
 from .errors import SceneChangedError as SceneChangedError
 from .frame import Frame as Frame
 from .framing import frame_bounds as frame_bounds

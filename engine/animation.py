@@ -16,6 +16,7 @@ from . import linalg
 from .attributes import Closed, finite, vector3
 from .errors import InvalidArgumentError
 from .nodes import Node
+from .number_checks import floats, real
 from .scene import Scene
 
 _SLOWEST = 6  # far nodes move at least every 2**6 updates
@@ -49,16 +50,19 @@ class Animator(Closed):
     def __init__(self, scene: Scene, *, full_rate_distance: float = math.inf) -> None:
         if not isinstance(scene, Scene):
             raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
-        if not full_rate_distance > 0:
+        if not real(full_rate_distance) > 0:
             raise InvalidArgumentError("full_rate_distance must be greater than 0")
         self.time = 0.0
         self.paused = False
         self._scene = scene
-        self._full_rate_distance = float(full_rate_distance)
+        self._full_rate_distance = real(full_rate_distance)
         self._updates = 0
         self._spins: list[tuple] = []  # node, axis, turns a second, turns at 0, rotation at 0
         self._tracks: list[Track] = []
         self._batch: _Spins | None = None
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("an Animator belongs to its Scene: it cannot be copied or pickled")
 
     def spin(
         self,
@@ -85,7 +89,7 @@ class Animator(Closed):
         InvalidArgumentError
         """
         axis = vector3(axis, "axis")
-        if not axis.any() or finite(period, "period") == 0:
+        if not axis.any() or abs(finite(period, "period")) < 1e-300:
             raise InvalidArgumentError("a spin needs an axis and a period other than 0")
         nodes = self._scene.select(nodes if isinstance(nodes, Iterable) else [nodes]).nodes
         axis, phase = linalg.normalize(axis), finite(phase, "phase")
@@ -181,7 +185,9 @@ class _Spins:
     def move(self, time: float, due: np.ndarray) -> None:
         if len(due) == 0:
             return
-        turns = time * self._rates[due] + self._phases[due]
+        with np.errstate(over="ignore", invalid="ignore"):
+            turns = time * self._rates[due] + self._phases[due]
+        turns[~np.isfinite(turns)] = 0.0  # beyond all counting
         half = math.pi * (turns - np.floor(turns))
         turn = np.empty((len(due), 4))
         turn[:, :3] = self._axes[due] * linalg.sin(half)[:, np.newaxis]
@@ -202,14 +208,18 @@ class Track:
         self._translations = _keys(translations, "translations", (3,), count)
         self._rotations = _keys(rotations, "rotations", (4,), count)
         self._scales = _keys(scales, "scales", (3,), count)
-        if self._rotations is not None and not self._rotations.any(axis=1).all():
-            raise InvalidArgumentError("rotations must not be zero quaternions")
+        if self._rotations is not None:
+            with np.errstate(over="ignore"):
+                squares = (self._rotations * self._rotations).sum(axis=1)
+            if not ((squares > 0.0) & (squares < math.inf)).all():
+                raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
         self._repeat = bool(repeat)
 
     def move(self, time: float) -> None:
         first, last = float(self._times[0]), float(self._times[-1])
         if self._repeat and last > first:
             turns = (time - first) / (last - first)
+            turns = turns if math.isfinite(turns) else 0.0
             time = first + (turns - math.floor(turns)) * (last - first)
         after = int(np.searchsorted(self._times, time, side="right"))
         after = min(max(after, 1), len(self._times) - 1) if len(self._times) > 1 else 0
@@ -256,10 +266,7 @@ def _between(values: np.ndarray, before: int, after: int, share: float) -> np.nd
 def _keys(value, what: str, row: tuple[int, ...], count: int | None = None) -> np.ndarray | None:
     if value is None:
         return None
-    try:
-        array = np.array(value, np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{what} must be numbers: {error}") from None
+    array = floats(value, what)
     if array.ndim != 1 + len(row) or array.shape[1:] != row:
         raise InvalidArgumentError(f"{what} must have shape (K, {row})" if row else "times: (K,)")
     if count is not None and len(array) != count:

@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import functools
 import math
-import numbers
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .changes import tell
+from ._native.loaders import is_frozen
+from .changes import renew
 from .choices import Color, ColorLike
 from .errors import InvalidArgumentError
+from .number_checks import floats, real, shown
 
 Given = TypeVar("Given")
 Kept = TypeVar("Kept")
@@ -27,8 +28,17 @@ Kept = TypeVar("Kept")
 class Closed:
     """Base of what has no public attributes but its class's, so that a misspelt one is an error.
 
-    Attributes of instances are declared by annotations; a subclass may declare more.
+    Attributes of instances are declared by annotations; a subclass may declare more. Copies, and
+    what comes from a pickle, hold read-only arrays as well, and lists and dicts of their own.
     """
+
+    _FORGOTTEN = ()  # attributes that are computed anew in a copy; the class has their first values
+
+    def __getstate__(self) -> dict:
+        return {key: self.__dict__[key] for key in self.__dict__ if key not in self._FORGOTTEN}
+
+    def __setstate__(self, state: dict) -> None:
+        self.__dict__.update({key: own(value) for key, value in state.items()})
 
     if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
 
@@ -39,10 +49,45 @@ class Closed:
             object.__setattr__(self, name, value)
 
 
+def own(value):
+    """Return what a copy keeps of a value: arrays that nobody can write to, its own containers."""
+    if isinstance(value, np.ndarray):
+        return freeze(value)
+    return type(value)(value) if type(value) in (dict, list) else value
+
+
+def freeze(array: np.ndarray) -> np.ndarray:
+    """Return an array that nobody can write to: this one, if only the caller has its memory."""
+    if not is_frozen(array):
+        array = array if array.base is None and array.flags.owndata else array.copy()
+        array.setflags(write=False)
+    return array
+
+
 @functools.cache
 def _declared(kind: type) -> frozenset[str]:
     """The names that a class and its bases annotate."""
     return frozenset().union(*(getattr(base, "__annotations__", {}) for base in kind.__mro__))
+
+
+_PLACES = {"position", "translation", "location", "pose", "rotation", "euler", "eye", "target"}
+
+
+class PlacedByNode(Closed):
+    """Base of lights and cameras, which have no place of their own: a node gives them theirs."""
+
+    if not TYPE_CHECKING:  # to a type checker, __init__ says what there is
+
+        def __new__(cls, *args, **kwargs):
+            for name in _PLACES.intersection(kwargs):
+                thing = "light" if cls.__name__.endswith("Light") else "camera"
+                how = "pose=engine3d.look_at(eye, target)"
+                how = how if thing == "camera" else "translation=(x, y, z)"
+                raise TypeError(
+                    f"{cls.__name__}() takes no {name!r}: it is placed by its node, "
+                    f"scene.add({thing}, {how})"
+                )
+            return super().__new__(cls)
 
 
 class CheckedAttribute(Generic[Given, Kept]):
@@ -79,8 +124,7 @@ class CheckedAttribute(Generic[Given, Kept]):
 
     def __set__(self, owner: object, value: Given) -> None:
         owner.__dict__[self._name] = self._check(value, self._name)
-        owner.__dict__["version"] = owner.__dict__.get("version", 0) + 1
-        tell(owner)
+        renew(owner)
 
 
 NumberAttribute: TypeAlias = CheckedAttribute[float, float]
@@ -103,7 +147,7 @@ def choose(value, allowed, what: str):
     try:
         if value in allowed:
             return value
-    except TypeError:  # not hashable
+    except (TypeError, ValueError):  # not hashable, or an array
         pass
     choices = ", ".join(repr(choice) for choice in allowed)
     raise InvalidArgumentError(f"{what} must be one of {choices}, not {value!r}")
@@ -111,16 +155,20 @@ def choose(value, allowed, what: str):
 
 def finite(value: float, what: str) -> float:
     """Check a finite number."""
-    if not isinstance(value, numbers.Real) or not math.isfinite(value):
-        raise InvalidArgumentError(f"{what} must be a finite number, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not math.isfinite(number):
+        raise InvalidArgumentError(f"{what} must be a finite number, not {shown(value)}")
+    return number
 
 
 def positive(value: float, what: str) -> float:
     """Check a finite number greater than 0."""
-    if not isinstance(value, numbers.Real) or not 0 < value < math.inf:
-        raise InvalidArgumentError(f"{what} must be a finite number greater than 0, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not 0 < number < math.inf:
+        raise InvalidArgumentError(
+            f"{what} must be a finite number greater than 0, not {shown(value)}"
+        )
+    return number
 
 
 def optional_positive(value: float | None, what: str) -> float | None:
@@ -130,16 +178,20 @@ def optional_positive(value: float | None, what: str) -> float | None:
 
 def not_negative(value: float, what: str) -> float:
     """Check a finite number that is 0 or greater."""
-    if not isinstance(value, numbers.Real) or not 0 <= value < math.inf:
-        raise InvalidArgumentError(f"{what} must be a finite number, 0 or greater, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not 0 <= number < math.inf:
+        raise InvalidArgumentError(
+            f"{what} must be a finite number, 0 or greater, not {shown(value)}"
+        )
+    return number
 
 
 def how_far(value: float, what: str) -> float:
     """Check a distance: a number that is 0 or greater, and may be infinite."""
-    if not isinstance(value, numbers.Real) or not value >= 0:
-        raise InvalidArgumentError(f"{what} must be a number, 0 or greater, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not number >= 0:
+        raise InvalidArgumentError(f"{what} must be a number, 0 or greater, not {shown(value)}")
+    return number
 
 
 def vector3(value: ArrayLike, what: str) -> NDArray[np.float64]:
@@ -154,10 +206,7 @@ def matrix4(value: ArrayLike, what: str) -> NDArray[np.float64]:
 
 def frozen_floats(value: ArrayLike, what: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return a read-only float64 copy of ``value``, of one shape and finite."""
-    try:
-        array = np.array(value, np.float64, order="C")
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{what} must be numbers: {error}") from None
+    array = floats(value, what)
     if array.shape != shape:
         raise InvalidArgumentError(f"{what} must have shape {shape}, not {array.shape}")
     if not all(map(math.isfinite, array.ravel().tolist())):  # of few numbers, faster than NumPy

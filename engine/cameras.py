@@ -9,7 +9,6 @@ that a matrix has the same bits on every machine.
 from __future__ import annotations
 
 import math
-import numbers
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import linalg
 from .attributes import (
     CheckedAttribute,
-    Closed,
     NumberAttribute,
     OptionalNumberAttribute,
+    PlacedByNode,
     VectorAttribute,
     finite,
     matrix4,
@@ -27,21 +26,24 @@ from .attributes import (
     positive,
 )
 from .errors import InvalidArgumentError
+from .number_checks import real, shown
 
 
 def _angle(value: float, what: str) -> float:
-    if not isinstance(value, numbers.Real) or not 0.0 < value < math.pi:
-        raise InvalidArgumentError(f"{what} must be between 0 and pi radians, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not 0.0 < number < math.pi:
+        raise InvalidArgumentError(f"{what} must be between 0 and pi radians, not {shown(value)}")
+    return number
 
 
 def _far(value: float | None, what: str) -> float:
     """A far plane: a positive number, or infinity or None for none."""
     if value is None:
         return math.inf
-    if not isinstance(value, numbers.Real) or not value > 0:
-        raise InvalidArgumentError(f"{what} must be greater than 0, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not number > 0:
+        raise InvalidArgumentError(f"{what} must be greater than 0, not {shown(value)}")
+    return number
 
 
 def _check_range(camera) -> None:
@@ -51,7 +53,7 @@ def _check_range(camera) -> None:
         )
 
 
-class Camera(Closed):
+class Camera(PlacedByNode):
     """A camera given by its projection matrix.
 
     Parameters

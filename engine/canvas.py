@@ -9,6 +9,7 @@ itself is C (csrc/canvas); docs/canvas.md gives its rules.
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -17,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._native import canvas as native
 from .errors import InvalidArgumentError
+from .number_checks import as_array, floats, real, shown
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -86,6 +88,10 @@ class Canvas:
         """Height in pixels."""
         return self._pixels.shape[0]
 
+    def __reduce__(self):
+        # A shallow copy draws on the same pixels; what is pickled has its own.
+        return type(self), (self._pixels,)
+
     def __repr__(self) -> str:
         return f"Canvas({self.width}, {self.height})"
 
@@ -107,7 +113,7 @@ class Canvas:
 
     def point(self, x: float, y: float, color: Color) -> None:
         """Draw the pixel that holds (x, y)."""
-        self._surface.point(x, y, _color_bytes(color))
+        self._surface.point(*_numbers(x, y), _color_bytes(color))
 
     def points(self, xy: ArrayLike, color: Color | NDArray[np.uint8]) -> None:
         """Draw many points in one call.
@@ -156,7 +162,8 @@ class Canvas:
             If the width is not a positive number or the algorithm is unknown.
         """
         algorithm_code = _algorithm(native.LINE_ALGORITHMS, algorithm)
-        self._surface.line(x0, y0, x1, y1, _color_bytes(color), _width(width), algorithm_code)
+        ends = _numbers(x0, y0, x1, y1)
+        self._surface.line(*ends, _color_bytes(color), _width(width), algorithm_code)
 
     def lines(
         self,
@@ -285,7 +292,7 @@ class Canvas:
         fill : bool, optional
             Fill it, or draw its outermost pixels only.
         """
-        self._surface.rectangle(x, y, width, height, _color_bytes(color), fill)
+        self._surface.rectangle(*_numbers(x, y, width, height), _color_bytes(color), fill)
 
     def text(
         self,
@@ -321,7 +328,7 @@ class Canvas:
             pad = 2 * scale
             left, top = np.floor(x) - pad, np.floor(y) - pad
             self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
-        self._surface.text(x, y, codes, scale, _color_bytes(color))
+        self._surface.text(*_numbers(x, y), codes, scale, _color_bytes(color))
 
 
 def text_size(string: str, scale: int = 1) -> tuple[int, int]:
@@ -375,9 +382,9 @@ def _color_bytes(color: Color) -> bytes:
 
 def _colors_bytes(color: Color | NDArray[np.uint8], count: int) -> bytes | NDArray[np.uint8]:
     """Return 4 bytes for all primitives, or 4 for each of them."""
-    if np.ndim(color) != 2:
+    colors = as_array(color, "color")
+    if colors.ndim != 2:
         return _color_bytes(color)
-    colors = np.asarray(color)
     if colors.dtype != np.uint8 or colors.shape not in ((count, 3), (count, 4)):
         raise InvalidArgumentError(
             f"colours for {count} primitives are a ({count}, 3) or ({count}, 4) uint8 array, "
@@ -389,10 +396,7 @@ def _colors_bytes(color: Color | NDArray[np.uint8], count: int) -> bytes | NDArr
 
 
 def _positions(values: ArrayLike, columns: int, name: str) -> NDArray[np.float64]:
-    try:
-        positions = np.ascontiguousarray(values, np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{name} must be an array of numbers: {error}") from None
+    positions = floats(values, name)
     if positions.size == 0:
         return np.empty((0, columns))
     if positions.ndim == 3 and positions.shape[1] * positions.shape[2] == columns:
@@ -402,6 +406,13 @@ def _positions(values: ArrayLike, columns: int, name: str) -> NDArray[np.float64
     return positions
 
 
+def _numbers(*values: float) -> list[float]:
+    for value in values:
+        if not isinstance(value, numbers.Real):
+            raise InvalidArgumentError(f"a place on a canvas is a number, not {shown(value)}")
+    return list(map(real, values))
+
+
 def _algorithm(codes: dict[str, int], name: str) -> int:
     if name not in codes:
         raise InvalidArgumentError(f"algorithm must be one of {', '.join(codes)}, not {name!r}")
@@ -409,9 +420,10 @@ def _algorithm(codes: dict[str, int], name: str) -> int:
 
 
 def _width(width: float) -> float:
-    if not width > 0:
-        raise InvalidArgumentError(f"width must be a positive number, not {width!r}")
-    return width
+    number = real(width)
+    if not number > 0:
+        raise InvalidArgumentError(f"width must be a positive number, not {shown(width)}")
+    return number
 
 
 def _scale(scale: int) -> int:

@@ -15,9 +15,11 @@ from typing import get_args
 import numpy as np
 
 from .choices import Color, ColorLike, ColorSpace
-from .errors import InvalidArgumentError
+from .errors import InvalidArgumentError, warn
+from .number_checks import real, shown
 
 COLOR_SPACES: tuple[ColorSpace, ...] = get_args(ColorSpace)
+_LEAST_SUSPECT = 16.0  # whole floats from here on look like 8-bit values
 
 
 @functools.cache
@@ -55,11 +57,52 @@ def check_color(value: ColorLike, what: str = "color") -> Color:
     for component in components:
         if not isinstance(component, numbers.Real) or isinstance(component, bool):
             raise InvalidArgumentError(f"{what} is not made of numbers: {value!r}")
-        if not math.isfinite(component) or component < 0:
-            raise InvalidArgumentError(f"{what} must be finite and not negative: {value!r}")
+        if not 0 <= real(component) < math.inf:
+            raise InvalidArgumentError(f"{what} must be finite and not negative: {shown(value)}")
     if is_8bit(components) and max(components) > 255:
         raise InvalidArgumentError(f"{what} of integers must be in 0..255: {value!r}")
+    if max(components) >= _LEAST_SUSPECT and not is_8bit(components):
+        warn_of_8bit_floats(np.array(components, np.float64), what)
     return components
+
+
+def warn_of_8bit_floats(colors: np.ndarray, what: str) -> None:
+    """Warn where floats, which are linear light, are all whole numbers as 8-bit colours are."""
+    high = colors.max(initial=0)
+    if _LEAST_SUSPECT <= high <= 255 and (colors == np.floor(colors)).all():
+        warn(
+            f"{what} holds floats up to {high:g}, taken as linear light, where 1 is white. "
+            "If they are 8-bit values, give integers"
+        )
+
+
+def eight_bit_or_float(colors: np.ndarray, what: str) -> np.ndarray:
+    """Return many colours as uint8 or as floats, by the rules of `linear_color`.
+
+    Raises
+    ------
+    InvalidArgumentError
+        They are not numbers, or integers beyond 0..255.
+    """
+    if colors.dtype == np.uint8:
+        return colors
+    if colors.dtype.kind == "f":
+        colors = float32_of(colors)
+        warn_of_8bit_floats(colors[:, :3], what)
+        return colors
+    if colors.dtype.kind not in "iu":
+        raise InvalidArgumentError(f"{what} must be integers 0..255 or floats, not {colors.dtype}")
+    low, high = int(colors.min(initial=0)), int(colors.max(initial=0))
+    if low < 0 or high > 255:
+        wrong = low if low < 0 else high
+        raise InvalidArgumentError(f"{what} of integers must be in 0..255, but one is {wrong}")
+    return colors.astype(np.float32 if high <= 1 else np.uint8)
+
+
+def float32_of(values: np.ndarray) -> np.ndarray:
+    """Round to float32; what is too large becomes infinite."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return values.astype(np.float32, copy=False)
 
 
 def linear_color(value: ColorLike, color_space: ColorSpace = "srgb") -> np.ndarray:
@@ -86,7 +129,7 @@ def linear_color(value: ColorLike, color_space: ColorSpace = "srgb") -> np.ndarr
         raise InvalidArgumentError(f"color_space must be one of {COLOR_SPACES}: {color_space!r}")
     components = check_color(value)
     if not is_8bit(components):
-        return np.array(components, np.float32)
+        return float32_of(np.array(components, np.float64))
     if color_space == "linear":
         return (np.array(components, np.float64) / 255).astype(np.float32)
     return srgb_to_linear_table()[list(components)]

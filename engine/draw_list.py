@@ -58,6 +58,7 @@ class DrawList:
         self._changed: list = []  # of what is watched, since the list was made
         self._materials: dict[Material, list[tuple[int, int]]] = {}  # where they are, as whose
         self._flat: dict[Material, bool] = {}  # which normals they asked for
+        self._textured: dict[Material, Texture] = {}
         self._users: dict[Texture, set[Material]] = {}
         self._bases: dict[tuple[int, ...], int] = {}  # where materials begin, by their ids
         self._material_lists: list[list[Material]] = []  # the meshes' own, by number of the object
@@ -116,7 +117,7 @@ class DrawList:
         self._frames += 1
         if self._frames == _SETTLED:
             for number, instances in self._many.items():
-                self.native.set_instance_tree(number, instances._tree())
+                self.native.set_instance_tree(number, instances._tree()[0])
             self._trees = True
             self._placed = None
 
@@ -199,7 +200,7 @@ class DrawList:
         self.native.clear()
         self._lights.forget()
         self._watch, self._changed = Watch(), []
-        self._materials, self._flat, self._users = {}, {}, {}
+        self._materials, self._flat, self._textured, self._users = {}, {}, {}, {}
         self._bases, self._material_lists, self._lists_then, self._listed = {}, [], [], []
         self._left = 0
         self._marks = self._trees = False
@@ -215,16 +216,17 @@ class DrawList:
             self._note(number, (), (), [])
             return
         mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
+        things = (mesh,) if obj is mesh else (mesh, obj)
+        for thing in things:
+            self._watch.add(thing)  # before it is read
         surfaces = tuple(map(id, mesh.materials))
         if surfaces not in self._bases:
             self._bases[surfaces] = self._add_materials(mesh.materials)
         native = native_mesh(mesh, _needs_of(mesh, self._needs, self._normals), self._threads)
         self.native.set_object(number, native, self._bases[surfaces])
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
-        if obj is mesh:
-            self._note(number, (mesh,), surfaces, mesh.materials)
-        else:
-            self._note(number, (mesh, obj), surfaces, mesh.materials)
+        self._note(number, things, surfaces, mesh.materials)
+        if obj is not mesh:
             self._set_instances(number, obj)
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
@@ -242,8 +244,6 @@ class DrawList:
 
     def _note(self, number: int, things: tuple, surfaces: tuple, materials: list) -> None:
         """Remember what would make a listed object, or its list of materials, out of date."""
-        for thing in things:
-            self._watch.add(thing)
         if number == len(self._listed):
             self._listed.append(((), ()))
             self._material_lists.append([])
@@ -306,9 +306,8 @@ class DrawList:
         self._watch.add(material)
         self._flat[material] = material.flat_shading
         texture = material.texture
+        self._note_texture(material, texture)
         if texture is not None:
-            self._watch.add(texture)
-            self._users.setdefault(texture, set()).add(material)
             texture = native_texture(texture, self._color_space)
         self.native.set_material(
             index,
@@ -321,6 +320,19 @@ class DrawList:
             material.two_sided,
             material.flat_shading,
         )
+
+    def _note_texture(self, material: Material, texture: Texture | None) -> None:
+        """Look at the texture of a material, and no longer at one that no material has now."""
+        before = self._textured.pop(material, None)
+        if before is not None and before is not texture:
+            self._users[before].discard(material)
+            if not self._users[before]:
+                del self._users[before]
+                self._watch.remove(before)
+        if texture is not None:
+            self._watch.add(texture)
+            self._textured[material] = texture
+            self._users.setdefault(texture, set()).add(material)
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:

@@ -8,6 +8,8 @@ of a file error starts with ``FILE:LINE:`` and is one line, ready for the comman
 from __future__ import annotations
 
 import os
+import sys
+import warnings
 
 
 class Engine3DError(Exception):
@@ -100,8 +102,20 @@ class SceneChangedError(Engine3DError, RuntimeError):
     """A scene got other nodes, from another thread, while a frame of it was drawn."""
 
 
+class RendererBusyError(Engine3DError, RuntimeError):
+    """A renderer was asked for a frame from within a frame, or after a fork from within one."""
+
+
 class Engine3DWarning(UserWarning):
     """Something was left out or replaced; the rest of the work went on."""
+
+
+def warn(message: str) -> None:
+    """Give an `Engine3DWarning` that points to the line outside of engine3d that led to it."""
+    package, level, frame = __name__.partition(".")[0], 1, sys._getframe()
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, Engine3DWarning, stacklevel=level)
 
 
 def located(message: str, path: str | None, line: int | None = None) -> str:

@@ -156,8 +156,9 @@ class Frame:
 
     @property
     def stats(self) -> dict[str, Any]:
-        if self._drawn is not None:
-            nodes, drawn = self._drawn
+        unread = self._drawn  # another thread may read it meanwhile
+        if unread is not None:
+            nodes, drawn = unread
             self._stats, self._drawn = {"nodes": nodes, **drawn.as_dict()}, None
         return self._stats
 

@@ -7,7 +7,6 @@ are made when an option or a colour changes, and kept from frame to frame meanwh
 from __future__ import annotations
 
 import math
-import numbers
 import operator
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, TypedDict
@@ -29,6 +28,7 @@ from .colors import check_color
 from .display_colors import display_color, shading_color
 from .errors import InvalidArgumentError
 from .native_handles import MeshNeeds
+from .number_checks import real, shown
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -175,6 +175,9 @@ class OptionsCache:
 
 
 def _line_size(value, what: str) -> float:
-    if not isinstance(value, numbers.Real) or not 0 < value <= _MAX_LINE:
-        raise InvalidArgumentError(f"{what} must be more than 0 and at most 256, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not 0 < number <= _MAX_LINE:
+        raise InvalidArgumentError(
+            f"{what} must be more than 0 and at most 256, not {shown(value)}"
+        )
+    return number

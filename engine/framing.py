@@ -8,7 +8,6 @@ closely, which keeps depth precise. The same inputs give the same bits on every 
 from __future__ import annotations
 
 import math
-import numbers
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from . import linalg
 from .attributes import positive
 from .cameras import PerspectiveCamera
 from .errors import InvalidArgumentError
+from .number_checks import floats, real, shown
 from .reach import Reach, box_reach, scene_reach
 from .scene import Scene
 
@@ -266,10 +266,7 @@ def frustum_reach(
 
 
 def _corners(bounds) -> tuple[np.ndarray, np.ndarray]:
-    try:
-        array = np.array(bounds, np.float64)
-    except (TypeError, ValueError):
-        raise InvalidArgumentError("bounds must be two corners of numbers, (2, 3)") from None
+    array = floats(bounds, "bounds")
     if array.shape != (2, 3) or not np.isfinite(array).all():
         raise InvalidArgumentError("bounds must be two finite corners, (2, 3)")
     if (array[0] > array[1]).any():
@@ -278,13 +275,14 @@ def _corners(bounds) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _direction(value) -> np.ndarray:
-    array = np.array(value, np.float64)
+    array = floats(value, "direction")
     if array.shape != (3,) or not np.isfinite(array).all() or not array.any():
         raise InvalidArgumentError(f"direction must be a vector of 3 numbers, not {value!r}")
     return array
 
 
 def _angle(value) -> float:
-    if not isinstance(value, numbers.Real) or not 0.0 < value < math.pi:
-        raise InvalidArgumentError(f"yfov must be between 0 and pi radians, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not 0.0 < number < math.pi:
+        raise InvalidArgumentError(f"yfov must be between 0 and pi radians, not {shown(value)}")
+    return number

@@ -7,15 +7,18 @@ the core reads directly; they are rounded to float32 once, here.
 from __future__ import annotations
 
 import math
+import operator
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
 from .attributes import CheckedAttribute, Closed
-from .changes import tell
+from .changes import renew
+from .colors import eight_bit_or_float, float32_of
 from .errors import InvalidArgumentError
 from .mesh import Mesh
+from .number_checks import as_array, floats
 
 
 def _check_mesh(value: Mesh, what: str) -> Mesh:
@@ -32,8 +35,9 @@ class InstancedMesh(Closed):
     mesh : Mesh
     poses : (N, 4, 4) or (N, 4) float
         node-from-instance matrices, or offset x, y, z and uniform scale. N may be 0.
-    colors : (N, 3) or (N, 4) uint8 or float, optional
-        Multiplies the mesh's colours: ``uint8`` is sRGB, floats are linear. Alpha is ignored.
+    colors : (N, 3) or (N, 4) int or float, optional
+        Multiplies the mesh's colours: integers 0..255 are sRGB, floats are linear. Alpha is
+        ignored.
 
     Attributes
     ----------
@@ -49,10 +53,11 @@ class InstancedMesh(Closed):
 
     mesh: CheckedAttribute[Mesh, Mesh] = CheckedAttribute(_check_mesh)
     version: int
+    _box_of: tuple | None = None  # poses and positions, and the box that follows from them
+    _tree_of: tuple | None = None  # likewise
+    _FORGOTTEN = ("_box_of", "_tree_of")
 
     def __init__(self, mesh: Mesh, poses: ArrayLike, *, colors: ArrayLike | None = None) -> None:
-        self._box_of: tuple | None = None
-        self._tree_of: tuple | None = None
         self._ids: np.ndarray | None = None  # what instance_id shows; None: the rows' numbers
         self.mesh = mesh
         self.replace(poses, colors)
@@ -70,8 +75,7 @@ class InstancedMesh(Closed):
                 f"poses has {len(poses)} rows, but colors {len(self._colors)}: use replace()"
             )
         self._poses = poses
-        self.version += 1
-        tell(self)
+        renew(self)
 
     @property
     def colors(self) -> NDArray[np.uint8] | NDArray[np.float32] | None:
@@ -81,8 +85,7 @@ class InstancedMesh(Closed):
     @colors.setter
     def colors(self, value: ArrayLike | None) -> None:
         self._colors = _check_colors(value, len(self._poses))
-        self.version += 1
-        tell(self)
+        renew(self)
 
     def replace(self, poses: ArrayLike, colors: ArrayLike | None = None) -> None:
         """Set poses and colours together; their number may change."""
@@ -90,8 +93,7 @@ class InstancedMesh(Closed):
         self._ids = None
         self._colors = _check_colors(colors, len(checked))
         self._poses = checked
-        self.version += 1
-        tell(self)
+        renew(self)
 
     def _replace_by_rows(self, rows: np.ndarray, poses, colors) -> None:
         """Draw some rows of others' poses and colours, under the numbers that they have there."""
@@ -103,15 +105,16 @@ class InstancedMesh(Closed):
         box = self._box_in_node()
         return box[:6].reshape(2, 3).copy() if box[0] <= box[3] else None
 
-    def _boxes(self) -> np.ndarray:
-        """The boxes of the instances in the node's space, (N, BOX)."""
-        boxes = np.empty((len(self), BOX))
-        instance_boxes(self._flat_poses(), mesh_box(self.mesh), boxes)
+    def _boxes(self, poses: np.ndarray) -> np.ndarray:
+        """The boxes of the instances in the node's space, (N, BOX); poses as C reads them."""
+        boxes = np.empty((len(poses), BOX))
+        instance_boxes(poses, mesh_box(self.mesh), boxes)
         return boxes
 
     def _flat_poses(self) -> np.ndarray:
         """The poses as C reads them, (N, 16) or (N, 4)."""
-        return self._poses.reshape(len(self), math.prod(self._poses.shape[1:]))
+        poses = self._poses
+        return poses.reshape(len(poses), math.prod(poses.shape[1:]))
 
     def _pose_of(self, instance: int) -> np.ndarray:
         """node-from-instance, (4, 4) float64."""
@@ -122,28 +125,33 @@ class InstancedMesh(Closed):
         matrix[:3, 3] = pose[:3]
         return matrix
 
-    def _tree(self) -> NativeTree:
-        """The tree of the instances' boxes; kept until something in them changes."""
-        state = self.version, self.mesh, self.mesh.version
-        if self._tree_of != state:
-            self._native_tree = NativeTree(self._boxes())
-            self._tree_of = state
-        return self._native_tree
+    def _tree(self) -> tuple[NativeTree, np.ndarray]:
+        """The tree of the instances' boxes, and the poses that it is of, as C reads them."""
+        state = self._poses, self.mesh.positions
+        if not _same(self._tree_of, state):
+            poses = self._flat_poses()
+            self._tree_of = state, (NativeTree(self._boxes(poses)), poses)
+        return self._tree_of[1]
 
     def _box_in_node(self) -> np.ndarray:
         """The box around all instances, (OBJECT_BOX,); kept until something in it changes."""
-        state = self.version, self.mesh, self.mesh.version
-        if self._box_of != state:
-            self._box = np.empty(OBJECT_BOX)
-            union(self._boxes(), self._box)
-            self._box_of = state
-        return self._box
+        state = self._poses, self.mesh.positions
+        if not _same(self._box_of, state):
+            box = np.empty(OBJECT_BOX)
+            union(self._boxes(self._flat_poses()), box)
+            self._box_of = state, box
+        return self._box_of[1]
 
     def __len__(self) -> int:
         return len(self._poses)
 
     def __repr__(self) -> str:
         return f"InstancedMesh({self.mesh!r}, {len(self)} instances)"
+
+
+def _same(known: tuple | None, state: tuple) -> bool:
+    """Whether what is known follows from these very arrays."""
+    return known is not None and all(map(operator.is_, known[0], state))
 
 
 def mesh_box(mesh: Mesh) -> np.ndarray:
@@ -153,10 +161,7 @@ def mesh_box(mesh: Mesh) -> np.ndarray:
 
 
 def _check_poses(value) -> np.ndarray:
-    try:
-        poses = np.array(value, np.float32, order="C")
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"poses must be numbers: {error}") from None
+    poses = float32_of(floats(value, "poses"))
     if poses.shape == (0,):
         poses = poses.reshape(0, 4)
     if poses.shape[1:] not in ((4, 4), (4,)) or poses.ndim < 2:
@@ -170,13 +175,10 @@ def _check_poses(value) -> np.ndarray:
 def _check_colors(value, count: int) -> np.ndarray | None:
     if value is None:
         return None
-    colors = np.asarray(value)
+    colors = as_array(value, "colors")
     if colors.shape not in ((count, 3), (count, 4)):
         raise InvalidArgumentError(f"colors must be ({count}, 3 or 4), not {colors.shape}")
-    if colors.dtype != np.uint8:
-        if colors.dtype.kind != "f":
-            raise InvalidArgumentError(f"colors must be uint8 or float, not {colors.dtype}")
-        colors = colors.astype(np.float32)
+    colors = eight_bit_or_float(colors, "colors")
     opaque = 255 if colors.dtype == np.uint8 else 1
     result = np.full((count, 4), opaque, colors.dtype)
     result[:, : colors.shape[1]] = colors

@@ -8,7 +8,6 @@ docs/exactness.md, section 9, has the formulas.
 from __future__ import annotations
 
 import math
-import numbers
 from typing import get_args
 
 import numpy as np
@@ -16,9 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from .attributes import (
     CheckedAttribute,
-    Closed,
     ColorAttribute,
     NumberAttribute,
+    PlacedByNode,
     VectorAttribute,
     not_negative,
     one_of,
@@ -27,6 +26,7 @@ from .attributes import (
 from .choices import ColorLike, Falloff
 from .colors import check_color
 from .errors import InvalidArgumentError
+from .number_checks import real, shown
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 
@@ -39,12 +39,13 @@ def _direction(value: ArrayLike, what: str) -> NDArray[np.float64]:
 
 
 def _range(value: float, what: str) -> float:
-    if not isinstance(value, numbers.Real) or not value > 0:
-        raise InvalidArgumentError(f"{what} must be greater than 0, not {value!r}")
-    return float(value)
+    number = real(value)
+    if not number > 0:
+        raise InvalidArgumentError(f"{what} must be greater than 0, not {shown(value)}")
+    return number
 
 
-class DirectionalLight(Closed):
+class DirectionalLight(PlacedByNode):
     """A light infinitely far away, such as the sun.
 
     Parameters
@@ -85,7 +86,7 @@ class DirectionalLight(Closed):
         return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"
 
 
-class PointLight(Closed):
+class PointLight(PlacedByNode):
     """A light that shines from one point in all directions.
 
     Parameters

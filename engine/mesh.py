@@ -9,6 +9,7 @@ coordinates have their origin at the bottom left.
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, BinaryIO, TypeAlias
@@ -18,10 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import normals as _normals
 from . import topology as _topology
-from ._native.loaders import frozen
+from ._native.loaders import exchange, frozen
 from ._native.rasterizer import bound_points
-from .attributes import Closed
-from .changes import tell
+from .attributes import Closed, own
+from .changes import renew
 from .errors import InvalidArgumentError
 from .materials import Material
 from .mesh_arrays import (
@@ -60,8 +61,9 @@ class Mesh(Closed):
         Vertex normals; without them they are computed.
     uvs : (V, 2) float, optional
         Texture coordinates, (0, 0) at the image's bottom left.
-    colors : (V, 3) or (V, 4) uint8 or float, optional
-        Vertex colours: ``uint8`` is sRGB, floats are linear light. Alpha is opaque if left out.
+    colors : (V, 3) or (V, 4) int or float, optional
+        Vertex colours: integers 0..255 are sRGB, floats are linear light; integers that are all 0
+        or 1 mean 0.0 and 1.0, unless they are ``uint8``. Alpha is opaque if left out.
     materials : list of Material, optional
         One default material if left out.
     material_ids : (F,) int, optional
@@ -109,6 +111,7 @@ class Mesh(Closed):
     edge_visible: _OptionalFlags = ArrayAttribute(check_flags3, optional=True)
     position_ids: _OptionalIntegers = ArrayAttribute(check_indices, optional=True)
     _given_normals: _OptionalFloats = ArrayAttribute(check_vectors3, optional=True)
+    _FORGOTTEN = ("_derived",)
 
     def __init__(
         self,
@@ -127,11 +130,10 @@ class Mesh(Closed):
         name: str = "",
     ) -> None:
         self.name = str(name)
-        self.version = 0
         self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = {}
-        self._derived: dict[str, np.ndarray] = {}
+        self._derived: dict[str, tuple[list, np.ndarray]] = {}  # with what it was computed from
         self._materials = _check_materials(materials)
         self.positions = positions
         self.faces = () if faces is None else faces
@@ -148,13 +150,7 @@ class Mesh(Closed):
     @property
     def normals(self) -> NDArray[np.float32]:
         """Vertex normals (V, 3) float32: the given ones, or angle-weighted ones, computed once."""
-        given = self._given_normals
-        if given is not None:
-            return given
-        return self._derive(
-            "normals",
-            lambda: _normals.vertex_normals(self.positions, self.faces, self.position_ids),
-        )
+        return self._derive("normals", dict(self._arrays))
 
     @normals.setter
     def normals(self, value: ArrayLike | None) -> None:
@@ -168,10 +164,7 @@ class Mesh(Closed):
     @property
     def face_normals(self) -> NDArray[np.float32]:
         """One unit normal per face, (F, 3) float32, the same for all triangles of a polygon."""
-        return self._derive(
-            "face_normals",
-            lambda: _normals.face_normals(self.positions, self.faces, self.polygons),
-        )
+        return self._derive("face_normals", dict(self._arrays))
 
     @property
     def polygons(self) -> NDArray[np.int32]:
@@ -179,10 +172,7 @@ class Mesh(Closed):
 
         Triangles that stand one after the other and share an edge hidden in both are one polygon.
         """
-        return self._derive(
-            "polygons",
-            lambda: _topology.polygon_ids(self.faces, self.edge_visible, self.position_ids),
-        )
+        return self._derive("polygons", dict(self._arrays))
 
     def edges(self) -> NDArray[np.int32]:
         """Return the visible edges of the faces, each once: (E, 2) int32 vertex indices.
@@ -190,15 +180,12 @@ class Mesh(Closed):
         An edge counts as visible if it is visible in any face. They stand in the order of their
         first appearance; vertices with the same position id count as one.
         """
-        return self._derive(
-            "edges",
-            lambda: _topology.visible_edges(self.faces, self.edge_visible, self.position_ids),
-        )
+        return self._derive("edges", dict(self._arrays))
 
     @property
     def bounds(self) -> NDArray[np.float64]:
         """Smallest and largest finite coordinates, (2, 3) float64; zeros if there are none."""
-        return self._derive("bounds", lambda: np.array(bound_points(self.positions), np.float64))
+        return self._derive("bounds", dict(self._arrays))
 
     @property
     def materials(self) -> list[Material]:
@@ -211,8 +198,7 @@ class Mesh(Closed):
         if len(materials) < len(self._materials):
             require_range(self.material_ids, len(materials), "material_ids", "materials")
         self._materials = materials
-        self.version += 1
-        tell(self)
+        renew(self)
 
     @property
     def groups(self) -> dict[str, NDArray[np.int32]]:
@@ -286,69 +272,103 @@ class Mesh(Closed):
 
         save_mesh(self, path, format=format, **options)
 
+    def __setstate__(self, state: dict) -> None:
+        super().__setstate__({**state, "_derived": {}})
+        for arrays in (self._arrays, self._groups):
+            arrays.update({name: own(array) for name, array in arrays.items()})
+
     def __repr__(self) -> str:
         parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]
         parts += [f"{len(self.lines)} lines"] if len(self.lines) else []
         parts += [f"{len(self.points)} points"] if len(self.points) else []
         return f"Mesh({', '.join(parts)}, name={self.name!r})"
 
-    def _derive(self, what: str, compute) -> Any:
-        array = self._derived.get(what)
-        if array is None:
-            array = compute()
+    def _derive(self, what: str, arrays: dict) -> Any:
+        """What follows from arrays, as they were at one moment: computed once for these."""
+        if what == "normals" and arrays["_given_normals"] is not None:
+            return arrays["_given_normals"]
+        compute, names = _DERIVED[what]
+        sources = [arrays[name] for name in names]
+        made_of, array = self._derived.get(what, (None, None))
+        if made_of is None or not all(map(operator.is_, made_of, sources)):
+            array = compute(*sources)
             array.setflags(write=False)
-            self._derived[what] = array
+            self._derived[what] = sources, array
         return array
 
     def _replace(self, what: str, array: np.ndarray | None) -> None:
         """Check an array against those that are there, and put it in its place."""
+        while True:  # until nothing was assigned between the check and this
+            others = dict(self._arrays)
+            self._check_new(what, array, others)
+            fresh = {what: array}
+            ids = others.get("material_ids")
+            anew = what == "faces" and (ids is None or len(ids) != len(array))
+            if anew:  # pages of zeros that nobody reads never come
+                zeros = frozen(np.zeros(len(array), np.int32))
+                fresh["material_ids"] = check_indices(zeros, "material_ids")
+            if exchange(self._arrays, others, fresh):
+                break
+        if anew:
+            self._groups = {}
+        self._derived.clear()
+        renew(self)
+
+    def _check_new(self, what: str, array: np.ndarray | None, others: dict) -> None:
         if what == "positions":
-            self._check_new_positions(array)
+            _check_new_positions(array, others)
         elif what == "faces":
-            require_range(array, len(self.positions), what, "vertices")
-            self._check_new_faces(array)
+            require_range(array, len(others["positions"]), what, "vertices")
+            _check_length(others.get("edge_visible"), len(array), "edge_visible", "faces")
         elif what in ("lines", "points"):
-            require_range(array, len(self.positions), what, "vertices")
+            require_range(array, len(others["positions"]), what, "vertices")
         elif what in ("material_ids", "edge_visible"):
-            _check_length(array, len(self.faces), what, "faces")
+            _check_length(array, len(others["faces"]), what, "faces")
         else:
-            _check_length(array, len(self.positions), what.removeprefix("_given_"), "vertices")
+            shown = what.removeprefix("_given_")
+            _check_length(array, len(others["positions"]), shown, "vertices")
         if what == "material_ids":
             require_range(array, len(self._materials), what, "materials")
-        self._arrays[what] = array
-        self._derived.clear()
-        self.version += 1
-        tell(self)
 
     def _become(self, other: Mesh) -> None:
         """Take over everything of another mesh but its name."""
-        self._arrays, self._derived = dict(other._arrays), {}
+        self._arrays.update(other._arrays)  # one step: they fit together at every moment
+        self._derived.clear()
         self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
-        self.version += 1
-        tell(self)
+        renew(self)
 
-    def _check_new_positions(self, positions: np.ndarray) -> None:
-        count = len(positions)
-        for what in ("_given_normals", "uvs", "colors", "position_ids"):
-            other = self._arrays.get(what)
-            if other is not None and len(other) != count:
-                raise InvalidArgumentError(
-                    f"positions has {count} rows, but {what.removeprefix('_given_')} {len(other)}"
-                )
-        for what in ("faces", "lines", "points"):
-            other = self._arrays.get(what)
-            if other is not None:
-                require_range(other, count, what, "vertices")
 
-    def _check_new_faces(self, faces: np.ndarray) -> None:
-        """Flags must match; where the number changes, material ids are zero, groups are gone."""
-        _check_length(self._arrays.get("edge_visible"), len(faces), "edge_visible", "faces")
-        ids = self._arrays.get("material_ids")
-        if ids is None or len(ids) != len(faces):
-            # Pages of zeros that nobody reads never come.
-            self._arrays["material_ids"] = check_indices(frozen(np.zeros(len(faces), np.int32)), "")
-            self._groups = {}
+def _check_new_positions(positions: np.ndarray, others: dict) -> None:
+    count = len(positions)
+    for what in ("_given_normals", "uvs", "colors", "position_ids"):
+        other = others.get(what)
+        if other is not None and len(other) != count:
+            raise InvalidArgumentError(
+                f"positions has {count} rows, but {what.removeprefix('_given_')} {len(other)}"
+            )
+    for what in ("faces", "lines", "points"):
+        other = others.get(what)
+        if other is not None:
+            require_range(other, count, what, "vertices")
+
+
+def _face_normals(positions, faces, position_ids, edge_visible) -> np.ndarray:
+    polygons = _topology.polygon_ids(faces, edge_visible, position_ids)
+    return _normals.face_normals(positions, faces, polygons)
+
+
+def _bounds(positions: np.ndarray) -> np.ndarray:
+    return np.array(bound_points(positions), np.float64)
+
+
+_DERIVED = {  # how each is computed, and from which arrays
+    "normals": (_normals.vertex_normals, ("positions", "faces", "position_ids")),
+    "face_normals": (_face_normals, ("positions", "faces", "position_ids", "edge_visible")),
+    "polygons": (_topology.polygon_ids, ("faces", "edge_visible", "position_ids")),
+    "edges": (_topology.visible_edges, ("faces", "edge_visible", "position_ids")),
+    "bounds": (_bounds, ("positions",)),
+}
 
 
 def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:

@@ -12,7 +12,9 @@ from typing import Any, Generic, TypeVar, overload
 import numpy as np
 
 from ._native.loaders import is_frozen
+from .colors import eight_bit_or_float
 from .errors import InvalidArgumentError
+from .number_checks import as_array
 
 _INT32_MAX = 2**31 - 1
 
@@ -59,13 +61,10 @@ def check_vectors3(value, what: str) -> np.ndarray:
 
 def check_colors(value, what: str) -> np.ndarray:
     """(N, 4) uint8 or float32; three components get an opaque alpha."""
-    array = _array(value, what)
+    array = as_array(value, what)
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise InvalidArgumentError(f"{what} must be (N, 3) or (N, 4), got {array.shape}")
-    if array.dtype != np.uint8:
-        if array.dtype.kind != "f":
-            raise InvalidArgumentError(f"{what} must be uint8 or float, got {array.dtype}")
-        array = array.astype(np.float32, copy=False)
+    array = eight_bit_or_float(array, what)
     if array.shape[1] == 4:
         return _frozen(array, array.dtype)
     widened = np.empty((len(array), 4), array.dtype)
@@ -91,7 +90,7 @@ def check_triples(value, what: str) -> np.ndarray:
 
 def check_flags3(value, what: str) -> np.ndarray:
     """(N, 3) bool."""
-    array = _shaped(_array(value, what), what, (3,))
+    array = _shaped(as_array(value, what), what, (3,))
     if array.dtype.kind not in "biu" and array.size:
         raise InvalidArgumentError(f"{what} must be bool, got {array.dtype}")
     return _frozen(array, np.bool_)
@@ -123,13 +122,6 @@ def require_range(indices: np.ndarray, count: int, what: str, of_what: str) -> N
         )
 
 
-def _array(value, what: str) -> np.ndarray:
-    try:
-        return np.asarray(value)
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{what} is not an array: {error}") from None
-
-
 def _shaped(array: np.ndarray, what: str, row: tuple[int, ...]) -> np.ndarray:
     if array.size == 0 and array.ndim == 1:
         return array.reshape((0, *row))
@@ -140,19 +132,21 @@ def _shaped(array: np.ndarray, what: str, row: tuple[int, ...]) -> np.ndarray:
 
 
 def _floats(value, what: str, components: int) -> np.ndarray:
-    array = _shaped(_array(value, what), what, (components,))
+    array = _shaped(as_array(value, what), what, (components,))
     if array.dtype.kind not in "fiu":
         raise InvalidArgumentError(f"{what} must be numbers, got {array.dtype}")
     return array
 
 
 def _integers(value, what: str, row: tuple[int, ...]) -> np.ndarray:
-    array = _shaped(_array(value, what), what, row)
+    array = _shaped(as_array(value, what), what, row)
     if array.dtype.kind not in "iu" and array.size:
         raise InvalidArgumentError(f"{what} must be integers, got {array.dtype}")
     if array.size and array.dtype != np.int32:
-        if int(array.min()) < -_INT32_MAX or int(array.max()) > _INT32_MAX:
-            raise InvalidArgumentError(f"{what} holds an index beyond 2^31")
+        low, high = int(array.min()), int(array.max())
+        if low < -_INT32_MAX or high > _INT32_MAX:
+            wrong = low if low < -_INT32_MAX else high
+            raise InvalidArgumentError(f"{what} holds {wrong}, which no 32-bit index can be")
     return array
 
 

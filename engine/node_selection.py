@@ -16,6 +16,7 @@ from ._native.scene_graph import VISIBLE
 from .attributes import Closed
 from .errors import InvalidArgumentError
 from .nodes import Node
+from .number_checks import floats
 from .scene_arrays import matrices_of
 
 if TYPE_CHECKING:
@@ -128,6 +129,9 @@ class NodeSelection(Closed):
         bounds[bounds[:, 0] > bounds[:, 3]] = np.nan
         return bounds.reshape(-1, 2, 3)
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a NodeSelection belongs to its Scene: it cannot be copied or pickled")
+
     def __repr__(self) -> str:
         return f"NodeSelection({len(self)} nodes)"
 
@@ -137,10 +141,7 @@ class NodeSelection(Closed):
 
     def _checked(self, value, what: str, row: tuple[int, ...]) -> np.ndarray:
         shape = (len(self), *row)
-        try:
-            array = np.asarray(value, np.float64)
-        except (TypeError, ValueError) as error:
-            raise InvalidArgumentError(f"{what} must be numbers: {error}") from None
+        array = floats(value, what)
         try:
             array = np.ascontiguousarray(np.broadcast_to(array, shape))
         except ValueError:

@@ -18,6 +18,7 @@ from . import linalg
 from ._native.scene_graph import STATIC, VISIBLE
 from .attributes import frozen_floats, matrix4, vector3
 from .errors import InvalidArgumentError
+from .number_checks import floats
 
 if TYPE_CHECKING:
     from .cameras import Camera
@@ -69,8 +70,22 @@ class Node:
 
     @property
     def object(self) -> SceneObject | None:
-        """Mesh, InstancedMesh, Camera, DirectionalLight, PointLight, or None for a group."""
+        """Mesh, InstancedMesh, Camera, DirectionalLight, PointLight, or None for a group.
+
+        Assign another, or None, at any time: the node keeps its id, name, pose and children. A
+        collider of the node's own mesh needs a mesh there.
+        """
         return self._object
+
+    @object.setter
+    def object(self, value: SceneObject | None) -> None:
+        if self._scene is None:
+            raise InvalidArgumentError("the node was removed from its scene")
+        if self._collider is not None:
+            from .spatial.colliders import check_collider
+
+            check_collider(value, self._collider)
+        self._scene._put(self, value)
 
     @property
     def name(self) -> str:
@@ -148,8 +163,8 @@ class Node:
     @pose.setter
     def pose(self, value: ArrayLike) -> None:
         matrix = check_pose(value)
-        self._pose_version = self._arrays.set_pose(self._slot, matrix)
-        self._pose = matrix
+        version = self._arrays.set_pose(self._slot, matrix)
+        self._pose, self._pose_version = matrix, version
 
     @property
     def translation(self) -> NDArray[np.float64]:
@@ -228,7 +243,7 @@ class Node:
     def collider(self, value: Collider | None) -> None:
         from .spatial.colliders import check_collider
 
-        check_collider(self, value)
+        check_collider(self._object, value)
         self._collider = value
         if self._scene is not None:
             self._scene._set_collider(self)
@@ -293,4 +308,5 @@ def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
 
 def check_scale(value: ArrayLike) -> NDArray[np.float64]:
     """Check one factor or three; return three as a read-only (3,) float64 array."""
-    return vector3(np.broadcast_to(value, (3,)) if np.ndim(value) == 0 else value, "scale")
+    factors = floats(value, "scale")
+    return vector3(np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors, "scale")

@@ -17,6 +17,7 @@ from .backend_selection import resolve_backend, resolve_threads
 from .choices import Backend, Cull
 from .errors import InvalidArgumentError
 from .image_size import check_side
+from .number_checks import as_array, floats
 
 
 class RasterizeResult(NamedTuple):
@@ -85,18 +86,17 @@ def rasterize(
 
 
 def _float_rows(clip) -> np.ndarray:
-    try:
-        with np.errstate(over="ignore"):  # what float32 cannot hold is infinite and drops out
-            positions = np.ascontiguousarray(clip, np.float32)
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"clip must be numbers: {error}") from None
+    if not (isinstance(clip, np.ndarray) and clip.dtype == np.float32):
+        clip = floats(clip, "clip")
+    with np.errstate(over="ignore"):  # what float32 cannot hold is infinite and drops out
+        positions = np.ascontiguousarray(clip, np.float32)
     if positions.ndim != 2 or positions.shape[1] != 4:
         raise InvalidArgumentError(f"clip must be (V, 4), not {positions.shape}")
     return positions
 
 
 def _index_rows(faces, count: int) -> np.ndarray:
-    indices = np.asarray(faces)
+    indices = as_array(faces, "faces")
     if indices.size == 0:
         return np.empty((0, 3), np.int32)
     if indices.ndim != 2 or indices.shape[1] != 3 or indices.dtype.kind not in "iu":

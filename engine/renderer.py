@@ -7,7 +7,6 @@ gives the same bytes on every backend and every number of threads.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterable
 from operator import is_
 from typing import TYPE_CHECKING
@@ -40,6 +39,7 @@ from .frame_options import OptionsCache, RenderOptions
 from .framing import frame_scene
 from .image_size import check_side, check_size
 from .output_pool import OutputPool
+from .renderer_turn import RendererTurn
 from .scene import Scene
 from .view import CameraChoice, View, find_camera
 
@@ -109,7 +109,7 @@ class Renderer(Closed):
         self._view: View | None = None
         self._framing: tuple[Camera, np.ndarray] | None = None
         self._framed = ()
-        self._lock = threading.Lock()
+        self._turn = RendererTurn(self._native)
 
     @property
     def width(self) -> int:
@@ -134,15 +134,16 @@ class Renderer(Closed):
     def resize(self, width: int, height: int) -> None:
         """Change the size of the frames to come."""
         width, height = check_side(width, "width"), check_side(height, "height")
-        with self._lock:
+        with self._turn.taken():
             self._width, self._height = width, height
             self._asked = ()
             self._pool.forget()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
-        with self._lock:
+        with self._turn.taken(closing=True):
             self._native = self._draw_list = None
+            self._turn.let_go()
             self._pool.forget()
 
     def __reduce_ex__(self, protocol):
@@ -180,7 +181,7 @@ class Renderer(Closed):
         InvalidArgumentError, OutOfMemoryError
         """
         names = _names_of(outputs)
-        with self._lock:
+        with self._turn.taken():
             self._check_drawable(scene)
             rest = "zbuffer", False, 1.0, 1.0, "none"
             options = self._options.get(
@@ -280,12 +281,15 @@ class Renderer(Closed):
         Raises
         ------
         InvalidArgumentError, OutOfMemoryError
+        RendererBusyError
+            A signal handler, or something else that ran within a frame of this renderer, asked for
+            another one; or the process was forked from within a frame.
         SceneChangedError
             Another thread added or removed nodes meanwhile, and the frame could not be drawn.
         KeyboardInterrupt
             Ctrl-C stops a frame between its tiles.
         """
-        with self._lock:
+        with self._turn.taken():
             self._check_drawable(scene)
             options = self._options.get(
                 scene,
@@ -340,6 +344,7 @@ class Renderer(Closed):
                 far,
                 chosen,
             )
+            self._turn.check()
             frame._seen = view, cull
             frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import threading
 import warnings
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakValueDictionary
@@ -60,6 +61,8 @@ class Resources:
         self._by_content: WeakValueDictionary = WeakValueDictionary()
         self._files: dict[tuple, _Loaded] = {}
         self._loads = self._shared = 0
+        # Held while things are looked up and kept, not while files are read.
+        self._lock = threading.RLock()
 
     def load_mesh(self, path: str | os.PathLike[str], **options: Any) -> Mesh:
         """Return the mesh of a file; parameters and exceptions are those of `load_mesh`.
@@ -84,8 +87,9 @@ class Resources:
         """
         if not isinstance(thing, (Mesh, Texture)):
             raise InvalidArgumentError(f"not a Mesh or Texture: {type(thing).__name__}")
-        self._loads += 1
-        return self._same(thing)
+        with self._lock:
+            self._loads += 1
+            return self._same(thing)
 
     def reload_changed(self) -> tuple[str, ...]:
         """Load the files again that changed since they were loaded; return their paths.
@@ -97,7 +101,7 @@ class Resources:
         for key, loaded in list(self._files.items()):
             thing = self._by_file.get(key)
             if thing is None:
-                del self._files[key]
+                self._files.pop(key, None)
                 continue
             if not any(state.changed() for state in loaded.states.values()):
                 continue
@@ -108,17 +112,19 @@ class Resources:
             except Engine3DError as error:
                 warnings.warn(f"not loaded again: {error}", Engine3DWarning, stacklevel=2)
                 continue
-            self._forget_content(thing)
-            _become(thing, fresh)
-            loaded.states, loaded.versions = states, _versions(thing)
+            with self._lock:
+                self._forget_content(thing)
+                _become(thing, fresh)
+                loaded.states, loaded.versions = states, _versions(thing)
             done.append(path)
         return tuple(done)
 
     @property
     def stats(self) -> ResourceStats:
         """Counts and sizes of what is held now."""
-        things = {id(thing): thing for thing in self._by_content.values()}
-        things.update((id(thing), thing) for thing in self._by_file.values())
+        with self._lock:
+            things = {id(thing): thing for thing in self._by_content.values()}
+            things.update((id(thing), thing) for thing in self._by_file.values())
         meshes = [thing for thing in things.values() if isinstance(thing, Mesh)]
         textures = {id(thing): thing for thing in things.values() if isinstance(thing, Texture)}
         return ResourceStats(
@@ -130,24 +136,41 @@ class Resources:
             self._shared,
         )
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("Resources cannot be copied or pickled: they are what is shared")
+
     def _load(self, load, path, options: dict):
         if not isinstance(path, (str, os.PathLike)):
             kind = type(path).__name__
             raise InvalidArgumentError(f"resources are loaded by their paths, not from {kind}")
-        self._loads += 1
         name = _real_path(path)
         key = (load.__name__, name, tuple(sorted(options.items())))
-        thing = self._by_file.get(key)
-        if thing is not None and self._files[key].versions == _versions(thing):
-            self._shared += 1
+        with self._lock:
+            self._loads += 1
+            thing = self._known(key)
+        if thing is not None:
             return thing
         thing, states = _read(load, name, options)
+        with self._lock:
+            return self._known(key) or self._keep(key, thing, _Loaded(load, options, states))
+
+    def _known(self, key: tuple):
+        """What was loaded so, as long as nobody has changed it since."""
+        thing, loaded = self._by_file.get(key), self._files.get(key)
+        if thing is None or loaded is None or loaded.versions != _versions(thing):
+            return None
+        self._shared += 1
+        return thing
+
+    def _keep(self, key: tuple, thing, loaded: _Loaded):
+        """The object of what was read: this one, or one that is there already."""
         for material in thing.materials if isinstance(thing, Mesh) else ():
             if material.texture is not None:
                 material.texture = self._same(material.texture, count=False)
         thing = self._same(thing)
+        loaded.versions = _versions(thing)
+        self._files[key] = loaded
         self._by_file[key] = thing
-        self._files[key] = _Loaded(load, options, states, thing)
         return thing
 
     def _same(self, thing, *, count: bool = True):
@@ -176,9 +199,9 @@ def _real_path(path: str | os.PathLike) -> str:
 class _Loaded:
     """How a file was loaded: by what, with which options, from which files in which states."""
 
-    def __init__(self, load, options: dict, states: dict[str, FileState], thing) -> None:
+    def __init__(self, load, options: dict, states: dict[str, FileState]) -> None:
         self.load, self.options, self.states = load, options, states
-        self.versions = _versions(thing)
+        self.versions: tuple = ()
 
 
 def _versions(thing) -> tuple:

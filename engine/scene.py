@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import linalg
 from ._native.scene_graph import OBJECT_BOX, union
 from .attributes import Closed, vector3
 from .cameras import Camera
@@ -76,7 +77,7 @@ class Scene(Closed):
         self._objects = ObjectTable()
         self._ids = itertools.count()
         self._removed = 0  # slots of removed nodes
-        self._removals = 0  # nodes that were ever removed
+        self._removals = 0  # how often a node, or what it held, went
         self._cameras: dict[int, Node] = {}
         self._lights: dict[int, Node] = {}
         self._colliders: dict[int, Node] = {}
@@ -127,6 +128,7 @@ class Scene(Closed):
         pose: ArrayLike | None = None,
         translation: ArrayLike | None = None,
         rotation: ArrayLike | None = None,
+        euler: ArrayLike | None = None,
         scale: ArrayLike | None = None,
         static: bool = False,
     ) -> Node:
@@ -135,7 +137,8 @@ class Scene(Closed):
         Parameters
         ----------
         obj : Mesh, InstancedMesh, Camera, DirectionalLight, PointLight or None
-            The same object may be added many times. None adds a node that groups others.
+            The same object may be added many times. None adds a node that groups others, or gets
+            its ``object`` later.
         name : str, optional
             The object's own name if left out.
         parent : Node, optional
@@ -145,6 +148,10 @@ class Scene(Closed):
         translation : (3,) float, optional
         rotation : (4,) float, optional
             Quaternion x, y, z, w.
+        euler : (3,) float, optional
+            Instead of ``rotation``: angles in radians about x, y and z. Turns about x, then about
+            the new y, then about the newest z, as `Node.euler` and three.js do; degrees go through
+            ``numpy.radians``.
         scale : float or (3,) float, optional
         static : bool
             The node is meant to stay where it is; see `Node.static`.
@@ -157,15 +164,15 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        if obj is not None and not isinstance(obj, _OBJECT_TYPES):
-            allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
-            raise InvalidArgumentError(
-                f"a scene holds {allowed} or None (a group), not {type(obj).__name__}"
-            )
+        _check_object(obj)
         if parent is not None and not (isinstance(parent, Node) and parent._scene is self):
             raise InvalidArgumentError("parent must be a node of this scene")
         if name is None:
             name = getattr(obj, "name", "")
+        if rotation is not None and euler is not None:
+            raise InvalidArgumentError("give rotation or euler, not both")
+        if euler is not None:
+            rotation = linalg.euler_to_quaternion(vector3(euler, "euler"))
         parts = (translation, rotation, scale)
         if pose is not None and any(part is not None for part in parts):
             raise InvalidArgumentError("give pose or translation, rotation and scale, not both")
@@ -185,14 +192,34 @@ class Scene(Closed):
             self._arrays.set_parts(slot, rotation, scale)
         if static:
             node.static = True
-        if isinstance(obj, Camera):
-            self._cameras[node.id] = node
-        elif isinstance(obj, (DirectionalLight, PointLight)):
-            self._lights[node.id] = node
+        self._list(node)
         self._nodes = None
         if self._names is not None:
             self._names.setdefault(node._name, node)
         return node
+
+    def _list(self, node: Node) -> None:
+        """Keep the nodes of cameras and of lights, in the order in which the nodes were added."""
+        listed = self._cameras if isinstance(node.object, Camera) else self._lights
+        if isinstance(node.object, (Camera, DirectionalLight, PointLight)):
+            last = max(listed, default=-1)
+            listed[node.id] = node
+            if node.id < last:
+                ordered = dict(sorted(listed.items()))
+                listed.clear()
+                listed.update(ordered)
+
+    def _put(self, node: Node, obj) -> None:
+        """Let a node hold another object."""
+        _check_object(obj)
+        number = self._objects.take(obj)
+        self._objects.release(node._object)
+        node._object = obj
+        self._arrays.set_object(node._slot, number)
+        self._cameras.pop(node.id, None)
+        self._lights.pop(node.id, None)
+        self._list(node)
+        self._removals += 1
 
     def remove(self, node: Node) -> None:
         """Take a node and everything below it out of the scene, for good.
@@ -228,9 +255,11 @@ class Scene(Closed):
     @property
     def nodes(self) -> tuple[Node, ...]:
         """All nodes, in the order they were added."""
-        if self._nodes is None:
-            self._nodes = tuple(node for node in self._arrays.nodes if node is not None)
-        return self._nodes
+        nodes = self._nodes
+        if nodes is None:
+            nodes = tuple(node for node in self._arrays.nodes if node is not None)
+            self._nodes = nodes
+        return nodes
 
     def _camera_node(self) -> Node | None:
         """The first visible node that holds a camera: what is drawn through by default."""
@@ -238,11 +267,13 @@ class Scene(Closed):
 
     def find(self, name: str) -> Node | None:
         """Return the first node of that name, or None."""
-        if self._names is None:
-            self._names = {}
+        names = self._names
+        if names is None:
+            names = {}
             for node in self.nodes:
-                self._names.setdefault(node.name, node)
-        return self._names.get(name)
+                names.setdefault(node.name, node)
+            self._names = names  # whole: another thread may ask meanwhile
+        return names.get(name)
 
     def select(self, nodes: Iterable[Node] | None = None) -> NodeSelection:
         """Return a selection of nodes, to read or to move them together as arrays.
@@ -433,9 +464,7 @@ class Scene(Closed):
 
     def _update(self, threads: int = 1) -> None:
         """Make world poses, visibility and bounds of all nodes true; threads: 0 is all."""
-        changed = self._objects.refresh()
-        if changed is not None:
-            self._arrays.touch_objects(changed)
+        self._objects.refresh(self._arrays)
         self._arrays.update(self._objects.boxes, threads)
 
     @property
@@ -453,9 +482,17 @@ class Scene(Closed):
         return f"Scene({self._arrays.count - self._removed} nodes)"
 
 
+def _check_object(obj) -> None:
+    if obj is not None and not isinstance(obj, _OBJECT_TYPES):
+        allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
+        raise InvalidArgumentError(
+            f"a scene holds {allowed} or None (a group), not {type(obj).__name__}"
+        )
+
+
 def _pair(value, what: str) -> tuple[float, float]:
     try:
         low, high = value
         return float(low), float(high)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InvalidArgumentError(f"{what} must be two numbers, not {value!r}") from None

@@ -3,13 +3,16 @@
 In: objects, as nodes come and go. Out: their numbers, and their boxes in object space, renewed when
 an object changed. A number is used again only after ``version`` has grown. What a change costs
 depends on what changed, not on how many objects there are.
+
+Threads that ask at once for what is not known yet each find it, and find the same: nothing counts
+as done before its result is in its place.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from ._native.scene_graph import OBJECT_BOX, NativeShapes
+from ._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
 from .changes import Watch
 from .instances import InstancedMesh, mesh_box
 from .mesh import Mesh
@@ -44,14 +47,16 @@ class ObjectTable:
         self._drawn: dict = {}  # numbers of what each mesh or set of instances is drawn by
         self._parts: dict[int, list] = {}  # the meshes and sets of instances that a number draws
         self._renewed: list[int] = []  # the numbers that got other objects, the latest last
-        self._unboxed: set[int] = set()  # of these, those whose boxes are not renewed yet
+        self._given: list[int] = []  # the version at which each number got its object
+        self._unboxed: set[int] = set()  # the numbers whose boxes are not renewed since
 
     @property
     def shapes(self) -> NativeShapes:
         """What the objects are to rays; told when a ray first asks."""
-        if self._shapes is None:
-            self._shapes = NativeShapes(len(self.objects))
-        return self._shapes
+        shapes = self._shapes
+        if shapes is None:
+            shapes = self._shapes = NativeShapes(len(self.objects))
+        return shapes
 
     def take(self, obj) -> int:
         """Return the number of an object for one more node; -1 for what is never drawn."""
@@ -63,6 +68,8 @@ class ObjectTable:
                 self._free.append(len(self.objects))
                 self.objects.append(None)
                 self._uses.append(0)
+                self._given.append(0)
+                self._make_room()
             number = self._numbers[obj] = self._free.pop()
             self._give(number, obj)
             self._look_at(obj, number)
@@ -91,31 +98,48 @@ class ObjectTable:
 
     def drawn_by(self, thing) -> set[int]:
         """Return the numbers of the objects that draw a mesh or set of instances."""
-        return self._drawn.get(thing, set())
+        return set(self._drawn.get(thing, ()))
 
-    def refresh(self) -> np.ndarray | None:
-        """Renew the boxes; return (N,) uint8 that tells which changed, or None."""
-        numbers = sorted(self._unboxed | self._numbers_that_changed())
-        self._unboxed = set()
-        if not numbers:
-            return None
+    def refresh(self, arrays) -> None:
+        """Renew the boxes, and touch the nodes in ``arrays`` whose boxes are others now."""
+        found = self._watch.found()
+        if not found and not self._unboxed:
+            return
+        given = {number: self._given[number] for number in self._unboxed.copy()}
+        numbers = sorted(given.keys() | self._numbers_of(found))
+        boxes = [_box(self.objects[number]) for number in numbers]
         self._shapes = None
-        if len(self.boxes) < len(self.objects):
-            more = np.full((2 * len(self.objects) - len(self.boxes), OBJECT_BOX), np.nan)
-            self.boxes = np.concatenate([self.boxes, more])
-        boxes = np.array([_box(self.objects[number]) for number in numbers])
-        changed = np.zeros(len(self.boxes), np.uint8)
-        changed[numbers] = (boxes != self.boxes[numbers]).any(axis=1)
-        self.boxes[numbers] = boxes
-        return changed if changed.any() else None
+        if numbers:
+            arrays.renew_boxes(self, np.array(numbers, np.int32), np.array(boxes))
+        for thing, version in found:
+            self._watch.saw(thing, version)
+        for number, version in given.items():
+            self._unboxed.discard(number)
+            if self._given[number] != version:  # another object came meanwhile
+                self._unboxed.add(number)
 
-    def _numbers_that_changed(self) -> set[int]:
+    def _numbers_of(self, changed: list[tuple]) -> set[int]:
+        """The numbers of what is drawn by things that changed."""
         numbers = set()
-        for thing in self._watch.changed():
-            numbers |= self._drawn[thing]
-            if isinstance(thing, InstancedMesh):
-                self._look_at(thing.mesh, self._numbers[thing])
+        for thing, _ in changed:
+            numbers |= self.drawn_by(thing)
+            if isinstance(thing, InstancedMesh) and thing in self._numbers:
+                self._follow(thing, self._numbers[thing])
         return numbers
+
+    def _follow(self, instances: InstancedMesh, number: int) -> None:
+        """Look at the mesh that is drawn now, and no longer at the one before."""
+        mesh = instances.mesh
+        self._look_at(mesh, number)
+        parts, self._parts[number] = self._parts[number], [instances, mesh]
+        for part in parts:
+            if part is not instances and part is not mesh:
+                self._look_away(part, number)
+
+    def _make_room(self) -> None:
+        """Have a row for each number; fresh ones differ from every box."""
+        if len(self.boxes) < len(self.objects):
+            move_boxes(self, np.full((2 * len(self.objects), OBJECT_BOX), np.nan))
 
     def _look_at(self, thing, number: int) -> None:
         numbers = self._drawn.setdefault(thing, set())
@@ -126,14 +150,16 @@ class ObjectTable:
             self._parts.setdefault(number, []).append(thing)
 
     def _look_away(self, thing, number: int) -> None:
-        self._drawn[thing].remove(number)
-        if not self._drawn[thing]:
-            del self._drawn[thing]
+        numbers = self._drawn.get(thing, set())
+        numbers.discard(number)
+        if not numbers:
+            self._drawn.pop(thing, None)
             self._watch.remove(thing)
 
     def _give(self, number: int, obj) -> None:
         self.objects[number] = obj
         self.version += 1
+        self._given[number] = self.version
         self._unboxed.add(number)
         self._renewed.append(number)
         if len(self._renewed) > 2 * _REMEMBERED:

@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .attributes import CheckedAttribute, Closed, one_of
-from .changes import tell
+from .changes import renew
 from .choices import ColorSpace, Filter, Wrap
 from .colors import COLOR_SPACES
 from .errors import InvalidArgumentError
+from .number_checks import as_array
 
 FILTERS: tuple[Filter, ...] = get_args(Filter)
 WRAPS: tuple[Wrap, ...] = get_args(Wrap)
@@ -75,7 +76,6 @@ class Texture(Closed):
         wrap: Wrap = "repeat",
         name: str = "",
     ) -> None:
-        self.version = 0
         self.pixels = pixels
         self.color_space = color_space
         self.filter = filter
@@ -89,8 +89,7 @@ class Texture(Closed):
     @pixels.setter
     def pixels(self, value: ArrayLike) -> None:
         self._pixels = as_rgba(value)
-        self.version += 1
-        tell(self)
+        renew(self)
 
     @property
     def width(self) -> int:
@@ -111,7 +110,7 @@ def as_rgba(pixels: ArrayLike) -> NDArray[np.uint8]:
     """
     if isinstance(pixels, (str, os.PathLike)):
         raise InvalidArgumentError(f"a Texture is made of pixels: use load_texture({pixels!r})")
-    image = np.asarray(pixels)
+    image = as_array(pixels, "pixels")
     if image.dtype != np.uint8:
         raise InvalidArgumentError(f"texture pixels must be uint8, got {image.dtype}")
     if image.ndim == 2:

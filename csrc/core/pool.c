@@ -47,22 +47,17 @@ static struct {
           .done = PTHREAD_COND_INITIALIZER};
 
 static pthread_once_t fork_guard = PTHREAD_ONCE_INIT;
+static _Thread_local int owning; /* the pool */
 
-static void before_fork(void)
-{
-    pthread_mutex_lock(&pool.owner);
-    pthread_mutex_lock(&pool.lock);
-}
+/* A job that runs is not waited for: it may itself wait for the thread that forks, or be this thread's own. */
+static void before_fork(void) { pthread_mutex_lock(&pool.lock); }
 
-static void in_parent(void)
-{
-    pthread_mutex_unlock(&pool.lock);
-    pthread_mutex_unlock(&pool.owner);
-}
+static void in_parent(void) { pthread_mutex_unlock(&pool.lock); }
 
 static void in_child(void) /* no thread came along */
 {
-    pthread_mutex_init(&pool.owner, NULL);
+    if (!owning)
+        pthread_mutex_init(&pool.owner, NULL);
     pthread_mutex_init(&pool.lock, NULL);
     pthread_cond_init(&pool.start, NULL);
     pthread_cond_init(&pool.done, NULL);
@@ -241,7 +236,9 @@ void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
         work(argument, 0);
         return;
     }
+    owning = 1;
     run_job(pool.helping.alone ? 0 : threads - 1, work, argument);
+    owning = 0;
     pthread_mutex_unlock(&pool.owner);
 }
 

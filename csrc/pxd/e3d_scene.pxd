@@ -49,6 +49,7 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_graph_find_parts(e3d_graph *graph, int32_t slot)
     void e3d_graph_find_world(e3d_graph *graph, int32_t slot)
     void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects, int threads)
+    void e3d_graph_touch(e3d_graph *graph, int32_t slot)
     void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects)
 
     void e3d_instance_boxes(

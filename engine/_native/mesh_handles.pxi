@@ -65,8 +65,12 @@ cdef class NativeMesh:
         if self.handle != NULL:
             e3d_mesh_destroy(self.handle)
 
+    # The first array stays: a thread may be drawing by it when another brings its own.
+
     def set_normals(self, const float[:, ::1] normals not None):
         require(normals.shape[0] == self.vertices and normals.shape[1] == 3, "normals: (vertices, 3)")
+        if self.has_normals:
+            return
         if self.vertices:
             e3d_mesh_set_normals(self.handle, &normals[0, 0])
         self.borrowed.append(normals)
@@ -76,6 +80,8 @@ cdef class NativeMesh:
         require(
             normals.shape[0] == self.faces_count and normals.shape[1] == 3, "face_normals: (faces, 3)"
         )
+        if self.has_face_normals:
+            return
         if self.faces_count:
             e3d_mesh_set_face_normals(self.handle, &normals[0, 0])
         self.borrowed.append(normals)
@@ -83,6 +89,8 @@ cdef class NativeMesh:
 
     def set_edges(self, const int32_t[:, ::1] edges not None):
         require(edges.shape[1] == 2, "edges must have 2 columns")
+        if self.has_edges:
+            return
         if edges.shape[0]:
             check(e3d_mesh_set_edges(self.handle, &edges[0, 0], <int32_t>edges.shape[0]))
         self.borrowed.append(edges)

@@ -101,3 +101,17 @@ def is_frozen(array):
     if isinstance(array.base, OwnedMemory):
         return bool((<OwnedMemory>array.base).is_frozen)
     return array.base is None and not array.flags.writeable
+
+
+def exchange(dict held, dict expected, dict fresh):
+    """Update a dict unless it holds other values than expected, as one step; tell whether.
+
+    Neither another thread nor a signal handler comes in between.
+    """
+    if held.keys() != expected.keys():
+        return False
+    for key, value in expected.items():
+        if held[key] is not value:
+            return False
+    held.update(fresh)
+    return True

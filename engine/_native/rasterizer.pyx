@@ -141,7 +141,7 @@ cdef int run_signal_handlers(void *renderer) noexcept with gil:
     except BaseException as error:
         (<NativeRenderer>renderer).interruption = error
         return 1
-    return 0
+    return (<NativeRenderer>renderer).handle == NULL  # forked by a handler: the helpers are elsewhere
 
 
 cdef class NativeOptions:
@@ -253,9 +253,14 @@ cdef class NativeRenderer:
         if self.handle != NULL:
             e3d_renderer_destroy(self.handle)
 
+    def abandon(self):
+        """Use the handle no more, nor free it: a fork may have caught a frame in mid-write."""
+        self.handle = NULL
+
     def prepare(self, int width, int height):
         """Have memory ready that frames of so many samples may need."""
         cdef e3d_status status
+        require(self.handle != NULL, "the renderer was abandoned")
         with nogil:
             status = e3d_renderer_prepare(self.handle, width, height)
         check(status)
@@ -308,10 +313,13 @@ cdef class NativeRenderer:
         frame.order = draw_list.placed.order
         frame.order_count = draw_list.placed.order_count
         fill_targets(&outputs, targets, width, height)
+        require(self.handle != NULL, "the renderer was abandoned")
         self.interruption = None
         self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL
         with nogil:
             status = e3d_render(self.handle, &frame, &outputs, &drawn.stats)
+        if self.handle == NULL:
+            return drawn  # the caller knows that the process was forked meanwhile
         if self.interruption is not None:
             error, self.interruption = self.interruption, None
             raise error

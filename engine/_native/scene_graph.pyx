@@ -9,7 +9,7 @@ Always: the GIL is held, so that threads take turns; what is asked of a slot tha
 
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 from libc.stdlib cimport calloc, free
-from libc.string cimport memcpy, memset
+from libc.string cimport memcmp, memcpy, memset
 
 from e3d cimport (
     E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind, e3d_thread_count,
@@ -109,6 +109,10 @@ cdef class NativeShapes:
         """Tell an object's triangles; its poses, (N, 16) or (N, 4), and their tree if there are any."""
         if not 0 <= number < self.count or positions.shape[1] != 3 or faces.shape[1] != 3:
             raise InvalidArgumentError("no such object, or wrong arrays of triangles")
+        if triangles.count != faces.shape[0]:
+            raise InvalidArgumentError("the tree must be of the faces")
+        if poses is not None and instances is not None and instances.count != poses.shape[0]:
+            raise InvalidArgumentError("the tree must be of the poses")
         cdef e3d_shape *shape = &self.shapes[number]
         memset(shape, 0, sizeof(e3d_shape))
         shape.known = 1
@@ -483,11 +487,52 @@ cdef class NativeGraph:
                 done += 1
         return done, missing
 
-    def touch_objects(self, const uint8_t[::1] dirty not None):
-        """Say that the boxes of objects changed."""
-        if dirty.shape[0]:
+    def renew_boxes(
+        self,
+        table,
+        const int32_t[::1] numbers not None,
+        const double[:, ::1] fresh not None,
+    ):
+        """Write rows of ``table.boxes`` and touch the nodes of those that are others, as one step."""
+        cdef double[:, ::1] boxes = table.boxes
+        if boxes.shape[1] != E3D_OBJECT_BOX or fresh.shape[1] != E3D_OBJECT_BOX:
+            raise InvalidArgumentError("boxes must be (objects, OBJECT_BOX)")
+        if fresh.shape[0] != numbers.shape[0]:
+            raise InvalidArgumentError("a box a number")
+        cdef size_t size = E3D_OBJECT_BOX * sizeof(double)
+        cdef Py_ssize_t i
+        cdef bint any_dirty = False
+        cdef uint8_t *dirty = <uint8_t *>calloc(max(boxes.shape[0], 1), 1)
+        if dirty == NULL:
+            raise OutOfMemoryError("no memory for the boxes of a scene")
+        for i in range(numbers.shape[0]):
+            if not 0 <= numbers[i] < boxes.shape[0]:
+                continue
+            if memcmp(&boxes[numbers[i], 0], &fresh[i, 0], size):
+                memcpy(&boxes[numbers[i], 0], &fresh[i, 0], size)
+                dirty[numbers[i]] = any_dirty = True
+        if any_dirty:
             self.changes += 1
-            e3d_graph_touch_objects(&self.graph, &dirty[0], <int32_t>dirty.shape[0])
+            e3d_graph_touch_objects(&self.graph, dirty, <int32_t>boxes.shape[0])
+        free(dirty)
+
+    def set_object(self, int32_t slot, int32_t object):
+        """Say what a node draws."""
+        self.check(slot)
+        self.changes += 1
+        self.graph.object[slot] = object
+        e3d_graph_touch(&self.graph, slot)
+
+
+def move_boxes(table, room):
+    """Copy ``table.boxes`` to the first rows of an array that takes their place, as one step."""
+    cdef const double[:, ::1] boxes = table.boxes
+    cdef double[:, ::1] rows = room
+    if boxes.shape[1] != rows.shape[1] or boxes.shape[0] > rows.shape[0]:
+        raise InvalidArgumentError("no room for the boxes")
+    if boxes.shape[0]:
+        memcpy(&rows[0, 0], &boxes[0, 0], boxes.shape[0] * boxes.shape[1] * sizeof(double))
+    table.boxes = room
 
 
 def instance_boxes(const float[:, ::1] poses not None, const double[::1] box not None,

@@ -14,6 +14,7 @@ from ..attributes import matrix4
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..image_size import check_size
+from ..number_checks import real, shown
 
 
 def checked_view(camera, pose, size) -> tuple[np.ndarray, tuple[int, int]]:
@@ -62,13 +63,18 @@ def _coarsest(errors: np.ndarray, limit: float) -> np.ndarray:
 def check_limits(hysteresis: float, **limits: float) -> None:
     """Raise `InvalidArgumentError` where a limit in pixels or the hysteresis makes no sense."""
     for name, value in limits.items():
-        if not 0.0 < value < math.inf:
-            raise InvalidArgumentError(f"{name} must be greater than 0, not {value!r}")
-    if not 0.0 <= hysteresis < 1.0:
-        raise InvalidArgumentError(f"hysteresis must be from 0 to below 1, not {hysteresis!r}")
+        if not 0.0 < real(value) < math.inf:
+            raise InvalidArgumentError(f"{name} must be greater than 0, not {shown(value)}")
+    if not 0.0 <= real(hysteresis) < 1.0:
+        raise InvalidArgumentError(f"hysteresis must be from 0 to below 1, not {shown(hysteresis)}")
 
 
 def check_errors(errors: Sequence[float]) -> None:
     """Raise `InvalidArgumentError` unless errors begin with 0, never decrease and are finite."""
-    if not errors or errors[0] != 0.0 or errors != sorted(errors) or not math.isfinite(errors[-1]):
+    if (
+        not errors
+        or errors[0] != 0.0
+        or errors != sorted(errors)
+        or not all(map(math.isfinite, errors))
+    ):
         raise InvalidArgumentError("the errors of levels must begin with 0 and never decrease")

@@ -18,6 +18,7 @@ from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..mesh import Mesh
 from ..nodes import Node
+from ..number_checks import real
 from ..scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 from .impostors import Impostor, bounding_ball
@@ -201,7 +202,7 @@ def _made_levels(mesh: Mesh) -> tuple[tuple[Mesh, float], ...]:
 
 def _checked(levels) -> tuple[tuple[Mesh, float], ...]:
     try:
-        levels = tuple((mesh, float(error)) for mesh, error in levels)
+        levels = tuple((mesh, real(error)) for mesh, error in levels)
     except (TypeError, ValueError):
         raise InvalidArgumentError(
             "levels must be a Mesh or pairs of a mesh and an error"

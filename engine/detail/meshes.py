@@ -16,6 +16,7 @@ from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
 from ..nodes import Node
+from ..number_checks import real
 from ..scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 
@@ -123,7 +124,7 @@ class DetailedMeshes:
 
 def _checked(levels) -> tuple[tuple[tuple[Mesh, ...], float], ...]:
     try:
-        levels = tuple((tuple(meshes), float(error)) for meshes, error in levels)
+        levels = tuple((tuple(meshes), real(error)) for meshes, error in levels)
     except (TypeError, ValueError):
         raise InvalidArgumentError("levels must be pairs of meshes and an error") from None
     check_errors([error for _, error in levels])

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from .._native.scene_graph import invert
 from ..errors import InvalidArgumentError
+from ..number_checks import floats
 from . import single
 from .quaternions import matrix_to_quaternion, quaternion_from_axis_angle, quaternion_to_matrix
 from .trigonometry import cos, sin
@@ -24,10 +25,9 @@ _SINGULAR = "the matrix has no inverse: it is singular or not finite"
 
 def as_matrices(name: str, values: npt.ArrayLike) -> FloatArray:
     """Return `values` as float64 of shape (..., 4, 4), or say which argument isn't."""
-    try:
-        matrices = np.asarray(values, np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+    matrices = values
+    if type(values) is not np.ndarray or values.dtype != np.float64:
+        matrices = floats(values, name)
     if matrices.shape[-2:] != (4, 4):
         raise InvalidArgumentError(f"{name} must have shape (..., 4, 4), not {matrices.shape}")
     return matrices
@@ -36,7 +36,7 @@ def as_matrices(name: str, values: npt.ArrayLike) -> FloatArray:
 def translation(offset: npt.ArrayLike) -> FloatArray:
     """Return the matrix that moves points by `offset`, shape (3,)."""
     matrix = np.eye(4)
-    matrix[:3, 3] = as_vectors("offset", offset)
+    matrix[:3, 3] = _three("offset", offset)
     return matrix
 
 
@@ -48,9 +48,16 @@ def scaling(factors: npt.ArrayLike) -> FloatArray:
 
 
 def _three_factors(factors: npt.ArrayLike) -> FloatArray:
-    if np.ndim(factors) == 0:
-        factors = (factors, factors, factors)
-    return as_vectors("scale", factors)
+    factors = floats(factors, "scale")
+    return _three("scale", np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors)
+
+
+def _three(name: str, values: npt.ArrayLike) -> FloatArray:
+    """Return one vector."""
+    vector = as_vectors(name, values)
+    if vector.shape != (3,):
+        raise InvalidArgumentError(f"{name} must have shape (3,), not {vector.shape}")
+    return vector
 
 
 def _plane_rotation(first: int, second: int, angle: float) -> FloatArray:
@@ -186,6 +193,7 @@ def inverse(m: npt.ArrayLike) -> FloatArray:
     return result
 
 
+@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
 def transform_points(m: npt.ArrayLike, points: npt.ArrayLike) -> FloatArray:
     """Apply a matrix to points, dividing by w if the matrix is projective.
 
@@ -211,6 +219,7 @@ def transform_points(m: npt.ArrayLike, points: npt.ArrayLike) -> FloatArray:
     return result / w[..., np.newaxis]
 
 
+@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
 def transform_directions(m: npt.ArrayLike, directions: npt.ArrayLike) -> FloatArray:
     """Apply a matrix without its translation to direction vectors, shape (..., 3).
 
@@ -252,6 +261,7 @@ def normal_matrix(m: npt.ArrayLike) -> FloatArray:
     return np.where(np.all(np.isfinite(result), axis=(-2, -1), keepdims=True), result, cofactors)
 
 
+@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
 def compose(
     offset: npt.ArrayLike = (0.0, 0.0, 0.0),
     rotation: npt.ArrayLike = (0.0, 0.0, 0.0, 1.0),
@@ -277,10 +287,11 @@ def compose(
     """
     matrix = quaternion_to_matrix(rotation)
     matrix[:3, :3] = matrix[:3, :3] * _three_factors(scale)
-    matrix[:3, 3] = as_vectors("offset", offset)
+    matrix[:3, 3] = _three("offset", offset)
     return matrix
 
 
+@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
 def decompose(m: npt.ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Split a pose into translation, quaternion and scale, the inverse of `compose`.
 

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from ..choices import EulerOrder
 from ..errors import InvalidArgumentError
+from ..number_checks import floats, real, shown
 from . import single
 from .trigonometry import atan2, cos, sin
 from .vectors import as_vectors, normalize
@@ -56,7 +57,9 @@ def quaternion_from_axis_angle(axis: npt.ArrayLike, angle: float) -> FloatArray:
     unit = normalize(axis)
     if unit.shape != (3,) or not np.any(unit):
         raise InvalidArgumentError("axis must be one vector of shape (3,), not null")
-    half = 0.5 * float(angle)
+    if not math.isfinite(real(angle)):
+        raise InvalidArgumentError(f"angle must be a finite number, not {shown(angle)}")
+    half = 0.5 * real(angle)
     return np.append(unit * sin(half), cos(half))
 
 
@@ -135,6 +138,7 @@ def _single_to_matrix(q: list[float]) -> FloatArray:
     return np.array([[*row, 0.0] for row in rows] + [[0.0, 0.0, 0.0, 1.0]])
 
 
+@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
 def matrix_to_quaternion(m: npt.ArrayLike) -> FloatArray:
     """Return the quaternion of a rotation matrix.
 
@@ -155,7 +159,7 @@ def matrix_to_quaternion(m: npt.ArrayLike) -> FloatArray:
     InvalidArgumentError
         If the shape is wrong.
     """
-    m = np.asarray(m, np.float64)
+    m = floats(m, "m")
     if m.shape not in ((3, 3), (4, 4)):
         raise InvalidArgumentError(f"m must have shape (4, 4) or (3, 3), not {m.shape}")
     trace = m[0, 0] + m[1, 1] + m[2, 2]

@@ -16,6 +16,8 @@ from typing import overload
 import numpy as np
 import numpy.typing as npt
 
+from ..number_checks import floats
+
 FloatArray = npt.NDArray[np.float64]
 
 # pi/2 as a sum of three doubles. The first two have at most 33 significant bits, so that their
@@ -98,7 +100,7 @@ def _sine_cosine_single(angle: float) -> tuple[float, float]:
 def _sine_cosine(angle: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
     if isinstance(angle, float) and math.isfinite(angle):
         return _sine_cosine_single(float(angle))
-    angle = np.asarray(angle, np.float64)
+    angle = floats(angle, "angle")
     with np.errstate(invalid="ignore"):  # infinite angles give NaN, as in NumPy
         quadrant, x = _reduce(angle)
         square = x * x

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InvalidArgumentError
+from ..number_checks import floats
 from . import single
 
 FloatArray = npt.NDArray[np.float64]
@@ -20,15 +21,15 @@ FloatArray = npt.NDArray[np.float64]
 
 def as_vectors(name: str, values: npt.ArrayLike, size: int = 3) -> FloatArray:
     """Return `values` as float64 whose last axis has length `size`, or say which argument isn't."""
-    try:
-        vectors = np.asarray(values, np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+    vectors = values
+    if type(values) is not np.ndarray or values.dtype != np.float64:
+        vectors = floats(values, name)
     if vectors.ndim == 0 or vectors.shape[-1] != size:
         raise InvalidArgumentError(f"{name} must have shape (..., {size}), not {vectors.shape}")
     return vectors
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what overflows is infinite
 def dot(a: npt.ArrayLike, b: npt.ArrayLike) -> Any:
     """Return the scalar products of vectors.
 
@@ -50,6 +51,7 @@ def dot(a: npt.ArrayLike, b: npt.ArrayLike) -> Any:
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what overflows is infinite
 def cross(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
     """Return the right-handed vector products ``a x b``.
 
@@ -83,6 +85,7 @@ def length(v: npt.ArrayLike) -> Any:
     return np.sqrt(dot(v, v))
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what overflows is infinite
 def normalize(v: npt.ArrayLike) -> FloatArray:
     """Return vectors scaled to length 1; null vectors stay null.
 

@@ -12,9 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InvalidArgumentError
+from ..number_checks import real
 from . import single
 from .trigonometry import tan
 from .vectors import as_vectors
+
+_LEAST_SLOPE = 1e-30  # of the frustum's sides: what is smaller overflows in float32
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -90,16 +93,20 @@ def perspective(yfov: float, aspect: float, znear: float, zfar: float | None = N
     InvalidArgumentError
         If an argument is out of its range.
     """
+    yfov, aspect, znear = real(yfov), real(aspect), real(znear)
     if not 0.0 < yfov < math.pi:
         raise InvalidArgumentError(f"yfov must be between 0 and pi radians, not {yfov}")
     if not 0.0 < aspect < math.inf:
         raise InvalidArgumentError(f"aspect must be greater than 0, not {aspect}")
     if not 0.0 < znear < math.inf:
         raise InvalidArgumentError(f"znear must be greater than 0, not {znear}")
-    zfar = math.inf if zfar is None else zfar
+    zfar = math.inf if zfar is None else real(zfar)
     if not zfar > znear:
         raise InvalidArgumentError(f"zfar must be greater than znear ({znear}), not {zfar}")
-    focal = 1.0 / tan(0.5 * yfov)
+    slope = tan(0.5 * yfov)
+    if slope * aspect < _LEAST_SLOPE or slope < _LEAST_SLOPE:
+        raise InvalidArgumentError(f"yfov {yfov} is too small to see anything, aspect {aspect}")
+    focal = 1.0 / slope
     matrix = np.zeros((4, 4))
     matrix[0, 0] = focal / aspect
     matrix[1, 1] = focal

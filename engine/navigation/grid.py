@@ -15,10 +15,12 @@ from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._native import navigation as _native
+from ..attributes import Closed, not_negative
 from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..materials import Material
 from ..mesh import Mesh
+from ..number_checks import floats, real
 from ..scene import Scene
 from .placed_meshes import bounds_of, placed_meshes
 
@@ -26,7 +28,7 @@ MAX_CELLS = 1 << 26
 Choice: TypeAlias = Collection[str] | Callable[[Material], bool] | None
 
 
-class NavigationGrid:
+class NavigationGrid(Closed):
     """The ground of a scene, seen from above.
 
     A cell's layer is a surface whose slope is small enough, at the cell's centre, with room for a
@@ -77,6 +79,15 @@ class NavigationGrid:
     OutOfMemoryError
     """
 
+    origin: np.ndarray
+    cell: float
+    shape: tuple[int, int]
+    step: float
+    headroom: float
+    starts: np.ndarray
+    heights: np.ndarray
+    walkable: np.ndarray
+
     def __init__(
         self,
         thing: Scene | Mesh | InstancedMesh | Iterable[Mesh | InstancedMesh],
@@ -92,13 +103,17 @@ class NavigationGrid:
     ) -> None:
         placed = placed_meshes(thing)
         self.cell, self.step, self.headroom = _sizes(cell, step, headroom)
-        if not 0.0 <= max_slope < math.pi / 2:
+        if not 0.0 <= real(max_slope) < math.pi / 2:
             raise InvalidArgumentError(f"max_slope must be from 0 to a quarter turn: {max_slope!r}")
-        if not 0.0 <= radius < math.inf:
-            raise InvalidArgumentError(f"radius must be 0 or more, not {radius!r}")
+        radius = not_negative(radius, "radius")
         low, high = _area(placed, bounds)
         self.origin = low
-        columns, rows = (math.ceil(side / self.cell) or 1 for side in (high - low).tolist())
+        sides = [side / self.cell for side in (high - low).tolist()]
+        if max(sides) > MAX_CELLS:
+            raise InvalidArgumentError(
+                f"{max(sides):g} cells in a row are too many: take larger ones"
+            )
+        columns, rows = (math.ceil(side) or 1 for side in sides)
         if columns * rows > MAX_CELLS:
             raise InvalidArgumentError(f"{columns} x {rows} cells are too many: take larger ones")
         self.shape = (rows, columns)
@@ -142,11 +157,11 @@ class NavigationGrid:
         InvalidArgumentError
             What is given are no numbers, or not as many of each.
         """
+        x, z = floats(x, "x"), floats(z, "z")
+        limit = np.inf if y is None else floats(y, "y") + self.step
         try:
-            x, z = np.asarray(x, np.float64), np.asarray(z, np.float64)
-            limit = np.inf if y is None else np.asarray(y, np.float64) + self.step
             x, z, limit = np.broadcast_arrays(x, z, limit)
-        except (TypeError, ValueError) as error:
+        except ValueError as error:
             raise InvalidArgumentError(f"x, z and y must be numbers: {error}") from None
         layer, heights = self._layers(x.ravel(), z.ravel(), limit.ravel())
         walkable = np.zeros(len(layer), bool)
@@ -158,7 +173,7 @@ class NavigationGrid:
     def _layers(self, x, z, limit) -> tuple[np.ndarray, np.ndarray]:
         """The highest layer below a limit at each point, or -1, and its height there."""
         rows, columns = self.shape
-        with np.errstate(invalid="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             i = np.floor((x - self.origin[0]) / self.cell)
             j = np.floor((z - self.origin[1]) / self.cell)
             inside = (i >= 0) & (i < columns) & (j >= 0) & (j < rows)
@@ -211,7 +226,7 @@ class NavigationGrid:
 
 
 def _sizes(cell, step, headroom) -> tuple[float, float, float]:
-    cell, step, headroom = float(cell), float(step), float(headroom)
+    cell, step, headroom = real(cell), real(step), real(headroom)
     if not 0.0 < cell < math.inf:
         raise InvalidArgumentError(f"cell must be greater than 0, not {cell!r}")
     if not 0.0 <= step < headroom < math.inf:
@@ -226,7 +241,7 @@ def _area(placed, bounds) -> tuple[np.ndarray, np.ndarray]:
             raise InvalidArgumentError("there are no faces to walk on")
         low, high = bounds_of(placed)[:, [0, 2]]
     else:
-        area = np.array(bounds, np.float64)
+        area = floats(bounds, "bounds")
         if area.shape != (2, 2) or not np.isfinite(area).all() or (area[0] >= area[1]).any():
             raise InvalidArgumentError("bounds must be the least and the greatest (x, z)")
         low, high = area

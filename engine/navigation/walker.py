@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..attributes import Closed, finite
 from ..errors import InvalidArgumentError
+from ..number_checks import real
 from .grid import NavigationGrid
 
 #: Length of a step in cells.
@@ -88,6 +89,7 @@ class Walker(Closed):
 
     def move(self, dx: float, dz: float) -> bool:
         """Go by (dx, dz), or along what blocks the way; returns whether that was anywhere."""
+        dx, dz = real(dx), real(dz)
         strides = math.hypot(dx, dz) / (_STRIDE * self.grid.cell)
         if not math.isfinite(strides) or strides == 0.0:
             return False
@@ -141,6 +143,9 @@ class Walker(Closed):
         return f"Walker(x={self.x:g}, y={self.y:g}, z={self.z:g})"
 
 
+_BEYOND = 1e15  # cells from the grid: farther is as far
+
+
 def _cells_between(grid: NavigationGrid, x0: float, z0: float, x1: float, z1: float):
     """Yield the cells that a segment enters, in order, the last one last; not where it starts.
 
@@ -163,10 +168,15 @@ def _cells_between(grid: NavigationGrid, x0: float, z0: float, x1: float, z1: fl
 
 def _cell(grid: NavigationGrid, x: float, z: float) -> tuple[int, int]:
     """Column and row of a point; beside the grid, too."""
-    column = math.floor((x - grid.origin[0]) / grid.cell)
-    return column, math.floor((z - grid.origin[1]) / grid.cell)
+    left, top = grid.origin.tolist()
+    return _floor((x - left) / grid.cell), _floor((z - top) / grid.cell)
 
 
+def _floor(number: float) -> int:
+    return math.floor(min(max(number, -_BEYOND), _BEYOND))
+
+
+@np.errstate(over="ignore")  # all places are equally far from beyond all counting
 def _nearest(grid: NavigationGrid, x: float, z: float, y: float | None):
     """The walkable layer nearest to a point, and x and z of the nearest place on it."""
     layers = np.flatnonzero(grid.walkable)

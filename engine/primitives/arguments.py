@@ -8,9 +8,8 @@ from __future__ import annotations
 import operator
 from typing import Any
 
-import numpy as np
-
 from ..errors import InvalidArgumentError
+from ..number_checks import as_array, shown
 
 # Keeps every index below 2**31, and a slip of the keyboard from eating the memory.
 MAX_SEGMENTS = 8192
@@ -20,7 +19,7 @@ def positive(name: str, value: Any) -> float:
     """Return a finite number greater than 0."""
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InvalidArgumentError(f"{name} must be a number, not {value!r}") from None
     if not (0.0 < number < float("inf")):
         raise InvalidArgumentError(f"{name} must be finite and greater than 0, not {value!r}")
@@ -29,10 +28,11 @@ def positive(name: str, value: Any) -> float:
 
 def positives(name: str, values: Any, count: int) -> tuple[float, ...]:
     """Return `count` positive numbers; one number stands for all."""
-    if np.ndim(values) == 0:
-        return (positive(name, values),) * count
-    if np.shape(values) != (count,):
-        raise InvalidArgumentError(f"{name} must be one number or {count}, not {values!r}")
+    values = as_array(values, name)
+    if values.ndim == 0:
+        return (positive(name, values.item()),) * count
+    if values.shape != (count,):
+        raise InvalidArgumentError(f"{name} must be one number or {count}, not {shown(values)}")
     return tuple(positive(name, value) for value in values)
 
 
@@ -49,8 +49,9 @@ def integer(name: str, value: Any, least: int, most: int) -> int:
 
 def segment_pair(name: str, values: Any, least: tuple[int, int]) -> tuple[int, int]:
     """Return two counts of segments, each at least its own minimum."""
-    if np.shape(values) != (2,):
-        raise InvalidArgumentError(f"{name} must be two integers, not {values!r}")
+    values = as_array(values, name)
+    if values.shape != (2,):
+        raise InvalidArgumentError(f"{name} must be two integers, not {shown(values)}")
     first, second = (
         integer(name, value, low, MAX_SEGMENTS) for value, low in zip(values, least, strict=True)
     )

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from .. import linalg
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
+from ..number_checks import as_array, floats
 from .arguments import MAX_SEGMENTS, integer, positives, segment_pair
 from .faces import grid_quads, split_quads
 
@@ -96,8 +97,9 @@ def plane(size: float | npt.ArrayLike = (1.0, 1.0), segments: int | npt.ArrayLik
         If a length or a number of segments is out of its range.
     """
     width, depth = positives("size", size, 2)
-    if np.ndim(segments) == 0:
-        segments = (integer("segments", segments, 1, MAX_SEGMENTS),) * 2
+    segments = as_array(segments, "segments")
+    if segments.ndim == 0:
+        segments = (integer("segments", segments.item(), 1, MAX_SEGMENTS),) * 2
     columns, rows = segment_pair("segments", segments, (1, 1))
     v, u = np.meshgrid(np.arange(rows + 1) / rows, np.arange(columns + 1) / columns, indexing="ij")
     u, v = u.ravel(), v.ravel()
@@ -139,7 +141,7 @@ def quad(
         If a corner isn't a finite point, or the corners span no area.
     """
     try:
-        corners = np.array((p0, p1, p2, p3), dtype=np.float64)
+        corners = floats((p0, p1, p2, p3), "the corners")
     except (TypeError, ValueError):
         raise InvalidArgumentError("the corners of a quad must be points of 3 numbers") from None
     if corners.shape != (4, 3) or not np.all(np.isfinite(corners)):

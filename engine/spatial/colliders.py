@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import BOX, SHOWN, NativeTree
-from ..attributes import how_far, positive, vector3
+from ..attributes import Closed, freeze, how_far, positive, vector3
 from ..changes import Watch
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
@@ -24,8 +24,10 @@ from ..nodes import Node
 from .shapes import faces_in_box
 from .triangles import sphere_meets_triangles, triangles_meet_box
 
+_quiet = np.errstate(over="ignore", invalid="ignore")  # what overflows is infinitely far away
 
-class BoxCollider:
+
+class BoxCollider(Closed):
     """An axis-aligned box in the world, around a box in the node's space.
 
     Parameters
@@ -34,15 +36,20 @@ class BoxCollider:
         Corners in the node's space; those of the node's own mesh if left out.
     """
 
+    box: NDArray[np.float64] | None
+
     def __init__(self, low: ArrayLike | None = None, high: ArrayLike | None = None) -> None:
         if (low is None) != (high is None):
             raise InvalidArgumentError("give both corners of a BoxCollider, or none")
         self.box = None if low is None else np.stack([vector3(low, "low"), vector3(high, "high")])
-        if self.box is not None and (self.box[0] > self.box[1]).any():
+        if self.box is None:
+            return
+        if (self.box[0] > self.box[1]).any():
             raise InvalidArgumentError("low must not be above high")
+        freeze(self.box)
 
 
-class SphereCollider:
+class SphereCollider(Closed):
     """A sphere around a point of the node's space; its radius grows with the largest scale.
 
     Parameters
@@ -51,11 +58,14 @@ class SphereCollider:
     center : (3,) float
     """
 
+    radius: float
+    center: NDArray[np.float64]
+
     def __init__(self, radius: float, center: ArrayLike = (0, 0, 0)) -> None:
         self.radius, self.center = positive(radius, "radius"), vector3(center, "center")
 
 
-class MeshCollider:
+class MeshCollider(Closed):
     """The faces of a mesh, from both sides; they have no inside.
 
     Parameters
@@ -63,6 +73,8 @@ class MeshCollider:
     mesh : Mesh, optional
         The node's own if left out.
     """
+
+    mesh: Mesh | None
 
     def __init__(self, mesh: Mesh | None = None) -> None:
         if mesh is not None and not isinstance(mesh, Mesh):
@@ -89,8 +101,8 @@ class ColliderHit(NamedTuple):
     position: NDArray[np.float64]
 
 
-def check_collider(node: Node, collider) -> None:
-    """Raise unless a node can have the collider."""
+def check_collider(obj, collider) -> None:
+    """Raise unless a node that holds an object can have the collider."""
     kinds = (BoxCollider, SphereCollider, MeshCollider)
     if collider is not None and not isinstance(collider, kinds):
         raise InvalidArgumentError(
@@ -99,7 +111,7 @@ def check_collider(node: Node, collider) -> None:
         )
     needs_mesh = isinstance(collider, BoxCollider) and collider.box is None
     needs_mesh = needs_mesh or (isinstance(collider, MeshCollider) and collider.mesh is None)
-    if needs_mesh and not isinstance(node.object, Mesh):
+    if needs_mesh and not isinstance(obj, Mesh):
         raise InvalidArgumentError("a collider of the node's own mesh needs a node with a Mesh")
 
 
@@ -114,7 +126,7 @@ class _Placed:
         count = len(self.nodes)
         self._middles, self._halves = np.zeros((count, 3)), np.zeros((count, 3))
         self._radii = np.full(count, -1.0)  # of spheres
-        self._watch, self._old = Watch(), False
+        self._watch = Watch()
         self.meshes: dict[int, Mesh] = {}
         for row, node in enumerate(self.nodes):
             self._describe(row, node)
@@ -135,8 +147,7 @@ class _Placed:
 
     def is_of(self, scene) -> bool:
         """Whether these are the scene's colliders still."""
-        self._old = self._old or bool(self._watch.changed())
-        return self._removals == scene._removals and not self._old
+        return self._removals == scene._removals and not self._watch.found()
 
     def follow(self, scene) -> None:
         """Find where the colliders are, if anything moved."""
@@ -196,6 +207,7 @@ def _mesh_of(node: Node) -> Mesh | None:
     return node.object if isinstance(collider, BoxCollider) and collider.box is None else None
 
 
+@_quiet
 def overlap_box(scene, low, high) -> tuple[Node, ...]:
     """See `Scene.overlap_box`."""
     low, high = vector3(low, "low"), vector3(high, "high")
@@ -210,6 +222,7 @@ def overlap_box(scene, low, high) -> tuple[Node, ...]:
     return _those(placed, rows[meets], lambda mesh, pose: _mesh_meets_box(mesh, pose, low, high))
 
 
+@_quiet
 def overlap_sphere(scene, center, radius) -> tuple[Node, ...]:
     """See `Scene.overlap_sphere`."""
     center, radius = vector3(center, "center"), positive(radius, "radius")
@@ -256,6 +269,7 @@ def _corners_near(mesh: Mesh, pose, low, high) -> np.ndarray:
     return linalg.transform_points(pose, mesh.positions[mesh.faces[faces]])
 
 
+@_quiet
 def raycast_colliders(scene, origin, direction, max_distance) -> ColliderHit | None:
     """See `Scene.raycast_colliders`."""
     origin, direction = vector3(origin, "origin"), vector3(direction, "direction")

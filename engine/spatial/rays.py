@@ -20,6 +20,7 @@ from ..errors import InvalidArgumentError
 from ..frame import Frame
 from ..instances import InstancedMesh
 from ..nodes import Node
+from ..number_checks import floats
 from .shapes import tell
 
 _LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
@@ -123,10 +124,7 @@ def _cast(scene, origins, directions, max_distance, cull) -> tuple[np.ndarray, n
 
 
 def _vectors(value, what: str) -> np.ndarray:
-    try:
-        vectors = np.atleast_2d(np.array(value, np.float64))
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{what} must be numbers: {error}") from None
+    vectors = np.atleast_2d(floats(value, what))
     if vectors.ndim != 2 or vectors.shape[1] != 3:
         raise InvalidArgumentError(f"{what} must have shape (N, 3), not {vectors.shape}")
     if not np.isfinite(vectors).all():

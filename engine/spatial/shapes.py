@@ -1,7 +1,7 @@
 """What meshes and instances are to rays: trees of boxes, made when a ray first meets them.
 
-In: `Mesh`, `InstancedMesh`. Out: native trees, one for each version of the object, forgotten with
-it.
+In: `Mesh`, `InstancedMesh`. Out: native trees, made anew when arrays are others, forgotten with
+the object.
 """
 
 from __future__ import annotations
@@ -14,17 +14,19 @@ from .._native.scene_graph import BOX, NativeShapes, NativeTree, triangle_boxes
 from ..instances import InstancedMesh
 from ..mesh import Mesh
 
-_triangles: WeakKeyDictionary[Mesh, tuple[int, NativeTree]] = WeakKeyDictionary()
+_triangles: WeakKeyDictionary[Mesh, tuple[tuple, NativeTree]] = WeakKeyDictionary()
 
 
-def triangle_tree(mesh: Mesh) -> NativeTree:
-    """Return the tree of a mesh's faces as they are now."""
-    version, tree = _triangles.get(mesh, (None, None))
-    if version != mesh.version:
-        boxes = np.empty((len(mesh.faces), BOX))
-        triangle_boxes(mesh.positions, mesh.faces, boxes)
+def triangle_tree(mesh: Mesh, arrays: dict | None = None) -> NativeTree:
+    """Return the tree of a mesh's faces as they are now, or as they were in some arrays."""
+    arrays = dict(mesh._arrays) if arrays is None else arrays
+    positions, faces = arrays["positions"], arrays["faces"]
+    made_of, tree = _triangles.get(mesh, (None, None))
+    if made_of is None or made_of[0] is not positions or made_of[1] is not faces:
+        boxes = np.empty((len(faces), BOX))
+        triangle_boxes(positions, faces, boxes)
         tree = NativeTree(boxes)
-        _triangles[mesh] = (mesh.version, tree)
+        _triangles[mesh] = (positions, faces), tree
     return tree
 
 
@@ -36,9 +38,10 @@ def faces_in_box(mesh: Mesh, low: np.ndarray, high: np.ndarray) -> np.ndarray:
 
 
 def tell(shapes: NativeShapes, number: int, obj) -> None:
-    """Tell the shape of a scene's object."""
+    """Tell the shape of a scene's object, as it is at one moment."""
+    mesh, poses, tree = obj, None, None
     if isinstance(obj, InstancedMesh):
-        mesh, poses, tree = obj.mesh, obj._flat_poses(), obj._tree()
-    else:
-        mesh, poses, tree = obj, None, None
-    shapes.set(number, mesh.positions, mesh.faces, triangle_tree(mesh), poses, tree)
+        mesh, (tree, poses) = obj.mesh, obj._tree()
+    arrays = dict(mesh._arrays)
+    triangles = triangle_tree(mesh, arrays)
+    shapes.set(number, arrays["positions"], arrays["faces"], triangles, poses, tree)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..attributes import own
 from ..materials import Material
 from ..mesh import Mesh
 from ..primitives.arguments import integer
@@ -110,6 +111,9 @@ class World:
         for mesh in self.districts:
             scene.add(mesh, parent=group)
         return group
+
+    def __setstate__(self, state: dict) -> None:
+        self.__dict__.update({name: own(value) for name, value in state.items()})
 
     def __repr__(self) -> str:
         return (

@@ -5,6 +5,7 @@ import os
 import resource
 import sys
 import threading
+import weakref
 
 import numpy as np
 import pytest
@@ -134,6 +135,49 @@ def test_a_renderer_that_changes_forever_keeps_nothing():
             scene.remove(node)
 
     assert not grows(lambda: live(2000), lambda: live(200))
+
+
+def paint_anew(scene, number):
+    """A texture of a MiB, in place of the one before."""
+    pixels = np.full((512, 512, 3), number % 256, np.uint8)
+    scene.nodes[0].object.materials[0].texture = texture = e3d.Texture(pixels)
+    return texture
+
+
+def bring_another_mesh(scene, number):
+    """A mesh of instances, with a texture of its own, in place of the one before."""
+    ball = e3d.uv_sphere(0.5, (64, 32))
+    ball.materials = [e3d.Material(texture=e3d.Texture(np.zeros((256, 256, 3), np.uint8)))]
+    scene.nodes[1].object.mesh = ball
+    return ball
+
+
+@pytest.mark.parametrize("replace", [paint_anew, bring_another_mesh])
+def test_what_is_replaced_each_frame_is_let_go(replace):
+    """A renderer that is kept, of a scene that is kept; a ray each frame as well."""
+    scene = e3d.Scene()
+    scene.add(e3d.Mesh(POSITIONS, FACES, uvs=UVS))
+    scene.add(e3d.InstancedMesh(e3d.box(), [[1, 0, 0, 0.5], [-1, 0, 0, 0.5]]))
+    for k in range(20):  # one change is little beside what stays
+        scene.add(e3d.quad(), translation=(k, 0, -3))
+    alive = weakref.WeakSet()
+
+    def live(frames):
+        for number in range(frames):
+            alive.add(replace(scene, number))
+            renderer.render(scene, (CAMERA, POSE))
+            scene.raycast((0, 0, 5), (0, 0, -1))
+            assert scene.bounds.shape == (2, 3)
+
+    with e3d.Renderer(32, 24, threads=1) as renderer:
+        live(20)
+        gc.collect()
+        assert len(alive) <= 2
+        before = resident_bytes()
+        live(200)
+        gc.collect()
+        assert len(alive) <= 2
+        assert resident_bytes() - before < 40_000_000
 
 
 def test_pictures_and_files_in_memory_leave_nothing():

@@ -67,7 +67,7 @@ def test_bounds_leave_out_what_is_not_finite(box):
         ("nonsense", None, "poses must be numbers"),
         (np.ones((1, 4, 4)), None, "affine"),
         (np.zeros((2, 4)), np.zeros((3, 3)), "colors"),
-        (np.zeros((2, 4)), np.zeros((2, 3), np.int32), "uint8 or float"),
+        (np.zeros((2, 4)), np.full((2, 3), 256), "0..255, but one is 256"),
     ],
 )
 def test_invalid_arguments(box, poses, colors, message):

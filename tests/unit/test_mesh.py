@@ -63,13 +63,13 @@ def test_an_empty_mesh_is_allowed():
         ({"faces": [(0, 1, -1)]}, "index -1"),
         ({"faces": [(0, 1)]}, "shape"),
         ({"faces": [(0.0, 1.0, 2.0)]}, "integers"),
-        ({"faces": [(0, 1, 2**40)]}, "2\\^31"),
+        ({"faces": [(0, 1, 2**40)]}, "1099511627776"),
         ({"lines": [(0, 4)]}, "lines"),
         ({"points": [4]}, "points"),
         ({"uvs": [(0, 0)]}, "uvs has 1 rows for 4 vertices"),
         ({"normals": np.zeros((3, 3))}, "normals"),
         ({"colors": np.zeros((4, 2), np.uint8)}, "colors"),
-        ({"colors": np.zeros((4, 3), np.int64)}, "uint8 or float"),
+        ({"colors": np.full((4, 3), 256)}, "0..255, but one is 256"),
         ({"faces": HALVES, "material_ids": [0, 1]}, "material_ids"),
         ({"faces": HALVES, "edge_visible": [(True, True, True)]}, "edge_visible"),
         ({"materials": ["red"]}, "Material"),
@@ -99,7 +99,7 @@ def test_assigning_replaces_derives_anew_and_raises_the_version():
     assert mesh.bounds.tolist() == [[0, 0, 0], [1, 1, 0]]
     before = mesh.version
     mesh.positions = np.array(SQUARE) * 2
-    assert mesh.version == before + 1
+    assert mesh.version > before
     assert mesh.bounds[1].tolist() == [2, 2, 0]
 
 

@@ -1,0 +1,174 @@
+"""Copies and pickles of everything public: read-only arrays, state of their own, or a refusal."""
+
+import copy
+import inspect
+import pickle
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+
+
+def painted():
+    mesh = e3d.uv_sphere(0.5, (12, 6))
+    mesh = e3d.Mesh(mesh.positions, mesh.faces, uvs=mesh.uvs, name="ball")
+    pixels = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
+    mesh.materials = [e3d.Material(texture=e3d.Texture(pixels), extras={"note": [1]})]
+    mesh.groups = {"half": np.arange(20)}
+    mesh.warnings.append("a warning")
+    return mesh
+
+
+def drawn():
+    """A scene that was asked for everything, so that all that is computed once is there."""
+    scene = e3d.Scene()
+    scene.add(painted(), name="ball")
+    scene.add(
+        e3d.InstancedMesh(painted(), [(1, 0, 0, 0.5)], colors=[(1.0, 0.5, 0.0)]), name="crowd"
+    )
+    e3d.render(scene, size=(16, 12), threads=1, wireframe="overlay")
+    assert scene.raycast((1, 0, 5), (0, 0, -1)) is not None
+    return scene
+
+
+def frame():
+    return e3d.render(drawn(), size=(16, 12), threads=1, outputs=("color", "depth"))
+
+
+POSE = np.eye(4)
+COPIED = {
+    "Mesh": lambda: drawn().find("ball").object,
+    "InstancedMesh": lambda: drawn().find("crowd").object,
+    "Texture": lambda: painted().materials[0].texture,
+    "Material": lambda: painted().materials[0],
+    "Camera": lambda: e3d.Camera(np.eye(4)),
+    "PerspectiveCamera": e3d.PerspectiveCamera,
+    "OrthographicCamera": lambda: e3d.OrthographicCamera(2.0),
+    "IntrinsicsCamera": lambda: e3d.IntrinsicsCamera(9, 9, 8, 6),
+    "DirectionalLight": e3d.DirectionalLight,
+    "PointLight": e3d.PointLight,
+    "BoxCollider": lambda: e3d.BoxCollider((0, 0, 0), (1, 1, 1)),
+    "SphereCollider": lambda: e3d.SphereCollider(1.0),
+    "MeshCollider": lambda: e3d.MeshCollider(painted()),
+    "NavigationGrid": lambda: e3d.NavigationGrid(e3d.plane((4, 4))),
+    "Walker": lambda: e3d.Walker(e3d.NavigationGrid(e3d.plane((4, 4))), 0.0, 0.0),
+    "Canvas": lambda: e3d.Canvas(4, 3),
+    "Frame": frame,
+    "ResourceStats": lambda: e3d.Resources().stats,
+    "RayHits": lambda: drawn().raycast_many((0, 0, 5), (0, 0, -1)),
+    "RasterizeResult": lambda: e3d.rasterize(np.zeros((3, 4), np.float32), [[0, 1, 2]], 4, 4),
+    "Impostor": lambda: e3d.Impostor(painted(), views=2, texels=8),
+    "DetailedInstances": lambda: e3d.DetailedInstances([(painted(), 0.0)], [(0, 0, 0, 1)]),
+    "DetailedMeshes": lambda: e3d.DetailedMeshes([((painted(),), 0.0)]),
+    "World": lambda: e3d.city(20_000, seed=1),
+}
+REFUSED = {
+    "Scene": drawn,
+    "Node": lambda: drawn().nodes[0],
+    "NodeSelection": lambda: drawn().select(),
+    "Animator": lambda: e3d.Animator(drawn()),
+    "Renderer": lambda: e3d.Renderer(4, 4),
+    "Resources": e3d.Resources,
+}
+WITH_NODES = {"RayHit", "ColliderHit"}  # tuples: what holds for their nodes holds for them
+MAY_BE_WRITTEN = {"Canvas", "Frame", "RayHits", "RasterizeResult"}  # their arrays are the caller's
+WAYS = {
+    "copy": copy.copy,
+    "deepcopy": copy.deepcopy,
+    "pickle": lambda thing: pickle.loads(pickle.dumps(thing)),
+    "old pickle": lambda thing: pickle.loads(pickle.dumps(thing, 2)),
+}
+
+
+def test_every_public_class_is_tried():
+    classes = {name for name in e3d.__all__ if inspect.isclass(getattr(e3d, name))}
+    errors = {name for name in classes if issubclass(getattr(e3d, name), (Exception, Warning))}
+    assert classes - errors == {*COPIED, *REFUSED, *WITH_NODES}
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_belongs_to_something_refuses(name, way):
+    with pytest.raises(TypeError, match=f"an? {name} |{name} cannot"):
+        WAYS[way](REFUSED[name]())
+
+
+def public_arrays(thing):
+    """The arrays that a thing shows, by name."""
+    found = {}
+    for name in dir(thing):
+        if not name.startswith("_"):
+            value = getattr(thing, name, None)
+            if isinstance(value, np.ndarray):
+                found[name] = value
+            elif isinstance(value, dict):
+                found.update((key, v) for key, v in value.items() if isinstance(v, np.ndarray))
+    return found
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", COPIED)
+def test_copies_have_the_same_arrays_which_nobody_can_write_to(name, way):
+    thing = COPIED[name]()
+    other = WAYS[way](thing)
+    assert type(other) is type(thing) and other is not thing
+    before, after = public_arrays(thing), public_arrays(other)
+    assert before.keys() == after.keys()
+    for what, array in after.items():
+        assert np.array_equal(array, before[what], equal_nan=array.dtype.kind == "f"), what
+        if name not in MAY_BE_WRITTEN:
+            assert not array.flags.writeable or before[what].flags.writeable, what
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_copies_of_what_is_drawn_go_their_own_way(way):
+    scene = drawn()
+    ball, crowd = (scene.find(name).object for name in ("ball", "crowd"))
+    expected = e3d.render(scene, size=(32, 24), threads=1).color
+    ball_copy, crowd_copy = WAYS[way](ball), WAYS[way](crowd)
+    twin = e3d.Scene()
+    twin.add(ball_copy)
+    twin.add(crowd_copy)
+    assert np.array_equal(e3d.render(twin, size=(32, 24), threads=1).color, expected)
+    with pytest.raises(ValueError, match="read-only"):
+        ball_copy.faces[:] = 10**6
+
+    normals, bounds = ball.normals.copy(), scene.bounds.copy()
+    ball_copy.positions = ball_copy.positions * 2
+    ball_copy.groups["other"] = np.arange(3)
+    ball_copy.warnings.append("another")
+    ball_copy.materials.append(e3d.Material())
+    crowd_copy.poses = [(2, 0, 0, 0.5)]
+    assert np.array_equal(e3d.render(scene, size=(32, 24), threads=1).color, expected)
+    assert np.array_equal(ball.normals, normals) and np.array_equal(scene.bounds, bounds)
+    assert list(ball.groups) == ["half"] and ball.warnings == ["a warning"]
+    assert len(ball.materials) == 1
+    assert not np.array_equal(e3d.render(twin, size=(32, 24), threads=1).color, expected)
+    assert twin.bounds[1, 0] == pytest.approx(2.25)
+    assert twin.raycast((2.2, 0, 5), (0, 0, -1)).node is twin.nodes[1]
+
+
+def test_a_material_s_extras_are_its_own():
+    material = painted().materials[0]
+    copy.copy(material).extras["more"] = 1
+    assert material.extras == {"note": [1]}
+
+
+def test_buffers_that_others_can_write_to_are_copied():
+    """Pickles with buffers aside: what is unpickled may lie in memory that is somebody's."""
+    buffers = []
+    data = pickle.dumps(painted(), 5, buffer_callback=buffers.append)
+    aside = [bytearray(buffer) for buffer in buffers]
+    mesh = pickle.loads(data, buffers=aside)
+    expected = mesh.faces.copy()
+    for memory in aside:
+        memory[:] = b"\x7f" * len(memory)
+    assert np.array_equal(mesh.faces, expected)
+
+
+def test_hits_are_copied_as_tuples():
+    hit = drawn().raycast((1, 0, 5), (0, 0, -1))
+    assert copy.copy(hit) == hit
+    with pytest.raises(TypeError, match="a Node belongs to its Scene"):
+        pickle.dumps(hit)

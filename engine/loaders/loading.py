@@ -14,6 +14,7 @@ from ..errors import Engine3DWarning, FileFormatError, InvalidArgumentError
 from ..mesh import Mesh
 from ..textures import Texture
 from .documents import Document
+from .extents import extent_warnings
 from .images import images_of_one_model
 from .registry import find_reader
 from .sources import File, Source, read_source
@@ -139,6 +140,7 @@ def _read_document(
     # What is beyond the range of numbers becomes infinite, and is dealt with as such.
     with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
         document = reader.read(source, split=split)
+        document.warnings.extend(extent_warnings(document))
     source.progress(1.0)
     for message in document.warnings:
         warnings.warn(message, Engine3DWarning, stacklevel=3)

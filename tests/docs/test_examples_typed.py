@@ -59,6 +59,7 @@ assert_type(camera.zfar, float)
 assert_type(camera.aspect, float | None)
 scene.add(camera, pose=e3d.look_at((0, 0, 5), (0, 0, 0)))
 mode: Mode = "depth"
+scene.add().object = mesh
 frame = e3d.render(scene, size=(64, 48), mode=mode, cull="none", outputs=("color", "depth"))
 assert_type(frame.color, NDArray[np.uint8])
 assert_type(frame.depth, NDArray[np.float32])
@@ -82,7 +83,7 @@ e3d.Texture(mesh.positions, filter="linear")
 e3d.PointLight(falloff="linear")
 e3d.load_texture("a.png", wrap="tile")
 texture.filter = "linear"
-node.object = mesh
+node.object = "box"
 mesh.nonsense = 1
 e3d.load_mesh(3)
 """

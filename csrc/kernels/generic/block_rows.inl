@@ -2,6 +2,10 @@
  *
  * What a vector covers is a part of a row, or whole rows from an even one on.
  */
+#ifndef E3D_KERNELS_BLOCK_ROWS_INL
+#define E3D_KERNELS_BLOCK_ROWS_INL
+
+#include "core/limits.h"
 
 enum { ROW_LANES = V_LANES < 8 ? V_LANES : 8, ROWS = V_LANES / ROW_LANES };
 enum { ROW_SHIFT = ROW_LANES == 8 ? 3 : ROW_LANES == 4 ? 2 : 0 };
@@ -30,3 +34,5 @@ static inline void rows_storef(float *p, vf32 a) { v_storef(p, a); }
 
 /* The sample of a lane, after the vector's first. */
 static inline int rows_sample(int lane) { return lane / ROW_LANES * E3D_TILE + lane % ROW_LANES; }
+
+#endif

@@ -1,4 +1,9 @@
 /* encode: colours, clamped to [0, 1] (R33), to 8 bits (R34). */
+#ifndef E3D_KERNELS_ENCODE_INL
+#define E3D_KERNELS_ENCODE_INL
+
+#include "core/always_inline.h"
+#include "core/encode_tables.h"
 
 static inline vf32 encode_clamp(vf32 v) { return v_min(v_max(v, v_setf(0.0f)), v_setf(1.0f)); }
 
@@ -41,3 +46,5 @@ static void kernel_encode(const float *red, const float *green, const float *blu
         v_storei(rgba + i, encode_vector(&curve, color, srgb));
     }
 }
+
+#endif

@@ -7,6 +7,16 @@
  * height on the screen: each corner moves along the edge between the two others. Both are divided by the length of an edge here.
  * Cones after Shirmun and Abi-Ezzi (1993).
  */
+#ifndef E3D_KERNELS_FACING_INL
+#define E3D_KERNELS_FACING_INL
+
+#include <math.h>
+#include <stddef.h>
+
+#include "core/limits.h"
+#include "core/mesh.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/setup.inl"
 
 typedef struct facing_cones {
     vf32 centre[3], reach; /* of the box; farther from the origin than any vertex */
@@ -139,3 +149,5 @@ static uint32_t kernel_face_away(const e3d_cluster *clusters, int count, const e
         away |= facing_away(clusters + i, count - i, f, drop, clip, viewport) << i;
     return away;
 }
+
+#endif

@@ -3,6 +3,15 @@
  *
  * Stages are short loops over a batch: one that goes all the way from corners to tiles is longer than processors look ahead.
  */
+#ifndef E3D_KERNELS_FRAGMENTS_INL
+#define E3D_KERNELS_FRAGMENTS_INL
+
+#include <string.h>
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/record.inl"
 
 /* ---- triangles of a cluster ---- */
 
@@ -335,3 +344,5 @@ static void kernel_fragments(e3d_small_triangles *triangles, const e3d_viewport 
     fragment_bin_all(&buffer, out);
     triangles->count = 0;
 }
+
+#endif

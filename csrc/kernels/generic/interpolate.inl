@@ -3,6 +3,13 @@
  * The surfaces of one vector's samples stand side by side, in order: a word of theirs is one load and one permutation, or one
  * broadcast where all samples are of one surface.
  */
+#ifndef E3D_KERNELS_INTERPOLATE_INL
+#define E3D_KERNELS_INTERPOLATE_INL
+
+#include "core/always_inline.h"
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/surface.inl"
 
 /* R19: how far samples are from their surfaces' base, and the corners' weights, in proportion to the barycentrics. */
 typedef struct weight_lanes {
@@ -203,3 +210,5 @@ static inline vf32 exp2_poly(vf32 y)
     vf32 fraction = v_add(v_add(one, f), v_mul(v_mul(f, v_sub(f, one)), sum));
     return v_mul(fraction, v_asf(v_shl(v_addi(whole, v_seti(127)), 23)));
 }
+
+#endif

@@ -2,6 +2,15 @@
  * that those before it leave. Where one of these is open, that is, may reach behind the nearest depth of the one that is added, their
  * depths are compared sample by sample; the others hide it.
  */
+#ifndef E3D_KERNELS_LAYERS_INL
+#define E3D_KERNELS_LAYERS_INL
+
+#include <string.h>
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/visible.inl"
+#include "kernels/generic/spans.inl"
 
 enum { LAYERS_CONTESTED = 512 }; /* samples: with more of them a depth for each takes less */
 
@@ -164,3 +173,5 @@ static int kernel_show_layers(const e3d_cover *cover, const e3d_record_table *ta
         layers_show(layers, &cover->record[numbers[i]], out);
     return 1;
 }
+
+#endif

@@ -1,4 +1,13 @@
 /* light: Lambert and Blinn-Phong (Blinn 1977) sums of a batch over all lights, in their order (R31). */
+#ifndef E3D_KERNELS_LIGHT_INL
+#define E3D_KERNELS_LIGHT_INL
+
+#include "core/always_inline.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/surface.inl"
+#include "kernels/generic/interpolate.inl"
 
 /* One vector of lit samples. Where all light is grey, one of three `channels` stands for all. */
 typedef struct lit_lanes {
@@ -242,3 +251,5 @@ static void kernel_combine(e3d_batch *batch, const float specular[3], const floa
             v_storef(batch->color[k] + i, color[k]);
     }
 }
+
+#endif

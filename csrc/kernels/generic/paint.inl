@@ -1,6 +1,17 @@
 /* paint: a batch of samples to pixels at once (R19-R34): the other kernels one after the other, but light goes to pixels through
  * registers, on some processors texels too, and only where they are to be seen.
  */
+#ifndef E3D_KERNELS_PAINT_INL
+#define E3D_KERNELS_PAINT_INL
+
+#include "core/always_inline.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/interpolate.inl"
+#include "kernels/generic/texture.inl"
+#include "kernels/generic/light.inl"
+#include "kernels/generic/encode.inl"
+#include "kernels/generic/samples.inl"
 
 /* Where a vector's albedo is. */
 typedef enum paint_source { PAINT_BASE, PAINT_COLOR, PAINT_TEXELS } paint_source;
@@ -235,3 +246,5 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         break;
     }
 }
+
+#endif

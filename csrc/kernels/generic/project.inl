@@ -1,4 +1,11 @@
 /* project: the corners on the screen of visible pieces that have no record (R3, R8, R9), a vector of pieces at a time. */
+#ifndef E3D_KERNELS_PROJECT_INL
+#define E3D_KERNELS_PROJECT_INL
+
+#include "kernels/kernels.h"
+#include "kernels/generic/transform.inl"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/surface.inl"
 
 static inline vf32 project_row(const vf32 m[4], const vf32 v[3])
 {
@@ -41,3 +48,5 @@ static void kernel_project(e3d_surfaces *s, const e3d_viewport *viewport)
         project_keep(chosen, s->back + n, v_seli(v_eqi(exchanged, mirrored), one, zero));
     }
 }
+
+#endif

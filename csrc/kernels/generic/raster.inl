@@ -3,6 +3,11 @@
  * Four uses of one loop: depth test, overwrite, count, mark. Narrow pieces take strips of unaligned
  * vectors; wider ones go block by block, and a block inside all edges skips them.
  */
+#ifndef E3D_KERNELS_RASTER_INL
+#define E3D_KERNELS_RASTER_INL
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
 
 enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
 enum { RASTER_BLOCK = 8, RASTER_COLUMNS = V_LANES > 8 ? V_LANES : 8 };
@@ -215,3 +220,5 @@ RASTER_KERNEL(depth, RASTER_DEPTH)
 RASTER_KERNEL(overwrite, RASTER_OVERWRITE)
 RASTER_KERNEL(count, RASTER_COUNT)
 RASTER_KERNEL(mark, RASTER_MARK)
+
+#endif

@@ -2,6 +2,14 @@
  *
  * Products of snapped coordinates stay below 2^53, so double vectors give what 64-bit integers and scalar doubles do.
  */
+#ifndef E3D_KERNELS_RECORD_INL
+#define E3D_KERNELS_RECORD_INL
+
+#include <string.h>
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/setup.inl"
 
 /* Three corners of each lane's triangle; after R9 they turn the way that makes the area positive. */
 typedef struct record_corners {
@@ -271,3 +279,5 @@ static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_
         made += record_vector(q, &list, i, out + made, spans + made);
     return made;
 }
+
+#endif

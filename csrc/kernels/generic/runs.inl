@@ -1,6 +1,13 @@
 /* runs: neighbouring samples of a row that show the same slot, found and spread out again a vector at a time. Where all blocks side
  * by side are noted, no sample is looked at: eight rows are alike.
  */
+#ifndef E3D_KERNELS_RUNS_INL
+#define E3D_KERNELS_RUNS_INL
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/raster.inl"
+#include "kernels/generic/visible.inl"
 
 /* Bit x: sample x differs from sample x + 1, or is the row's last. */
 static inline uint64_t runs_ends(const int32_t *row, int width)
@@ -151,3 +158,5 @@ static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_
     return shown->count <= RUNS_LONG ? runs_take_long(shown, first, count, piece, batch)
                                      : runs_take_short(shown, first, count, piece, batch);
 }
+
+#endif

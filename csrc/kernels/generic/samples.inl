@@ -1,4 +1,11 @@
 /* samples: several a pixel, whose colours are kept until the tile is drawn, and averaged then (R33, R34). */
+#ifndef E3D_KERNELS_SAMPLES_INL
+#define E3D_KERNELS_SAMPLES_INL
+
+#include "core/always_inline.h"
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/encode.inl"
 
 /* Whether a vector's samples are neighbours in a row, one after the other. */
 static ALWAYS_INLINE int samples_are_neighbours(const int32_t *sample)
@@ -85,3 +92,5 @@ static void kernel_average(const e3d_samples *samples, int axis, int row, int wi
     else
         samples_average(samples, 4, row, width, background, srgb, rgba);
 }
+
+#endif

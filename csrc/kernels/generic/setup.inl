@@ -2,6 +2,11 @@
  *
  * Conservative where 32 bits do not hold the area: such a triangle stays, and pipeline/setup.c decides.
  */
+#ifndef E3D_KERNELS_SETUP_INL
+#define E3D_KERNELS_SETUP_INL
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
 
 static inline vi32 setup_fetch(const int32_t *table, const uint8_t *indices, int i)
 {
@@ -187,3 +192,5 @@ static int kernel_setup(const e3d_vertices *v, const uint8_t *indices, int trian
     *out = (e3d_survivors){draw & asked & ~small, small, clip & asked};
     return __builtin_popcountll((draw | clip) & asked); /* an instruction here, but not in the baseline */
 }
+
+#endif

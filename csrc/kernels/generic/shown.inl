@@ -3,6 +3,17 @@
  * The samples of a record lie in its box, where those that bear its ID are packed, and the fragments of a triangle follow each
  * other: nothing has to be sorted.
  */
+#ifndef E3D_KERNELS_SHOWN_INL
+#define E3D_KERNELS_SHOWN_INL
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/raster.inl"
+#include "kernels/generic/block_rows.inl"
+#include "kernels/generic/visible.inl"
+#include "kernels/generic/visible_records.inl"
+#include "kernels/generic/runs.inl"
 
 /* Where the next sample goes, and the next piece. */
 typedef struct shown_end {
@@ -182,3 +193,5 @@ static int kernel_take_shown(const e3d_shown *shown, int first, int count, int32
     batch_pad(batch, n + some);
     return some;
 }
+
+#endif

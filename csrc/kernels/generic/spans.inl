@@ -6,6 +6,14 @@
  * (n + 1/2) / |a| is more than 2^-16 away from whole numbers, and within the tile two roundings move it by 2^-17 at most: its floor
  * is that of n / |a|.
  */
+#ifndef E3D_KERNELS_SPANS_INL
+#define E3D_KERNELS_SPANS_INL
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/record.inl"
+#include "kernels/generic/visible_records.inl"
 
 enum { SPANS_LEVEL = 256 }; /* by which an edge function that is the same along a row is multiplied: it bounds the whole row, or not */
 
@@ -185,3 +193,5 @@ static int kernel_show_alone(const e3d_cover *cover, e3d_shown *out, uint16_t *r
     }
     return left;
 }
+
+#endif

@@ -1,4 +1,9 @@
 /* stream: rows of pixels to the picture, which this core won't read again. */
+#ifndef E3D_KERNELS_STREAM_INL
+#define E3D_KERNELS_STREAM_INL
+
+#include "core/stream.h"
+#include "kernels/kernels.h"
 
 /* Past the caches, so that memory isn't read first; rows that aren't made of whole vectors, 16 bytes at a time or not at all. */
 static void kernel_stream(const e3d_pixel_rows *rows)
@@ -13,3 +18,5 @@ static void kernel_stream(const e3d_pixel_rows *rows)
             v_streami(to + at, v_loadi(from + at));
     }
 }
+
+#endif

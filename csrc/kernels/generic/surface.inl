@@ -1,4 +1,8 @@
 /* surface: what visible pieces bring to their samples, a vector of pieces at a time (R3, R18, R25). */
+#ifndef E3D_KERNELS_SURFACE_INL
+#define E3D_KERNELS_SURFACE_INL
+
+#include "kernels/kernels.h"
 
 /* ---- barycentric planes (R18) ---- */
 
@@ -193,3 +197,5 @@ static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)
             surface_slopes(s, n);
     }
 }
+
+#endif

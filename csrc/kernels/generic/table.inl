@@ -1,13 +1,4 @@
 /* All kernels of one instruction set, and their table E3D_TABLE. */
-#include <math.h>
-#include <stddef.h>
-#include <string.h>
-
-#include "core/always_inline.h"
-#include "core/fpenv.h"
-#include "core/encode_tables.h"
-#include "core/stream.h"
-#include "kernels/coverage.h"
 #include "kernels/kernels.h"
 
 #include "kernels/generic/transform.inl"

@@ -2,6 +2,13 @@
  *
  * Texels have a border (core/texture.c): the second of two neighbours always is the next in memory.
  */
+#ifndef E3D_KERNELS_TEXTURE_INL
+#define E3D_KERNELS_TEXTURE_INL
+
+#include "core/always_inline.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
 
 /* R29: a texture coordinate in [0, 1]. */
 static inline vf32 texture_wrap(vf32 s, int wrap)
@@ -322,3 +329,5 @@ static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const
     else
         texture_color_all(&plan, view->filter, view->channel_bits, batch);
 }
+
+#endif

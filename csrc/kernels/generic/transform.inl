@@ -3,6 +3,11 @@
  * Coordinates that only a clipped triangle would use may be far outside: they are clamped before the
  * conversion to integers, which changes none that is used.
  */
+#ifndef E3D_KERNELS_TRANSFORM_INL
+#define E3D_KERNELS_TRANSFORM_INL
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
 
 static inline vi32 transform_flag(vmask m, int32_t bit)
 {
@@ -116,3 +121,5 @@ static void kernel_take_clip(const float *positions, int stride, int count,
                                               v_loadf(positions + 3 * stride + i), viewport, out, i));
     transform_end(codes, count, out);
 }
+
+#endif

@@ -5,6 +5,14 @@
  * three roundings, each monotone), so its values at a block's corners bound it exactly. Ties go to the first in order, so
  * the order in which records arrive changes nothing.
  */
+#ifndef E3D_KERNELS_VISIBLE_INL
+#define E3D_KERNELS_VISIBLE_INL
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/raster.inl"
+#include "kernels/generic/block_rows.inl"
 
 enum { VISIBLE_BLOCKS = E3D_TILE / RASTER_BLOCK };
 
@@ -409,3 +417,5 @@ static void kernel_raster_measure(e3d_visible_tile *tile, float columns[][E3D_BL
     }
 #endif
 }
+
+#endif

@@ -1,6 +1,17 @@
 /* raster, the records of a tile to its visible surface: the boxes and edges of a vector of records at a time (R10, R12), then record
  * after record (R14-R16).
  */
+#ifndef E3D_KERNELS_VISIBLE_RECORDS_INL
+#define E3D_KERNELS_VISIBLE_RECORDS_INL
+
+#include "core/limits.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/record.inl"
+#include "kernels/generic/raster.inl"
+#include "kernels/generic/block_rows.inl"
+#include "kernels/generic/visible.inl"
 
 /* ---- a vector of records in a tile ---- */
 
@@ -329,3 +340,5 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     }
     records_tell(&touched, tile);
 }
+
+#endif

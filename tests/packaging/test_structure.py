@@ -1,0 +1,283 @@
+"""The shape of the source: what depends on what, how large headers are, which lists stand twice.
+
+A rule that the source breaks today has a list of these breaches, which may only shrink: a breach
+that isn't listed fails, and so does a listed one that is gone, until its line is deleted here.
+C is read by regular expressions, which suffices for the one style of this project.
+"""
+
+import ast
+import re
+from collections import Counter, defaultdict
+from pathlib import Path, PurePosixPath
+from typing import Literal, get_args, get_origin
+
+import pytest
+
+from engine3d import choices
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# Which folders of csrc/ the files of one include headers of, besides their own and system headers.
+FOLDERS = {
+    "canvas": {"include"},
+    "core": {"include"},
+    "driver": {"include"},
+    "fuzz": {"driver", "images", "include", "loaders"},
+    "images": {"core", "include"},
+    "include": set(),
+    "kernels": {"core", "include"},
+    "loaders": {"core", "include"},
+    "navigation": {"core", "include"},
+    "pipeline": {"core", "include", "kernels", "reference"},
+    "reference": {"core", "include"},
+    "scene": {"core", "include"},
+    "writers": {"include"},
+}
+MAX_HEADER_LINES = 260
+MAX_INCLUDERS = 12  # files of a header's own folder
+
+LONG_HEADERS = {"include/e3d.h", "include/e3d_loaders.h", "kernels/kernels.h", "pipeline/frame.h"}
+POPULAR_HEADERS = {"fuzz/input.h", "kernels/kernels.h", "pipeline/frame.h"}
+CALL_CIRCLES = {
+    "loaders: obj.c obj_check.c obj_corners.c obj_rows.c",
+    "pipeline: blank.c cull.c late.c occlusion.c outputs.c prepare.c resolve.c shade.c surface.c"
+    " tile.c",
+}
+MACROS_AND_ENUMERATORS = {"E3D_NEAREST"}
+# Imports inside functions without which no modules would import each other in a circle.
+BACKWARD_IMPORTS = {
+    "mesh -> trimesh_conversion",
+    "mesh -> writers",
+    "nodes -> spatial.colliders",
+    "spatial.colliders -> scene",
+}
+# Lists that repeat a type of engine/choices.py.
+COPIED_CHOICES = {
+    "cli/options.py: BACKENDS",
+    "cli/options.py: MODES",
+    "cli/options.py: SAMPLES",
+    "display/look.py: CULLS",
+    "display/look.py: HIDDEN_SURFACES",
+    "display/look.py: MODES",
+    "display/look.py: NORMALS",
+    "display/viewer_actions.py: SAMPLES",
+}
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
+
+
+def read_sources():
+    """The files of csrc/ by their path there."""
+    folder = ROOT / "csrc"
+    paths = [p for p in sorted(folder.rglob("*")) if p.suffix in (".c", ".h", ".inl")]
+    return {p.relative_to(folder).as_posix(): p.read_text(encoding="utf-8") for p in paths}
+
+
+SOURCES = read_sources()
+CODE = {name: without_comments(text) for name, text in SOURCES.items()}
+
+
+def folder_of(name):
+    return name.partition("/")[0]
+
+
+def included_by(name):
+    """The files of csrc/ that one includes."""
+    here = PurePosixPath(name).parent.as_posix()
+    found = set()
+    for header in re.findall(r'^\s*#\s*include\s+"([^"]+)"', SOURCES[name], re.M):
+        places = [header, f"include/{header}", f"{here}/{header}"]
+        found.update([place for place in places if place in SOURCES][:1])
+    return found
+
+
+INCLUDES = {name: included_by(name) for name in SOURCES}
+
+
+def circles(graph):
+    """The sets of nodes of a graph that all lead to each other, sorted; `graph`: successors."""
+    reach = {node: reachable(graph, node) for node in graph}
+    found = {frozenset(b for b in reach[a] if a in reach.get(b, ())) for a in graph}
+    return [sorted(circle) for circle in found if len(circle) > 1]
+
+
+def reachable(graph, start):
+    """Where one comes from a node by at least one step."""
+    found, todo = set(), [start]
+    while todo:
+        new = set(graph.get(todo.pop(), ())) - found
+        found |= new
+        todo += new
+    return found
+
+
+def enumerators(code):
+    bodies = re.findall(r"\benum\s*\w*\s*\{([^}]*)\}", code)
+    lists = [re.sub(r"\([^()]*\)", "", body) for body in bodies]
+    return {word for names in lists for word in re.findall(r"(?:^|,)\s*([A-Za-z_]\w*)", names)}
+
+
+def macros(code):
+    return set(re.findall(r"^\s*#\s*define\s+(\w+)", code, re.M))
+
+
+def functions(code):
+    """Functions with a body that begin in a line's first column, and whether each is static."""
+    pattern = r"^(?!typedef|#|enum )((?:\w+[ *]+)+)(\w+)\([^;{}]*\)\s*\{"
+    return {name: "static" in kind.split() for kind, name in re.findall(pattern, code, re.M)}
+
+
+def types(code):
+    """What typedefs name, but for pointers to functions."""
+    structs = re.findall(r"^\} (\w+);", code, re.M)
+    return {*structs, *re.findall(r"^typedef [^{};()]*?(\w+)(?:\[[^]]*\])*;", code, re.M)}
+
+
+def declared(code):
+    """The names that including a file brings in, but for those of prototypes."""
+    return types(code) | enumerators(code) | macros(code) | set(functions(code))
+
+
+def words(code):
+    return set(re.findall(r"[A-Za-z_]\w*", code))
+
+
+# ---- C ----
+
+
+def test_folders_include_only_those_below_them():
+    found = {folder: set() for folder in FOLDERS}
+    for name, headers in INCLUDES.items():
+        found[folder_of(name)] |= {folder_of(header) for header in headers} - {folder_of(name)}
+    assert found == FOLDERS
+    assert circles(FOLDERS) == []
+
+
+def test_headers_are_short():
+    # The words of an instruction set are one list, however long.
+    headers = [name for name in SOURCES if name.endswith(".h") and "/simd/" not in name]
+    long = {name for name in headers if SOURCES[name].count("\n") > MAX_HEADER_LINES}
+    assert long == LONG_HEADERS
+
+
+def test_no_header_is_included_all_over_its_folder():
+    pairs = [(header, name) for name, headers in INCLUDES.items() for header in headers]
+    counts = Counter(header for header, name in pairs if folder_of(header) == folder_of(name))
+    assert {header for header, count in counts.items() if count > MAX_INCLUDERS} == POPULAR_HEADERS
+
+
+def calls_within(folder):
+    """The files of a folder, and of which others each names a function."""
+    files = [name for name in CODE if folder_of(name) == folder and name.endswith(".c")]
+    homes = {}
+    for name in files:
+        homes |= {f: name for f, is_static in functions(CODE[name]).items() if not is_static}
+    return {
+        name: {homes[word] for word in words(CODE[name]) & homes.keys()} - {name} for name in files
+    }
+
+
+def test_no_files_of_a_folder_call_each_other_in_a_circle():
+    found = {
+        f"{folder}: " + " ".join(PurePosixPath(name).name for name in circle)
+        for folder in FOLDERS
+        for circle in circles(calls_within(folder))
+    }
+    assert found == CALL_CIRCLES
+
+
+def test_no_macro_is_an_enumerator_too():
+    # Files that no other includes keep their names to themselves.
+    shared = [CODE[name] for name in CODE if not name.endswith(".c")]
+    of_enums = set().union(*map(enumerators, CODE.values()))
+    of_macros = set().union(*map(macros, CODE.values()))
+    known = set().union(*map(declared, shared))
+    assert of_enums & of_macros & known == MACROS_AND_ENUMERATORS
+
+
+@pytest.mark.parametrize("name", [name for name in SOURCES if name.endswith(".inl")])
+def test_files_of_kernels_include_what_they_use(name):
+    # The words of the vectors come with the instruction set, which is chosen outside.
+    below = {"kernels", *FOLDERS["kernels"]}
+    others = [n for n in SOURCES if folder_of(n) in below and n.endswith((".h", ".inl"))]
+    homes = defaultdict(set)
+    for other in others:
+        if "/simd/" not in other:
+            for word in declared(CODE[other]):
+                homes[word].add(other)
+    used = words(CODE[name]) & homes.keys()
+    has = INCLUDES[name] | {name}
+    assert {word: homes[word] for word in used if not homes[word] & has} == {}
+
+
+# ---- Python ----
+
+
+def is_for_type_checkers(node):
+    return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
+
+
+def run_time_nodes(tree):
+    """The nodes of a syntax tree, without what only type checkers read."""
+    for node in ast.iter_child_nodes(tree):
+        if not is_for_type_checkers(node):
+            yield node
+            yield from run_time_nodes(node)
+
+
+def python_modules():
+    """The modules of engine/ by their names within it."""
+    folder = ROOT / "engine"
+    paths = {path.relative_to(folder).with_suffix("").parts: path for path in folder.rglob("*.py")}
+    return {".".join(part for part in p if part != "__init__"): path for p, path in paths.items()}
+
+
+MODULES = python_modules()
+
+
+def imported_by(name):
+    """The modules of engine/ that one imports, at once or in a function."""
+    tree = ast.parse(MODULES[name].read_text(encoding="utf-8"))
+    package = MODULES[name].relative_to(ROOT / "engine").parent.parts
+    found = set()
+    for node in run_time_nodes(tree):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = [*package[: len(package) - node.level + 1], *filter(None, [node.module])]
+            for alias in node.names:
+                longest = ".".join([*base, alias.name])
+                found.add(longest if longest in MODULES else ".".join(base))
+    return found & MODULES.keys() - {name}
+
+
+def test_modules_import_each_other_in_no_circle():
+    graph = {name: imported_by(name) for name in MODULES}
+    backward = {tuple(line.split(" -> ")) for line in BACKWARD_IMPORTS}
+    rest = {a: {b for b in graph[a] if (a, b) not in backward} for a in graph}
+    assert circles(rest) == []
+    for importer, imported in backward:
+        assert imported in graph[importer], "it is gone: delete it from the list"
+        assert importer in reachable(rest, imported), "it closes no circle: delete it from the list"
+
+
+def module_lists(path):
+    """The lists of three and more constants that a module assigns, by name."""
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Assign) and isinstance(node.value, (ast.Tuple, ast.List, ast.Set)):
+            if all(isinstance(element, ast.Constant) for element in node.value.elts):
+                values = {element.value for element in node.value.elts}
+                if len(values) >= 3:
+                    yield ast.unparse(node.targets[0]), values
+
+
+def test_choices_are_listed_once():
+    types = [getattr(choices, name) for name in vars(choices)]
+    known = [set(get_args(t)) for t in types if get_origin(t) is Literal]
+    found = {
+        f"{path.relative_to(ROOT / 'engine').as_posix()}: {name}"
+        for path in MODULES.values()
+        for name, values in module_lists(path)
+        if values in known
+    }
+    assert found == COPIED_CHOICES

@@ -353,7 +353,6 @@ typedef struct e3d_lighting {
     float ambient[3], clamp[2], eye[4];
 } e3d_lighting;
 
-/* How the samples of a batch become pixels. */
 /* A tile's samples, where there are several a pixel. */
 typedef struct e3d_samples {
     float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* clamped, or 0 where one doesn't count */
@@ -368,6 +367,7 @@ typedef struct e3d_pixel_rows {
     int count;
 } e3d_pixel_rows;
 
+/* How the samples of a batch become pixels. */
 typedef struct e3d_paint {
     int wanted;                      /* E3D_WANT_* */
     const e3d_texture_view *texture; /* may be NULL */

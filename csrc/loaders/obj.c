@@ -115,7 +115,7 @@ static bool read_other(e3d_obj *obj, const obj_line *line, const uint8_t *keywor
     return add_setter(obj, E3D_OBJ_UNKNOWN, line, keyword, keyword_end);
 }
 
-/* Reads the keyword of a line, whose blanks are skipped: of `vt` and the like, the second letter. */
+/* Whether a line, whose blanks are skipped, begins with a keyword of two letters, or of one where `second` is 0. */
 static inline bool begins(const obj_line *line, char first, char second)
 {
     const uint8_t *at = line->at;

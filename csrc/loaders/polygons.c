@@ -160,7 +160,7 @@ static bool are_sound(const e3d_polygons *polygons)
     return all;
 }
 
-/* In one block of memory, which begins with `corners`; NULL if memory is out. */
+/* Takes one block of memory for an outline, which begins with `corners`; false if memory is out. */
 static bool make_room(const e3d_polygons *polygons, outline *o)
 {
     size_t most = 3;

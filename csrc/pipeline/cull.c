@@ -58,14 +58,14 @@ static void project(const e3d_viewport *viewport, const corners *c, e3d_box_view
     }
     float w = nearest[3] - c->slack[3], all = (c->slack[0] + c->slack[1]) + (c->slack[2] + c->slack[3]);
     if (!(w > E3D_W_MIN) || !(all < INFINITY)) {
-        *out = (e3d_box_view){out->state, E3D_NEAREST, {0, 0, viewport->width - 1, viewport->height - 1}};
+        *out = (e3d_box_view){out->state, E3D_DEPTH_UNBOUNDED, {0, 0, viewport->width - 1, viewport->height - 1}};
         return;
     }
     float4 most = more_of(size_of(lo), size_of(hi));
     float4 moved = (c->slack + most * splat(c->slack[3])) / splat(w);
     lo -= moved;
     hi += moved;
-    out->near = lo[2] > E3D_NEAREST ? lo[2] : E3D_NEAREST;
+    out->near = lo[2] > E3D_DEPTH_UNBOUNDED ? lo[2] : E3D_DEPTH_UNBOUNDED;
     out->samples = samples_of(viewport, lo, hi);
 }
 
@@ -165,7 +165,7 @@ static void add_item(e3d_context *context, e3d_worker *worker, const e3d_draw_st
     const e3d_instance *instance = &context->instances[number];
     const e3d_group_box *box = &draw->mesh->groups[group];
     e3d_item item = {number, (uint32_t)group, (int32_t)(draw - context->draws), (int32_t)unit,
-                     {E3D_BOX_CROSSES, E3D_NEAREST, {0, 0, 0, 0}}};
+                     {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
         e3d_view_box(&context->viewport, e3d_culling_matrix(context->frame, instance), box->lo, box->hi, &item.view);

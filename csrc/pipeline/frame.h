@@ -87,7 +87,7 @@ typedef struct e3d_box_view {
     float near;    /* no z_ndc in the box is less */
     e3d_box samples; /* that it may cover, inclusive */
 } e3d_box_view;
-#define E3D_NEAREST (-2.0f) /* of a box that reaches the eye */
+#define E3D_DEPTH_UNBOUNDED (-2.0f) /* the nearest depth of a box that reaches the eye: less than any */
 static inline e3d_box e3d_blocks_of(const e3d_box *samples)
 {
     return (e3d_box){samples->x0 / E3D_BLOCK, samples->y0 / E3D_BLOCK, samples->x1 / E3D_BLOCK, samples->y1 / E3D_BLOCK};

@@ -434,7 +434,7 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     return 1;
 }
 
-/* The calling thread asks at most every 20 ms. */
+/* The calling thread asks at most every 20 ms; who is asked may look less often. */
 static void poll(e3d_context *context, int64_t now)
 {
     e3d_renderer *renderer = context->renderer;

@@ -37,12 +37,20 @@ e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker)
     return &worker->blank;
 }
 
+/* Rows of a tile that are all background. */
+static void clear(const e3d_context *context, const e3d_tile *tile)
+{
+    e3d_outputs_blank(context, tile);
+    if (context->targets->color)
+        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), context->background_row, 0);
+}
+
 void e3d_blank_some(const e3d_context *context, e3d_worker *worker)
 {
     e3d_tile *left = e3d_blank_now(context, worker), some = *left;
     some.height = left->height < E3D_SOME_ROWS ? left->height : E3D_SOME_ROWS;
     if (some.height)
-        e3d_resolve_blank(context, &some);
+        clear(context, &some);
     left->y += some.height;
     left->height -= some.height;
 }

@@ -351,6 +351,7 @@ int e3d_view_vertices(const e3d_viewport *viewport, const e3d_vertices *vertices
 /* Lists the frame's items; 0 when memory is out. */
 int e3d_find_items(e3d_context *context);
 const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);
+/* draws.c */
 /* The last draw that starts at or before a number; base: offset of the e3d_draw_state's start of such numbers. */
 const e3d_draw_state *e3d_find_draw(const e3d_context *context, size_t base, int64_t number);
 /* The last turn that starts at or before an order. */
@@ -366,19 +367,21 @@ void e3d_occlusion_judge(e3d_context *context, const e3d_stats *stats);
 int e3d_occlusion_begin(e3d_context *context);
 /* Finds what the last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
 int e3d_remember(e3d_context *context);
-int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
-/* The same of what a record covers. */
-int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record);
-/* Asks for what that reads first. */
-void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
-/* Keeps the depths of a tile, which may be drawn elsewhere. */
-void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile);
 /* Draws a round's tiles, and keeps what the next one needs of them; 0 when memory is out. */
 int e3d_draw_kept_tiles(e3d_context *context);
 /* Whether most tiles can be finished with what the last frames showed. */
 int e3d_finishes_early(const e3d_context *context);
 /* After the last round's geometry. */
 void e3d_count_changed_tiles(e3d_context *context);
+
+/* depths.c */
+int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
+/* The same of what a record covers. */
+int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record);
+/* Asks for what that reads first. */
+void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
+/* Notes a tile's farthest depths. */
+void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile);
 
 /* lines.c: units of 256 lines, then points, then edges of an instance */
 void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
@@ -494,9 +497,6 @@ static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)
     worker->lap = now;
 }
 void e3d_tiles(e3d_context *context);
-e3d_tile e3d_tile_at(const e3d_context *context, int64_t number);
-/* Whether samples keep slots rather than record IDs. */
-int e3d_keeps_slots(const e3d_context *context);
 /* visible.c: the visible surface by record ID, for whatever shades it afterwards */
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number);
@@ -538,8 +538,6 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);
 void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
-/* The whole tile is background. */
-void e3d_resolve_blank(const e3d_context *context, const e3d_tile *tile);
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* picture.c: `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */
 void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
@@ -573,6 +571,25 @@ static inline int32_t e3d_instance_id(const e3d_draw *draw, int32_t instance)
 }
 
 static inline int64_t e3d_tile_count(const e3d_context *c) { return (int64_t)c->tiles_x * c->tiles_y; }
+
+static inline e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
+{
+    e3d_tile tile = {.x = (int32_t)(number % context->tiles_x) * E3D_TILE,
+                     .y = (int32_t)(number / context->tiles_x) * E3D_TILE};
+    int32_t width = context->viewport.width - tile.x, height = context->viewport.height - tile.y;
+    tile.width = width < E3D_TILE ? width : E3D_TILE;
+    tile.height = height < E3D_TILE ? height : E3D_TILE;
+    return tile;
+}
+
+/* Whether each piece is shaded at once. */
+static inline int e3d_is_forward(const e3d_context *context)
+{
+    return context->wants && context->frame->shading == E3D_SHADING_FORWARD;
+}
+
+/* Whether samples keep slots rather than record IDs. */
+static inline int e3d_keeps_slots(const e3d_context *context) { return context->sorted || e3d_is_forward(context); }
 
 /* Whether earlier rounds drew something in a tile, which this one draws upon. */
 static inline int e3d_is_kept(const e3d_context *c, int64_t tile)

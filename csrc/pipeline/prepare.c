@@ -161,32 +161,6 @@ static void instances_work(void *argument, int worker)
     }
 }
 
-const e3d_draw_state *e3d_find_draw(const e3d_context *context, size_t base, int64_t number)
-{
-    int32_t low = 0, high = context->frame->draw_count - 1;
-    while (low < high) {
-        int32_t middle = low + (high - low + 1) / 2;
-        if (*(const int64_t *)((const char *)&context->draws[middle] + base) <= number)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return &context->draws[low];
-}
-
-const e3d_turn *e3d_find_turn(const e3d_context *context, uint32_t order)
-{
-    int32_t low = 0, high = context->turn_count - 1;
-    while (low < high) {
-        int32_t middle = low + (high - low + 1) / 2;
-        if (context->turns[middle].order <= order)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return &context->turns[low];
-}
-
 static int32_t units_of(int32_t count) { return (count + E3D_LINES_A_UNIT - 1) / E3D_LINES_A_UNIT; }
 
 static int has_two_sided(const e3d_frame *frame)

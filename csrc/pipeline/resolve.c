@@ -92,13 +92,6 @@ static void average(const e3d_context *context, e3d_tile_memory *memory, const e
                                   memory->rgba + y * E3D_TILE);
 }
 
-void e3d_resolve_blank(const e3d_context *context, const e3d_tile *tile)
-{
-    e3d_outputs_blank(context, tile);
-    if (context->targets->color)
-        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), context->background_row, 0);
-}
-
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
     e3d_outputs_end(context, worker, tile);

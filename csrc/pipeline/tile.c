@@ -117,13 +117,6 @@ static int act_count(tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
-static int is_forward(const e3d_context *context)
-{
-    return context->wants && context->frame->shading == E3D_SHADING_FORWARD;
-}
-
-int e3d_keeps_slots(const e3d_context *context) { return context->sorted || is_forward(context); }
-
 static int edges_are_tested(const e3d_frame *frame)
 {
     return frame->hidden == E3D_HIDDEN_ZBUFFER &&
@@ -235,7 +228,7 @@ static int draw_pieces(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
-    int forward = is_forward(context);
+    int forward = e3d_is_forward(context);
     begin(job, 0);
     clear_samples(worker->visible);
     if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
@@ -392,16 +385,6 @@ static int draw_marks(tile_job *job)
     }
     e3d_lap(job->worker, &job->worker->counters.ns_raster);
     return 1;
-}
-
-e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
-{
-    e3d_tile tile = {.x = (int32_t)(number % context->tiles_x) * E3D_TILE,
-                     .y = (int32_t)(number / context->tiles_x) * E3D_TILE};
-    int32_t width = context->viewport.width - tile.x, height = context->viewport.height - tile.y;
-    tile.width = width < E3D_TILE ? width : E3D_TILE;
-    tile.height = height < E3D_TILE ? height : E3D_TILE;
-    return tile;
 }
 
 static int draw_job(tile_job *job)

@@ -3,9 +3,6 @@
  * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
  * each thread's own; the raster's rule (R16) makes their order irrelevant.
  */
-#include <stddef.h>
-#include <string.h>
-
 #include "pipeline/frame.h"
 
 static void empty_bins(e3d_array *bins, int32_t tiles)
@@ -155,18 +152,19 @@ int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
     return 0;
 }
 
-_Static_assert(offsetof(e3d_bin_block, next) == 0 && offsetof(e3d_bin_block, count) == 4 &&
-                   offsetof(e3d_fragment_block, next) == 0 && offsetof(e3d_fragment_block, count) == 4,
-               "both kinds of blocks begin alike");
-
-/* Of a chain of blocks of either kind. */
-static uint32_t count_chain(const e3d_array *bins, const e3d_array *blocks, size_t size, int64_t tile)
+static uint32_t count_records(const e3d_record_set *set, int64_t tile)
 {
-    uint32_t count = 0, head[2]; /* next, count */
-    for (uint32_t at = e3d_first_block(bins, tile); at != E3D_NO_BLOCK; at = head[0]) {
-        memcpy(head, (const char *)blocks->data + at * size, sizeof head);
-        count += head[1];
-    }
+    uint32_t count = 0;
+    for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+        count += block->count;
+    return count;
+}
+
+static uint32_t count_fragments(const e3d_fragment_set *set, int64_t tile)
+{
+    uint32_t count = 0;
+    for (const e3d_fragment_block *block = e3d_first_fragments(set, &set->bins, tile); block; block = e3d_next_fragments(set, block))
+        count += block->count;
     return count;
 }
 
@@ -174,10 +172,9 @@ e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile)
 {
     e3d_entries entries = {0, 0};
     for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
-        const e3d_fragment_set *fragments = &context->renderer->workers[w]->fragments;
-        entries.records += count_chain(&set->bins, &set->blocks, sizeof(e3d_bin_block), tile);
-        entries.fragments += count_chain(&fragments->bins, &fragments->blocks, sizeof(e3d_fragment_block), tile);
+        const e3d_worker *worker = context->renderer->workers[w];
+        entries.records += count_records(&worker->pass[E3D_PASS_SCENE], tile);
+        entries.fragments += count_fragments(&worker->fragments, tile);
     }
     return entries;
 }

@@ -186,7 +186,7 @@ static void add_item(e3d_context *context, e3d_worker *worker, const e3d_draw_st
 /* Groups [first, end) of the frame: draw after draw, instance after instance. */
 static void cull_groups(e3d_context *context, e3d_worker *worker, int64_t first, int64_t end)
 {
-    const e3d_draw_state *draw = e3d_find_draw(context, offsetof(e3d_draw_state, group_base), first);
+    const e3d_draw_state *draw = e3d_draw_of_group(context, first);
     for (int64_t unit = first; unit < end;) {
         while (unit >= draw->group_base + (int64_t)draw->mesh->group_count * draw->draw->instances)
             draw++;

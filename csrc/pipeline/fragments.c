@@ -83,18 +83,18 @@ static ALWAYS_INLINE void fetch_block(const e3d_fragment_block *block)
 void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
                         int earlier)
 {
-    const e3d_fragment_block *blocks = set->blocks.data;
-    uint32_t next = e3d_first_block(earlier ? &set->earlier : &set->bins, tile_number);
-    for (; next != E3D_NO_BLOCK; next = blocks[next].next) {
-        if (blocks[next].next != E3D_NO_BLOCK)
-            fetch_block(&blocks[blocks[next].next]);
-        context->kernels->raster_fragments(visible, &context->tables[E3D_PASS_SCENE], &blocks[next]);
+    const e3d_fragment_block *block = e3d_first_fragments(set, earlier ? &set->earlier : &set->bins, tile_number), *next;
+    for (; block; block = next) {
+        next = e3d_next_fragments(set, block);
+        if (next)
+            fetch_block(next);
+        context->kernels->raster_fragments(visible, &context->tables[E3D_PASS_SCENE], block);
     }
 }
 
 void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number)
 {
-    const e3d_fragment_block *blocks = set->blocks.data;
-    for (uint32_t next = e3d_first_block(&set->bins, tile_number); next != E3D_NO_BLOCK; next = blocks[next].next)
-        context->kernels->show_fragments(worker->visible, &blocks[next], &worker->tile->shown);
+    const e3d_fragment_block *block = e3d_first_fragments(set, &set->bins, tile_number);
+    for (; block; block = e3d_next_fragments(set, block))
+        context->kernels->show_fragments(worker->visible, block, &worker->tile->shown);
 }

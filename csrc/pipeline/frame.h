@@ -352,8 +352,10 @@ int e3d_view_vertices(const e3d_viewport *viewport, const e3d_vertices *vertices
 int e3d_find_items(e3d_context *context);
 const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);
 /* draws.c */
-/* The last draw that starts at or before a number; base: offset of the e3d_draw_state's start of such numbers. */
-const e3d_draw_state *e3d_find_draw(const e3d_context *context, size_t base, int64_t number);
+/* Whose an instance, a unit of work or a group of clusters is, by its number in the frame: there must be one. */
+const e3d_draw_state *e3d_draw_of_instance(const e3d_context *context, int64_t instance);
+const e3d_draw_state *e3d_draw_of_unit(const e3d_context *context, int64_t unit);
+const e3d_draw_state *e3d_draw_of_group(const e3d_context *context, int64_t group);
 /* The last turn that starts at or before an order. */
 const e3d_turn *e3d_find_turn(const e3d_context *context, uint32_t order);
 
@@ -439,6 +441,31 @@ typedef struct e3d_entries {
 e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile);
 /* The first block of a tile's chain, of records or of fragments. */
 static inline uint32_t e3d_first_block(const e3d_array *bins, int64_t tile) { return ((const e3d_bin *)bins->data)[tile].first; }
+/* The blocks of a chain, one after the other; NULL behind the last. The bins are the set's own, or its earlier ones. */
+static inline const e3d_bin_block *e3d_bin_block_at(const e3d_record_set *set, uint32_t number)
+{
+    return number == E3D_NO_BLOCK ? NULL : (const e3d_bin_block *)set->blocks.data + number;
+}
+static inline const e3d_bin_block *e3d_first_records(const e3d_record_set *set, const e3d_array *bins, int64_t tile)
+{
+    return e3d_bin_block_at(set, e3d_first_block(bins, tile));
+}
+static inline const e3d_bin_block *e3d_next_records(const e3d_record_set *set, const e3d_bin_block *block)
+{
+    return e3d_bin_block_at(set, block->next);
+}
+static inline const e3d_fragment_block *e3d_fragment_block_at(const e3d_fragment_set *set, uint32_t number)
+{
+    return number == E3D_NO_BLOCK ? NULL : (const e3d_fragment_block *)set->blocks.data + number;
+}
+static inline const e3d_fragment_block *e3d_first_fragments(const e3d_fragment_set *set, const e3d_array *bins, int64_t tile)
+{
+    return e3d_fragment_block_at(set, e3d_first_block(bins, tile));
+}
+static inline const e3d_fragment_block *e3d_next_fragments(const e3d_fragment_set *set, const e3d_fragment_block *block)
+{
+    return e3d_fragment_block_at(set, block->next);
+}
 /* After the records have their places: the tables that tell a record by its ID. */
 void e3d_tables_set(e3d_context *context);
 /* fragments.c */

@@ -520,7 +520,7 @@ static void walk_units(e3d_context *context, e3d_worker *worker)
         if (first >= context->units)
             return;
         for (int64_t unit = first; unit < first + UNITS_A_TASK && unit < context->units; unit++) {
-            const e3d_draw_state *draw = e3d_find_draw(context, offsetof(e3d_draw_state, unit_base), unit);
+            const e3d_draw_state *draw = e3d_draw_of_unit(context, unit);
             int32_t instance = (int32_t)((unit - draw->unit_base) / draw->units);
             e3d_draw_unit(context, worker, draw, instance, (int32_t)((unit - draw->unit_base) % draw->units));
         }

@@ -148,7 +148,7 @@ static void instances_work(void *argument, int worker)
         int64_t first = atomic_fetch_add(&context->next, INSTANCES_A_TASK);
         if (first >= context->instance_count)
             return;
-        const e3d_draw_state *state = e3d_find_draw(context, offsetof(e3d_draw_state, instance_base), first);
+        const e3d_draw_state *state = e3d_draw_of_instance(context, first);
         for (int64_t i = first; i < first + INSTANCES_A_TASK && i < context->instance_count; i++) {
             while (i >= state->instance_base + state->draw->instances)
                 state++;

@@ -12,11 +12,10 @@ static int are_few(const e3d_context *context, int64_t tile)
     for (int32_t w = 0; w < context->renderer->threads; w++) {
         const e3d_worker *worker = context->renderer->workers[w];
         const e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
-        const e3d_bin_block *blocks = set->blocks.data;
         if (e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK)
             return 0;
-        for (uint32_t next = e3d_first_block(&set->bins, tile); next != E3D_NO_BLOCK; next = blocks[next].next)
-            if ((count += blocks[next].count) > E3D_MOST_COVERING)
+        for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+            if ((count += block->count) > E3D_MOST_COVERING)
                 return 0;
     }
     return 1;
@@ -26,12 +25,10 @@ static int are_few(const e3d_context *context, int64_t tile)
 static int cover_records(const e3d_context *context, e3d_tile_memory *memory, int64_t tile)
 {
     for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_worker *worker = context->renderer->workers[w];
-        const e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
-        const e3d_bin_block *blocks = set->blocks.data;
-        for (uint32_t next = e3d_first_block(&set->bins, tile); next != E3D_NO_BLOCK; next = blocks[next].next)
-            if (!context->kernels->cover_records(&memory->cover, &context->tables[E3D_PASS_SCENE], blocks[next].id,
-                                                 (int)blocks[next].count, &memory->shown))
+        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
+        for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+            if (!context->kernels->cover_records(&memory->cover, &context->tables[E3D_PASS_SCENE], block->id, (int)block->count,
+                                                 &memory->shown))
                 return 0;
     }
     return 1;

@@ -82,10 +82,9 @@ static int run_bins(tile_job *job, int pass, piece_action action)
     job->worker->slots.count = 0;
     for (int32_t w = 0; w < renderer->threads; w++) {
         const e3d_record_set *set = &renderer->workers[w]->pass[pass];
-        const e3d_bin_block *blocks = set->blocks.data;
-        uint32_t next = e3d_first_block(&set->bins, job->number);
-        for (; next != E3D_NO_BLOCK; next = blocks[next].next)
-            if (!run_block(job, pass, &blocks[next], action))
+        const e3d_bin_block *block = e3d_first_records(set, &set->bins, job->number);
+        for (; block; block = e3d_next_records(set, block))
+            if (!run_block(job, pass, block, action))
                 return 0;
     }
     return 1;

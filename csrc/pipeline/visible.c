@@ -17,21 +17,20 @@ void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
 static void draw_records(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number, int earlier)
 {
     const e3d_renderer *renderer = context->renderer;
-    uint32_t next[E3D_MAX_THREADS];
+    const e3d_bin_block *next[E3D_MAX_THREADS];
     int32_t left = renderer->threads;
     for (int32_t w = 0; w < renderer->threads; w++) {
         const e3d_record_set *set = &renderer->workers[w]->pass[E3D_PASS_SCENE];
-        next[w] = e3d_first_block(earlier ? &set->earlier : &set->bins, tile_number);
+        next[w] = e3d_first_records(set, earlier ? &set->earlier : &set->bins, tile_number);
     }
     while (left) {
         left = 0;
         for (int32_t w = 0; w < renderer->threads; w++) {
-            if (next[w] == E3D_NO_BLOCK)
+            if (!next[w])
                 continue;
-            const e3d_bin_block *block = (const e3d_bin_block *)renderer->workers[w]->pass[E3D_PASS_SCENE].blocks.data + next[w];
-            context->kernels->raster_visible(visible, &context->tables[E3D_PASS_SCENE], block->id, (int)block->count);
-            next[w] = block->next;
-            left += next[w] != E3D_NO_BLOCK;
+            context->kernels->raster_visible(visible, &context->tables[E3D_PASS_SCENE], next[w]->id, (int)next[w]->count);
+            next[w] = e3d_next_records(&renderer->workers[w]->pass[E3D_PASS_SCENE], next[w]);
+            left += next[w] != NULL;
         }
     }
 }
@@ -47,9 +46,8 @@ void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int
 
 static void show_records(const e3d_context *context, const e3d_record_set *set, e3d_worker *worker, int64_t tile_number)
 {
-    const e3d_bin_block *blocks = set->blocks.data;
-    for (uint32_t next = e3d_first_block(&set->bins, tile_number); next != E3D_NO_BLOCK; next = blocks[next].next)
-        context->kernels->show_records(worker->visible, &context->tables[E3D_PASS_SCENE], blocks[next].id, (int)blocks[next].count,
+    for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile_number); block; block = e3d_next_records(set, block))
+        context->kernels->show_records(worker->visible, &context->tables[E3D_PASS_SCENE], block->id, (int)block->count,
                                        &worker->tile->shown);
 }
 

@@ -2,6 +2,7 @@
 #ifndef E3D_COVERAGE_H
 #define E3D_COVERAGE_H
 
+#include "core/limits.h"
 #include "kernels/kernels.h"
 
 /* Samples, inclusive; empty where x0 > x1 or y0 > y1. */

@@ -3,7 +3,14 @@
  * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
  * each thread's own; the raster's rule (R16) makes their order irrelevant.
  */
+#include "core/grow.h"
+#include "core/limits.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
+#include "pipeline/fragments.h"
 #include "pipeline/frame.h"
+#include "pipeline/records.h"
 
 static void empty_bins(e3d_array *bins, int32_t tiles)
 {

@@ -1,6 +1,12 @@
 /* Tiles that nothing is drawn in: their rows are written between the batches of other tiles, a few at a time, since memory takes
  * them in while the core computes. */
+#include "pipeline/bin.h"
+#include "pipeline/blank.h"
+#include "pipeline/depths.h"
 #include "pipeline/frame.h"
+#include "pipeline/outputs.h"
+#include "pipeline/picture.h"
+#include "pipeline/share.h"
 
 /* Bins first: of a tile that has some, its owner may be writing the depths, which tell whether it was kept. */
 int e3d_is_blank(const e3d_context *context, int64_t tile)

@@ -3,7 +3,9 @@
  * Sutherland and Hodgman (1974) in homogeneous space. Cut points run from the inside to the outside vertex, so
  * that both triangles of an edge get the same bits.
  */
-#include "pipeline/frame.h"
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "pipeline/clip.h"
 
 typedef struct exact_vertex {
     double v[4], c[3];

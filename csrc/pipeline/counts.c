@@ -3,6 +3,9 @@
  * In:  the workers' counters and the instances' marks, after the last tile.
  * Out: e3d_stats.
  */
+#include "e3d.h"
+#include "pipeline/counts.h"
+#include "pipeline/draws.h"
 #include "pipeline/frame.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)

@@ -8,8 +8,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/grow.h"
+#include "core/limits.h"
+#include "core/mesh.h"
 #include "core/pool.h"
 #include "core/vectors.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/counts.h"
+#include "pipeline/cull.h"
+#include "pipeline/draws.h"
 #include "pipeline/frame.h"
 
 static inline float4 column(const float m[16], int c) { return (float4){m[c], m[4 + c], m[8 + c], m[12 + c]}; }

@@ -4,7 +4,12 @@
  */
 #include <string.h>
 
+#include "core/limits.h"
 #include "core/vectors.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/cull.h"
+#include "pipeline/depths.h"
 #include "pipeline/frame.h"
 
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };
@@ -28,6 +33,11 @@ void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t ti
     memcpy(depths->zmax, visible->zmax, sizeof depths->zmax);
     depths->noted = visible->noted;
     depths->most = farthest(visible);
+}
+
+int e3d_is_kept(const e3d_context *context, int64_t tile)
+{
+    return context->kept && !context->finished && context->depths[tile].most != E3D_NOTHING_KEPT;
 }
 
 /* ---- a box against what is drawn ---- */

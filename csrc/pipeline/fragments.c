@@ -4,7 +4,13 @@
  * shading needs of the triangle it finds again by its ID.
  */
 #include "core/always_inline.h"
+#include "core/grow.h"
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
+#include "pipeline/fragments.h"
 #include "pipeline/frame.h"
+#include "pipeline/tile.h"
 
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
 {

@@ -3,8 +3,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/clock.h"
 #include "core/fpenv.h"
+#include "core/grow.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
+#include "pipeline/counts.h"
+#include "pipeline/cull.h"
+#include "pipeline/fragments.h"
 #include "pipeline/frame.h"
+#include "pipeline/geometry.h"
+#include "pipeline/occlusion.h"
+#include "pipeline/order.h"
+#include "pipeline/outputs.h"
+#include "pipeline/prepare.h"
+#include "pipeline/records.h"
+#include "pipeline/tile.h"
 #include "reference/reference.h"
 
 /* ---- renderers ---- */

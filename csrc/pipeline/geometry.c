@@ -6,8 +6,25 @@
 #include <string.h>
 
 #include "core/always_inline.h"
+#include "core/limits.h"
+#include "core/mesh.h"
 #include "core/pool.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
+#include "pipeline/clip.h"
+#include "pipeline/counts.h"
+#include "pipeline/cull.h"
+#include "pipeline/depths.h"
+#include "pipeline/draws.h"
+#include "pipeline/fragments.h"
 #include "pipeline/frame.h"
+#include "pipeline/geometry.h"
+#include "pipeline/lines.h"
+#include "pipeline/prepare.h"
+#include "pipeline/records.h"
+#include "pipeline/setup.h"
 
 enum { TASKS_A_THREAD = 64, MOST_ITEMS_A_TASK = 32, UNITS_A_TASK = 8 };
 enum { LEAST_WORK = 4 }; /* items or tasks of units, that are worth a second thread */

@@ -1,7 +1,14 @@
 /* resolve: rows of the picture that are written while samples are shaded. Memory takes in a line now and then for nothing, but
  * many at once hold up the core. A tile's rows wait until the next one is shaded; after them come those of blank tiles.
  */
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "pipeline/blank.h"
 #include "pipeline/frame.h"
+#include "pipeline/late.h"
+#include "pipeline/outputs.h"
+#include "pipeline/picture.h"
+#include "pipeline/tile.h"
 
 static int rows_of(const e3d_context *context, const e3d_tile *tile, const uint32_t *from, size_t step, e3d_pixel_rows *out)
 {

@@ -1,7 +1,14 @@
 /* geometry: lines, points and wireframe edges, each a parallelogram of two triangles (R6-R8, R11). */
 #include <math.h>
 
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/clip.h"
+#include "pipeline/draws.h"
 #include "pipeline/frame.h"
+#include "pipeline/lines.h"
+#include "pipeline/setup.h"
 
 /* Where a thread stands: one instance of one draw. */
 typedef struct unit_walk {

@@ -6,8 +6,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/clock.h"
+#include "core/grow.h"
+#include "core/large_pages.h"
+#include "core/limits.h"
 #include "core/pool.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
+#include "pipeline/depths.h"
+#include "pipeline/draws.h"
+#include "pipeline/fragments.h"
 #include "pipeline/frame.h"
+#include "pipeline/occlusion.h"
+#include "pipeline/records.h"
+#include "pipeline/share.h"
+#include "pipeline/tile.h"
+#include "pipeline/visible.h"
 
 /* Where little is hidden, rounds are tried again about once a second, at 60 frames a second. */
 enum { FRAMES_BETWEEN_TRIALS = 64 };

@@ -4,7 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/grow.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
 #include "pipeline/frame.h"
+#include "pipeline/order.h"
+#include "pipeline/records.h"
 
 typedef struct entry {
     float key; /* 0 where only the order counts */

@@ -6,7 +6,16 @@
 #include <float.h>
 #include <math.h>
 
+#include "core/grow.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/draws.h"
 #include "pipeline/frame.h"
+#include "pipeline/outputs.h"
+#include "pipeline/picture.h"
+#include "pipeline/surface.h"
+#include "pipeline/tile.h"
 
 enum { FLOAT_INFINITY = 0x7F800000 };
 

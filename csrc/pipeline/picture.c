@@ -1,7 +1,9 @@
 /* A tile's rows to a picture of the caller's, and back. */
 #include <string.h>
 
+#include "kernels/kernels.h"
 #include "pipeline/frame.h"
+#include "pipeline/picture.h"
 
 /* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
 static int is_far(const e3d_context *context, size_t bytes)

@@ -3,9 +3,20 @@
 #include <string.h>
 
 #include "core/always_inline.h"
+#include "core/grow.h"
+#include "core/limits.h"
+#include "core/mesh.h"
 #include "core/pool.h"
 #include "core/srgb_tables.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/cull.h"
+#include "pipeline/draws.h"
+#include "pipeline/facing.h"
 #include "pipeline/frame.h"
+#include "pipeline/lines.h"
+#include "pipeline/prepare.h"
+#include "pipeline/shade.h"
 
 /* Two columns of a row. */
 typedef double double2 __attribute__((vector_size(16)));

@@ -1,6 +1,13 @@
 /* resolve: the tile's colours to the caller's picture, averaged where there are several samples (R33-R36). */
+#include "core/limits.h"
 #include "core/srgb_tables.h"
+#include "kernels/kernels.h"
 #include "pipeline/frame.h"
+#include "pipeline/late.h"
+#include "pipeline/outputs.h"
+#include "pipeline/picture.h"
+#include "pipeline/resolve.h"
+#include "pipeline/tile.h"
 
 static void fill_samples(const e3d_context *context, e3d_samples *samples)
 {

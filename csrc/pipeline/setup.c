@@ -1,7 +1,14 @@
 /* setup, scalar half: a piece's facing, box and depth plane become a record (R8-R13), which is then binned. */
 #include <math.h>
 
+#include "core/grow.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
 #include "pipeline/frame.h"
+#include "pipeline/records.h"
+#include "pipeline/setup.h"
 
 static float clamp(float v, float lo, float hi)
 {

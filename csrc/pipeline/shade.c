@@ -2,7 +2,19 @@
 #include <string.h>
 
 #include "core/cpu.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/blank.h"
+#include "pipeline/draws.h"
 #include "pipeline/frame.h"
+#include "pipeline/late.h"
+#include "pipeline/outputs.h"
+#include "pipeline/resolve.h"
+#include "pipeline/runs.h"
+#include "pipeline/shade.h"
+#include "pipeline/surface.h"
+#include "pipeline/tile.h"
 
 /* ---- display modes (R32) ---- */
 

@@ -1,6 +1,8 @@
 /* Which thread draws which tile: a part of the picture is each thread's own, in each frame, so that the textures that show there
  * stay in its core's caches. Who is done draws what others have left. */
+#include "e3d.h"
 #include "pipeline/frame.h"
+#include "pipeline/share.h"
 
 void e3d_share_tiles(e3d_context *context)
 {

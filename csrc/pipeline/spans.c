@@ -3,7 +3,13 @@
  */
 #include <string.h>
 
+#include "core/limits.h"
+#include "kernels/kernels.h"
 #include "pipeline/frame.h"
+#include "pipeline/records.h"
+#include "pipeline/runs.h"
+#include "pipeline/spans.h"
+#include "pipeline/tile.h"
 
 /* Whether a tile has few records, and no fragments. Of many not all bins are looked through. */
 static int are_few(const e3d_context *context, int64_t tile)

@@ -2,7 +2,14 @@
 #include <string.h>
 
 #include "core/always_inline.h"
+#include "core/grow.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/draws.h"
 #include "pipeline/frame.h"
+#include "pipeline/surface.h"
+#include "pipeline/tile.h"
 
 /* ---- which primitive a piece is of ---- */
 

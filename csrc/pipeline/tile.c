@@ -1,9 +1,26 @@
 /* raster, shade and resolve: one tile after another, each by one thread from first to last. */
 #include <math.h>
 
+#include "core/clock.h"
+#include "core/grow.h"
+#include "core/limits.h"
 #include "core/pool.h"
 #include "core/stream.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "pipeline/bin.h"
+#include "pipeline/blank.h"
+#include "pipeline/depths.h"
 #include "pipeline/frame.h"
+#include "pipeline/late.h"
+#include "pipeline/records.h"
+#include "pipeline/resolve.h"
+#include "pipeline/shade.h"
+#include "pipeline/share.h"
+#include "pipeline/spans.h"
+#include "pipeline/tile.h"
+#include "pipeline/visible.h"
 
 /* ---- a record in a tile ---- */
 

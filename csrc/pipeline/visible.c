@@ -1,5 +1,12 @@
 /* raster, the visible surface: a tile's records and fragments to the IDs that its samples keep. */
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/fragments.h"
 #include "pipeline/frame.h"
+#include "pipeline/records.h"
+#include "pipeline/tile.h"
+#include "pipeline/visible.h"
 
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
 {

@@ -1,0 +1,9 @@
+/* Which way an instance's clusters face. */
+#ifndef E3D_FACING_H
+#define E3D_FACING_H
+
+#include "kernels/kernels.h"
+
+void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_facing *out);
+
+#endif

@@ -1,0 +1,17 @@
+/* Lines, points and edges, which become records. */
+#ifndef E3D_LINES_H
+#define E3D_LINES_H
+
+#include <stdint.h>
+
+typedef struct e3d_context e3d_context;
+typedef struct e3d_worker e3d_worker;
+typedef struct e3d_draw_state e3d_draw_state;
+
+enum { E3D_LINES_A_UNIT = 256 }; /* lines, points or edges in one unit of work */
+
+/* Units of E3D_LINES_A_UNIT lines, then of points, then of edges of an instance. */
+void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
+                   int32_t unit);
+
+#endif

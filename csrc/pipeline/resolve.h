@@ -1,0 +1,20 @@
+/* The samples of a tile to the caller's picture. */
+#ifndef E3D_RESOLVE_H
+#define E3D_RESOLVE_H
+
+typedef struct e3d_context e3d_context;
+typedef struct e3d_worker e3d_worker;
+typedef struct e3d_tile e3d_tile;
+
+void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker);
+/* Of a tile that is finished already, and of which some samples are to be shaded anew. */
+void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+/* batch->color is that of its samples. */
+void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
+/* The batch's samples show the background again: forward shading may have drawn there before. */
+void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);
+void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+
+#endif

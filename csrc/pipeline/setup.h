@@ -1,0 +1,29 @@
+/* Projected pieces of primitives, which become records. */
+#ifndef E3D_SETUP_H
+#define E3D_SETUP_H
+
+#include "kernels/kernels.h"
+
+typedef struct e3d_context e3d_context;
+typedef struct e3d_worker e3d_worker;
+typedef struct e3d_record_set e3d_record_set;
+
+typedef struct e3d_corner {
+    int32_t x, y;
+    float zn, iw;
+    float c[3];
+} e3d_corner;
+typedef struct e3d_primitive {
+    uint32_t order;
+    int pass, face, cut;
+    e3d_cull cull;
+    int mirrored;
+} e3d_primitive;
+int e3d_project(const float v[4], int clipped, const e3d_viewport *viewport, e3d_corner *out);
+void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner corner[3],
+              const e3d_primitive *primitive);
+
+/* Whether `more` records have IDs and memory. */
+int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
+
+#endif

@@ -1,0 +1,30 @@
+/* Which thread does what with which tile. */
+#ifndef E3D_SHARE_H
+#define E3D_SHARE_H
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+typedef struct e3d_context e3d_context;
+typedef struct e3d_worker e3d_worker;
+
+/* What is done with tiles: those that something is in are drawn, the others cleared. */
+typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
+
+/* Of the tiles, by their numbers: a worker's share, and what one has taken. */
+typedef struct e3d_share {
+    atomic_llong next;
+    int64_t end;
+} e3d_share;
+
+typedef struct e3d_places {
+    int64_t next, end;
+} e3d_places;
+
+/* All tiles are to be done, each by one worker. */
+void e3d_share_tiles(e3d_context *context);
+
+/* The next tile that a worker may do this with; -1 when none is left. */
+int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what);
+
+#endif

@@ -1,0 +1,39 @@
+/* What shows in a tile, primitive by primitive, and what each brings to its samples. */
+#ifndef E3D_SURFACE_H
+#define E3D_SURFACE_H
+
+#include "e3d.h"
+#include "kernels/kernels.h"
+
+typedef struct e3d_context e3d_context;
+typedef struct e3d_worker e3d_worker;
+typedef struct e3d_draw_state e3d_draw_state;
+typedef struct e3d_tile e3d_tile;
+
+/* Samples that are shaded by the same steps. */
+typedef struct e3d_group {
+    const e3d_material *material;
+    int8_t face, flat, textured, by_vertex, by_instance;
+    int32_t first, last; /* of its visible pieces */
+} e3d_group;
+
+/* A piece that shows in a tile, and its samples, or its runs (e3d_shown). */
+typedef struct e3d_visible_piece {
+    const e3d_record *record;       /* or NULL: */
+    const e3d_drawn_cluster *drawn; /* the piece is of fragments */
+    const float *corners;           /* c[k][j] of a cut record, or NULL */
+    const e3d_draw_state *draw;
+    int32_t instance, local; /* in its draw, in its instance */
+    int32_t vertex[3];       /* of the mesh; as many as there are */
+    int32_t group, next;     /* the next of the same group, or -1 */
+    int32_t first, end;
+} e3d_visible_piece;
+
+/* The pieces of what shows, chained by group; 0 when memory is out. */
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker);
+/* The surfaces of pieces of a group from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
+int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted);
+void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
+int32_t e3d_face_of(const e3d_visible_piece *piece);
+
+#endif

@@ -1,0 +1,39 @@
+/* What a thread has at hand while it draws a tile. */
+#ifndef E3D_TILE_H
+#define E3D_TILE_H
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+
+typedef struct e3d_context e3d_context;
+
+typedef struct e3d_tile_memory {
+    e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
+    float bound[E3D_TILE_SAMPLES + E3D_PAD]; /* E3D_BEYOND_FAR everywhere */
+    float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* wireframe: what an edge's depth must be less than */
+    int32_t mark[E3D_TILE_SAMPLES + E3D_PAD];  /* overdraw counts, then wireframe marks */
+    uint32_t pixels[2][E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel: this tile's, and the last one's; */
+    uint32_t *rgba;                                 /* the former */
+    e3d_samples samples;                       /* of several */
+    e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
+    e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
+    char apart[2048]; /* at a like place in its page, a store holds up loads: sorting reads one and writes the other */
+    e3d_run spare[E3D_TILE_SAMPLES]; /* while runs are sorted */
+    _Alignas(64) e3d_cover cover;
+    _Alignas(64) e3d_layers layers;
+    _Alignas(64) e3d_shown shown;
+    _Alignas(64) e3d_batch batch;
+    _Alignas(64) e3d_surfaces surfaces;       /* of the batch and its neighbours */
+} e3d_tile_memory;
+
+/* Begins a list of what shows, of runs or of samples. */
+static inline void e3d_shown_begin(e3d_shown *shown, int runs)
+{
+    shown->runs = runs;
+    shown->count = shown->pieces = 0;
+}
+
+/* Draws all tiles that something is in, and clears the others. */
+void e3d_tiles(e3d_context *context);
+
+#endif

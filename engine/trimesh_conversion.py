@@ -11,14 +11,12 @@ import numpy as np
 
 from .colors import linear_color, srgb_bytes
 from .errors import InvalidArgumentError
-from .linalg import normal_matrix, transform_directions, transform_points
 from .loaders.images import check_image_size, rgba_pixels
 from .loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
-from .loaders.posed_parts import PosedPart
+from .loaders.posed_parts import PosedPart, posed_mesh
 from .loaders.warning_list import WarningList
 from .materials import Material
 from .mesh import Mesh
-from .normals import unit_vectors
 from .textures import Texture
 
 
@@ -44,37 +42,6 @@ def scene_parts(scene, warnings: WarningList | None = None) -> list[PosedPart]:
             meshes[name] = _mesh(scene.geometry[name], str(name), textures)
         parts.append(PosedPart(str(node), meshes[name], np.array(pose, np.float64)))
     return parts
-
-
-def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
-    """Return a mesh with a pose applied; a mirroring one turns its faces over."""
-    if np.array_equal(pose, np.eye(4)):
-        return mesh
-    rows = [pose[k, :3] for k in range(3)]
-    mirrored = sum(rows[0][k] * np.cross(rows[1], rows[2])[k] for k in range(3)) < 0
-    order = [0, 2, 1] if mirrored else [0, 1, 2]
-    visible = mesh.edge_visible
-    if visible is not None and mirrored:
-        visible = visible[:, [2, 1, 0]]
-    normals = None
-    if mesh.has_normals:
-        matrix = np.eye(4)
-        matrix[:3, :3] = normal_matrix(pose)
-        normals = unit_vectors(transform_directions(matrix, mesh.normals))
-    return Mesh(
-        transform_points(pose, mesh.positions),
-        mesh.faces[:, order],
-        normals=normals,
-        uvs=mesh.uvs,
-        colors=mesh.colors,
-        materials=mesh.materials,
-        material_ids=mesh.material_ids,
-        lines=mesh.lines,
-        points=mesh.points,
-        edge_visible=visible,
-        position_ids=mesh.position_ids,
-        name=mesh.name,
-    )
 
 
 def _mesh(geometry, name: str, textures: _Textures) -> Mesh:

@@ -9,8 +9,6 @@ import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .parser import make_parser
-
 FILE_METAVARS = ("FILE", "MODEL", "IN", "OUT")
 
 
@@ -39,13 +37,12 @@ class Command:
 
 def completion(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    print("\n".join(SCRIPTS[args.shell]()))
+    print("\n".join(SCRIPTS[args.shell](command_list(args.parser))))
     return 0
 
 
-def command_list() -> list[Command]:
+def command_list(parser) -> list[Command]:
     """Return the commands; the first has no name and holds what goes before a command."""
-    parser = make_parser()
     subparsers = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction))
     helps = {action.dest: action.help or "" for action in subparsers._choices_actions}
     commands = [Command("", "", _options(parser))]
@@ -78,9 +75,9 @@ def _value(action: argparse.Action) -> str | tuple[str, ...] | None:
 # bash
 
 
-def bash_script() -> Iterator[str]:
+def bash_script(commands: list[Command]) -> Iterator[str]:
     """Yield the lines of a script for bash."""
-    first, *commands = command_list()
+    first, *commands = commands
     names = " ".join(command.name for command in commands)
     yield "# engine3d completion for bash"
     yield "_engine3d() {"
@@ -129,9 +126,9 @@ def _bash_values(command: Command) -> Iterator[str]:
 # zsh
 
 
-def zsh_script() -> Iterator[str]:
+def zsh_script(commands: list[Command]) -> Iterator[str]:
     """Yield the lines of a script for zsh."""
-    first, *commands = command_list()
+    first, *commands = commands
     yield "#compdef engine3d"
     yield "_engine3d() {"
     yield "    local -a commands"
@@ -192,9 +189,9 @@ def _quoted(text: str) -> str:
 # fish
 
 
-def fish_script() -> Iterator[str]:
+def fish_script(commands: list[Command]) -> Iterator[str]:
     """Yield the lines of a script for fish."""
-    first, *commands = command_list()
+    first, *commands = commands
     yield "# engine3d completion for fish"
     yield "complete -c engine3d -e"
     for option in first.options:

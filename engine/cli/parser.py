@@ -65,7 +65,7 @@ def make_parser() -> Parser:
     _add_convert(commands)
     _add_city(commands)
     _add_bench(commands)
-    _add_completion(commands)
+    _add_completion(commands, parser)
     parser.commands = commands.choices
     for name in ("run", "render", "info", "convert", "city"):
         options.add_quiet(commands.choices[name])
@@ -233,7 +233,7 @@ def _add_bench(commands) -> None:
     command.add_argument("--plot", metavar="FILE", help="write a chart as SVG, PNG, JPEG or WebP")
 
 
-def _add_completion(commands) -> None:
+def _add_completion(commands, parser: Parser) -> None:
     command = commands.add_parser(
         "completion",
         help="print what lets a shell complete commands and options",
@@ -241,7 +241,7 @@ def _add_completion(commands) -> None:
         "the same with zsh, or engine3d completion fish | source.",
         allow_abbrev=False,
     )
-    command.set_defaults(load_command=_load_completion)
+    command.set_defaults(load_command=_load_completion, parser=parser)
     command.add_argument("shell", choices=("bash", "zsh", "fish"), help="which shell")
 
 

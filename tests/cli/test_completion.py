@@ -25,7 +25,7 @@ def run(shell, code, folder):
 
 
 def test_all_commands_and_options_are_listed():
-    commands = {command.name: command for command in command_list()}
+    commands = {command.name: command for command in command_list(make_parser())}
     parsers = make_parser().commands
     assert commands.keys() - {""} == parsers.keys() and len(parsers) > 5
     for name, parser in parsers.items():

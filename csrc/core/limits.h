@@ -21,6 +21,7 @@ enum {
     E3D_CLUSTER_VERTICES = 128,
     E3D_GROUP_CLUSTERS = 8,      /* clusters that are culled together first */
     E3D_FEW_LIGHTS = 4,          /* more are left out where they don't reach */
+    E3D_PAD = 16,                /* elements past the end of what is read or written vector by vector: they mean nothing */
     E3D_MAX_THREADS = 256
 };
 

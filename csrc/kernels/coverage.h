@@ -3,7 +3,9 @@
 #define E3D_COVERAGE_H
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/vertices.h"
+#include "kernels/types/visible.h"
 
 /* Samples, inclusive; empty where x0 > x1 or y0 > y1. */
 typedef struct e3d_box {

@@ -1,4 +1,5 @@
 /* Which table of kernels serves which backend. */
+#include "e3d.h"
 #include "kernels/kernels.h"
 
 const e3d_kernels *e3d_kernels_for(e3d_backend backend)

@@ -5,7 +5,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;

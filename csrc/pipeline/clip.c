@@ -4,7 +4,7 @@
  * that both triangles of an edge get the same bits.
  */
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 #include "pipeline/clip.h"
 
 typedef struct exact_vertex {

@@ -2,7 +2,7 @@
 #ifndef E3D_CLIP_H
 #define E3D_CLIP_H
 
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 
 typedef struct e3d_clip_vertex {
     float v[4];

@@ -15,7 +15,7 @@
 #include "core/vectors.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 #include "pipeline/counts.h"
 #include "pipeline/cull.h"
 #include "pipeline/draws.h"

@@ -5,7 +5,7 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_instance e3d_instance;

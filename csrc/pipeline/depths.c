@@ -8,6 +8,8 @@
 #include "core/vectors.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/visible.h"
 #include "pipeline/cull.h"
 #include "pipeline/depths.h"
 #include "pipeline/frame.h"

@@ -3,7 +3,8 @@
 #define E3D_DEPTHS_H
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/visible.h"
 #include "pipeline/cull.h"
 
 typedef struct e3d_context e3d_context;

@@ -4,7 +4,7 @@
 
 #include "core/mesh.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 
 typedef struct e3d_context e3d_context;
 

@@ -1,7 +1,7 @@
 /* cull: what tells which way an instance's clusters face (kernels/generic/facing.inl): its eye, and how its clip matrix scales. */
 #include <math.h>
 
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 #include "pipeline/facing.h"
 
 static double determinant(const float *x, const float *y, const float *w)

@@ -2,7 +2,7 @@
 #ifndef E3D_FACING_H
 #define E3D_FACING_H
 
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 
 void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_facing *out);
 

@@ -3,7 +3,9 @@
 #define E3D_FRAGMENTS_H
 
 #include "core/grow.h"
-#include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/vertices.h"
+#include "kernels/types/visible.h"
 #include "pipeline/records.h"
 
 typedef struct e3d_context e3d_context;

@@ -9,6 +9,7 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/visible.h"
 #include "pipeline/bin.h"
 #include "pipeline/counts.h"
 #include "pipeline/cull.h"

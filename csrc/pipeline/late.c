@@ -3,6 +3,7 @@
  */
 #include "core/limits.h"
 #include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 #include "pipeline/blank.h"
 #include "pipeline/frame.h"
 #include "pipeline/late.h"

@@ -2,7 +2,7 @@
 #ifndef E3D_LATE_H
 #define E3D_LATE_H
 
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;

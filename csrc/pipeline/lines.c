@@ -3,7 +3,7 @@
 
 #include "core/limits.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 #include "pipeline/clip.h"
 #include "pipeline/draws.h"
 #include "pipeline/frame.h"

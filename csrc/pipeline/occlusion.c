@@ -12,7 +12,7 @@
 #include "core/limits.h"
 #include "core/pool.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
+#include "kernels/types/visible.h"
 #include "pipeline/bin.h"
 #include "pipeline/depths.h"
 #include "pipeline/draws.h"

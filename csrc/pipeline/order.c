@@ -7,7 +7,7 @@
 #include "core/grow.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
 #include "pipeline/bin.h"
 #include "pipeline/frame.h"
 #include "pipeline/order.h"

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 #include "pipeline/frame.h"
 #include "pipeline/picture.h"
 

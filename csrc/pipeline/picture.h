@@ -2,7 +2,7 @@
 #ifndef E3D_PICTURE_H
 #define E3D_PICTURE_H
 
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_tile e3d_tile;

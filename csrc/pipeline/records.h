@@ -3,7 +3,7 @@
 #define E3D_RECORDS_H
 
 #include "core/grow.h"
-#include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
 
 /* Bins are chains of blocks of record IDs, in order of arrival. */
 typedef struct e3d_bin_block {

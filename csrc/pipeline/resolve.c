@@ -2,6 +2,7 @@
 #include "core/limits.h"
 #include "core/srgb_tables.h"
 #include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 #include "pipeline/frame.h"
 #include "pipeline/late.h"
 #include "pipeline/outputs.h"

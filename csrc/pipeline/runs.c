@@ -1,7 +1,8 @@
 /* shade: runs sorted by what they are of, so that each piece is met once, and pieces of a cluster one after the other. */
 #include <string.h>
 
-#include "kernels/kernels.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 #include "pipeline/runs.h"
 
 enum { FEW = 24, MOST_BITS = 8, PARTS = 4 };

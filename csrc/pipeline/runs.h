@@ -2,7 +2,7 @@
 #ifndef E3D_RUNS_H
 #define E3D_RUNS_H
 
-#include "kernels/kernels.h"
+#include "kernels/types/shown.h"
 
 /* Sorts runs by owner; where they are afterwards. */
 e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);

@@ -2,7 +2,10 @@
 #ifndef E3D_SETUP_H
 #define E3D_SETUP_H
 
-#include "kernels/kernels.h"
+#include <stddef.h>
+
+#include "e3d.h"
+#include "kernels/types/vertices.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;

@@ -5,6 +5,8 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
 #include "pipeline/blank.h"
 #include "pipeline/draws.h"
 #include "pipeline/frame.h"

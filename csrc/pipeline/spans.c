@@ -5,6 +5,8 @@
 
 #include "core/limits.h"
 #include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/shown.h"
 #include "pipeline/frame.h"
 #include "pipeline/records.h"
 #include "pipeline/runs.h"

@@ -3,7 +3,8 @@
 #define E3D_SURFACE_H
 
 #include "e3d.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/visible.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;

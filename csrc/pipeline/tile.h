@@ -3,7 +3,9 @@
 #define E3D_TILE_H
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 
 typedef struct e3d_context e3d_context;
 

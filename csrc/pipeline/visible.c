@@ -2,6 +2,7 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/visible.h"
 #include "pipeline/fragments.h"
 #include "pipeline/frame.h"
 #include "pipeline/records.h"

@@ -2,7 +2,7 @@
 #ifndef E3D_VISIBLE_H
 #define E3D_VISIBLE_H
 
-#include "kernels/kernels.h"
+#include "kernels/types/visible.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;

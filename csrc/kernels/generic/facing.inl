@@ -16,6 +16,7 @@
 #include "core/limits.h"
 #include "core/mesh.h"
 #include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 #include "kernels/generic/setup.inl"
 
 typedef struct facing_cones {

@@ -9,7 +9,9 @@
 #include <string.h>
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/records.h"
+#include "kernels/types/vertices.h"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/record.inl"
 

@@ -8,7 +8,7 @@
 
 #include "core/always_inline.h"
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 
 /* R19: how far samples are from their surfaces' base, and the corners' weights, in proportion to the barycentrics. */

@@ -8,7 +8,8 @@
 #include <string.h>
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 #include "kernels/generic/visible.inl"
 #include "kernels/generic/spans.inl"
 

@@ -5,7 +5,7 @@
 #include "core/always_inline.h"
 #include "core/limits.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 

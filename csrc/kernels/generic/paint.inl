@@ -6,7 +6,7 @@
 
 #include "core/always_inline.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"

@@ -2,7 +2,8 @@
 #ifndef E3D_KERNELS_PROJECT_INL
 #define E3D_KERNELS_PROJECT_INL
 
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/vertices.h"
 #include "kernels/generic/transform.inl"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/surface.inl"

@@ -8,6 +8,7 @@
 
 #include "core/limits.h"
 #include "kernels/kernels.h"
+#include "kernels/types/visible.h"
 
 enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
 enum { RASTER_BLOCK = 8, RASTER_COLUMNS = V_LANES > 8 ? V_LANES : 8 };

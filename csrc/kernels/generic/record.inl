@@ -9,6 +9,8 @@
 
 #include "core/limits.h"
 #include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/vertices.h"
 #include "kernels/generic/setup.inl"
 
 /* Three corners of each lane's triangle; after R9 they turn the way that makes the area positive. */

@@ -5,7 +5,9 @@
 #define E3D_KERNELS_RUNS_INL
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/visible.inl"
 

@@ -4,7 +4,7 @@
 
 #include "core/always_inline.h"
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 #include "kernels/generic/encode.inl"
 
 /* Whether a vector's samples are neighbours in a row, one after the other. */

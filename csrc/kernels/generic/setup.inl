@@ -6,7 +6,8 @@
 #define E3D_KERNELS_SETUP_INL
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/vertices.h"
 
 static inline vi32 setup_fetch(const int32_t *table, const uint8_t *indices, int i)
 {

@@ -7,7 +7,11 @@
 #define E3D_KERNELS_SHOWN_INL
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/records.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/block_rows.inl"

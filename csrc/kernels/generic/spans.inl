@@ -10,7 +10,9 @@
 #define E3D_KERNELS_SPANS_INL
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/record.inl"
 #include "kernels/generic/visible_records.inl"

@@ -3,7 +3,7 @@
 #define E3D_KERNELS_STREAM_INL
 
 #include "core/stream.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 
 /* Past the caches, so that memory isn't read first; rows that aren't made of whole vectors, 16 bytes at a time or not at all. */
 static void kernel_stream(const e3d_pixel_rows *rows)

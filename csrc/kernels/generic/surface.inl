@@ -2,7 +2,7 @@
 #ifndef E3D_KERNELS_SURFACE_INL
 #define E3D_KERNELS_SURFACE_INL
 
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 
 /* ---- barycentric planes (R18) ---- */
 

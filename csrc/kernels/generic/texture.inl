@@ -8,7 +8,7 @@
 #include "core/always_inline.h"
 #include "core/limits.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
 
 /* R29: a texture coordinate in [0, 1]. */
 static inline vf32 texture_wrap(vf32 s, int wrap)

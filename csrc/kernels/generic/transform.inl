@@ -7,7 +7,7 @@
 #define E3D_KERNELS_TRANSFORM_INL
 
 #include "core/limits.h"
-#include "kernels/kernels.h"
+#include "kernels/types/vertices.h"
 
 static inline vi32 transform_flag(vmask m, int32_t bit)
 {

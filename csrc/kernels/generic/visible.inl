@@ -10,6 +10,9 @@
 
 #include "core/limits.h"
 #include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/records.h"
+#include "kernels/types/visible.h"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/block_rows.inl"

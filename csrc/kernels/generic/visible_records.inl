@@ -6,7 +6,8 @@
 
 #include "core/limits.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/visible.h"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/record.inl"
 #include "kernels/generic/raster.inl"

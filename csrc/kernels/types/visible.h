@@ -1,0 +1,85 @@
+/* What raster works on: pieces in a tile, records by their IDs, the visible surface. */
+#ifndef E3D_KERNELS_VISIBLE_H
+#define E3D_KERNELS_VISIBLE_H
+
+#include <stdint.h>
+
+#include "core/limits.h"
+#include "kernels/types/records.h"
+
+/* A piece in one tile: edge functions at the tile's first sample, floor(E / 256) with the top-left rule
+ * inside; an edge that the whole tile satisfies is all zero. */
+typedef struct e3d_piece {
+    int32_t e[3], a[3], b[3];
+    int32_t x0, y0, x1, y1;  /* box in the tile, inclusive */
+    float z0, gx, gy, zmin, zmax;
+    int32_t base_x, base_y;  /* of the depth plane, relative to the tile's first sample */
+    uint32_t slot, order;
+} e3d_piece;
+
+enum { E3D_NO_SLOT = -1 };
+
+/* What an empty sample's depth is: z < this exactly when z <= 1 (R15). */
+#define E3D_BEYOND_FAR 0x1.000002p0f
+
+/* A cluster that has fragments, of one instance. */
+typedef struct e3d_drawn_cluster {
+    const int32_t *faces; /* of its triangles */
+    uint32_t order;       /* of the instance's first face */
+    int32_t instance, draw; /* in the frame */
+    int32_t mirrored;
+} e3d_drawn_cluster;
+
+/* The records of a frame: those of worker w at records[w], under the IDs number << bits | w; and the clusters of the fragments,
+ * whose triangles have the IDs E3D_FRAGMENT_ID | (64 * number + triangle) << bits | w. */
+typedef struct e3d_record_table {
+    const e3d_record *const *records;
+    const e3d_drawn_cluster *const *drawn;
+    int32_t bits;
+} e3d_record_table;
+
+enum { E3D_FRAGMENT_ID = 1 << 30 };
+
+static inline const e3d_record *e3d_record_at(const e3d_record_table *table, uint32_t id)
+{
+    return table->records[id & ((1u << table->bits) - 1)] + (id >> table->bits);
+}
+
+static inline const e3d_drawn_cluster *e3d_drawn_at(const e3d_record_table *table, uint32_t id, int32_t *triangle)
+{
+    uint32_t number = (id & (E3D_FRAGMENT_ID - 1)) >> table->bits;
+    *triangle = (int32_t)(number % E3D_CLUSTER_TRIANGLES);
+    return table->drawn[id & ((1u << table->bits) - 1)] + number / E3D_CLUSTER_TRIANGLES;
+}
+
+/* The order of the primitive that an ID is of. */
+static inline uint32_t e3d_order_at(const e3d_record_table *table, uint32_t id)
+{
+    if (!(id & E3D_FRAGMENT_ID))
+        return e3d_record_at(table, id)->order;
+    int32_t triangle;
+    const e3d_drawn_cluster *drawn = e3d_drawn_at(table, id, &triangle);
+    return drawn->order + (uint32_t)drawn->faces[triangle];
+}
+
+enum { E3D_TILE_BLOCKS = E3D_TILE_SAMPLES / 64 };
+
+/* The visible surface of a tile, and of its blocks of 8 x 8 samples, row by row. A noted block is covered whole by one
+ * record (or none: ID -1), and its samples are not written yet. zmin and zmax bound a block's depths; the zmax of a
+ * stale one is too large. */
+typedef struct e3d_visible_tile {
+    float z[E3D_TILE_SAMPLES + E3D_PAD];
+    int32_t id[E3D_TILE_SAMPLES + E3D_PAD];
+    float zmin[E3D_TILE_BLOCKS], zmax[E3D_TILE_BLOCKS];
+    int32_t noted_id[E3D_TILE_BLOCKS];
+    uint64_t noted, stale;
+    int32_t x, y; /* first sample */
+} e3d_visible_tile;
+
+typedef struct e3d_tile_buffers {
+    float *z;               /* E3D_TILE_SAMPLES, 64-byte aligned */
+    int32_t *slot;          /* or counts, or marks */
+    const uint32_t *orders; /* order of each slot: ties of depth */
+} e3d_tile_buffers;
+
+#endif

@@ -1,4 +1,4 @@
-# The Cython mirror of csrc/kernels/kernels.h, and nothing else: what the tests of the kernels need.
+# The Cython mirror of csrc/kernels/kernels.h and types/, and nothing else: what the tests of the kernels need.
 
 from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
 

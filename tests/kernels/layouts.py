@@ -1,4 +1,4 @@
-"""The C structs of csrc/kernels/kernels.h as NumPy record types, field by field."""
+"""The C structs of csrc/kernels/types/ as NumPy record types, field by field."""
 
 import numpy as np
 import pytest

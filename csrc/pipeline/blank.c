@@ -8,7 +8,7 @@
 #include "pipeline/picture.h"
 #include "pipeline/share.h"
 
-/* Bins first: of a tile that has some, its owner may be writing the depths, which tell whether it was kept. */
+/* Asks for bins before depths: another thread may be writing the depths of a tile that has bins, which would be a data race. */
 int e3d_is_blank(const e3d_context *context, int64_t tile)
 {
     return !e3d_has_bin(context, E3D_PASS_SCENE, tile) && !e3d_has_bin(context, E3D_PASS_WIRE, tile) && !e3d_is_kept(context, tile);

@@ -1,4 +1,5 @@
-/* Whose a number of the frame is: instances, units of work, groups of clusters and places in the order are counted draw after draw. */
+/* Whose a number of the frame is: instances, units of work, groups of clusters and places in the order are counted draw after
+ * draw. */
 #include "core/always_inline.h"
 #include "pipeline/draws.h"
 #include "pipeline/frame.h"

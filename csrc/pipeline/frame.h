@@ -84,10 +84,12 @@ struct e3d_renderer {
     size_t kept_room;
     uint32_t trials;                /* of what was seen; grows with each frame that remembers */
     int remembers;                  /* this frame */
-    int doubts;                     /* that what the last frame saw still shows: it drew it before it knew what hides it */
-    int32_t frames_without_rounds; /* still to come: lately rounds did not pay, */
-    int64_t covered_at_trial;      /* with so many blocks covered */
-    int64_t items_at_trial;        /* by so many items; where either are many more, rounds may pay */
+    int doubts;                     /* the last frame remembered nothing, so that it counts as seen what it drew before it knew what
+                                     * hides it: this frame tests all of that again, not a part */
+    /* So many frames still go without rounds, which did not pay when the items were so many and covered so many blocks. Rounds are
+     * tried sooner where either is half as much more. */
+    int32_t frames_without_rounds;
+    int64_t covered_at_trial, items_at_trial;
     int64_t tiles_changed;         /* by what the frame before had not shown */
     int (*poll)(void *);
     void *poll_user;

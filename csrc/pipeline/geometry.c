@@ -206,7 +206,7 @@ static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *ind
     e3d_drawn_cluster *drawn = small ? e3d_fragments_cluster(w->worker) : NULL;
     if (!drawn)
         return;
-    /* In its place at once: a copy would be read in larger parts than it was written, which waits for all of these. */
+    /* Written in place: a copy of the struct would load wider words than were just stored, which stores cannot forward. */
     *drawn = (e3d_drawn_cluster){w->draw->mesh->faces + cluster->first, w->order, (int32_t)(w->instance - w->context->instances),
                                  w->instance->draw, w->instance->mirrored};
     e3d_fragments_add(w->context, w->worker, w->vertices, indices, small);
@@ -426,7 +426,8 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     return shown;
 }
 
-/* What was seen is drawn untried, so it is tried in turn whether it still is: a share of it in each frame. */
+/* Clusters that the last frame saw are drawn without a test. A quarter of them is tested again in each frame, so that those that
+ * are hidden now drop out. */
 enum { FRAMES_A_TRIAL = 4 };
 
 /* Other threads may look at it meanwhile, to see what to fetch. */

@@ -17,7 +17,8 @@ void e3d_share_tiles(e3d_context *context)
         }
 }
 
-/* Of a share with many left several at a time: an atomic operation waits for all that was streamed before. */
+/* Takes a sixteenth of what a share has left at a time: an atomic operation waits until all non-temporal stores before it are
+ * written. */
 static int take_more(const e3d_renderer *renderer, e3d_worker *worker, e3d_to_do what)
 {
     enum { PARTS = 16 };

@@ -213,8 +213,8 @@ static piece_range range_of(int32_t first, int32_t count, int32_t all)
     return (piece_range){first < 0 ? 0 : first, first + count < all ? first + count : all};
 }
 
-/* In stages, each of which reads what the one before found, anywhere in memory, and asked for one range of pieces ago: their loops are
- * so short that processors look some pieces ahead. */
+/* A software pipeline over ranges of pieces: each stage prefetches what the next one reads a range later, from anywhere in memory. The
+ * stages' loops are short, so that an out-of-order processor overlaps several pieces. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
 {
     enum { SOME = 32 };

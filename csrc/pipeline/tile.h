@@ -19,7 +19,8 @@ typedef struct e3d_tile_memory {
     e3d_samples samples;                       /* of several */
     e3d_run runs[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
     e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
-    char apart[2048]; /* at a like place in its page, a store holds up loads: sorting reads one and writes the other */
+    char apart[2048]; /* padding against 4K aliasing: sorting reads `blocks` and writes `spare`; loads at the same offset in a
+                       * page as a store before them would wait for it */
     e3d_run spare[E3D_TILE_SAMPLES]; /* while runs are sorted */
     _Alignas(64) e3d_cover cover;
     _Alignas(64) e3d_layers layers;

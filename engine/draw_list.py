@@ -272,7 +272,7 @@ class DrawList:
         self, arrays: NodeArrays, frustum: np.ndarray | None, widen: float, batching: bool
     ) -> None:
         """List the draws of what may show, where it is now."""
-        placed = arrays, arrays.changes
+        placed = arrays, arrays.updated  # what is assigned after the update shows in the next frame
         moved = self._placed != placed
         how = widen, batching
         if not moved and self._frustum is frustum and self._how == how:

@@ -48,7 +48,7 @@ class LightList:
         listed = self._slots_of, [light.version for light in self._lights], color
         same, self._listed = self._listed == listed, None  # for if anything below raises
         if self._lights:
-            changes = scene._arrays.changes
+            changes = scene._arrays.updated
             if not same or self._changes != changes:
                 self._renew(scene, same)
             self._changes = changes

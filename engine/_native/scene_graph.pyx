@@ -4,7 +4,7 @@
 In:  the arrays, by `attach`; then slots, and poses as C-contiguous float64.
 Out: the arrays, changed; single values copied.
 Always: the GIL is held, so that threads take turns; what is asked of a slot that is not there is an
-     error. ``changes`` grows with everything that may show.
+     error. ``changes`` grows with everything that may show; ``updated`` is what it was at the last update.
 """
 
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
@@ -138,6 +138,7 @@ cdef class NativeGraph:
     cdef int32_t room
     cdef list held
     cdef public uint64_t changes
+    cdef readonly uint64_t updated
 
     def __dealloc__(self):
         e3d_tree_destroy(self.tree)
@@ -409,10 +410,11 @@ cdef class NativeGraph:
         On so many threads, or on all that this process may use (0).
         """
         cdef e3d_graph *g = &self.graph
-        if g.changed_count == 0:
-            return
         if boxes.shape[1] != E3D_OBJECT_BOX:
             raise InvalidArgumentError("boxes must be (objects, OBJECT_BOX)")
+        self.updated = self.changes
+        if g.changed_count == 0:
+            return
         cdef int32_t objects = <int32_t>boxes.shape[0]
         threads = threads if threads else e3d_thread_count()
         e3d_graph_update(g, &boxes[0, 0] if objects else NULL, objects, threads)

@@ -151,7 +151,7 @@ class _Placed:
 
     def follow(self, scene) -> None:
         """Find where the colliders are, if anything moved."""
-        state = scene._arrays, scene._arrays.changes
+        state = scene._arrays, scene._arrays.updated
         if self._state == state:
             return
         self.poses = poses = self._selection.world_poses

@@ -11,6 +11,7 @@
 #include "core/fpenv.h"
 #include "driver/random.h"
 #include "kernels/coverage.h"
+#include "kernels/kernels.h"
 
 enum { TEXTURE_SIDE = 256, TEXTURE_LEVELS = 3, COLORS = 4096, LIGHTS = 3 };
 

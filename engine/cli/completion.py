@@ -75,9 +75,9 @@ def _value(action: argparse.Action) -> str | tuple[str, ...] | None:
 # bash
 
 
-def bash_script(commands: list[Command]) -> Iterator[str]:
+def bash_script(listed: list[Command]) -> Iterator[str]:
     """Yield the lines of a script for bash."""
-    first, *commands = commands
+    first, *commands = listed
     names = " ".join(command.name for command in commands)
     yield "# engine3d completion for bash"
     yield "_engine3d() {"
@@ -126,9 +126,9 @@ def _bash_values(command: Command) -> Iterator[str]:
 # zsh
 
 
-def zsh_script(commands: list[Command]) -> Iterator[str]:
+def zsh_script(listed: list[Command]) -> Iterator[str]:
     """Yield the lines of a script for zsh."""
-    first, *commands = commands
+    first, *commands = listed
     yield "#compdef engine3d"
     yield "_engine3d() {"
     yield "    local -a commands"
@@ -189,9 +189,9 @@ def _quoted(text: str) -> str:
 # fish
 
 
-def fish_script(commands: list[Command]) -> Iterator[str]:
+def fish_script(listed: list[Command]) -> Iterator[str]:
     """Yield the lines of a script for fish."""
-    first, *commands = commands
+    first, *commands = listed
     yield "# engine3d completion for fish"
     yield "complete -c engine3d -e"
     for option in first.options:

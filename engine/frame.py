@@ -96,9 +96,10 @@ class Frame:
         The outputs that it holds.
     stats : dict
         Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), the
-        number of threads and tiles, and the backend. ``nodes``, ``clusters`` and ``triangles`` are
-        all that the scene holds; with ``_in_frustum``, ``_unoccluded`` and ``_drawn`` behind them,
-        what is left after each stage of culling.
+        number of threads and tiles, and the backend. ``plan`` names the ways that the tiles took
+        (docs/plan.md has them all; none with the backend ``scalar``). ``nodes``, ``clusters`` and
+        ``triangles`` are all that the scene holds; with ``_in_frustum``, ``_unoccluded`` and
+        ``_drawn`` behind them, what is left after each stage of culling.
     """
 
     color: _Output[np.uint8] = _Output(

@@ -264,8 +264,12 @@ typedef struct e3d_stats {
     double ms_raster, ms_shade, ms_resolve; /* summed over threads, divided by the threads used */
     double ms_total;            /* wall clock */
     int32_t threads, tiles, rounds;
+    uint64_t plan;              /* which ways the tiles took: a bit for each, with a name of e3d_plan_step() */
     e3d_backend backend;
 } e3d_stats;
+
+/* What a bit of e3d_stats.plan says; NULL behind the last. docs/plan.md has the rules. */
+const char *e3d_plan_step(int32_t bit);
 
 typedef struct e3d_renderer e3d_renderer;
 

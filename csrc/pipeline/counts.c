@@ -7,6 +7,7 @@
 #include "pipeline/counts.h"
 #include "pipeline/draws.h"
 #include "pipeline/frame.h"
+#include "pipeline/plan.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
 {
@@ -94,4 +95,5 @@ void e3d_count(const e3d_context *context, e3d_stats *stats)
     stats->threads = renderer->threads;
     stats->tiles = (int32_t)e3d_tile_count(context);
     stats->backend = renderer->backend;
+    stats->plan = context->plan >> E3D_PLAN_FIRST;
 }

@@ -19,6 +19,7 @@
 #include "pipeline/occlusion.h"
 #include "pipeline/order.h"
 #include "pipeline/outputs.h"
+#include "pipeline/plan.h"
 #include "pipeline/prepare.h"
 #include "pipeline/records.h"
 #include "pipeline/tile.h"
@@ -198,7 +199,7 @@ static int draw_remembered(e3d_context *context, e3d_stats *stats)
 static int draw_rounds(e3d_context *context, e3d_stats *stats)
 {
     int64_t count = context->item_count, done = 0;
-    if (!context->draw_faces || !e3d_occlusion_pays(context) || !e3d_occlusion_begin(context))
+    if (!e3d_occlusion_pays(context) || !e3d_occlusion_begin(context))
         return draw_round(context, stats, (e3d_round){.end = count, .last = 1});
     int remembered = e3d_remember(context);
     if (remembered < 0)
@@ -224,7 +225,7 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
     if (!e3d_find_items(context))
         return E3D_OUT_OF_MEMORY;
     stats->ms_geometry = (double)(e3d_now_ns() - start) * 1e-6;
-    if (!draw_rounds(context, stats) || (context->sorted && !e3d_sort_records(context)))
+    if (!draw_rounds(context, stats) || (e3d_plans(context, E3D_PLAN_SORTS) && !e3d_sort_records(context)))
         return E3D_OUT_OF_MEMORY;
     e3d_tiles(context);
     if (any_failed(context->renderer))

@@ -18,6 +18,7 @@
 #include "pipeline/counts.h"
 #include "pipeline/fragments.h"
 #include "pipeline/outputs.h"
+#include "pipeline/plan.h"
 #include "pipeline/records.h"
 #include "pipeline/share.h"
 #include "pipeline/spans.h"
@@ -37,9 +38,6 @@ typedef struct e3d_tile {
 
 /* Records are of the scene, or of the edges of a wireframe. */
 enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
-
-/* With E3D_WANT_*, what is needed of visible samples. */
-enum { E3D_NEED_COLOR = 256, E3D_NEED_ALBEDO = 512, E3D_NEED_OUTPUTS = 1024 };
 
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
@@ -115,6 +113,7 @@ typedef struct e3d_context {
     const e3d_kernels *kernels;
     const e3d_frame *frame;
     const e3d_targets *targets;
+    e3d_plan plan;
     e3d_viewport viewport;
     e3d_draw_state *draws;
     e3d_instance *instances;
@@ -137,12 +136,6 @@ typedef struct e3d_context {
     e3d_lighting lighting;
     e3d_output outputs[E3D_OUTPUTS]; /* by kind */
     int32_t tiles_x, tiles_y;
-    int by_fragments;  /* small triangles become fragments at once */
-    int sorted;        /* painter or none: bins are made after sorting */
-    int srgb;          /* the encoder of this frame (R34) */
-    int blockwise;     /* samples are shaded in blocks, which few of the lights reach */
-    int draw_faces;    /* faces are needed at all, not only counted */
-    int wants;         /* E3D_WANT_* and E3D_NEED_* of the visible samples; 0: no shading */
     int32_t line_half, point_half; /* 1/256 sample */
     int32_t line_reach; /* of any line along its minor axis: no less than half, where */
     int wide_lines;     /* they are as wide across as they say */
@@ -178,13 +171,6 @@ static inline e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
     return tile;
 }
 
-/* Whether each piece is shaded at once. */
-static inline int e3d_is_forward(const e3d_context *context)
-{
-    return context->wants && context->frame->shading == E3D_SHADING_FORWARD;
-}
-
-/* Whether samples keep slots rather than record IDs. */
-static inline int e3d_keeps_slots(const e3d_context *context) { return context->sorted || e3d_is_forward(context); }
+static inline int e3d_plans(const e3d_context *context, e3d_plan_item item) { return e3d_plan_has(context->plan, item); }
 
 #endif

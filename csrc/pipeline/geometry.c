@@ -25,6 +25,7 @@
 #include "pipeline/frame.h"
 #include "pipeline/geometry.h"
 #include "pipeline/lines.h"
+#include "pipeline/plan.h"
 #include "pipeline/prepare.h"
 #include "pipeline/records.h"
 #include "pipeline/setup.h"
@@ -242,7 +243,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     const e3d_kernels *kernels = w->context->kernels;
     const e3d_viewport *viewport = &w->context->viewport;
     e3d_worker *worker = w->worker;
-    int fragments = w->context->by_fragments && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
+    int fragments = e3d_plans(w->context, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->survivors;
     int count = kernels->setup(w->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
@@ -250,9 +251,10 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     fetch_records(w, __builtin_popcountll(s->draw));
     if (s->small)
         draw_small(w, cluster, indices);
-    if (!w->context->sorted)
+    int sorts = e3d_plans(w->context, E3D_PLAN_SORTS);
+    if (!sorts)
         draw_triangles(w, cluster, indices, !fragments);
-    for (uint64_t left = w->context->sorted ? s->draw : 0; left; left &= left - 1)
+    for (uint64_t left = sorts ? s->draw : 0; left; left &= left - 1)
         draw_triangle(w, cluster, indices, __builtin_ctzll(left));
     for (uint64_t left = s->clip; left; left &= left - 1)
         draw_clipped(w, cluster, indices, __builtin_ctzll(left));
@@ -264,7 +266,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 static unsigned find_away(const walker *w, const e3d_group_box *group)
 {
     const e3d_context *context = w->context;
-    if (!context->draw_faces) /* edges are drawn whichever way faces face */
+    if (!e3d_plans(context, E3D_PLAN_FACES)) /* edges are drawn whichever way faces face */
         return 0;
     return context->kernels->face_away(&w->draw->mesh->clusters[group->first_cluster], group->clusters, &w->instance->facing,
                                        drop_sign(w), w->instance->clip, &context->viewport);
@@ -361,7 +363,7 @@ static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cl
 {
     w->worker->counters.clusters[fate]++;
     w->worker->counters.triangles[fate] += cluster->triangles;
-    if (fate == E3D_FATE_DRAWN && !w->context->draw_faces)
+    if (fate == E3D_FATE_DRAWN && !e3d_plans(w->context, E3D_PLAN_FACES))
         w->worker->counters.triangles_drawn += cluster->triangles;
     mark(w, item, fate);
 }
@@ -404,7 +406,7 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE)
         shown = find_fates(w, item, group, asked, fates);
     int closely = w->context->round.tested && is_wide(&item->view.samples);
-    unsigned left = !w->context->draw_faces ? 0 : closely ? shown : shown & wanted;
+    unsigned left = !e3d_plans(w->context, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
     if (left)
         transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->vertices[0]);
     for (int turn = 0; left; left &= left - 1, turn ^= 1) {

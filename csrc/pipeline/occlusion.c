@@ -19,6 +19,7 @@
 #include "pipeline/fragments.h"
 #include "pipeline/frame.h"
 #include "pipeline/occlusion.h"
+#include "pipeline/plan.h"
 #include "pipeline/records.h"
 #include "pipeline/share.h"
 #include "pipeline/tile.h"
@@ -26,9 +27,6 @@
 
 /* Where little is hidden, rounds are tried again about once a second, at 60 frames a second. */
 enum { FRAMES_BETWEEN_TRIALS = 64 };
-
-/* Beyond this many samples the tiles of a frame are not worth their memory: 8 bytes a sample. */
-#define E3D_MOST_KEPT_SAMPLES (1 << 25)
 
 /* ---- memory ---- */
 
@@ -79,12 +77,11 @@ int e3d_occlusion_pays(const e3d_context *context)
 {
     const e3d_frame *frame = context->frame;
     int64_t samples = (int64_t)context->viewport.width * context->viewport.height, covered = 0;
-    if (samples > E3D_MOST_KEPT_SAMPLES || e3d_keeps_slots(context) || frame->mode == E3D_MODE_OVERDRAW ||
-        frame->frozen_clip_from_world)
+    if (!e3d_plans(context, E3D_PLAN_ROUNDS))
         return 0;
     if (frame->culling == E3D_CULLING_ALWAYS)
         return context->item_count > 1;
-    if (context->item_count < 64 || frame->culling != E3D_CULLING_ALL)
+    if (context->item_count < 64)
         return 0;
     e3d_renderer *renderer = context->renderer;
     for (int32_t w = 0; w < renderer->threads; w++)
@@ -193,7 +190,7 @@ int e3d_draw_kept_tiles(e3d_context *context)
 /* Shading a tile while it lies in the caches pays where few are drawn twice. */
 int e3d_finishes_early(const e3d_context *context)
 {
-    return context->frame->wireframe == E3D_WIRE_NONE && 8 * context->renderer->tiles_changed <= e3d_tile_count(context);
+    return e3d_plans(context, E3D_PLAN_FINISHES) && 8 * context->renderer->tiles_changed <= e3d_tile_count(context);
 }
 
 void e3d_count_changed_tiles(e3d_context *context)

@@ -18,8 +18,8 @@
 #include "pipeline/facing.h"
 #include "pipeline/frame.h"
 #include "pipeline/lines.h"
+#include "pipeline/plan.h"
 #include "pipeline/prepare.h"
-#include "pipeline/shade.h"
 
 /* Two columns of a row. */
 typedef double double2 __attribute__((vector_size(16)));
@@ -193,13 +193,12 @@ static e3d_status prepare_draws(e3d_context *context)
     for (int32_t d = 0; d < frame->draw_count; d++) {
         const e3d_draw *draw = &frame->draws[d];
         const e3d_mesh_desc *desc = &draw->mesh->desc;
-        int edges = frame->wireframe != E3D_WIRE_NONE && context->targets->color != NULL;
         e3d_draw_state *s = &context->draws[d];
         *s = (e3d_draw_state){.draw = draw, .mesh = draw->mesh, .instance_base = instances, .unit_base = units,
                               .group_base = groups, .any_two_sided = two_sided};
         s->line_units = units_of(desc->lines_count);
         s->point_units = units_of(desc->points_count);
-        s->edge_units = edges ? units_of(desc->edges_count) : 0;
+        s->edge_units = e3d_plans(context, E3D_PLAN_EDGES) ? units_of(desc->edges_count) : 0;
         s->units = s->line_units + s->point_units + s->edge_units;
         int64_t all = (int64_t)desc->faces_count + desc->lines_count + desc->points_count;
         if (all > INT32_MAX || primitives + all * draw->instances > INT32_MAX ||
@@ -285,7 +284,7 @@ static uint32_t encode_one(const e3d_context *context, const float color[3], flo
     uint32_t rgba[1 + E3D_PAD];
     for (int k = 0; k < 3; k++)
         planes[k][0] = color[k];
-    context->kernels->encode(planes[0], planes[1], planes[2], 1, context->srgb, rgba);
+    context->kernels->encode(planes[0], planes[1], planes[2], 1, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), rgba);
     return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
 }
 
@@ -323,45 +322,6 @@ static void prepare_background(e3d_context *context)
         context->background_row[x] = context->background_rgba;
 }
 
-/* Whether lighting depends on where a sample is. */
-static int lights_by_position(const e3d_frame *frame)
-{
-    for (int32_t n = 0; n < frame->light_count; n++)
-        if (frame->lights[n].kind == E3D_LIGHT_POINT)
-            return 1;
-    for (int32_t m = 0; m < frame->material_count; m++)
-        if (e3d_adds(frame->materials[m].specular))
-            return 1;
-    return 0;
-}
-
-/* What shading must find out about each visible sample. */
-static int wants_of(const e3d_frame *frame, const e3d_targets *t)
-{
-    int wants = 0;
-    if (t->color && frame->mode != E3D_MODE_OVERDRAW)
-        wants |= E3D_NEED_COLOR;
-    if (wants && frame->mode == E3D_MODE_LIT)
-        wants |= E3D_WANT_NORMAL | (lights_by_position(frame) ? E3D_WANT_POSITION : 0);
-    if (wants && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT))
-        wants |= E3D_NEED_ALBEDO;
-    if (wants && frame->mode == E3D_MODE_DEPTH)
-        wants |= E3D_WANT_POSITION;
-    if (wants && frame->mode == E3D_MODE_NORMAL)
-        wants |= E3D_WANT_NORMAL;
-    if (t->depth || t->position || t->world_position)
-        wants |= E3D_WANT_POSITION | E3D_NEED_OUTPUTS;
-    if (t->normal || t->world_normal)
-        wants |= E3D_WANT_NORMAL | E3D_NEED_OUTPUTS;
-    if (t->uv)
-        wants |= E3D_WANT_UV | E3D_NEED_OUTPUTS;
-    if (t->albedo)
-        wants |= E3D_NEED_ALBEDO | E3D_NEED_OUTPUTS;
-    if (t->triangle_id || t->object_id || t->instance_id || t->material_id || t->barycentric)
-        wants |= E3D_NEED_OUTPUTS;
-    return wants;
-}
-
 /* The lights' positions and ranges as the light kernel reads them, a vector of lights at a time. */
 static int prepare_lights(e3d_context *context)
 {
@@ -370,7 +330,6 @@ static int prepare_lights(e3d_context *context)
     if (!e3d_array_reserve(&context->renderer->reach, 5 * room, sizeof(float)))
         return 0;
     float *rows = context->renderer->reach.data;
-    int ranged = 0;
     for (int k = 0; k < 5; k++)
         context->lighting.reach[k] = rows + (size_t)k * room;
     for (size_t n = 0; n < room; n++) {
@@ -380,12 +339,9 @@ static int prepare_lights(e3d_context *context)
             rows[(size_t)k * room + n] = point ? light->position[k] : 0.0f;
         rows[3 * room + n] = point ? light->range * light->range : NAN;
         rows[4 * room + n] = 1.0f / rows[3 * room + n];
-        ranged += point && light->range < INFINITY;
     }
     context->lighting.lights = frame->lights;
     context->lighting.light_count = frame->light_count;
-    context->blockwise = ranged > E3D_FEW_LIGHTS && (context->wants & E3D_NEED_COLOR) &&
-                         frame->mode == E3D_MODE_LIT;
     return 1;
 }
 
@@ -416,33 +372,11 @@ static void prepare_constants(e3d_context *context)
     context->mirrors = find_cofactors(frame->view_from_world, cofactor) < 0;
     prepare_lines(context);
     int bits = 0;
-    context->wants = wants_of(frame, context->targets);
-    context->srgb = frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
     while ((1 << bits) < context->renderer->threads)
         bits++;
     for (int pass = 0; pass < E3D_PASSES; pass++)
         context->tables[pass] = (e3d_record_table){context->records[pass], context->drawn, bits};
-    context->sorted = frame->hidden != E3D_HIDDEN_ZBUFFER;
-    context->by_fragments = !e3d_keeps_slots(context) && frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE;
     prepare_background(context);
-}
-
-static int has_lines_or_points(const e3d_frame *frame)
-{
-    for (int32_t d = 0; d < frame->draw_count; d++)
-        if (frame->draws[d].mesh->desc.lines_count || frame->draws[d].mesh->desc.points_count)
-            return 1;
-    return 0;
-}
-
-/* Whether any output needs faces: not a plain wireframe, unless there are lines or points that faces hide (R36). */
-static int needs_faces(const e3d_context *context)
-{
-    e3d_targets others = *context->targets;
-    others.color = NULL;
-    const e3d_targets none = {0};
-    return context->frame->wireframe != E3D_WIRE_ONLY || context->frame->remove_hidden_lines ||
-           memcmp(&others, &none, sizeof none) != 0 || has_lines_or_points(context->frame);
 }
 
 e3d_status e3d_prepare(e3d_context *context)
@@ -452,7 +386,7 @@ e3d_status e3d_prepare(e3d_context *context)
     if (!e3d_array_reserve(&renderer->draws, (size_t)frame->draw_count + 1, sizeof(e3d_draw_state)))
         return E3D_OUT_OF_MEMORY;
     context->draws = renderer->draws.data;
-    context->draw_faces = needs_faces(context);
+    context->plan = e3d_plan_of(frame, context->targets);
     prepare_viewport(context);
     e3d_status status = prepare_draws(context);
     if (status != E3D_OK)

@@ -7,6 +7,7 @@
 #include "pipeline/late.h"
 #include "pipeline/outputs.h"
 #include "pipeline/picture.h"
+#include "pipeline/plan.h"
 #include "pipeline/resolve.h"
 #include "pipeline/tile.h"
 
@@ -62,7 +63,7 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
 {
     e3d_tile_memory *memory = worker->tile;
     if (context->frame->samples_axis == 1)
-        context->kernels->put(&memory->batch, context->srgb, memory->rgba);
+        context->kernels->put(&memory->batch, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), memory->rgba);
     else
         context->kernels->keep(&memory->batch, &memory->samples);
 }
@@ -96,7 +97,7 @@ static void average(const e3d_context *context, e3d_tile_memory *memory, const e
 {
     int axis = context->frame->samples_axis;
     for (int y = 0; y < tile->height / axis; y++)
-        context->kernels->average(&memory->samples, axis, y * axis, tile->width / axis, context->background, context->srgb,
+        context->kernels->average(&memory->samples, axis, y * axis, tile->width / axis, context->background, e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
                                   memory->rgba + y * E3D_TILE);
 }
 

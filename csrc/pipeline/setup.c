@@ -8,6 +8,7 @@
 #include "kernels/types/vertices.h"
 #include "pipeline/bin.h"
 #include "pipeline/frame.h"
+#include "pipeline/plan.h"
 #include "pipeline/records.h"
 #include "pipeline/setup.h"
 
@@ -106,7 +107,7 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
         return;
     const e3d_corner *c[3] = {&corner[0], &corner[area < 0 ? 2 : 1], &corner[area < 0 ? 1 : 2]};
     e3d_record_set *set = &worker->pass[primitive->pass];
-    int sorted = context->sorted && primitive->pass == E3D_PASS_SCENE;
+    int sorted = e3d_plans(context, E3D_PLAN_SORTS) && primitive->pass == E3D_PASS_SCENE;
     if (!e3d_records_fit(context, set, 1)) {
         worker->failed = 1;
         return;

@@ -12,6 +12,7 @@
 #include "pipeline/frame.h"
 #include "pipeline/late.h"
 #include "pipeline/outputs.h"
+#include "pipeline/plan.h"
 #include "pipeline/resolve.h"
 #include "pipeline/runs.h"
 #include "pipeline/shade.h"
@@ -129,27 +130,23 @@ static void find_colors(const e3d_context *context, const e3d_worker *worker, co
 /* What the batches of a group need of their surfaces: identities need nothing. */
 static int wanted_of(const e3d_context *context, const e3d_group *group)
 {
-    int wanted = context->wants & (E3D_WANT_POSITION | E3D_WANT_NORMAL | E3D_WANT_UV), all = context->wants;
-    if (group->textured && all & E3D_NEED_ALBEDO) {
+    int wanted = e3d_plan_inputs(context->plan), colored = e3d_plans(context, E3D_PLAN_BASE_COLOR);
+    if (group->textured && colored) {
         wanted |= E3D_WANT_UV;
         if (e3d_texture_get_view(group->material->texture)->filter == E3D_TRILINEAR)
             wanted |= E3D_WANT_LEVEL;
     }
-    if (context->targets->barycentric || (all & E3D_NEED_ALBEDO && group->by_vertex))
+    if (context->targets->barycentric || (colored && group->by_vertex))
         wanted |= E3D_WANT_WEIGHTS;
-    if (wanted || (all & E3D_NEED_ALBEDO && group->by_instance))
+    if (wanted || (colored && group->by_instance))
         wanted |= E3D_WANT_SURFACE;
     return group->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 
-/* Whether samples go straight to where colours are kept: no other output, few lights. */
+/* Whether samples go straight to where colours are kept. */
 static int is_painted(const e3d_context *context, const e3d_group *group)
 {
-    const e3d_frame *frame = context->frame;
-    int lit = frame->mode == E3D_MODE_LIT;
-    return !(context->wants & E3D_NEED_OUTPUTS) && (lit || frame->mode == E3D_MODE_UNLIT) &&
-           !(group->face && frame->wireframe == E3D_WIRE_ONLY) &&
-           (!lit || context->lighting.light_count <= E3D_FEW_LIGHTS);
+    return e3d_plans(context, E3D_PLAN_PAINTS) && !(group->face && context->frame->wireframe == E3D_WIRE_ONLY);
 }
 
 static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
@@ -168,7 +165,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .shininess = shiny ? m->shininess : 0.0f,
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
-        .srgb = context->srgb,
+        .srgb = e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
         .looks_ahead = e3d_cpu_looks_ahead(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
         .meanwhile = late,
@@ -192,12 +189,12 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_blank_some(context, worker);
     if (wanted & E3D_WANT_SURFACE)
         context->kernels->interpolate(batch, surfaces, wanted);
-    if (context->wants & E3D_NEED_ALBEDO)
+    if (e3d_plans(context, E3D_PLAN_BASE_COLOR))
         find_albedo(context, group, batch, surfaces);
-    if (context->wants & E3D_NEED_OUTPUTS)
+    if (e3d_plans(context, E3D_PLAN_OUTPUTS))
         e3d_outputs_batch(context, worker);
     int hidden = group->face && context->frame->wireframe == E3D_WIRE_ONLY;
-    if (!(context->wants & E3D_NEED_COLOR))
+    if (!e3d_plans(context, E3D_PLAN_COLORS))
         return;
     if (hidden) {
         e3d_resolve_hidden(context, worker);
@@ -334,6 +331,6 @@ static int shade_blocks(const e3d_context *context, e3d_worker *worker, const e3
 
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
 {
-    return context->blockwise && count < MANY_RUNS ? shade_blocks(context, worker, tile, count)
+    return e3d_plans(context, E3D_PLAN_LIGHT_BLOCKS) && count < MANY_RUNS ? shade_blocks(context, worker, tile, count)
                                                    : shade_all(context, worker, tile, worker->tile->runs, count);
 }

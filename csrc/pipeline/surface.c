@@ -13,6 +13,7 @@
 #include "kernels/types/visible.h"
 #include "pipeline/draws.h"
 #include "pipeline/frame.h"
+#include "pipeline/plan.h"
 #include "pipeline/surface.h"
 #include "pipeline/tile.h"
 
@@ -338,7 +339,7 @@ static void add_surface(const e3d_context *context, const e3d_visible_piece *pie
         add_normals(mesh, face, group->flat, vertex, s, n);
     if (wanted & E3D_WANT_UV)
         add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
-    if (context->wants & E3D_NEED_ALBEDO)
+    if (e3d_plans(context, E3D_PLAN_BASE_COLOR))
         add_colors(context, piece, group, vertex, count, s, n);
 }
 

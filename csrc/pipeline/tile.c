@@ -17,6 +17,7 @@
 #include "pipeline/depths.h"
 #include "pipeline/frame.h"
 #include "pipeline/late.h"
+#include "pipeline/plan.h"
 #include "pipeline/records.h"
 #include "pipeline/resolve.h"
 #include "pipeline/shade.h"
@@ -119,7 +120,7 @@ static int act_visible(tile_job *job, const e3d_piece *piece)
 {
     e3d_visible_tile *visible = job->worker->visible;
     e3d_tile_buffers buffers = buffers_of(job, visible->z, visible->id);
-    if (job->context->sorted)
+    if (e3d_plans(job->context, E3D_PLAN_SORTS))
         job->context->kernels->raster_overwrite(piece, &buffers);
     else
         job->context->kernels->raster_depth(piece, &buffers);
@@ -136,12 +137,6 @@ static int act_count(tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
-static int edges_are_tested(const e3d_frame *frame)
-{
-    return frame->hidden == E3D_HIDDEN_ZBUFFER &&
-           (frame->wireframe == E3D_WIRE_OVERLAY || frame->remove_hidden_lines);
-}
-
 /* R36: an edge may lie behind the kept depth by the slope of that piece over the line's reach. */
 static void find_edge_limits(tile_job *job)
 {
@@ -152,7 +147,7 @@ static void find_edge_limits(tile_job *job)
         memory->edge_limit[i] = E3D_BEYOND_FAR;
         if (visible->id[i] < 0)
             continue;
-        const e3d_record *kept = e3d_keeps_slots(job->context)
+        const e3d_record *kept = e3d_plans(job->context, E3D_PLAN_SLOTS)
                                      ? record_of(job, E3D_PASS_SCENE, (uint32_t)visible->id[i])
                                      : e3d_record_at(&job->context->tables[E3D_PASS_SCENE], (uint32_t)visible->id[i]);
         float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
@@ -165,7 +160,7 @@ static void find_edge_limits(tile_job *job)
 static int act_mark(tile_job *job, const e3d_piece *piece)
 {
     e3d_tile_memory *memory = job->worker->tile;
-    float *limit = edges_are_tested(job->context->frame) ? memory->edge_limit : memory->bound;
+    float *limit = e3d_plans(job->context, E3D_PLAN_EDGE_DEPTHS) ? memory->edge_limit : memory->bound;
     e3d_tile_buffers buffers = buffers_of(job, limit, memory->mark);
     e3d_piece marked = *piece;
     marked.slot = 1;
@@ -228,7 +223,7 @@ static int32_t find_runs(const tile_job *job, int *gaps)
 static void begin(const tile_job *job, int all)
 {
     const e3d_context *context = job->context;
-    int counted = context->targets->color && context->frame->mode == E3D_MODE_OVERDRAW; /* instead of shaded */
+    int counted = context->targets->color && !e3d_plans(context, E3D_PLAN_COLORS); /* instead of shaded */
     if (job->again)
         e3d_resolve_again(context, job->worker, &job->tile);
     else if (counted || !all)
@@ -247,13 +242,13 @@ static int draw_pieces(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
-    int forward = e3d_is_forward(context);
+    int forward = e3d_plans(context, E3D_PLAN_AT_ONCE);
     begin(job, 0);
     clear_samples(worker->visible);
     if (!run_bins(job, E3D_PASS_SCENE, forward ? act_forward : act_visible))
         return 0;
     e3d_lap(worker, &worker->counters.ns_raster);
-    if (context->wants && !forward) {
+    if (e3d_plans(context, E3D_PLAN_SHADES) && !forward) {
         int gaps;
         int32_t count = find_runs(job, &gaps);
         slots_to_ids(worker, count);
@@ -293,7 +288,7 @@ enum { FEW_PIECES = 64, MANY_RECORDS = 768, MOSTLY = 4 }; /* in a tile */
 static int shows_pieces(const tile_job *job)
 {
     const e3d_context *context = job->context;
-    if (job->kept || context->finished || context->blockwise)
+    if (!e3d_plans(context, E3D_PLAN_LISTS) || job->kept || context->finished)
         return 0;
     e3d_entries in = e3d_count_entries(context, job->number);
     uint32_t most = context->kept ? in.fragments / MOSTLY : MANY_RECORDS; /* kept: where things hide each other */
@@ -328,16 +323,11 @@ static int shade_visible(tile_job *job)
     return e3d_shade_runs(context, worker, &job->tile, count);
 }
 
-static int needs_depths(const e3d_context *context)
-{
-    return context->targets->ndc_depth || context->frame->wireframe != E3D_WIRE_NONE;
-}
-
 /* What shows of few records is found without depths, where these are not needed for anything else. */
 static int shows_spans(const tile_job *job)
 {
     const e3d_context *context = job->context;
-    return context->wants && !context->kept && !context->blockwise && !needs_depths(context) &&
+    return e3d_plans(context, E3D_PLAN_SPANS) && !context->kept &&
            e3d_show_spans(context, job->worker, &job->tile, job->number);
 }
 
@@ -356,7 +346,7 @@ static void raster_visible(tile_job *job)
     e3d_visible_draw(context, visible, job->number);
     if (context->round.finished)
         e3d_note_depths(context, visible, job->number);
-    if (needs_depths(context))
+    if (e3d_plans(context, E3D_PLAN_DEPTHS))
         context->kernels->raster_settle(visible, &context->tables[E3D_PASS_SCENE], 1);
 }
 
@@ -367,7 +357,7 @@ static int draw_visible(tile_job *job)
     if (!spans)
         raster_visible(job);
     e3d_lap(worker, &worker->counters.ns_raster);
-    if (!job->context->wants)
+    if (!e3d_plans(job->context, E3D_PLAN_SHADES))
         begin(job, 0);
     else
         shaded = spans ? shade_spans(job) : shade_visible(job);
@@ -377,26 +367,25 @@ static int draw_visible(tile_job *job)
 
 static int draw_scene(tile_job *job)
 {
-    return e3d_keeps_slots(job->context) ? draw_pieces(job) : draw_visible(job);
+    return e3d_plans(job->context, E3D_PLAN_SLOTS) ? draw_pieces(job) : draw_visible(job);
 }
 
 /* What is drawn beside the visible surfaces: overdraw counts, or wireframe edges. */
 static int draw_marks(tile_job *job)
 {
-    const e3d_frame *frame = job->context->frame;
-    if (!job->context->targets->color)
+    const e3d_context *context = job->context;
+    int counts = e3d_plans(context, E3D_PLAN_COUNTS_OVERDRAW), edges = e3d_plans(context, E3D_PLAN_EDGES);
+    if (!counts && !edges)
         return 1;
-    if (frame->mode != E3D_MODE_OVERDRAW && frame->wireframe == E3D_WIRE_NONE)
-        return 1;
-    if (frame->wireframe != E3D_WIRE_NONE && edges_are_tested(frame))
+    if (e3d_plans(context, E3D_PLAN_EDGE_DEPTHS))
         find_edge_limits(job); /* while the slots are the scene's */
-    if (frame->mode == E3D_MODE_OVERDRAW && frame->wireframe != E3D_WIRE_ONLY) {
+    if (counts) {
         clear_marks(job->worker->tile);
         if (!run_bins(job, E3D_PASS_SCENE, act_count))
             return 0;
         e3d_resolve_overdraw(job->context, job->worker, &job->tile);
     }
-    if (frame->wireframe != E3D_WIRE_NONE) {
+    if (edges) {
         clear_marks(job->worker->tile);
         if (!run_bins(job, E3D_PASS_WIRE, act_mark))
             return 0;

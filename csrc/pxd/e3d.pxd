@@ -1,6 +1,6 @@
 # The Cython mirror of csrc/include/e3d.h, and nothing else. The header explains every name.
 
-from libc.stdint cimport int32_t, int64_t, uint8_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint64_t
 
 
 cdef extern from "e3d.h" nogil:
@@ -18,6 +18,7 @@ cdef extern from "e3d.h" nogil:
 
     const char *e3d_status_text(e3d_status status)
     const char *e3d_backend_name(e3d_backend backend)
+    const char *e3d_plan_step(int32_t bit)
     int e3d_backend_available(e3d_backend backend)
     e3d_backend e3d_backend_best()
     int e3d_thread_count()
@@ -236,6 +237,7 @@ cdef extern from "e3d.h" nogil:
         int32_t threads
         int32_t tiles
         int32_t rounds
+        uint64_t plan
         e3d_backend backend
 
     ctypedef struct e3d_renderer:

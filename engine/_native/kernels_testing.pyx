@@ -17,6 +17,10 @@ from e3d cimport (
 from e3d_clusters cimport *
 from e3d_helping cimport e3d_helping, e3d_helping_note, e3d_job_times
 from e3d_kernels cimport *
+from e3d_plan cimport (
+    E3D_PLAN_FIRST, E3D_PLAN_ITEMS, E3D_PLAN_RULE_COUNT, E3D_PLAN_RULES, e3d_plan_item, e3d_plan_rule,
+    e3d_plan_name, e3d_plan_text
+)
 
 cdef extern from *:
     """
@@ -88,6 +92,35 @@ LIMITS = {
 # towards +inf. Both are 0 where this file does not know the processor.
 FLUSH_DENORMALS = FLOAT_CONTROL_FLUSH
 ROUND_UP = FLOAT_CONTROL_ROUND_UP
+
+
+def plan_rules():
+    """The rules of a frame's plan: (item, the items that it needs, those that it must not have).
+
+    Each item is named, and has its meaning in plan_items().
+    """
+    cdef const e3d_plan_rule *rule
+
+    def names(bits):
+        return [e3d_plan_name(<e3d_plan_item>k).decode() for k in range(E3D_PLAN_ITEMS) if bits >> k & 1]
+
+    rules = []
+    for r in range(E3D_PLAN_RULE_COUNT):
+        rule = &E3D_PLAN_RULES[r]
+        rules.append((e3d_plan_name(rule.item).decode(), names(rule.all), names(rule.none)))
+    return rules
+
+
+def plan_items():
+    """What may be asked for and what is planned, in their order: (name, meaning, is planned)."""
+    return [
+        (
+            e3d_plan_name(<e3d_plan_item>k).decode(),
+            e3d_plan_text(<e3d_plan_item>k).decode(),
+            k >= E3D_PLAN_FIRST,
+        )
+        for k in range(E3D_PLAN_ITEMS)
+    ]
 
 
 def float_control():

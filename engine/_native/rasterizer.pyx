@@ -234,7 +234,17 @@ cdef class NativeStats:
             "threads": stats.threads,
             "tiles": stats.tiles,
             "backend": e3d_backend_name(stats.backend).decode(),
+            "plan": self.plan(),
         }
+
+    def plan(self):
+        steps = []
+        bit = 0
+        while e3d_plan_step(bit):
+            if self.stats.plan >> bit & 1:
+                steps.append(e3d_plan_step(bit).decode().lower())
+            bit += 1
+        return tuple(steps)
 
 
 cdef class NativeRenderer:

@@ -111,7 +111,7 @@ def reachable(graph, start):
 
 def enumerators(code):
     bodies = re.findall(r"\benum\s*\w*\s*\{([^}]*)\}", code)
-    lists = [re.sub(r"\([^()]*\)", "", body) for body in bodies]
+    lists = [re.sub(r"\w*\([^()]*\)", "", body) for body in bodies]
     return {word for names in lists for word in re.findall(r"(?:^|,)\s*([A-Za-z_]\w*)", names)}
 
 

@@ -340,6 +340,7 @@ class Renderer(Closed):
                 view.clip_from_world,
                 view.view_from_world,
                 view.eye,
+                id(view.camera),
                 near,
                 far,
                 chosen,

@@ -12,6 +12,7 @@
 #include "driver/canvas_scene.h"
 #include "driver/compare.h"
 #include "driver/graph_scene.h"
+#include "driver/passes.h"
 
 typedef struct options {
     long scenes, first;
@@ -77,6 +78,8 @@ int main(int count, char **arguments)
         snprintf(title, sizeof title, "scene %04ld", i);
         random_stream r = {.state = (uint64_t)i};
         failures += report("scene", i, compare_scene(r, &o.plan, title));
+        snprintf(title, sizeof title, "passes %04ld", i);
+        failures += report("passes", i, compare_passes(r, &o.plan, title));
         snprintf(title, sizeof title, "rasterize %04ld", i);
         failures += report("rasterize", i, compare_rasterize(r, &o.plan, title));
         snprintf(title, sizeof title, "canvas %04ld", i);

@@ -209,6 +209,7 @@ typedef struct e3d_frame {
     float background[4];         /* rgb through the encoder; a is 0 or 1 */
     int32_t encode_srgb;         /* lit and unlit only: encoder is sRGB, else floor(255 v + 1/2) */
     int32_t decode_srgb;         /* 8-bit vertex and instance colours are decoded from sRGB */
+    int64_t view;                /* any number that tells this eye from others: the renderer remembers what each saw last */
     float depth_near, depth_far; /* metric depths that mode depth shows white and black; near < far */
     float ambient[3];
     float light_clamp[2];        /* {0, +inf}: no clamp */
@@ -283,6 +284,17 @@ void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *us
 /* stats may be NULL. */
 e3d_status e3d_render(e3d_renderer *renderer, const e3d_frame *frame, const e3d_targets *targets,
                       e3d_stats *stats);
+
+/* A picture of one view: what is drawn, where to, and what became of it (or NULL). */
+typedef struct e3d_pass {
+    const e3d_frame *frame;
+    const e3d_targets *targets;
+    e3d_stats *stats;
+} e3d_pass;
+
+/* Draws passes one after the other; what one wrote, the next may read, as a texture for instance. Nothing is drawn where one of them is
+ * invalid; the first that fails is the last. Views that differ have different numbers (e3d_frame.view). */
+e3d_status e3d_render_passes(e3d_renderer *renderer, const e3d_pass *passes, int32_t count);
 
 /* The low-level door: clip-space vertices in; triangle_id, ndc depth (smaller is nearer, +inf where empty) and
  * perspective-correct barycentrics out. */

@@ -160,6 +160,11 @@ int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
     return 0;
 }
 
+int e3d_has_bins(const e3d_context *context, int64_t tile)
+{
+    return e3d_has_bin(context, E3D_PASS_SCENE, tile) || e3d_has_bin(context, E3D_PASS_WIRE, tile);
+}
+
 static uint32_t count_records(const e3d_record_set *set, int64_t tile)
 {
     uint32_t count = 0;

@@ -2,17 +2,11 @@
  * them in while the core computes. */
 #include "pipeline/bin.h"
 #include "pipeline/blank.h"
-#include "pipeline/depths.h"
 #include "pipeline/frame.h"
 #include "pipeline/outputs.h"
 #include "pipeline/picture.h"
 #include "pipeline/share.h"
-
-/* Asks for bins before depths: another thread may be writing the depths of a tile that has bins, which would be a data race. */
-int e3d_is_blank(const e3d_context *context, int64_t tile)
-{
-    return !e3d_has_bin(context, E3D_PASS_SCENE, tile) && !e3d_has_bin(context, E3D_PASS_WIRE, tile) && !e3d_is_kept(context, tile);
-}
+#include "pipeline/tile_state.h"
 
 /* Looks at a few tiles for the next blank one; whether there may be more. */
 static int find_blank(const e3d_context *context, e3d_worker *worker)
@@ -22,7 +16,8 @@ static int find_blank(const e3d_context *context, e3d_worker *worker)
         int64_t tile = e3d_take_tile(context, worker, E3D_TO_CLEAR);
         if (tile < 0)
             return 0;
-        if (e3d_is_blank(context, tile)) {
+        if (e3d_tile_state_of(&context->tiles[tile]) == E3D_TILE_UNTOUCHED && !e3d_has_bins(context, tile)) {
+            e3d_tile_set_state(&context->tiles[tile], E3D_TILE_CLEARED);
             worker->blank = e3d_tile_at(context, tile);
             return 1;
         }
@@ -30,10 +25,10 @@ static int find_blank(const e3d_context *context, e3d_worker *worker)
     return 1;
 }
 
-void e3d_blank_begin(const e3d_context *context, e3d_worker *worker)
+void e3d_blank_begin(e3d_worker *worker)
 {
     worker->blank = (e3d_tile){0};
-    worker->blanks = !context->finished; /* then they are written already */
+    worker->blanks = 1;
 }
 
 e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker)

@@ -8,11 +8,8 @@ typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;
 typedef struct e3d_tile e3d_tile;
 
-/* Whether nothing is drawn in a tile, or nothing more. */
-int e3d_is_blank(const e3d_context *context, int64_t tile);
-
 /* Clears such tiles: some rows at a time, and at last what is left of all. */
-void e3d_blank_begin(const e3d_context *context, e3d_worker *worker);
+void e3d_blank_begin(e3d_worker *worker);
 enum { E3D_SOME_ROWS = 8 }; /* that are written at once between batches */
 /* The one that is being cleared now, perhaps with no rows left. */
 e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker);

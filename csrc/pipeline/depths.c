@@ -17,6 +17,8 @@
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };
 _Static_assert(BLOCKS == 8 && E3D_BLOCK == 8, "a row of blocks and the columns of a block are compared eight at a time");
 
+#define NOTHING 4.0f /* greater than any depth: no other depths are noted */
+
 /* ---- what is noted ---- */
 
 static float farthest(const e3d_visible_tile *visible)
@@ -37,10 +39,7 @@ void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t ti
     depths->most = farthest(visible);
 }
 
-int e3d_is_kept(const e3d_context *context, int64_t tile)
-{
-    return context->kept && !context->finished && context->depths[tile].most != E3D_NOTHING_KEPT;
-}
+void e3d_depths_clear(e3d_tile_depths *depths) { depths->most = NOTHING; }
 
 /* ---- a box against what is drawn ---- */
 
@@ -75,7 +74,7 @@ static int is_behind(const e3d_tile_depths *depths, const e3d_box *samples, floa
     uint64_t unsure = 0;
     if (near > depths->most)
         return 1;
-    if (depths->most == E3D_NOTHING_KEPT)
+    if (depths->most == NOTHING)
         return 0;
     for (int y = blocks.y0; y <= blocks.y1; y++)
         unsure |= (uint64_t)(from_to(blocks.x0, blocks.x1) & ~nearer_than(depths->zmax + y * BLOCKS, near)) << (y * BLOCKS);

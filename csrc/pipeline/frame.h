@@ -17,11 +17,13 @@
 #include "kernels/types/visible.h"
 #include "pipeline/counts.h"
 #include "pipeline/fragments.h"
+#include "pipeline/history.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
 #include "pipeline/records.h"
 #include "pipeline/share.h"
 #include "pipeline/spans.h"
+#include "pipeline/tile_state.h"
 
 typedef struct e3d_draw_state e3d_draw_state;
 typedef struct e3d_instance e3d_instance;
@@ -74,21 +76,11 @@ struct e3d_renderer {
     e3d_array marks;            /* uint8_t of each instance: E3D_MARK_ */
     e3d_array reach;            /* float, of e3d_lighting */
     e3d_array tasks, items;     /* e3d_item, near ones first */
-    e3d_array rows, rows_before; /* e3d_memory_row of each turn: what `seen` and `seen_before` are of */
-    e3d_array seen_before;
-    e3d_array seen;             /* uint8_t for each group of the frame: bit k tells whether cluster k showed when it was last tried */
+    e3d_histories histories;
+    e3d_array tile_progress;    /* e3d_tile_progress */
     e3d_array tile_depths;      /* e3d_tile_depths */
     e3d_visible_tile *kept;     /* over the rounds of a frame */
     size_t kept_room;
-    uint32_t trials;                /* of what was seen; grows with each frame that remembers */
-    int remembers;                  /* this frame */
-    int doubts;                     /* the last frame remembered nothing, so that it counts as seen what it drew before it knew what
-                                     * hides it: this frame tests all of that again, not a part */
-    /* So many frames still go without rounds, which did not pay when the items were so many and covered so many blocks. Rounds are
-     * tried sooner where either is half as much more. */
-    int32_t frames_without_rounds;
-    int64_t covered_at_trial, items_at_trial;
-    int64_t tiles_changed;         /* by what the frame before had not shown */
     int (*poll)(void *);
     void *poll_user;
 };
@@ -104,7 +96,7 @@ typedef struct e3d_round {
     e3d_choice choice;
     int64_t first, end; /* items */
     int tested;         /* against the kept tiles' depths */
-    int finished;       /* its tiles are shaded and resolved; the last round's only where more has come */
+    int finishes;       /* its tiles are shaded and resolved; the last round's only where more has come */
     int last;           /* lines, points and edges are drawn, too */
 } e3d_round;
 
@@ -123,8 +115,9 @@ typedef struct e3d_context {
     int64_t units, groups;
     const e3d_item *items;
     int64_t item_count;
-    uint8_t *seen;           /* by e3d_item.unit */
-    int finished;            /* all tiles are, but those that the last round's bins change */
+    e3d_history *history;    /* of the view */
+    uint8_t *seen;           /* the history's, by e3d_item.unit */
+    e3d_tile_progress *tiles;
     e3d_visible_tile *kept;  /* NULL: one round */
     e3d_tile_depths *depths; /* of the tiles */
     e3d_round round;
@@ -150,6 +143,8 @@ typedef struct e3d_context {
     int cancelled;
     int64_t last_poll;
 } e3d_context;
+
+int e3d_any_failed(const e3d_renderer *renderer);
 
 /* Adds to a stage's time what has passed since the thread's last lap. */
 static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)

@@ -457,7 +457,7 @@ static void run_item(walker *w, const e3d_item *item)
             draw_group(w, item, group, seen, seen);
         return;
     }
-    int tried = context->renderer->doubts || (item->unit + context->renderer->trials) % FRAMES_A_TRIAL == 0;
+    int tried = context->history->doubts || (item->unit + context->history->trials) % FRAMES_A_TRIAL == 0;
     unsigned trusted = tried ? 0 : seen;
     if (trusted != all)
         set_seen(context, item, trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));

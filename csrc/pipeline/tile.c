@@ -24,6 +24,7 @@
 #include "pipeline/share.h"
 #include "pipeline/spans.h"
 #include "pipeline/tile.h"
+#include "pipeline/tile_state.h"
 #include "pipeline/visible.h"
 
 /* ---- a record in a tile ---- */
@@ -59,9 +60,12 @@ typedef struct tile_job {
     e3d_worker *worker;
     e3d_tile tile;
     int64_t number;
-    int kept; /* earlier rounds have drawn there */
-    int again; /* it is finished, but for what the last round added */
+    e3d_tile_state state; /* before this */
 } tile_job;
+
+/* Whether the tile's pixels are written, but for what the last round added. Those of several samples are averages by now, and so all of
+ * them are shaded once more. */
+static int is_again(const tile_job *job) { return job->state == E3D_TILE_DRAWN && job->context->frame->samples_axis == 1; }
 
 typedef int (*piece_action)(tile_job *job, const e3d_piece *piece);
 
@@ -224,7 +228,7 @@ static void begin(const tile_job *job, int all)
 {
     const e3d_context *context = job->context;
     int counted = context->targets->color && !e3d_plans(context, E3D_PLAN_COLORS); /* instead of shaded */
-    if (job->again)
+    if (is_again(job))
         e3d_resolve_again(context, job->worker, &job->tile);
     else if (counted || !all)
         e3d_resolve_begin(context, job->worker);
@@ -288,7 +292,7 @@ enum { FEW_PIECES = 64, MANY_RECORDS = 768, MOSTLY = 4 }; /* in a tile */
 static int shows_pieces(const tile_job *job)
 {
     const e3d_context *context = job->context;
-    if (!e3d_plans(context, E3D_PLAN_LISTS) || job->kept || context->finished)
+    if (!e3d_plans(context, E3D_PLAN_LISTS) || job->state == E3D_TILE_KEPT || job->state == E3D_TILE_DRAWN)
         return 0;
     e3d_entries in = e3d_count_entries(context, job->number);
     uint32_t most = context->kept ? in.fragments / MOSTLY : MANY_RECORDS; /* kept: where things hide each other */
@@ -319,7 +323,7 @@ static int shade_visible(tile_job *job)
     int gaps;
     int32_t count = find_runs(job, &gaps);
     begin(job, !gaps);
-    count = job->again ? leave_out_shaded(job, count) : count;
+    count = is_again(job) ? leave_out_shaded(job, count) : count;
     return e3d_shade_runs(context, worker, &job->tile, count);
 }
 
@@ -341,10 +345,10 @@ static void raster_visible(tile_job *job)
 {
     e3d_context *context = job->context;
     e3d_visible_tile *visible = job->worker->visible;
-    if (!job->kept)
+    if (job->state != E3D_TILE_KEPT)
         e3d_visible_clear(visible, &job->tile);
-    e3d_visible_draw(context, visible, job->number);
-    if (context->round.finished)
+    e3d_visible_draw(context, visible, job->number, job->state == E3D_TILE_DRAWN);
+    if (context->round.finishes)
         e3d_note_depths(context, visible, job->number);
     if (e3d_plans(context, E3D_PLAN_DEPTHS))
         context->kernels->raster_settle(visible, &context->tables[E3D_PASS_SCENE], 1);
@@ -407,21 +411,22 @@ static int draw_job(tile_job *job)
 
 static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
 {
-    if (e3d_is_blank(context, number))
-        return 1;
-    e3d_tile_depths *depths = context->kept ? &context->depths[number] : NULL;
-    tile_job job = {.context = context, .worker = worker, .number = number, .tile = e3d_tile_at(context, number)};
-    job.kept = e3d_is_kept(context, number);
-    worker->visible = job.kept ? &context->kept[number] : &worker->tile->visible;
-    job.again = context->finished && depths->shaded && context->frame->samples_axis == 1;
+    e3d_tile_progress *progress = &context->tiles[number];
+    tile_job job = {.context = context,
+                    .worker = worker,
+                    .number = number,
+                    .tile = e3d_tile_at(context, number),
+                    .state = e3d_tile_state_of(progress)};
+    if (job.state != E3D_TILE_KEPT && !e3d_has_bins(context, number))
+        return 1; /* it is cleared, or drawn as it should be */
+    worker->visible = job.state == E3D_TILE_KEPT ? &context->kept[number] : &worker->tile->visible;
     int64_t before = worker->counters.shaded;
     if (!draw_job(&job))
         return 0;
-    if (depths) { /* of a tile that is drawn twice, the second time counts */
-        int64_t shaded = worker->counters.shaded - before;
-        worker->counters.shaded -= depths->shaded;
-        depths->shaded = (int32_t)shaded;
-    }
+    int64_t shaded = worker->counters.shaded - before;
+    worker->counters.shaded -= progress->shaded; /* of a tile that is drawn twice, the second time counts */
+    progress->shaded = (int32_t)shaded;
+    e3d_tile_set_state(progress, E3D_TILE_DRAWN);
     return 1;
 }
 
@@ -443,7 +448,7 @@ static void tiles_work(void *argument, int number)
     e3d_context *context = argument;
     e3d_worker *worker = context->renderer->workers[number];
     worker->lap = e3d_now_ns();
-    e3d_blank_begin(context, worker);
+    e3d_blank_begin(worker);
     while (!atomic_load(&context->stop)) {
         int64_t tile = e3d_take_tile(context, worker, E3D_TO_DRAW);
         if (tile < 0)

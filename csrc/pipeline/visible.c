@@ -43,9 +43,9 @@ static void draw_records(const e3d_context *context, e3d_visible_tile *visible, 
     }
 }
 
-void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number)
+void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number, int earlier)
 {
-    for (int earlier = context->finished; earlier >= 0; earlier--) {
+    for (; earlier >= 0; earlier--) {
         draw_records(context, visible, tile_number, earlier);
         for (int32_t w = 0; w < context->renderer->threads; w++)
             e3d_fragments_draw(context, &context->renderer->workers[w]->fragments, visible, tile_number, earlier);

@@ -164,6 +164,7 @@ cdef extern from "e3d.h" nogil:
         double clip_from_world[16]
         double view_from_world[16]
         float eye[4]
+        int64_t view
         e3d_mode mode
         e3d_cull cull
         e3d_wireframe wireframe

@@ -149,6 +149,7 @@ class NativeRenderer:
         clip_from_world: _Doubles,
         view_from_world: _Doubles,
         eye: Sequence[float],
+        number: int,
         depth_near: float,
         depth_far: float,
         frozen_clip_from_world: _Doubles | None = None,

@@ -286,12 +286,14 @@ cdef class NativeRenderer:
         const double[:, ::1] clip_from_world not None,
         const double[:, ::1] view_from_world not None,
         eye,
+        int64_t number,
         float depth_near,
         float depth_far,
         const double[:, ::1] frozen_clip_from_world=None,
     ):
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
+        `number` tells the camera from others: the core remembers what each saw in its last frame.
         If a signal handler raises meanwhile, its exception is raised here and the targets are
         partly written.
         """
@@ -312,6 +314,7 @@ cdef class NativeRenderer:
                     "a matrix is 4x4")
             frame.frozen_clip_from_world = &frozen_clip_from_world[0, 0]
         copy_vector(frame.eye, eye, 4)
+        frame.view = number
         frame.depth_near = depth_near
         frame.depth_far = depth_far
         frame.materials = draw_list.materials

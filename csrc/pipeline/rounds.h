@@ -1,0 +1,13 @@
+/* Rounds: what is near, or what the last frames showed, is drawn first, and hides what is behind it. */
+#ifndef E3D_ROUNDS_H
+#define E3D_ROUNDS_H
+
+#include "e3d.h"
+
+typedef struct e3d_context e3d_context;
+
+/* Draws the frame's geometry in as many rounds as pay. Tiles are finished meanwhile or not; e3d_tiles() draws what the last round
+ * left in their bins. 0 when memory is out. */
+int e3d_rounds(e3d_context *context, e3d_stats *stats);
+
+#endif

@@ -114,7 +114,7 @@ static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_wo
                 most[k] += edges.across[k];
             if (misses)
                 continue;
-            if (!push(set, &bins[(int64_t)ty * context->tiles_x + tx], id))
+            if (!push(set, &bins[(int64_t)ty * context->view->tiles_x + tx], id))
                 return 0;
             worker->counters.bin_entries++;
         }
@@ -126,7 +126,7 @@ static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_wo
 
 static inline e3d_bin *bin_at(const e3d_context *context, e3d_record_set *set, uint32_t tile)
 {
-    return (e3d_bin *)set->bins.data + (int64_t)(tile >> 16) * context->tiles_x + (tile & 0xFFFF);
+    return (e3d_bin *)set->bins.data + (int64_t)(tile >> 16) * context->view->tiles_x + (tile & 0xFFFF);
 }
 
 /* Most are in one tile, or in two side by side. */

@@ -7,6 +7,7 @@
 #include "pipeline/picture.h"
 #include "pipeline/share.h"
 #include "pipeline/tile_state.h"
+#include "pipeline/view.h"
 
 /* Looks at a few tiles for the next blank one; whether there may be more. */
 static int find_blank(const e3d_context *context, e3d_worker *worker)
@@ -18,7 +19,7 @@ static int find_blank(const e3d_context *context, e3d_worker *worker)
             return 0;
         if (e3d_tile_state_of(&context->tiles[tile]) == E3D_TILE_UNTOUCHED && !e3d_has_bins(context, tile)) {
             e3d_tile_set_state(&context->tiles[tile], E3D_TILE_CLEARED);
-            worker->blank = e3d_tile_at(context, tile);
+            worker->blank = e3d_tile_at(context->view, tile);
             return 1;
         }
     }
@@ -43,7 +44,7 @@ static void clear(const e3d_context *context, const e3d_tile *tile)
 {
     e3d_outputs_blank(context, tile);
     if (context->targets->color)
-        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), context->background_row, 0);
+        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), context->background.row, 0);
 }
 
 void e3d_blank_some(const e3d_context *context, e3d_worker *worker)

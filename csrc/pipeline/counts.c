@@ -8,6 +8,7 @@
 #include "pipeline/draws.h"
 #include "pipeline/frame.h"
 #include "pipeline/plan.h"
+#include "pipeline/view.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
 {
@@ -33,7 +34,7 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
 
 static int marks_of(const e3d_context *context, const e3d_turn *turn)
 {
-    const e3d_draw_state *state = &context->draws[turn->draw];
+    const e3d_draw_state *state = &context->draws->states[turn->draw];
     const uint8_t *marks = context->marks + state->instance_base + turn->instance;
     int32_t instances = state->draw->pose_kind == E3D_POSE_NODES ? 1 : state->draw->instances;
     int found = state->units && instances ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN : 0;
@@ -47,9 +48,9 @@ static void count_nodes(const e3d_context *context, e3d_stats *stats)
 {
     int marks = 0;
     int32_t node = -1;
-    for (int32_t t = 0; t <= context->turn_count; t++) {
-        const e3d_turn *turn = t < context->turn_count ? &context->turns[t] : NULL;
-        int32_t id = turn ? e3d_object_id(context->draws[turn->draw].draw, turn->instance) : -1;
+    for (int32_t t = 0; t <= context->draws->turn_count; t++) {
+        const e3d_turn *turn = t < context->draws->turn_count ? &context->draws->turns[t] : NULL;
+        int32_t id = turn ? e3d_object_id(context->draws->states[turn->draw].draw, turn->instance) : -1;
         if (!turn || id != node) {
             stats->nodes_unoccluded += marks & E3D_MARK_UNOCCLUDED ? 1 : 0;
             stats->nodes_drawn += marks & E3D_MARK_DRAWN ? 1 : 0;
@@ -84,7 +85,7 @@ void e3d_count(const e3d_context *context, e3d_stats *stats)
 {
     const e3d_renderer *renderer = context->renderer;
     e3d_count_submitted(context->frame, stats);
-    stats->instances = context->instance_count;
+    stats->instances = context->draws->instance_count;
     stats->nodes_unoccluded = stats->nodes_drawn = 0;
     stats->clusters_unoccluded = stats->clusters_drawn = stats->triangles_unoccluded = stats->triangles_drawn = 0;
     for (int32_t w = 0; w < renderer->threads; w++)
@@ -93,7 +94,7 @@ void e3d_count(const e3d_context *context, e3d_stats *stats)
     stats->triangles_in_frustum = stats->triangles_unoccluded + stats->triangles_occluded;
     count_nodes(context, stats);
     stats->threads = renderer->threads;
-    stats->tiles = (int32_t)e3d_tile_count(context);
+    stats->tiles = (int32_t)e3d_tile_count(context->view);
     stats->backend = renderer->backend;
     stats->plan = context->plan >> E3D_PLAN_FIRST;
 }

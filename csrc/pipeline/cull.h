@@ -1,28 +1,12 @@
-/* Boxes as the camera sees them, and the groups of clusters that may show. */
+/* The groups of clusters that may show. */
 #ifndef E3D_CULL_H
 #define E3D_CULL_H
 
-#include "core/limits.h"
-#include "e3d.h"
-#include "kernels/coverage.h"
-#include "kernels/types/vertices.h"
+#include <stdint.h>
+
+#include "pipeline/boxes.h"
 
 typedef struct e3d_context e3d_context;
-typedef struct e3d_instance e3d_instance;
-
-/* A box as the camera sees it. */
-enum { E3D_BOX_OUTSIDE = 0, E3D_BOX_CROSSES, E3D_BOX_INSIDE };
-typedef struct e3d_box_view {
-    int32_t state;
-    float near;    /* no z_ndc in the box is less */
-    e3d_box samples; /* that it may cover, inclusive */
-} e3d_box_view;
-
-#define E3D_DEPTH_UNBOUNDED (-2.0f) /* the nearest depth of a box that reaches the eye: less than any */
-static inline e3d_box e3d_blocks_of(const e3d_box *samples)
-{
-    return (e3d_box){samples->x0 / E3D_BLOCK, samples->y0 / E3D_BLOCK, samples->x1 / E3D_BLOCK, samples->y1 / E3D_BLOCK};
-}
 
 /* A group of clusters of one instance, in view. */
 typedef struct e3d_item {
@@ -31,14 +15,7 @@ typedef struct e3d_item {
     e3d_box_view view;
 } e3d_item;
 
-int e3d_box_state(const float clip[16], const float lo[3], const float hi[3]);
-/* Only the state is set of a box that is outside. */
-void e3d_view_box(const e3d_viewport *viewport, const float clip[16], const float lo[3], const float hi[3],
-                  e3d_box_view *out);
-/* Of vertices that are all in the frustum, four or more, around a sample; 0 if they are not. */
-int e3d_view_vertices(const e3d_viewport *viewport, const e3d_vertices *vertices, e3d_box_view *out);
 /* Lists the frame's items; 0 when memory is out. */
 int e3d_find_items(e3d_context *context);
-const float *e3d_culling_matrix(const e3d_frame *frame, const e3d_instance *instance);
 
 #endif

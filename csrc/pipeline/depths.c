@@ -10,6 +10,7 @@
 #include "kernels/kernels.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
+#include "pipeline/boxes.h"
 #include "pipeline/cull.h"
 #include "pipeline/depths.h"
 #include "pipeline/frame.h"
@@ -92,7 +93,7 @@ void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view)
 {
     const e3d_box *s = &view->samples;
     int32_t x = (s->x0 + s->x1) / 2, y = (s->y0 + s->y1) / 2;
-    int64_t tile = (int64_t)(y / E3D_TILE) * context->tiles_x + x / E3D_TILE;
+    int64_t tile = (int64_t)(y / E3D_TILE) * context->view->tiles_x + x / E3D_TILE;
     const e3d_tile_depths *depths = &context->depths[tile];
     int row = y % E3D_TILE / E3D_BLOCK * BLOCKS;
     __builtin_prefetch(depths);
@@ -107,7 +108,7 @@ int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
         for (int32_t tx = s->x0 / E3D_TILE; tx <= s->x1 / E3D_TILE; tx++) {
             const e3d_box within = {e3d_in_tile(s->x0 - tx * E3D_TILE), e3d_in_tile(s->y0 - ty * E3D_TILE),
                                     e3d_in_tile(s->x1 - tx * E3D_TILE), e3d_in_tile(s->y1 - ty * E3D_TILE)};
-            int64_t tile = (int64_t)ty * context->tiles_x + tx;
+            int64_t tile = (int64_t)ty * context->view->tiles_x + tx;
             if (!is_behind(&context->depths[tile], &within, view->near))
                 return 0;
         }
@@ -116,6 +117,6 @@ int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
 
 int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record)
 {
-    const e3d_box_view view = {.near = record->zmin, .samples = e3d_sample_box(record->x, record->y, &context->viewport)};
+    const e3d_box_view view = {.near = record->zmin, .samples = e3d_sample_box(record->x, record->y, &context->view->viewport)};
     return e3d_is_hidden(context, &view);
 }

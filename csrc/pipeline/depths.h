@@ -5,6 +5,7 @@
 #include "core/limits.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
+#include "pipeline/boxes.h"
 #include "pipeline/cull.h"
 
 typedef struct e3d_context e3d_context;

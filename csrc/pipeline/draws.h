@@ -1,24 +1,16 @@
-/* Draws, instances and their places in the order, as the frame counts them. */
+/* What is drawn: draws, instances and their places in the order, as the frame counts them. */
 #ifndef E3D_DRAWS_H
 #define E3D_DRAWS_H
 
+#include "core/grow.h"
 #include "core/mesh.h"
 #include "e3d.h"
-#include "kernels/types/vertices.h"
 
-typedef struct e3d_context e3d_context;
-
-/* One instance's matrices (R1, R2). What is found of all of them comes first: few of those that are many are seen. */
+/* One instance, but for what depends on the eye (e3d_view_instance). */
 typedef struct e3d_instance {
-    float clip[16];
     int32_t draw;
-    int32_t shows; /* its mesh's box may be in view */
-    int32_t ready; /* not only its clip matrix is known */
     uint32_t order; /* of its first primitive */
-    int32_t mirrored;
-    float world[12], normal[9];
-    e3d_facing facing;
-    float frozen[16]; /* clip matrix of the camera that culls, where another one draws */
+    float world[12], normal[9]; /* once e3d_view_instance.ready */
 } e3d_instance;
 
 /* A draw in the frame: where its instances and units of work start. */
@@ -40,12 +32,26 @@ typedef struct e3d_turn {
     int32_t draw, instance;
 } e3d_turn;
 
+/* All draws of a frame, in memory that frames use again. */
+typedef struct e3d_draws {
+    e3d_draw_state *states;
+    e3d_instance *instances;
+    e3d_turn *turns;
+    int32_t count, instance_count, turn_count;
+    int64_t units, groups;
+    e3d_array state_memory, instance_memory, turn_memory;
+} e3d_draws;
+
+/* `edges`: those of wireframes are drawn, too. */
+e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges);
+void e3d_draws_free(e3d_draws *draws);
+
 /* Whose an instance, a unit of work or a group of clusters is, by its number in the frame: there must be one. */
-const e3d_draw_state *e3d_draw_of_instance(const e3d_context *context, int64_t instance);
-const e3d_draw_state *e3d_draw_of_unit(const e3d_context *context, int64_t unit);
-const e3d_draw_state *e3d_draw_of_group(const e3d_context *context, int64_t group);
+const e3d_draw_state *e3d_draw_of_instance(const e3d_draws *draws, int64_t instance);
+const e3d_draw_state *e3d_draw_of_unit(const e3d_draws *draws, int64_t unit);
+const e3d_draw_state *e3d_draw_of_group(const e3d_draws *draws, int64_t group);
 /* The last turn that starts at or before an order. */
-const e3d_turn *e3d_find_turn(const e3d_context *context, uint32_t order);
+const e3d_turn *e3d_find_turn(const e3d_draws *draws, uint32_t order);
 
 /* What object_id and instance_id output. */
 static inline int32_t e3d_object_id(const e3d_draw *draw, int32_t instance)

@@ -14,6 +14,7 @@
 #include "pipeline/fragments.h"
 #include "pipeline/frame.h"
 #include "pipeline/tile.h"
+#include "pipeline/view.h"
 
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
 {
@@ -63,7 +64,7 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
 void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker)
 {
     e3d_fragment_set *set = &worker->fragments;
-    size_t most = e3d_fragment_blocks_most((size_t)e3d_tile_count(context));
+    size_t most = e3d_fragment_blocks_most((size_t)e3d_tile_count(context->view));
     if (!set->triangles.count)
         return;
     if (!e3d_array_reserve(&set->blocks, set->blocks.count + most, sizeof(e3d_fragment_block))) {
@@ -72,7 +73,7 @@ void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker)
         return;
     }
     e3d_fragment_bins out = {.blocks = set->blocks.data, .bins = set->bins.data, .count = (uint32_t)set->blocks.count};
-    context->kernels->fragments(&set->triangles, &context->viewport, context->tiles_x, &out);
+    context->kernels->fragments(&set->triangles, &context->view->viewport, context->view->tiles_x, &out);
     set->blocks.count = out.count;
     worker->counters.records += out.triangles;
     worker->counters.triangles_drawn += out.triangles;

@@ -19,7 +19,7 @@
 #include "pipeline/prepare.h"
 #include "pipeline/rounds.h"
 #include "pipeline/tile.h"
-#include "pipeline/tile_state.h"
+#include "pipeline/view.h"
 #include "reference/reference.h"
 
 /* ---- arguments ---- */
@@ -61,22 +61,12 @@ static int reset_workers(e3d_context *context)
         e3d_worker *worker = renderer->workers[w];
         memset(&worker->counters, 0, sizeof worker->counters);
         worker->failed = 0;
-        if (!e3d_fragments_reset(&worker->fragments, (int32_t)e3d_tile_count(context)))
+        if (!e3d_fragments_reset(&worker->fragments, (int32_t)e3d_tile_count(context->view)))
             return 0;
         for (int p = 0; p < E3D_PASSES; p++)
-            if (!e3d_records_reset(&worker->pass[p], (int32_t)e3d_tile_count(context)))
+            if (!e3d_records_reset(&worker->pass[p], (int32_t)e3d_tile_count(context->view)))
                 return 0;
     }
-    return 1;
-}
-
-static int reset_tiles(e3d_context *context)
-{
-    size_t tiles = (size_t)e3d_tile_count(context);
-    if (!e3d_array_reserve(&context->renderer->tile_progress, tiles, sizeof(e3d_tile_progress)))
-        return 0;
-    context->tiles = context->renderer->tile_progress.data;
-    memset(context->tiles, 0, tiles * sizeof *context->tiles);
     return 1;
 }
 
@@ -86,8 +76,7 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
     e3d_status status = e3d_prepare(context);
     if (status != E3D_OK)
         return status;
-    context->history = e3d_history_of(&context->renderer->histories, context->frame->view);
-    if (!reset_workers(context) || !reset_tiles(context) || !e3d_outputs_prepare(context))
+    if (!reset_workers(context) || !e3d_outputs_prepare(context))
         return E3D_OUT_OF_MEMORY;
     if (!e3d_find_items(context))
         return E3D_OUT_OF_MEMORY;
@@ -113,7 +102,7 @@ static e3d_status run_pass(e3d_renderer *renderer, const e3d_pass *pass)
         e3d_count_submitted(pass->frame, stats);
         return done;
     }
-    e3d_context context = {.renderer = renderer, .kernels = renderer->kernels, .frame = pass->frame, .targets = pass->targets};
+    e3d_context context = {.renderer = renderer, .kernels = renderer->kernels, .frame = pass->frame, .targets = pass->targets, .draws = &renderer->draws, .view = &renderer->view};
     e3d_fpenv saved = e3d_fpenv_enter();
     e3d_status status = run(&context, stats);
     e3d_fpenv_leave(saved);

@@ -16,27 +16,22 @@
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
 #include "pipeline/counts.h"
+#include "pipeline/draws.h"
 #include "pipeline/fragments.h"
 #include "pipeline/history.h"
+#include "pipeline/lines.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
 #include "pipeline/records.h"
+#include "pipeline/resolve.h"
 #include "pipeline/share.h"
 #include "pipeline/spans.h"
 #include "pipeline/tile_state.h"
+#include "pipeline/view.h"
 
-typedef struct e3d_draw_state e3d_draw_state;
-typedef struct e3d_instance e3d_instance;
-typedef struct e3d_turn e3d_turn;
 typedef struct e3d_item e3d_item;
 typedef struct e3d_tile_depths e3d_tile_depths;
 typedef struct e3d_tile_memory e3d_tile_memory;
-
-/* A tile's place in the picture. */
-typedef struct e3d_tile {
-    int32_t x, y;          /* first sample */
-    int32_t width, height; /* samples inside the viewport */
-} e3d_tile;
 
 /* Records are of the scene, or of the edges of a wireframe. */
 enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
@@ -72,9 +67,9 @@ struct e3d_renderer {
     int32_t threads;
     const e3d_kernels *kernels;
     e3d_worker **workers;
-    e3d_array draws, instances, turns;
+    e3d_draws draws;
+    e3d_view view;
     e3d_array marks;            /* uint8_t of each instance: E3D_MARK_ */
-    e3d_array reach;            /* float, of e3d_lighting */
     e3d_array tasks, items;     /* e3d_item, near ones first */
     e3d_histories histories;
     e3d_array tile_progress;    /* e3d_tile_progress */
@@ -106,16 +101,11 @@ typedef struct e3d_context {
     const e3d_frame *frame;
     const e3d_targets *targets;
     e3d_plan plan;
-    e3d_viewport viewport;
-    e3d_draw_state *draws;
-    e3d_instance *instances;
-    uint8_t *marks;
-    int32_t instance_count, turn_count;
-    const e3d_turn *turns;
-    int64_t units, groups;
+    e3d_draws *draws;
+    e3d_view *view;
+    uint8_t *marks;          /* of each instance */
     const e3d_item *items;
     int64_t item_count;
-    e3d_history *history;    /* of the view */
     uint8_t *seen;           /* the history's, by e3d_item.unit */
     e3d_tile_progress *tiles;
     e3d_visible_tile *kept;  /* NULL: one round */
@@ -124,19 +114,11 @@ typedef struct e3d_context {
     const e3d_record *records[E3D_PASSES][E3D_MAX_THREADS];
     const e3d_drawn_cluster *drawn[E3D_MAX_THREADS];
     e3d_record_table tables[E3D_PASSES];
-    float view[12]; /* rows of view_from_world, f32 */
     float unorm8[256]; /* values of 8-bit vertex and instance colours (R23) */
-    e3d_lighting lighting;
     e3d_output outputs[E3D_OUTPUTS]; /* by kind */
-    int32_t tiles_x, tiles_y;
-    int32_t line_half, point_half; /* 1/256 sample */
-    int32_t line_reach; /* of any line along its minor axis: no less than half, where */
-    int wide_lines;     /* they are as wide across as they say */
-    int mirrors;        /* the camera does: R2 */
-    float background[3];                        /* clamped */
-    float background_sample[4], line_sample[4]; /* colour, and whether it counts (e3d_samples) */
-    uint32_t background_rgba, line_rgba;        /* of a pixel of nothing else */
-    uint32_t background_row[E3D_TILE];
+    e3d_line_style lines;
+    e3d_background background;
+    e3d_ink line;
     atomic_llong next; /* instance, task or item */
     atomic_llong next_unit;
     atomic_int stop;   /* cancelled or out of memory */
@@ -152,18 +134,6 @@ static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)
     int64_t now = e3d_now_ns();
     *stage_ns += now - worker->lap;
     worker->lap = now;
-}
-
-static inline int64_t e3d_tile_count(const e3d_context *c) { return (int64_t)c->tiles_x * c->tiles_y; }
-
-static inline e3d_tile e3d_tile_at(const e3d_context *context, int64_t number)
-{
-    e3d_tile tile = {.x = (int32_t)(number % context->tiles_x) * E3D_TILE,
-                     .y = (int32_t)(number / context->tiles_x) * E3D_TILE};
-    int32_t width = context->viewport.width - tile.x, height = context->viewport.height - tile.y;
-    tile.width = width < E3D_TILE ? width : E3D_TILE;
-    tile.height = height < E3D_TILE ? height : E3D_TILE;
-    return tile;
 }
 
 static inline int e3d_plans(const e3d_context *context, e3d_plan_item item) { return e3d_plan_has(context->plan, item); }

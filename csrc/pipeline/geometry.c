@@ -16,6 +16,7 @@
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
 #include "pipeline/bin.h"
+#include "pipeline/boxes.h"
 #include "pipeline/clip.h"
 #include "pipeline/counts.h"
 #include "pipeline/cull.h"
@@ -29,6 +30,7 @@
 #include "pipeline/prepare.h"
 #include "pipeline/records.h"
 #include "pipeline/setup.h"
+#include "pipeline/view.h"
 
 enum { TASKS_A_THREAD = 64, MOST_ITEMS_A_TASK = 32, UNITS_A_TASK = 8 };
 enum { LEAST_WORK = 4 }; /* items or tasks of units, that are worth a second thread */
@@ -38,7 +40,8 @@ typedef struct walker {
     e3d_context *context;
     e3d_worker *worker;
     const e3d_draw_state *draw;
-    const e3d_instance *instance;
+    uint32_t number; /* of the instance */
+    const e3d_view_instance *instance;
     uint32_t order; /* of the instance's first primitive */
     const e3d_vertices *vertices; /* of the cluster that is drawn */
     const e3d_cluster *next;      /* of the next item, */
@@ -95,7 +98,7 @@ static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *
 static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
     const e3d_vertices *v = w->vertices;
-    const e3d_viewport *viewport = &w->context->viewport;
+    const e3d_viewport *viewport = &w->context->view->viewport;
     float corner[3][4];
     e3d_clip_vertex polygon[E3D_CLIP_MAX];
     e3d_corner projected[E3D_CLIP_MAX];
@@ -161,7 +164,7 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
     memset(list + count, 0, E3D_PAD);
     const e3d_record_request request = {.vertices = w->vertices, .indices = indices, .triangles = list,
                                         .count = count, .tiny = tiny, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
-                                        .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->viewport};
+                                        .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->view->viewport};
     draw_records(w, &request);
 }
 
@@ -208,8 +211,8 @@ static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *ind
     if (!drawn)
         return;
     /* Written in place: a copy of the struct would load wider words than were just stored, which stores cannot forward. */
-    *drawn = (e3d_drawn_cluster){w->draw->mesh->faces + cluster->first, w->order, (int32_t)(w->instance - w->context->instances),
-                                 w->instance->draw, w->instance->mirrored};
+    *drawn = (e3d_drawn_cluster){w->draw->mesh->faces + cluster->first, w->order, (int32_t)w->number,
+                                 (int32_t)(w->draw - w->context->draws->states), w->instance->mirrored};
     e3d_fragments_add(w->context, w->worker, w->vertices, indices, small);
 }
 
@@ -217,10 +220,10 @@ static void transform_cluster(const walker *w, const e3d_item *item, const e3d_c
 {
     const e3d_context *context = w->context;
     if (w->draw->mesh->desc.components == 4)
-        context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->viewport, out);
+        context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->view->viewport, out);
     else
-        context->kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &context->viewport,
-                                    item->view.state == E3D_BOX_INSIDE && !context->frame->frozen_clip_from_world,
+        context->kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &context->view->viewport,
+                                    item->view.state == E3D_BOX_INSIDE && !context->view->culling,
                                     out);
 }
 
@@ -241,7 +244,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_kernels *kernels = w->context->kernels;
-    const e3d_viewport *viewport = &w->context->viewport;
+    const e3d_viewport *viewport = &w->context->view->viewport;
     e3d_worker *worker = w->worker;
     int fragments = e3d_plans(w->context, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
@@ -269,13 +272,13 @@ static unsigned find_away(const walker *w, const e3d_group_box *group)
     if (!e3d_plans(context, E3D_PLAN_FACES)) /* edges are drawn whichever way faces face */
         return 0;
     return context->kernels->face_away(&w->draw->mesh->clusters[group->first_cluster], group->clusters, &w->instance->facing,
-                                       drop_sign(w), w->instance->clip, &context->viewport);
+                                       drop_sign(w), w->instance->clip, &context->view->viewport);
 }
 
 /* Without what is drawn already: *view tells of a cluster that may show whether it must be tried against that. */
 static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
-    const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
+    const float *clip = e3d_culling_matrix(w->context->view, w->number);
     if (!cluster->any_finite)
         return E3D_FATE_OUTSIDE;
     if (away)
@@ -284,7 +287,7 @@ static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster
                    : E3D_FATE_OUTSIDE;
     if (!w->context->round.tested && item->view.state == E3D_BOX_INSIDE)
         return E3D_FATE_DRAWN;
-    e3d_view_box(&w->context->viewport, clip, cluster->lo, cluster->hi, view);
+    e3d_view_box(&w->context->view->viewport, clip, cluster->lo, cluster->hi, view);
     return view->state == E3D_BOX_OUTSIDE ? E3D_FATE_OUTSIDE : E3D_FATE_DRAWN;
 }
 
@@ -317,7 +320,7 @@ static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_grou
 static int vertices_are_hidden(const walker *w)
 {
     e3d_box_view view;
-    return e3d_view_vertices(&w->context->viewport, w->vertices, &view) && e3d_is_hidden(w->context, &view);
+    return e3d_view_vertices(&w->context->view->viewport, w->vertices, &view) && e3d_is_hidden(w->context, &view);
 }
 
 /* Of a smaller group, clusters are drawn in the time that a closer look takes. */
@@ -373,7 +376,7 @@ static void count_hidden(walker *w, const e3d_item *item, const e3d_group_box *g
 {
     e3d_counters *counters = &w->worker->counters;
     const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
-    const float *clip = e3d_culling_matrix(w->context->frame, w->instance);
+    const float *clip = e3d_culling_matrix(w->context->view, w->number);
     int inside = item->view.state == E3D_BOX_INSIDE;
     if (inside && counted == (1u << group->clusters) - 1) {
         counters->clusters[E3D_FATE_OCCLUDED] += group->clusters;
@@ -400,9 +403,9 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
         count_hidden(w, item, group, asked & wanted);
         return 0;
     }
-    w->order = w->instance->order;
+    w->order = w->context->draws->instances[w->number].order;
     if (!w->instance->ready)
-        e3d_prepare_surface(w->context, &w->context->instances[item->instance]);
+        e3d_view_finish_instance(w->context->view, w->context->draws, w->number);
     if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE)
         shown = find_fates(w, item, group, asked, fates);
     int closely = w->context->round.tested && is_wide(&item->view.samples);
@@ -441,8 +444,9 @@ static void set_seen(const e3d_context *context, const e3d_item *item, unsigned 
 static void run_item(walker *w, const e3d_item *item)
 {
     e3d_context *context = w->context;
-    w->instance = &context->instances[item->instance];
-    w->draw = &context->draws[item->draw];
+    w->number = item->instance;
+    w->instance = &context->view->instances[item->instance];
+    w->draw = &context->draws->states[item->draw];
     const e3d_group_box *group = &w->draw->mesh->groups[item->group];
     unsigned all = (1u << group->clusters) - 1;
     if (context->round.choice == E3D_ALL_ITEMS) {
@@ -457,7 +461,7 @@ static void run_item(walker *w, const e3d_item *item)
             draw_group(w, item, group, seen, seen);
         return;
     }
-    int tried = context->history->doubts || (item->unit + context->history->trials) % FRAMES_A_TRIAL == 0;
+    int tried = context->view->history->doubts || (item->unit + context->view->history->trials) % FRAMES_A_TRIAL == 0;
     unsigned trusted = tried ? 0 : seen;
     if (trusted != all)
         set_seen(context, item, trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));
@@ -469,10 +473,10 @@ static void run_item(walker *w, const e3d_item *item)
 static void fetch_item(const e3d_context *context, const e3d_item *item)
 {
     enum { LINE = 64 };
-    const char *instance = (const char *)&context->instances[item->instance];
+    const char *seen = (const char *)&context->view->instances[item->instance];
     if (context->round.choice == E3D_ALL_ITEMS || __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED))
-        for (size_t at = 0; at < sizeof(e3d_instance); at += LINE)
-            __builtin_prefetch(instance + at);
+        for (size_t at = 0; at < sizeof(e3d_view_instance); at += LINE)
+            __builtin_prefetch(seen + at);
     if (context->round.tested)
         e3d_fetch_kept(context, &item->view);
 }
@@ -489,7 +493,7 @@ static void fetch_seen(const e3d_context *context, const e3d_item *item)
 static unsigned find_next(walker *w, const e3d_item *item)
 {
     const e3d_context *context = w->context;
-    const e3d_mesh *mesh = context->draws[item->draw].mesh;
+    const e3d_mesh *mesh = context->draws->states[item->draw].mesh;
     size_t first = (size_t)item->group * E3D_GROUP_CLUSTERS, count = (size_t)mesh->cluster_count;
     unsigned may = context->round.choice == E3D_ALL_ITEMS    ? ~0u
                    : context->round.choice == E3D_SEEN_ITEMS ? __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED)
@@ -540,10 +544,10 @@ static void walk_units(e3d_context *context, e3d_worker *worker)
 {
     while (!worker->failed) {
         int64_t first = atomic_fetch_add(&context->next_unit, UNITS_A_TASK);
-        if (first >= context->units)
+        if (first >= context->draws->units)
             return;
-        for (int64_t unit = first; unit < first + UNITS_A_TASK && unit < context->units; unit++) {
-            const e3d_draw_state *draw = e3d_draw_of_unit(context, unit);
+        for (int64_t unit = first; unit < first + UNITS_A_TASK && unit < context->draws->units; unit++) {
+            const e3d_draw_state *draw = e3d_draw_of_unit(context->draws, unit);
             int32_t instance = (int32_t)((unit - draw->unit_base) / draw->units);
             e3d_draw_unit(context, worker, draw, instance, (int32_t)((unit - draw->unit_base) % draw->units));
         }
@@ -562,7 +566,7 @@ static void geometry_work(void *argument, int number)
 
 void e3d_geometry(e3d_context *context)
 {
-    int64_t work = items_of(&context->round) + context->units / UNITS_A_TASK;
+    int64_t work = items_of(&context->round) + context->draws->units / UNITS_A_TASK;
     atomic_store(&context->next, 0);
     atomic_store(&context->next_unit, 0);
     e3d_pool_run(work > LEAST_WORK ? context->renderer->threads : 1, geometry_work, context);

@@ -9,6 +9,7 @@
 #include "pipeline/draws.h"
 #include "pipeline/frame.h"
 #include "pipeline/history.h"
+#include "pipeline/view.h"
 
 /* ---- the views of a renderer ---- */
 
@@ -71,7 +72,7 @@ e3d_history *e3d_history_of(e3d_histories *histories, int64_t view)
 
 static e3d_history_row row_of(const e3d_context *context, const e3d_turn *turn)
 {
-    const e3d_draw_state *state = &context->draws[turn->draw];
+    const e3d_draw_state *state = &context->draws->states[turn->draw];
     const e3d_draw *draw = state->draw;
     int32_t groups = state->mesh->group_count, node = e3d_object_id(draw, turn->instance);
     int64_t base = state->group_base + (int64_t)turn->instance * groups;
@@ -120,8 +121,8 @@ static void exchange(e3d_array *a, e3d_array *b)
 
 int e3d_history_remember(e3d_context *context)
 {
-    e3d_history *history = context->history;
-    size_t count = (size_t)context->turn_count, groups = (size_t)context->groups;
+    e3d_history *history = context->view->history;
+    size_t count = (size_t)context->draws->turn_count, groups = (size_t)context->draws->groups;
     exchange(&history->rows, &history->rows_before);
     exchange(&history->seen, &history->seen_before);
     history->trials++;
@@ -131,13 +132,13 @@ int e3d_history_remember(e3d_context *context)
         return -1;
     e3d_history_row *rows = history->rows.data;
     for (size_t d = 0; d < count; d++)
-        rows[d] = row_of(context, &context->turns[d]);
+        rows[d] = row_of(context, &context->draws->turns[d]);
     memset(history->seen.data, 0, groups);
     history->rows.count = count;
     history->seen.count = groups;
     context->seen = history->seen.data;
     history->doubts = !history->remembers;
-    history->remembers = 2 * match_rows(history) > context->groups;
+    history->remembers = 2 * match_rows(history) > context->draws->groups;
     return history->remembers;
 }
 
@@ -163,7 +164,7 @@ int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t items)
 static int64_t count_seen(const e3d_context *context)
 {
     int64_t seen = 0;
-    for (int64_t unit = 0; unit < context->groups; unit++)
+    for (int64_t unit = 0; unit < context->draws->groups; unit++)
         seen += __builtin_popcount(context->seen[unit]);
     return seen;
 }
@@ -173,13 +174,13 @@ static int64_t count_seen(const e3d_context *context)
  * it: the next one tries all of that, and tells. */
 static int hides_little(const e3d_context *context, const e3d_stats *stats)
 {
-    if (!context->history->remembers)
+    if (!context->view->history->remembers)
         return 0;
     int64_t tried = stats->clusters_drawn + stats->clusters_occluded, hidden = tried - count_seen(context);
-    return 10 * (hidden - e3d_tile_count(context)) < 3 * tried;
+    return 10 * (hidden - e3d_tile_count(context->view)) < 3 * tried;
 }
 
 void e3d_history_judge(const e3d_context *context, const e3d_stats *stats)
 {
-    context->history->backoff.frames_left = hides_little(context, stats) ? FRAMES_BETWEEN_TRIALS : 0;
+    context->view->history->backoff.frames_left = hides_little(context, stats) ? FRAMES_BETWEEN_TRIALS : 0;
 }

@@ -47,7 +47,7 @@ static void add_blank(const e3d_context *context, e3d_worker *worker)
     for (int k = 0; k < E3D_OUTPUTS; k++)
         if (context->outputs[k].target)
             return;
-    if (blank->height && rows_of(context, blank, context->background_row, 0, &worker->late_blank))
+    if (blank->height && rows_of(context, blank, context->background.row, 0, &worker->late_blank))
         blank->height = 0;
     else
         worker->late_blank.count = 0;

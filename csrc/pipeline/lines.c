@@ -9,15 +9,27 @@
 #include "pipeline/frame.h"
 #include "pipeline/lines.h"
 #include "pipeline/setup.h"
+#include "pipeline/view.h"
 
 /* Where a thread stands: one instance of one draw. */
 typedef struct unit_walk {
     e3d_context *context;
     e3d_worker *worker;
     const e3d_draw_state *draw;
-    const e3d_instance *instance;
+    const e3d_view_instance *instance;
     uint32_t order; /* of the instance's first primitive */
 } unit_walk;
+
+/* R11 */
+e3d_line_style e3d_line_style_of(const e3d_frame *frame)
+{
+    float axis = (float)frame->samples_axis;
+    int32_t line = (int32_t)lrintf(frame->line_width * axis * 128.0f);
+    int32_t point = (int32_t)lrintf(frame->point_size * axis * 128.0f);
+    e3d_line_style style = {.half = line > 1 ? line : 1, .point_half = point > 1 ? point : 1, .wide = frame->line_width > 1.0f};
+    style.reach = style.wide ? (int32_t)lrint((double)style.half * sqrt(2.0)) : style.half;
+    return style;
+}
 
 static void position_of(const unit_walk *w, int32_t vertex, float out[4])
 {
@@ -50,9 +62,9 @@ static int32_t distance(int32_t a, int32_t b) { return a < b ? b - a : a - b; }
 /* How far a line of such extents reaches along its minor axis (R11). */
 static int32_t offset_of(const e3d_context *context, double dx, double dy)
 {
-    if (!context->wide_lines)
-        return context->line_half;
-    return (int32_t)lrint((double)context->line_half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
+    if (!context->lines.wide)
+        return context->lines.half;
+    return (int32_t)lrint((double)context->lines.half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
 }
 
 /* Of its ends on the screen. */
@@ -69,7 +81,7 @@ static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int
 
 static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int pass)
 {
-    const e3d_viewport *viewport = &w->context->viewport;
+    const e3d_viewport *viewport = &w->context->view->viewport;
     float v[2][4];
     e3d_clip_vertex cut[2] = {{{0}, {1, 0, 0}}, {{0}, {0, 1, 0}}};
     e3d_corner end[2];
@@ -98,7 +110,7 @@ static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int pas
 
 static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
 {
-    const e3d_viewport *viewport = &w->context->viewport;
+    const e3d_viewport *viewport = &w->context->view->viewport;
     float v[4];
     e3d_corner c;
     position_of(w, vertex, v);
@@ -108,7 +120,7 @@ static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
         return;
     c.c[0] = 1;
     c.c[1] = c.c[2] = 0;
-    int32_t h = w->context->point_half;
+    int32_t h = w->context->lines.point_half;
     const e3d_corner quad[4] = {moved(c, -h, -h), moved(c, h, -h), moved(c, h, h), moved(c, -h, h)};
     emit_quad(w, quad, order, E3D_PASS_SCENE);
 }
@@ -144,8 +156,8 @@ static void run_edges(unit_walk *w, int32_t unit)
 void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
                    int32_t unit)
 {
-    const e3d_instance *of = &context->instances[draw->instance_base + instance];
-    unit_walk w = {context, worker, draw, of, of->order};
+    int64_t number = draw->instance_base + instance;
+    unit_walk w = {context, worker, draw, &context->view->instances[number], context->draws->instances[number].order};
     if (unit < draw->line_units)
         run_lines(&w, unit);
     else if ((unit -= draw->line_units) < draw->point_units)

@@ -107,7 +107,7 @@ int e3d_sort_records(e3d_context *context)
     e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
     for (size_t r = 0; r < count; r++) {
         const e3d_record *record = (const e3d_record *)set->records.data + r;
-        e3d_box box = e3d_sample_box(record->x, record->y, &context->viewport);
+        e3d_box box = e3d_sample_box(record->x, record->y, &context->view->viewport);
         const e3d_tile_span span = e3d_span_of(&box);
         if (!e3d_bin_records(context, worker, set, (uint32_t)r, &span, 1))
             return 0;

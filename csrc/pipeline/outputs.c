@@ -134,7 +134,7 @@ static void put(const e3d_context *context, const e3d_worker *worker, e3d_output
 static void to_view(const e3d_context *context, const e3d_batch *batch, const e3d_lane_array *v, int w, e3d_lane_array out[3])
 {
     for (int row = 0; row < 3; row++) {
-        const float *m = context->view + 4 * row;
+        const float *m = context->view->rows + 4 * row;
         for (int i = 0; i < batch->count; i++) {
             float sum = (m[0] * v[0][i] + m[1] * v[1][i]) + m[2] * v[2][i];
             out[row][i] = w ? sum + m[3] : sum;

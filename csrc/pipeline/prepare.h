@@ -5,10 +5,7 @@
 #include "e3d.h"
 
 typedef struct e3d_context e3d_context;
-typedef struct e3d_instance e3d_instance;
 
 e3d_status e3d_prepare(e3d_context *context);
-/* Finds what an instance is drawn with besides its clip matrix. */
-void e3d_prepare_surface(const e3d_context *context, e3d_instance *instance);
 
 #endif

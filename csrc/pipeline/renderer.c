@@ -7,10 +7,12 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/visible.h"
+#include "pipeline/draws.h"
 #include "pipeline/frame.h"
 #include "pipeline/history.h"
 #include "pipeline/records.h"
 #include "pipeline/tile.h"
+#include "pipeline/view.h"
 
 static e3d_worker *create_worker(uint32_t number)
 {
@@ -85,9 +87,9 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     for (int32_t w = 0; renderer->workers && w < renderer->threads; w++)
         destroy_worker(renderer->workers[w]);
     free(renderer->workers);
-    e3d_array_free(&renderer->draws);
-    e3d_array *arrays[] = {&renderer->instances, &renderer->turns, &renderer->marks, &renderer->reach, &renderer->tasks, &renderer->items,
-                           &renderer->tile_progress, &renderer->tile_depths};
+    e3d_draws_free(&renderer->draws);
+    e3d_view_free(&renderer->view);
+    e3d_array *arrays[] = {&renderer->marks, &renderer->tasks, &renderer->items, &renderer->tile_progress, &renderer->tile_depths};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         e3d_array_free(arrays[i]);
     e3d_histories_free(&renderer->histories);

@@ -1,6 +1,7 @@
 /* resolve: the tile's colours to the caller's picture, averaged where there are several samples (R33-R36). */
 #include "core/limits.h"
 #include "core/srgb_tables.h"
+#include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
 #include "pipeline/frame.h"
@@ -11,12 +12,58 @@
 #include "pipeline/resolve.h"
 #include "pipeline/tile.h"
 
+static uint32_t encode_one(const e3d_context *context, const float color[3], float alpha)
+{
+    float planes[3][1 + E3D_PAD] = {{0}};
+    uint32_t rgba[1 + E3D_PAD];
+    for (int k = 0; k < 3; k++)
+        planes[k][0] = color[k];
+    context->kernels->encode(planes[0], planes[1], planes[2], 1, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), rgba);
+    return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
+}
+
+/* R33 of a pixel whose samples are alike. */
+static float mean_of(float value, int count)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < count; i++)
+        sum = sum + value;
+    return sum * (1.0f / (float)count);
+}
+
+static float unit(float v)
+{
+    v = v > 0.0f ? v : 0.0f;
+    return v < 1.0f ? v : 1.0f;
+}
+
+void e3d_resolve_prepare(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    e3d_background *background = &context->background;
+    e3d_ink *line = &context->line;
+    int opaque = frame->background[3] > 0.5f;
+    float pixel[3];
+    for (int k = 0; k < 3; k++) {
+        background->color[k] = unit(frame->background[k]);
+        background->sample[k] = opaque ? background->color[k] : 0.0f;
+        line->sample[k] = unit(frame->line_color[k]);
+        pixel[k] = opaque ? mean_of(background->color[k], frame->samples_axis * frame->samples_axis) : background->color[k];
+    }
+    background->sample[3] = opaque;
+    line->sample[3] = 1.0f;
+    background->rgba = encode_one(context, pixel, frame->background[3]);
+    line->rgba = encode_one(context, frame->line_color, 1.0f);
+    for (int x = 0; x < E3D_TILE; x++)
+        background->row[x] = background->rgba;
+}
+
 static void fill_samples(const e3d_context *context, e3d_samples *samples)
 {
     float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < E3D_TILE_SAMPLES; i++)
-            planes[k][i] = context->background_sample[k];
+            planes[k][i] = context->background.sample[k];
 }
 
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker)
@@ -30,7 +77,7 @@ void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker)
         return;
     }
     for (int i = 0; i < E3D_TILE_SAMPLES; i++)
-        memory->rgba[i] = context->background_rgba;
+        memory->rgba[i] = context->background.rgba;
 }
 
 void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
@@ -56,7 +103,7 @@ void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker)
 {
     const e3d_batch *batch = &worker->tile->batch;
     for (int i = 0; i < batch->count; i++)
-        set_sample(context, worker->tile, batch->sample[i], context->background_sample, context->background_rgba);
+        set_sample(context, worker->tile, batch->sample[i], context->background.sample, context->background.rgba);
 }
 
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
@@ -89,7 +136,7 @@ void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++)
             if (memory->mark[y * E3D_TILE + x])
-                set_sample(context, memory, y * E3D_TILE + x, context->line_sample, context->line_rgba);
+                set_sample(context, memory, y * E3D_TILE + x, context->line.sample, context->line.rgba);
 }
 
 /* The pixels of several samples each, row by row, to where pixels of one sample are. */
@@ -97,7 +144,7 @@ static void average(const e3d_context *context, e3d_tile_memory *memory, const e
 {
     int axis = context->frame->samples_axis;
     for (int y = 0; y < tile->height / axis; y++)
-        context->kernels->average(&memory->samples, axis, y * axis, tile->width / axis, context->background, e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
+        context->kernels->average(&memory->samples, axis, y * axis, tile->width / axis, context->background.color, e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
                                   memory->rgba + y * E3D_TILE);
 }
 

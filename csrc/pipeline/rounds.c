@@ -26,6 +26,7 @@
 #include "pipeline/share.h"
 #include "pipeline/tile.h"
 #include "pipeline/tile_state.h"
+#include "pipeline/view.h"
 #include "pipeline/visible.h"
 
 /* ---- memory ---- */
@@ -58,7 +59,7 @@ e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t h
 static int begin(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
-    size_t tiles = (size_t)e3d_tile_count(context);
+    size_t tiles = (size_t)e3d_tile_count(context->view);
     if (!reserve_tiles(renderer, tiles) ||
         !e3d_array_reserve(&renderer->tile_depths, tiles, sizeof(e3d_tile_depths)))
         return 0;
@@ -76,7 +77,7 @@ static void keep_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     e3d_tile_progress *progress = &context->tiles[number];
     e3d_visible_tile *visible = &context->kept[number];
     if (e3d_tile_state_of(progress) == E3D_TILE_UNTOUCHED) {
-        e3d_tile tile = e3d_tile_at(context, number);
+        e3d_tile tile = e3d_tile_at(context->view, number);
         e3d_visible_clear(visible, &tile);
     }
     e3d_visible_draw(context, visible, number, 0);
@@ -103,7 +104,7 @@ static void keep_work(void *argument, int number)
 static int keep_tiles(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
-    int32_t tiles = (int32_t)e3d_tile_count(context);
+    int32_t tiles = (int32_t)e3d_tile_count(context->view);
     e3d_tables_set(context);
     e3d_share_tiles(context);
     e3d_pool_run(renderer->threads, keep_work, context);
@@ -121,7 +122,7 @@ static int keep_tiles(e3d_context *context)
 static int finish_tiles(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
-    int32_t tiles = (int32_t)e3d_tile_count(context);
+    int32_t tiles = (int32_t)e3d_tile_count(context->view);
     e3d_tiles(context);
     for (int32_t w = 0; w < renderer->threads; w++) {
         e3d_record_set *records = &renderer->workers[w]->pass[E3D_PASS_SCENE];
@@ -150,7 +151,7 @@ static int draw_round(e3d_context *context, e3d_stats *stats, e3d_round round)
 /* Whether rounds may pay: many items, which cover the picture more than once. */
 static int pay(const e3d_context *context)
 {
-    int64_t samples = (int64_t)context->viewport.width * context->viewport.height, covered = 0;
+    int64_t samples = (int64_t)context->view->viewport.width * context->view->viewport.height, covered = 0;
     if (!e3d_plans(context, E3D_PLAN_ROUNDS))
         return 0;
     if (context->frame->culling == E3D_CULLING_ALWAYS)
@@ -159,21 +160,21 @@ static int pay(const e3d_context *context)
         return 0;
     for (int32_t w = 0; w < context->renderer->threads; w++)
         covered += context->renderer->workers[w]->counters.blocks;
-    return !e3d_history_backs_off(context->history, covered, context->item_count) && covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
+    return !e3d_history_backs_off(context->view->history, covered, context->item_count) && covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 
 /* Whether most tiles can be drawn to their end with what the last frames showed: shading a tile while it lies in the caches pays
  * where few are drawn twice. */
 static int finish_early(const e3d_context *context)
 {
-    return e3d_plans(context, E3D_PLAN_FINISHES) && 8 * context->history->tiles_changed <= e3d_tile_count(context);
+    return e3d_plans(context, E3D_PLAN_FINISHES) && 8 * context->view->history->tiles_changed <= e3d_tile_count(context->view);
 }
 
 /* After the last round's geometry. */
 static int64_t count_changed_tiles(const e3d_context *context)
 {
     int64_t changed = 0;
-    for (int64_t tile = 0; tile < e3d_tile_count(context); tile++)
+    for (int64_t tile = 0; tile < e3d_tile_count(context->view); tile++)
         changed += e3d_has_bin(context, E3D_PASS_SCENE, tile);
     return changed;
 }
@@ -186,7 +187,7 @@ static int draw_remembered(e3d_context *context, e3d_stats *stats)
     e3d_round unseen = {.choice = E3D_UNSEEN_ITEMS, .end = end, .tested = 1, .last = 1};
     if (!draw_round(context, stats, seen) || !draw_round(context, stats, unseen))
         return 0;
-    context->history->tiles_changed = count_changed_tiles(context);
+    context->view->history->tiles_changed = count_changed_tiles(context);
     return 1;
 }
 

@@ -118,7 +118,7 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
         record->y[k] = c[k]->y;
         record->iw[k] = c[k]->iw;
     }
-    e3d_box box = e3d_sample_box(record->x, record->y, &context->viewport);
+    e3d_box box = e3d_sample_box(record->x, record->y, &context->view->viewport);
     if (box.x0 > box.x1 || box.y0 > box.y1 ||
         !depth_plane(c[0], c[1], c[2], area < 0 ? -area : area, &box, record))
         return;

@@ -57,7 +57,7 @@ static void show_numbers(const e3d_frame *frame, const e3d_worker *worker, e3d_b
 
 static void show_depth(const e3d_context *context, e3d_batch *batch)
 {
-    const float *v = context->view + 8;
+    const float *v = context->view->rows + 8;
     float near = context->frame->depth_near;
     float scale = 1.0f / (context->frame->depth_far - near);
     for (int i = 0; i < batch->count; i++) {
@@ -73,7 +73,7 @@ static void show_depth(const e3d_context *context, e3d_batch *batch)
 
 static void show_normal(const e3d_context *context, e3d_batch *batch)
 {
-    const float *v = context->view;
+    const float *v = context->view->rows;
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < batch->count; i++) {
             float n = (v[4 * k] * batch->normal[0][i] + v[4 * k + 1] * batch->normal[1][i]) +
@@ -103,7 +103,7 @@ static void light(const e3d_context *context, const e3d_group *group, e3d_batch 
 {
     const e3d_material *m = group->material;
     int shiny = e3d_adds(m->specular);
-    context->kernels->light(batch, &context->lighting, shiny ? m->shininess : 0.0f);
+    context->kernels->light(batch, &context->view->lighting, shiny ? m->shininess : 0.0f);
     context->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive);
 }
 
@@ -161,7 +161,7 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .base = m->color,
         .by_vertex = group->by_vertex,
         .by_instance = group->by_instance,
-        .lighting = lit ? &context->lighting : NULL,
+        .lighting = lit ? &context->view->lighting : NULL,
         .shininess = shiny ? m->shininess : 0.0f,
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,

@@ -3,10 +3,11 @@
 #include "e3d.h"
 #include "pipeline/frame.h"
 #include "pipeline/share.h"
+#include "pipeline/view.h"
 
 void e3d_share_tiles(e3d_context *context)
 {
-    int64_t tiles = e3d_tile_count(context);
+    int64_t tiles = e3d_tile_count(context->view);
     int threads = context->renderer->threads;
     for (int w = 0; w < threads; w++)
         for (int what = 0; what < E3D_TO_DO; what++) {

@@ -38,7 +38,7 @@ static const float *corners_of(const e3d_context *context, uint32_t id, const e3
 static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder *finder, e3d_visible_piece *piece)
 {
     const e3d_drawn_cluster *drawn = piece->drawn;
-    finder->draw = &context->draws[drawn->draw];
+    finder->draw = &context->draws->states[drawn->draw];
     finder->first = drawn->order;
     finder->instance = drawn->instance - (int32_t)finder->draw->instance_base;
     piece->local = drawn->faces[piece->local];
@@ -49,8 +49,8 @@ static void find_primitive(const e3d_context *context, uint32_t id, instance_fin
     uint32_t order = piece->record->order;
     piece->corners = corners_of(context, id, piece->record);
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
-        const e3d_turn *turn = e3d_find_turn(context, order);
-        const e3d_draw_state *draw = &context->draws[turn->draw];
+        const e3d_turn *turn = e3d_find_turn(context->draws, order);
+        const e3d_draw_state *draw = &context->draws->states[turn->draw];
         uint32_t primitives = (uint32_t)draw->primitives, instances = (order - turn->order) / primitives;
         finder->draw = draw;
         finder->instance = turn->instance + (int32_t)instances;
@@ -250,11 +250,11 @@ static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n,
     }
     int32_t m = s->matrix[n] = s->matrices++;
     for (int k = 0; k < 16; k++)
-        s->clip[k][m] = context->instances[instance].clip[k];
+        s->clip[k][m] = context->view->instances[instance].clip[k];
     for (int k = 0; k < 12; k++)
-        s->world[k][m] = context->instances[instance].world[k];
+        s->world[k][m] = context->draws->instances[instance].world[k];
     for (int k = 0; k < 9; k++)
-        s->normals[k][m] = context->instances[instance].normal[k];
+        s->normals[k][m] = context->draws->instances[instance].normal[k];
 }
 
 /* `out`: [component][vertex]; vertices that aren't there are 0. */
@@ -399,7 +399,7 @@ static void cut_planes(const e3d_context *context, const e3d_visible_piece *piec
 {
     const e3d_record *r = piece->record;
     const float *c = piece->corners;
-    e3d_box box = e3d_sample_box(r->x, r->y, &context->viewport);
+    e3d_box box = e3d_sample_box(r->x, r->y, &context->view->viewport);
     double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
     m = r->iw[1] > m ? r->iw[1] : m;
     m = r->iw[2] > m ? r->iw[2] : m;
@@ -452,7 +452,7 @@ void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d
     for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
         s->matrix[n] = s->matrix[s->count - 1];
     if (s->projected)
-        context->kernels->project(s, &context->viewport);
+        context->kernels->project(s, &context->view->viewport);
     context->kernels->surface(s, tile->x, tile->y, wanted);
     for (int32_t n = 0; n < s->count && s->irregular; n++) {
         const e3d_visible_piece *piece = &pieces[s->piece[n]];

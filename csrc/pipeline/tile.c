@@ -25,6 +25,7 @@
 #include "pipeline/spans.h"
 #include "pipeline/tile.h"
 #include "pipeline/tile_state.h"
+#include "pipeline/view.h"
 #include "pipeline/visible.h"
 
 /* ---- a record in a tile ---- */
@@ -36,7 +37,7 @@ static int prepare_piece(const e3d_context *context, const e3d_record *record, c
     for (int k = 0; k < 3; k++)
         if (!e3d_piece_edge(record, k, tile->x, tile->y, piece))
             return 0;
-    e3d_box box = e3d_sample_box(record->x, record->y, &context->viewport);
+    e3d_box box = e3d_sample_box(record->x, record->y, &context->view->viewport);
     piece->base_x = box.x0 - tile->x;
     piece->base_y = box.y0 - tile->y;
     piece->x0 = e3d_in_tile(box.x0 - tile->x);
@@ -146,7 +147,7 @@ static void find_edge_limits(tile_job *job)
 {
     e3d_tile_memory *memory = job->worker->tile;
     const e3d_visible_tile *visible = job->worker->visible;
-    float reach = (float)job->context->line_reach * (1.0f / 256.0f) + 0.5f;
+    float reach = (float)job->context->lines.reach * (1.0f / 256.0f) + 0.5f;
     for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
         memory->edge_limit[i] = E3D_BEYOND_FAR;
         if (visible->id[i] < 0)
@@ -415,7 +416,7 @@ static int draw_tile(e3d_context *context, e3d_worker *worker, int64_t number)
     tile_job job = {.context = context,
                     .worker = worker,
                     .number = number,
-                    .tile = e3d_tile_at(context, number),
+                    .tile = e3d_tile_at(context->view, number),
                     .state = e3d_tile_state_of(progress)};
     if (job.state != E3D_TILE_KEPT && !e3d_has_bins(context, number))
         return 1; /* it is cleared, or drawn as it should be */
@@ -471,5 +472,5 @@ void e3d_tiles(e3d_context *context)
 {
     e3d_tables_set(context);
     e3d_share_tiles(context);
-    e3d_pool_run(e3d_tile_count(context) > 2 ? context->renderer->threads : 1, tiles_work, context);
+    e3d_pool_run(e3d_tile_count(context->view) > 2 ? context->renderer->threads : 1, tiles_work, context);
 }

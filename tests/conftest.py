@@ -1,10 +1,18 @@
-"""What holds for every test: Ctrl-C works, whatever started pytest."""
+"""What holds for every test: Ctrl-C works, and processes start fast, whatever started pytest."""
 
+import os
+import shutil
 import signal
+import tempfile
 
 
-def pytest_configure():
+def pytest_configure(config):
     # A shell starts its background jobs with SIGINT ignored, and their children inherit that: the
     # tests that interrupt a frame or a command would wait for its end.
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    # Where Python may write no bytecode, each of the hundreds of processes that tests start would
+    # compile the package anew. They share what is compiled, outside the tree.
+    if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
+        folder = os.environ["PYTHONPYCACHEPREFIX"] = tempfile.mkdtemp(prefix="engine3d-bytecode-")
+        config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))

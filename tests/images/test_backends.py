@@ -33,8 +33,9 @@ def assert_same(frame, expected, outputs=tuple(OUTPUTS)):
             )
 
 
-@pytest.mark.parametrize("name", sorted(SCENES))
+# The backends of a picture follow each other, so that its reference is drawn once.
 @pytest.mark.parametrize("backend", [backend for backend in BACKENDS if backend != "scalar"])
+@pytest.mark.parametrize("name", sorted(SCENES))
 def test_same_bytes(backend, name):
     if backend not in e3d.backends():
         pytest.skip(f"{backend}: this build or CPU lacks it")

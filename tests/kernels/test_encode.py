@@ -1,5 +1,6 @@
 """encode against R33 and R34: colours, clamped, to bytes."""
 
+import functools
 import re
 from pathlib import Path
 
@@ -13,6 +14,7 @@ COUNT = 1 << 17
 GUARD = 64
 
 
+@functools.cache
 def srgb_thresholds():
     """The 255 stored thresholds, read from the C file."""
     text = TABLES.read_text("utf-8")

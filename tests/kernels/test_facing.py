@@ -4,6 +4,8 @@ Patches of triangles, most of them bent, some of a sample or less, get cones in 
 corners are on the screen the transform kernel tells.
 """
 
+import functools
+
 import numpy as np
 import pytest
 from kernels.harness import all_backends, kernels_of
@@ -92,7 +94,13 @@ def bytes_of(struct):
     return np.ascontiguousarray(struct).reshape(-1).view(np.uint8)
 
 
+@functools.cache
 def scenes():
+    """Each scene's patches, their clusters, the clip matrix, its facing and the viewport."""
+    return list(random_scenes())
+
+
+def random_scenes():
     rng = np.random.default_rng(11)
     viewport = viewport_of(WIDTH, HEIGHT)
     for _ in range(SCENES):

@@ -5,6 +5,8 @@ works in 64 bits; of the order of fragments only that matters that those of a tr
 follow each other, so both sides are sorted.
 """
 
+import functools
+
 import numpy as np
 import pytest
 from kernels.arithmetic import clamp, greatest, least
@@ -176,9 +178,12 @@ def in_order(ids, places, depths):
     return rows[:, np.lexsort(rows[:2])]
 
 
-@all_backends
-@pytest.mark.parametrize("kind", ["everywhere", "tiny", "boxes", "edges"])
-def test_fragments(kernels, kind):
+@functools.lru_cache(maxsize=1)  # the backends of a kind follow each other
+def batches(kind):
+    """Triangles, viewport and sizes of each batch, the calls it takes, what lists must then hold.
+
+    That is, of one call: the number of fragments, and of triangles that have some.
+    """
     rng = np.random.default_rng(3)
     choice = SIZES[:3] if kind == "edges" else SIZES
     chosen = np.array(choice)[rng.integers(0, len(choice), CALLS)]
@@ -191,16 +196,26 @@ def test_fragments(kernels, kind):
     covered &= (np.arange(SMALLS) < counts[:, None])[..., None]
     assert kind == "everywhere" or covered.sum() > 1000
     assert kind != "boxes" or (covered.reshape(-1, SIDE * SIDE).sum(axis=0) > 100).all()
+    made = []
     for n in range(BATCHES):
-        tiles = (sizes[:, n] + TILE - 1) // TILE
         calls = 1 + n % 3  # the same triangles again: chains go on
-        lists = Lists(tiles.prod(), calls)
-        for _ in range(calls):
-            made = lists.add(kernels, triangles[n : n + 1], viewport[n : n + 1], int(tiles[0]))
-            assert made == [covered[n].sum(), covered[n].any(axis=1).sum()]
         ids = np.broadcast_to(triangles["id"][n, :SMALLS, None], covered[n].shape)
         expected = [v[covered[n]] for v in (ids, places[n], bits(depths[n]))]
         expected = in_order(*(np.tile(values, calls) for values in expected))
+        numbers = [covered[n].sum(), covered[n].any(axis=1).sum()]
+        given = triangles[n : n + 1], viewport[n : n + 1], sizes[:, n]
+        made.append((given, calls, numbers, expected))
+    return made
+
+
+@all_backends
+@pytest.mark.parametrize("kind", ["everywhere", "tiny", "boxes", "edges"])
+def test_fragments(kernels, kind):
+    for n, ((triangles, viewport, size), calls, numbers, expected) in enumerate(batches(kind)):
+        tiles = (size + TILE - 1) // TILE
+        lists = Lists(tiles.prod(), calls)
+        for _ in range(calls):
+            assert lists.add(kernels, triangles, viewport, int(tiles[0])) == numbers
         assert np.array_equal(lists.fragments(), expected), f"batch {n}"
         if calls == 1:
             lists.check_order()

@@ -1,5 +1,7 @@
 """light and combine against R27 and R31."""
 
+import functools
+
 import numpy as np
 import pytest
 from kernels.arithmetic import ONE, ZERO, clamp, dot, greatest, power, unit
@@ -89,9 +91,10 @@ def random_normals(rng, batches):
     return np.where(rng.random(shape) < 0.02, hostile(rng, shape, rate=0.5), normal)
 
 
-@all_backends
-@pytest.mark.parametrize("shininess", SHININESS)
-def test_light(kernels, shininess):
+@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+def lit_batches(shininess):
+    """Batches, the arguments of light, and the energy and shine that it must give."""
+    made = []
     for seed in range(2):
         rng = np.random.default_rng(seed)
         batches = random_batches(rng)
@@ -105,12 +108,19 @@ def test_light(kernels, shininess):
         ambient = rng.random(3).astype(np.float32)
         light_clamp = np.float32([(0, np.inf), (0.1, 1)][seed])
         eye = np.float32([(0.5, 2, 4, 1), (0, 0.6, 0.8, 0)][seed])
-        reach = reach_of(lights)
+        lighting = ambient, light_clamp, eye, shininess
+        expected = lit(lights, *lighting, planes(position), planes(normal))
+        made.append((batches, (lights.view(np.uint8), reach_of(lights), *lighting), expected))
+    return made
+
+
+@all_backends
+@pytest.mark.parametrize("shininess", SHININESS)
+def test_light(kernels, shininess):
+    for template, arguments, (energy, shine) in lit_batches(shininess):
+        batches = template.copy()
         for row in batches.rows:
-            kernels.light(row, lights.view(np.uint8), reach, ambient, light_clamp, eye, shininess)
-        energy, shine = lit(
-            lights, ambient, light_clamp, eye, shininess, planes(position), planes(normal)
-        )
+            kernels.light(row, *arguments)
         counts = batches.fields["count"]
         for k in range(3):
             check_lanes(f"energy[{k}]", batches.fields["energy"][:, k], energy[k], counts)
@@ -119,10 +129,9 @@ def test_light(kernels, shininess):
         batches.check_gaps()
 
 
-@all_backends
-@pytest.mark.parametrize("count", [5, 270])
-def test_lights_out_of_reach(kernels, count):
-    """Most lights are left out, and never one that adds anything: batches lie close together."""
+@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+def close_batches(count):
+    """Batches of samples close together, so many lights, their energy at each sample."""
     rng = np.random.default_rng(count)
     batches = random_batches(rng)
     shape = batches.fields["position"].shape
@@ -139,10 +148,19 @@ def test_lights_out_of_reach(kernels, count):
     position[::50, 0] = np.nan  # nothing is left out
     batches.fields["position"], batches.fields["normal"] = position, normal
     ambient, light_clamp = np.float32([0.1, 0.2, 0.3]), np.float32([0, np.inf])
-    eye, reach = np.float32([0.5, 2, 4, 1]), reach_of(lights)
+    lighting = ambient, light_clamp, np.float32([0.5, 2, 4, 1]), 0.0
+    energy, _ = lit(lights, *lighting, planes(position), planes(normal))
+    return batches, (lights.view(np.uint8), reach_of(lights), *lighting), energy
+
+
+@all_backends
+@pytest.mark.parametrize("count", [5, 270])
+def test_lights_out_of_reach(kernels, count):
+    """Most lights are left out, and never one that adds anything."""
+    template, arguments, energy = close_batches(count)
+    batches = template.copy()
     for row in batches.rows:
-        kernels.light(row, lights.view(np.uint8), reach, ambient, light_clamp, eye, 0.0)
-    energy, _ = lit(lights, ambient, light_clamp, eye, 0.0, planes(position), planes(normal))
+        kernels.light(row, *arguments)
     for k in range(3):
         got = batches.fields["energy"][:, k]
         check_lanes(f"energy[{k}]", got, energy[k], batches.fields["count"])

@@ -1,5 +1,6 @@
 """paint: the pixels, or samples, of what each step's kernel gives; put: those of colours."""
 
+import functools
 import itertools
 
 import numpy as np
@@ -41,6 +42,15 @@ def random_samples(rng, batches):
         last = np.minimum(np.arange(BATCH + PAD), row["count"] - 1)
         row["sample"] = samples[last]
         row["surface"] = row["surface"][last]
+
+
+@functools.cache
+def surfaces_and_batches():
+    """The bytes of random surfaces, and batches of samples of them, to be copied."""
+    rng = np.random.default_rng(7)
+    surfaces, batches = random_surfaces(rng), random_batches(rng)
+    random_samples(rng, batches)
+    return bytes_of(surfaces), batches
 
 
 def random_texture(rng, filter_name, bits):
@@ -121,21 +131,24 @@ def step_by_step(kernels, row, batch, surfaces, m):
     return tile, kept(batch["color"][:, :count], batch["sample"][:count])
 
 
+@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+def random_materials(filter_name, lit, count):
+    rng, made = np.random.default_rng(7), []
+    depths = [16] if filter_name == "trilinear" else [8, 16]
+    for channel_bits in itertools.islice(itertools.cycle(depths), count):
+        texture = random_texture(rng, filter_name, channel_bits) if filter_name else None
+        made.append(random_material(rng, texture, lit))
+    return made
+
+
 @all_backends
 @pytest.mark.parametrize("filter_name", [None, *FILTERS])
 @pytest.mark.parametrize("lit", [False, True])
 def test_paint(kernels, filter_name, lit):
-    rng = np.random.default_rng(7)
-    surfaces, batches = random_surfaces(rng), random_batches(rng)
-    random_samples(rng, batches)
-    surfaces = bytes_of(surfaces)
-    differing = set()
-    depths = [16] if filter_name == "trilinear" else [8, 16]
-    for row, fields, channel_bits in zip(
-        batches.rows, batches.fields, itertools.cycle(depths), strict=False
-    ):
-        texture = random_texture(rng, filter_name, channel_bits) if filter_name else None
-        material = random_material(rng, texture, lit)
+    surfaces, batches = surfaces_and_batches()
+    batches, differing = batches.copy(), set()
+    materials = random_materials(filter_name, lit, len(batches.rows))
+    for row, fields, material in zip(batches.rows, batches.fields, materials, strict=True):
         tile, planes = np.full(SAMPLES + PAD, UNTOUCHED, np.uint32), untouched()
         before = row.copy()
         kernels.paint(row, surfaces, *material.values(), tile, planes)
@@ -177,8 +190,8 @@ def check_rows(room, source, done, pitch, step, size):
 def test_rows_written_meanwhile(kernels, size, start, many):
     """The pixels are as without; whole vectors of rows are written, as far as the samples go."""
     rng = np.random.default_rng(9)
-    surfaces, batches = bytes_of(random_surfaces(rng)), random_batches(rng)
-    random_samples(rng, batches)
+    surfaces, batches = surfaces_and_batches()
+    batches = batches.copy()
     source, room = rng.integers(1, 256, ROWS * 256, np.uint8), np.zeros((ROWS + 1) * 320, np.uint8)
     room, written = room[-room.ctypes.data % LINE + start :], 0
     steps, pitches = itertools.cycle([0, 256]), itertools.cycle([256, 320])
@@ -204,8 +217,7 @@ def test_rows_written_meanwhile(kernels, size, start, many):
 def test_put(kernels, srgb):
     """Each colour where its sample is, whatever stands behind the batch's end."""
     rng = np.random.default_rng(8)
-    batches = random_batches(rng)
-    random_samples(rng, batches)
+    batches = surfaces_and_batches()[1].copy()
     batches.fields["color"] = rng.random(batches.fields["color"].shape, np.float32)
     for row, fields in zip(batches.rows, batches.fields, strict=True):
         count, tile = int(fields["count"]), np.full(SAMPLES + PAD, UNTOUCHED, np.uint32)

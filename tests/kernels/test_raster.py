@@ -4,6 +4,8 @@ The oracle knows nothing of tiles: it evaluates each triangle's edge functions i
 sample of the tile. What the kernel is given is prepared as the pipeline does.
 """
 
+import collections
+import functools
 import itertools
 
 import numpy as np
@@ -141,24 +143,28 @@ EXPECTATIONS = {
 }
 
 
-def first_contents(rng, use):
-    """Depths and slots before the first piece."""
-    z = np.full((TILE, TILE), BEYOND_FAR)
-    slot = np.full((TILE, TILE), -1 if use in ("raster_depth", "raster_overwrite") else 0, np.int32)
+def first_depths(rng):
+    """Depths before the first piece."""
     if rng.random() < 0.5:
-        z = rng.choice(np.float32([-1, 0.25, 0.5, 1, BEYOND_FAR]), (TILE, TILE))
-    return z, slot
+        return np.full((TILE, TILE), BEYOND_FAR)
+    return rng.choice(np.float32([-1, 0.25, 0.5, 1, BEYOND_FAR]), (TILE, TILE))
 
 
-def draw_tile(kernels, rng, use, kind):
-    """Draw random pieces one after the other; return how many there were."""
+def first_slots(use):
+    """Slots before the first piece."""
+    return np.full((TILE, TILE), -1 if use in ("raster_depth", "raster_overwrite") else 0, np.int32)
+
+
+def random_pieces(rng, kind):
+    """What is drawn into a random tile: the samples shown, first depths, orders, and the pieces.
+
+    Each piece comes with the samples that its triangle covers, and its depth at all of them.
+    """
     width, height, tile_x, tile_y = random_tile(rng, kind)
     rows, columns = np.mgrid[0:TILE, 0:TILE]
     shown = (columns < width - tile_x) & (rows < height - tile_y)
-    z, slot = first_contents(rng, use)
-    tile = Tile(z, slot)
+    z, pieces = first_depths(rng), []
     orders = rng.permutation(PIECES_A_TILE).astype(np.uint32) // 3  # a few of one primitive
-    kernel, expect, drawn = getattr(kernels, use), EXPECTATIONS[use], 0
     for number in range(PIECES_A_TILE):
         corners = random_corners(rng, kind, tile_x, tile_y)
         triangle = Triangle(corners[:, 0], corners[:, 1], width, height)
@@ -169,23 +175,38 @@ def draw_tile(kernels, rng, use, kind):
             continue
         depth_plane(rng, piece)
         piece["slot"], piece["order"] = number, orders[number]
-        kernel(piece.view(np.uint8), *tile.buffers, orders)
-        expect(piece, covered, depth_at(piece, columns, rows), z, slot, orders)
+        pieces.append((piece, covered, depth_at(piece, columns, rows)))
+    return shown, z, orders, pieces
+
+
+@functools.cache
+def random_tiles():
+    """(kind, pieces) of each tile, the same for every kernel."""
+    rng = np.random.default_rng(3)
+    kinds = ["small", "medium", "centers", "sliver", "budget"]
+    chosen = itertools.islice(itertools.cycle(kinds), TILES)
+    return [(kind, random_pieces(rng, kind)) for kind in chosen]
+
+
+def draw_pieces(kernels, use, shown, first, orders, pieces):
+    """Draw pieces one after the other; after each the tile is as expected."""
+    z, slot = first.copy(), first_slots(use)
+    tile = Tile(z, slot)
+    for piece, covered, new in pieces:
+        getattr(kernels, use)(piece.view(np.uint8), *tile.buffers, orders)
+        EXPECTATIONS[use](piece, covered, new, z, slot, orders)
         tile.check(z, slot, shown)
-        drawn += 1
-    return drawn
 
 
 @all_backends
 @pytest.mark.parametrize("use", EXPECTATIONS)
 def test_random_pieces(kernels, use):
-    rng = np.random.default_rng(3)
-    kinds = ["small", "medium", "centers", "sliver", "budget"]
-    drawn = dict.fromkeys(kinds, 0)
-    for number in range(TILES):
-        kind = kinds[number % len(kinds)]
-        drawn[kind] += draw_tile(kernels, rng, use, kind)
-    assert min(drawn.values()) > 40 and sum(drawn.values()) * TILE * TILE > 10**6
+    drawn = collections.Counter()
+    for kind, (shown, z, orders, pieces) in random_tiles():
+        draw_pieces(kernels, use, shown, z, orders, pieces)
+        drawn[kind] += len(pieces)
+    assert len(drawn) == 5 and min(drawn.values()) > 40
+    assert sum(drawn.values()) * TILE * TILE > 10**6
 
 
 def test_budget_pieces_come_close_to_32_bits():
@@ -212,24 +233,26 @@ def rectangle(x0, y0, x1, y1):
         yield Triangle(corners[half, 0], corners[half, 1], TILE, TILE)
 
 
-@all_backends
-@pytest.mark.parametrize("use", EXPECTATIONS)
-def test_every_box(kernels, use):
-    """Half rectangles of every width at a third of the columns, and of random heights."""
+@functools.cache
+def half_boxes():
+    """First depths and the piece of half rectangles of every width at a third of the columns."""
     rows, columns = np.mgrid[0:TILE, 0:TILE]
-    expect, kernel = EXPECTATIONS[use], getattr(kernels, use)
-    everywhere = np.ones((TILE, TILE), bool)
-    orders = np.zeros(8, np.uint32)
-    rng = np.random.default_rng(5)
+    rng, made = np.random.default_rng(5), []
     for x0 in range(0, TILE, 3):
         for x1 in [*range(x0, min(x0 + 18, TILE)), TILE - 1]:
             y0, y1 = sorted(rng.integers(0, TILE, 2))
             for triangle in rectangle(x0, y0, x1, y1):
                 piece = piece_of(triangle, 0, 0)
                 piece["zmin"], piece["zmax"], piece["gx"], piece["slot"] = -1, 1, 1 / 64, 7
-                z, slot = first_contents(rng, use)
-                tile = Tile(z, slot)
-                kernel(piece.view(np.uint8), *tile.buffers, orders)
-                covered = triangle.covers(columns, rows)
-                expect(piece, covered, depth_at(piece, columns, rows), z, slot, orders)
-                tile.check(z, slot, everywhere)
+                covered, new = triangle.covers(columns, rows), depth_at(piece, columns, rows)
+                made.append((first_depths(rng), (piece, covered, new)))
+    return made
+
+
+@all_backends
+@pytest.mark.parametrize("use", EXPECTATIONS)
+def test_every_box(kernels, use):
+    """Each alone in a tile, of a random height."""
+    everywhere, orders = np.ones((TILE, TILE), bool), np.zeros(8, np.uint32)
+    for z, piece in half_boxes():
+        draw_pieces(kernels, use, everywhere, z, orders, [piece])

@@ -5,6 +5,8 @@ ones are told from the others: triangles of at most 2 x 2 samples (and sides of 
 that cover none of them; the records of the others of that size carry their cover.
 """
 
+import functools
+
 import numpy as np
 import pytest
 from kernels import layouts
@@ -198,10 +200,9 @@ def check_rows(got, expected, keep, counts):
 # ---- tests ----
 
 
-@all_backends
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("seed", [0, 1])
-def test_record(kernels, kind, seed):
+@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+def random_calls(kind, seed):
+    """The arguments of each call but what is written; numbers of triangles; the expected rows."""
     rng = np.random.default_rng(seed)
     choice = SIZES[:3] if kind == "steps" else SIZES
     sizes = np.array(choice)[rng.integers(0, len(choice), CALLS)]
@@ -215,10 +216,8 @@ def test_record(kernels, kind, seed):
     mirrored, told = rng.random(CALLS) < 0.5, rng.random(CALLS) < 0.8
     faces = rng.integers(0, 2**31, (CALLS, CLUSTER_TRIANGLES)).astype(np.int32)
     base = rng.integers(0, 2**32, CALLS, np.uint32)
-
-    out, spans, made = Records(OUT, CALLS), Records(SPANS, CALLS), np.empty(CALLS, int)
-    for n in range(CALLS):
-        made[n] = kernels.record(
+    arguments = [
+        (
             vertices[n : n + 1].view(np.uint8),
             indices[n].ravel(),
             triangles[n],
@@ -229,10 +228,9 @@ def test_record(kernels, kind, seed):
             int(base[n]),
             faces[n],
             viewport[n : n + 1].view(np.uint8),
-            out.rows[n],
-            spans.rows[n],
         )
-
+        for n in range(CALLS)
+    ]
     asked = triangles[:, :CLUSTER_TRIANGLES].astype(np.int64)
     order = base[:, None] + np.take_along_axis(faces, asked, 1).astype(np.uint32)
     corners = corners_of(vertices, indices, asked)
@@ -242,6 +240,17 @@ def test_record(kernels, kind, seed):
     covers = np.bincount(records["meta"][keep] >> layouts.RECORD_SHIFT, minlength=16)
     assert kind != "tiny" or (covers[1:] > 0).all()  # each comes up
     assert kind != "steps" or covers[15] > 0
+    return arguments, counts, records, tiles, keep
+
+
+@all_backends
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_record(kernels, kind, seed):
+    arguments, counts, records, tiles, keep = random_calls(kind, seed)
+    out, spans = Records(OUT, CALLS), Records(SPANS, CALLS)
+    calls = zip(arguments, out.rows, spans.rows, strict=True)
+    made = [kernels.record(*given, *written) for given, *written in calls]
     assert np.array_equal(made, keep.sum(axis=1))
     check_rows(out.fields["rows"], records, keep, counts)
     check_rows(spans.fields["rows"], tiles, keep, counts)

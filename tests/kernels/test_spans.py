@@ -69,11 +69,16 @@ class Scene:
         self.ids = np.arange(len(self.triangles), dtype=np.uint32)
         self.covers = covers_in(self.place, self.triangles)
 
-    @property
+    @functools.cached_property
     def layers(self):
         return np.sum(self.covers, axis=0)
 
-    @property
+    @functools.cached_property
+    def runs(self):
+        """Those of each record's cover."""
+        return [runs_of(covers) for covers in self.covers]
+
+    @functools.cached_property
     def alone(self):
         """Whether each covers only what no other covers."""
         return np.array([self.layers[covers].max(initial=0) < 2 for covers in self.covers])
@@ -122,7 +127,7 @@ def runs_of(covers):
 def check_list(fields, scene, numbers):
     """The pieces are those records that show anything, in order, each with its runs."""
     numbers = [number for number in numbers if scene.covers[number].any()]
-    runs = [runs_of(scene.covers[number]) for number in numbers]
+    runs = [scene.runs[number] for number in numbers]
     count = sum(map(len, runs))
     assert (fields["count"], fields["pieces"]) == (count, len(numbers))
     assert np.array_equal(fields["sample"][:count], np.concatenate([[], *runs]))
@@ -150,7 +155,7 @@ def check_spans(fields, scene):
         assert not np.delete(scene.covers[number], rows, axis=0).any()
         spans = fields["span"][entry["at"] :][: entry["y1"] - entry["y0"] + 1]
         spans = spans[spans >> RUN_LENGTH > 0]
-        assert np.array_equal(spans, runs_of(scene.covers[number]))
+        assert np.array_equal(spans, scene.runs[number])
 
 
 @all_backends

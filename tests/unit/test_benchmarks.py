@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -16,10 +17,11 @@ from engine3d.benchmarking import line_chart
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
-def report(name, *arguments):
-    """The JSON object that a benchmark prints."""
+def report(name, *arguments, **environment):
+    """The JSON object that a benchmark prints, with variables of the environment set."""
     command = [sys.executable, str(BENCHMARKS / name), "--json", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=HUNG)
+    environment = {**os.environ, **environment}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=HUNG)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
@@ -55,6 +57,7 @@ def test_simd_vs_scalar(tmp_path, suffix):
 
 
 @pytest.mark.slow
+@pytest.mark.experiment
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
 def test_compiler_flags():
     """Every instruction set has the bytes of plain C, which only fused operations change."""
@@ -80,11 +83,14 @@ def test_profile():
 
 
 @pytest.mark.slow
+@pytest.mark.experiment
 @pytest.mark.skipif(shutil.which("gprof") is None, reason="needs gprof")
 def test_profile_by_gprof():
+    """Of a build for a debugger, which is compiled in a third of the time."""
     pytest.importorskip("setuptools")
     small = ["--frames", "1", "--resolution", "64x36", "--workload", "lights", "--scenes", "40"]
-    functions = report("profile.py", *small, "--functions", "gprof")["functions"]
+    functions = report("profile.py", *small, "--functions", "gprof", ENGINE3D_BUILD="debug")
+    functions = functions["functions"]
     (found,) = functions.values()
     assert len(found) > 3 and 0 < sum(percent for percent, _ in found) < 100.5
 

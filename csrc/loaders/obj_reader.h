@@ -6,7 +6,7 @@
 #ifndef E3D_OBJ_READER_H
 #define E3D_OBJ_READER_H
 
-#include "e3d_loaders.h"
+#include "e3d_obj.h"
 #include "obj_lines.h"
 
 /* The most of anything that int32_t numbers. */

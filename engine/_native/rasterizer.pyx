@@ -16,8 +16,9 @@ from libc.string cimport memcpy, memset
 from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
 
 from e3d cimport *
-from e3d_pool cimport e3d_pool_run
 from e3d_scene cimport *
+
+from .scene_graph cimport NativeTree
 
 from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError
 
@@ -92,11 +93,6 @@ def best_backend():
 def thread_count():
     """How many threads the core takes when asked for 0."""
     return e3d_thread_count()
-
-
-def pool_address():
-    """Of what runs work on this module's threads, for another module of this package."""
-    return <size_t>&e3d_pool_run
 
 
 def bound_points(const float[:, ::1] points not None):

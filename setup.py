@@ -14,6 +14,7 @@ Everything that is not a rule of the build (name, version, dependencies) is in p
 
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -40,11 +41,6 @@ SANITIZERS = {
     "asan": ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     "tsan": ["-fsanitize=thread"],
 }
-ISA_FLAGS = {
-    "sse41": ["-msse4.1"],
-    "avx2": ["-mavx2"],
-    "avx512": ["-mavx512f", "-mavx512cd", "-mavx512bw", "-mavx512dq", "-mavx512vl"],
-}
 WARNINGS = ["-Wall", "-Wextra"]
 INCLUDE_DIRS = ["csrc/include", "csrc"]
 # What CFLAGS may hold that would change results is taken back: -ffast-math, -Ofast, -march=native,
@@ -69,7 +65,21 @@ COMMON_MODULE = f"{NATIVE}._common"
 # The kernels called one by one, for tests and benchmarks: built in place only, or on request.
 TESTING_MODULE = f"{NATIVE}.kernels_testing"
 
+
+def isa_flags():
+    """The flags of each set of kernels for x86-64, from the core's own list of backends."""
+    header = Path(__file__).with_name("csrc") / "include" / "e3d_backends.h"
+    _, _, rows = header.read_text("utf-8").partition("#define E3D_EACH_X86_BACKEND(X)")
+    rows = rows.partition("\n\n")[0].split("X(E3D_BACKEND_")[1:]
+    flags = {}
+    for row in rows:
+        name = re.match(r"\w+, (\w+)", row)[1]
+        flags[name] = [f"-m{instructions}" for instructions in re.findall(r'HAS\("(.+?)"\)', row)]
+    return flags
+
+
 BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
+ISA_FLAGS = isa_flags()
 IS_X86_64 = sysconfig.get_platform().endswith(("x86_64", "amd64"))
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data"}

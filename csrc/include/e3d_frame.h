@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "e3d_options.h"
 #include "e3d_draw.h"
 #include "e3d_light.h"
 #include "e3d_material.h"
@@ -12,30 +13,40 @@
 extern "C" {
 #endif
 
-typedef enum e3d_mode {
-    E3D_MODE_LIT = 0,
-    E3D_MODE_UNLIT,
-    E3D_MODE_RANDOM,
-    E3D_MODE_DEPTH,
-    E3D_MODE_NORMAL,
-    E3D_MODE_TRIANGLE_ID,
-    E3D_MODE_OBJECT_ID,
-    E3D_MODE_OVERDRAW
-} e3d_mode;
+#define E3D_EACH_MODE(X)                  \
+    X(E3D_MODE_LIT, lit)                  \
+    X(E3D_MODE_UNLIT, unlit)              \
+    X(E3D_MODE_RANDOM, random)            \
+    X(E3D_MODE_DEPTH, depth)              \
+    X(E3D_MODE_NORMAL, normal)            \
+    X(E3D_MODE_TRIANGLE_ID, triangle_id)  \
+    X(E3D_MODE_OBJECT_ID, object_id)      \
+    X(E3D_MODE_OVERDRAW, overdraw)
+typedef enum e3d_mode { E3D_EACH_MODE(E3D_ENUMERATOR) } e3d_mode;
 
-typedef enum e3d_cull { E3D_CULL_NONE = 0, E3D_CULL_BACK, E3D_CULL_FRONT } e3d_cull;
-typedef enum e3d_wireframe { E3D_WIRE_NONE = 0, E3D_WIRE_OVERLAY, E3D_WIRE_ONLY } e3d_wireframe;
-typedef enum e3d_hidden { E3D_HIDDEN_ZBUFFER = 0, E3D_HIDDEN_PAINTER, E3D_HIDDEN_NONE } e3d_hidden;
-typedef enum e3d_shading { E3D_SHADING_DEFERRED = 0, E3D_SHADING_FORWARD } e3d_shading;
-typedef enum e3d_normals { E3D_NORMALS_AUTO = 0, E3D_NORMALS_SMOOTH, E3D_NORMALS_FLAT } e3d_normals;
+#define E3D_EACH_CULL(X) X(E3D_CULL_NONE, none) X(E3D_CULL_BACK, back) X(E3D_CULL_FRONT, front)
+typedef enum e3d_cull { E3D_EACH_CULL(E3D_ENUMERATOR) } e3d_cull;
 
-/* What is left out before it is drawn; the picture is the same. */
-typedef enum e3d_culling {
-    E3D_CULLING_ALL = 0, /* outside the frustum, or behind what is drawn already */
-    E3D_CULLING_FRUSTUM,
-    E3D_CULLING_NONE,
-    E3D_CULLING_ALWAYS /* as ALL, and what is drawn already is tried against even where that cannot pay */
-} e3d_culling;
+#define E3D_EACH_WIREFRAME(X) X(E3D_WIRE_NONE, none) X(E3D_WIRE_OVERLAY, overlay) X(E3D_WIRE_ONLY, only)
+typedef enum e3d_wireframe { E3D_EACH_WIREFRAME(E3D_ENUMERATOR) } e3d_wireframe;
+
+#define E3D_EACH_HIDDEN(X) X(E3D_HIDDEN_ZBUFFER, zbuffer) X(E3D_HIDDEN_PAINTER, painter) X(E3D_HIDDEN_NONE, none)
+typedef enum e3d_hidden { E3D_EACH_HIDDEN(E3D_ENUMERATOR) } e3d_hidden;
+
+#define E3D_EACH_SHADING(X) X(E3D_SHADING_DEFERRED, deferred) X(E3D_SHADING_FORWARD, forward)
+typedef enum e3d_shading { E3D_EACH_SHADING(E3D_ENUMERATOR) } e3d_shading;
+
+#define E3D_EACH_NORMALS(X) X(E3D_NORMALS_AUTO, auto) X(E3D_NORMALS_SMOOTH, smooth) X(E3D_NORMALS_FLAT, flat)
+typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
+
+/* What is left out before it is drawn; the picture is the same. ALL: what is outside the frustum, or behind what is drawn
+ * already. ALWAYS: as ALL, and what is drawn already is tried against even where that cannot pay. */
+#define E3D_EACH_CULLING(X)            \
+    X(E3D_CULLING_ALL, all)            \
+    X(E3D_CULLING_FRUSTUM, frustum)    \
+    X(E3D_CULLING_NONE, none)          \
+    X(E3D_CULLING_ALWAYS, always)
+typedef enum e3d_culling { E3D_EACH_CULLING(E3D_ENUMERATOR) } e3d_culling;
 
 enum { E3D_MAX_SIZE = 16384 };
 

@@ -4,12 +4,16 @@
 
 #include <stdint.h>
 
+#include "e3d_options.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef enum e3d_light_kind { E3D_LIGHT_DIRECTIONAL = 0, E3D_LIGHT_POINT } e3d_light_kind;
-typedef enum e3d_falloff { E3D_FALLOFF_INVERSE_SQUARE = 0, E3D_FALLOFF_WINDOW } e3d_falloff;
+
+#define E3D_EACH_FALLOFF(X) X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) X(E3D_FALLOFF_WINDOW, window)
+typedef enum e3d_falloff { E3D_EACH_FALLOFF(E3D_ENUMERATOR) } e3d_falloff;
 
 typedef struct e3d_light {
     e3d_light_kind kind;

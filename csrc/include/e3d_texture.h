@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "e3d_options.h"
 #include "e3d_status.h"
 
 #ifdef __cplusplus
@@ -12,8 +13,11 @@ extern "C" {
 
 typedef struct e3d_texture e3d_texture;
 
-typedef enum e3d_filter { E3D_NEAREST = 0, E3D_BILINEAR, E3D_TRILINEAR } e3d_filter;
-typedef enum e3d_wrap { E3D_REPEAT = 0, E3D_CLAMP, E3D_MIRROR } e3d_wrap;
+#define E3D_EACH_FILTER(X) X(E3D_NEAREST, nearest) X(E3D_BILINEAR, bilinear) X(E3D_TRILINEAR, trilinear)
+typedef enum e3d_filter { E3D_EACH_FILTER(E3D_ENUMERATOR) } e3d_filter;
+
+#define E3D_EACH_WRAP(X) X(E3D_REPEAT, repeat) X(E3D_CLAMP, clamp) X(E3D_MIRROR, mirror)
+typedef enum e3d_wrap { E3D_EACH_WRAP(E3D_ENUMERATOR) } e3d_wrap;
 
 /* One mip level: linear RGBA texels, top row first, within a border of one texel: the other side's where the wrap is
  * E3D_REPEAT, else the nearest. */

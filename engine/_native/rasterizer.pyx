@@ -22,38 +22,30 @@ from .scene_graph cimport NativeTree
 
 from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError
 
-FILTERS = {"nearest": E3D_NEAREST, "bilinear": E3D_BILINEAR, "trilinear": E3D_TRILINEAR}
-WRAPS = {"repeat": E3D_REPEAT, "clamp": E3D_CLAMP, "mirror": E3D_MIRROR}
-FALLOFFS = {"inverse_square": E3D_FALLOFF_INVERSE_SQUARE, "window": E3D_FALLOFF_WINDOW}
-MODES = {
-    "lit": E3D_MODE_LIT,
-    "unlit": E3D_MODE_UNLIT,
-    "random": E3D_MODE_RANDOM,
-    "depth": E3D_MODE_DEPTH,
-    "normal": E3D_MODE_NORMAL,
-    "triangle_id": E3D_MODE_TRIANGLE_ID,
-    "object_id": E3D_MODE_OBJECT_ID,
-    "overdraw": E3D_MODE_OVERDRAW,
+
+cdef dict values_of(e3d_option option):
+    """The number of each name that may be chosen, in the core's order."""
+    values = {}
+    while e3d_option_name(option, <int32_t>len(values)) != NULL:
+        values[e3d_option_name(option, <int32_t>len(values)).decode()] = len(values)
+    return values
+
+
+CULLS = values_of(E3D_OPTION_CULL)
+CULLINGS = values_of(E3D_OPTION_CULLING)
+FALLOFFS = values_of(E3D_OPTION_FALLOFF)
+FILTERS = values_of(E3D_OPTION_FILTER)
+HIDDEN_SURFACES = values_of(E3D_OPTION_HIDDEN)
+MODES = values_of(E3D_OPTION_MODE)
+NORMALS = values_of(E3D_OPTION_NORMALS)
+SHADINGS = values_of(E3D_OPTION_SHADING)
+WIREFRAMES = {
+    None if name == "none" else name: value
+    for name, value in values_of(E3D_OPTION_WIREFRAME).items()
 }
-CULLS = {"none": E3D_CULL_NONE, "back": E3D_CULL_BACK, "front": E3D_CULL_FRONT}
-WIREFRAMES = {None: E3D_WIRE_NONE, "overlay": E3D_WIRE_OVERLAY, "only": E3D_WIRE_ONLY}
-HIDDEN_SURFACES = {
-    "zbuffer": E3D_HIDDEN_ZBUFFER,
-    "painter": E3D_HIDDEN_PAINTER,
-    "none": E3D_HIDDEN_NONE,
-}
-CULLINGS = {
-    "all": E3D_CULLING_ALL,
-    "frustum": E3D_CULLING_FRUSTUM,
-    "none": E3D_CULLING_NONE,
-    "always": E3D_CULLING_ALWAYS,
-}
-SHADINGS = {"deferred": E3D_SHADING_DEFERRED, "forward": E3D_SHADING_FORWARD}
-NORMALS = {"auto": E3D_NORMALS_AUTO, "smooth": E3D_NORMALS_SMOOTH, "flat": E3D_NORMALS_FLAT}
+WRAPS = values_of(E3D_OPTION_WRAP)
 # Every backend that the interface knows, whether this machine can run it or not.
-BACKENDS = {
-    e3d_backend_name(<e3d_backend>index).decode(): index for index in range(E3D_BACKEND_COUNT)
-}
+BACKENDS = values_of(E3D_OPTION_BACKEND)
 
 # Seconds of a frame between two looks at the pending signals: Ctrl-C feels immediate, and a busy
 # interpreter in another thread is not asked for the GIL more often than that.

@@ -27,6 +27,7 @@ cdef extern from *:
 def number():
     return e3d_number()
 """
+REAL_FILES = ("setup.py", "pyproject.toml", "engine/version.py", "csrc/include/e3d_backends.h")
 # Prints the number that the one module of the core gives.
 PROBE = """
 from glob import glob
@@ -57,7 +58,8 @@ def tiny_tree(source_tree, tmp_path):
     for name, text in files.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text, "utf-8")
-    for name in ("setup.py", "pyproject.toml", "engine/version.py"):
+    for name in REAL_FILES:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source_tree / name, tmp_path / name)
     return tmp_path
 

@@ -123,7 +123,14 @@ def reachable(graph, start):
 def enumerators(code):
     bodies = re.findall(r"\benum\s*\w*\s*\{([^}]*)\}", code)
     lists = [re.sub(r"\w*\([^()]*\)", "", body) for body in bodies]
-    return {word for names in lists for word in re.findall(r"(?:^|,)\s*([A-Za-z_]\w*)", names)}
+    tables = re.findall(r"#define E3D_EACH.*", joined(code))
+    of_tables = re.findall(r"\bX\((\w+),", " ".join(tables))
+    return {*of_tables, *re.findall(r"(?:^|,)\s*([A-Za-z_]\w*)", ",".join(lists))}
+
+
+def joined(code):
+    """Code whose lines go on to where they end without a backslash."""
+    return re.sub(r"\\\n", " ", code)
 
 
 def macros(code):

@@ -183,21 +183,21 @@ cdef extern from "e3d.h" nogil:
         e3d_culling culling
         const double *frozen_clip_from_world
 
+    ctypedef enum e3d_output_kind:
+        E3D_OUTPUTS
+
     ctypedef struct e3d_targets:
-        uint8_t *color
-        float *depth
-        float *ndc_depth
-        int32_t *triangle_id
-        int32_t *object_id
-        int32_t *instance_id
-        int32_t *material_id
-        float *albedo
-        float *normal
-        float *position
-        float *world_normal
-        float *world_position
-        float *uv
-        float *barycentric
+        pass
+
+    void e3d_targets_set(e3d_targets *targets, e3d_output_kind output, void *pixels)
+
+    ctypedef struct e3d_output_format:
+        const char *name
+        int32_t channels
+        int32_t bytes
+        int32_t is_float
+
+    const e3d_output_format E3D_OUTPUT_FORMATS[]
 
     ctypedef struct e3d_stats:
         int64_t draws

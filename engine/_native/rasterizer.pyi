@@ -23,6 +23,7 @@ CULLINGS: dict[str, int]
 SHADINGS: dict[str, int]
 NORMALS: dict[str, int]
 BACKENDS: dict[str, int]
+OUTPUTS: dict[str, tuple[str, int]]
 
 def backend_available(backend: int) -> bool: ...
 def best_backend() -> int: ...

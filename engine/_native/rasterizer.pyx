@@ -47,6 +47,18 @@ WRAPS = values_of(E3D_OPTION_WRAP)
 # Every backend that the interface knows, whether this machine can run it or not.
 BACKENDS = values_of(E3D_OPTION_BACKEND)
 
+
+cdef output_format(const e3d_output_format *format):
+    dtype = "float32" if format.is_float else "uint8" if format.bytes == 1 else "int32"
+    return dtype, format.channels if format.channels > 1 else 0
+
+
+cdef dict OUTPUT_NUMBERS = {E3D_OUTPUT_FORMATS[k].name.decode(): k for k in range(E3D_OUTPUTS)}
+# Of each output the dtype and the number of channels (0: no third axis).
+OUTPUTS = {
+    name: output_format(&E3D_OUTPUT_FORMATS[number]) for name, number in OUTPUT_NUMBERS.items()
+}
+
 # Seconds of a frame between two looks at the pending signals: Ctrl-C feels immediate, and a busy
 # interpreter in another thread is not asked for the GIL more often than that.
 cdef double SIGNAL_INTERVAL = 0.05
@@ -337,37 +349,19 @@ cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height)
     """Point the core at the arrays, whose shape and dtype are checked on the way."""
     memset(outputs, 0, sizeof(e3d_targets))
     for name, array in targets.items():
-        if name == "color":
-            outputs.color = bytes_of(array, width, height)
-        elif name == "depth":
-            outputs.depth = floats_of(array, width, height)
-        elif name == "ndc_depth":
-            outputs.ndc_depth = floats_of(array, width, height)
-        elif name == "triangle_id":
-            outputs.triangle_id = integers_of(array, width, height)
-        elif name == "object_id":
-            outputs.object_id = integers_of(array, width, height)
-        elif name == "instance_id":
-            outputs.instance_id = integers_of(array, width, height)
-        elif name == "material_id":
-            outputs.material_id = integers_of(array, width, height)
-        elif name == "albedo":
-            outputs.albedo = vectors_of(array, width, height, 3)
-        elif name == "normal":
-            outputs.normal = vectors_of(array, width, height, 3)
-        elif name == "position":
-            outputs.position = vectors_of(array, width, height, 3)
-        elif name == "world_normal":
-            outputs.world_normal = vectors_of(array, width, height, 3)
-        elif name == "world_position":
-            outputs.world_position = vectors_of(array, width, height, 3)
-        elif name == "uv":
-            outputs.uv = vectors_of(array, width, height, 2)
-        elif name == "barycentric":
-            outputs.barycentric = vectors_of(array, width, height, 3)
-        else:
+        number = OUTPUT_NUMBERS.get(name)
+        if number is None:
             raise InvalidArgumentError(f"no such output: {name!r}")
+        e3d_targets_set(outputs, number, pixels_of(array, &E3D_OUTPUT_FORMATS[number], width, height))
     return 0
+
+
+cdef void *pixels_of(array, const e3d_output_format *format, int width, int height) except NULL:
+    if format.bytes == 1:
+        return bytes_of(array, width, height)
+    if format.channels > 1:
+        return vectors_of(array, width, height, format.channels)
+    return floats_of(array, width, height) if format.is_float else <void *>integers_of(array, width, height)
 
 
 cdef uint8_t *bytes_of(uint8_t[:, :, ::1] array, int width, int height) except NULL:

@@ -1,8 +1,8 @@
 """Builds the C core, the Cython extensions and the list of packages.
 
 In:  csrc/ (the C core), engine/_native/*.pyx (its Python gateway), engine/ and data/ (packages).
-Out: static libraries, one for each instruction set; engine3d._native.*, each extension linked with
-     all of them; the packages engine3d.*.
+Out: static libraries, one for each instruction set; the extension engine3d._native._core, which
+     holds the core and the modules engine3d._native.*; the packages engine3d.*.
 
 Every backend must give the same bytes, hence these rules. The flags below come after the user's
 CFLAGS. The baseline is plain x86-64, so that only the ISA files hold code that an old CPU lacks.
@@ -14,6 +14,7 @@ Everything that is not a rule of the build (name, version, dependencies) is in p
 
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -40,11 +41,6 @@ SANITIZERS = {
     "asan": ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     "tsan": ["-fsanitize=thread"],
 }
-ISA_FLAGS = {
-    "sse41": ["-msse4.1"],
-    "avx2": ["-mavx2"],
-    "avx512": ["-mavx512f", "-mavx512cd", "-mavx512bw", "-mavx512dq", "-mavx512vl"],
-}
 WARNINGS = ["-Wall", "-Wextra"]
 INCLUDE_DIRS = ["csrc/include", "csrc"]
 # What CFLAGS may hold that would change results is taken back: -ffast-math, -Ofast, -march=native,
@@ -62,10 +58,28 @@ HYGIENE = [
 # Outside the kernels, where files and callers' arrays are read.
 HARDENING = ["-fstack-protector-strong", "-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=2"]
 LINK_FLAGS = ["-pthread", "-Wl,-z,relro,-z,now"]
+NATIVE = "engine3d._native"
+CORE_MODULE = f"{NATIVE}._core"
+# What Cython would otherwise write into every module, such as the code of memoryviews.
+COMMON_MODULE = f"{NATIVE}._common"
 # The kernels called one by one, for tests and benchmarks: built in place only, or on request.
-TESTING_MODULE = "engine3d._native.kernels_testing"
+TESTING_MODULE = f"{NATIVE}.kernels_testing"
+
+
+def isa_flags():
+    """The flags of each set of kernels for x86-64, from the core's own list of backends."""
+    header = Path(__file__).with_name("csrc") / "include" / "e3d_backends.h"
+    _, _, rows = header.read_text("utf-8").partition("#define E3D_EACH_X86_BACKEND(X)")
+    rows = rows.partition("\n\n")[0].split("X(E3D_BACKEND_")[1:]
+    flags = {}
+    for row in rows:
+        name = re.match(r"\w+, (\w+)", row)[1]
+        flags[name] = [f"-m{instructions}" for instructions in re.findall(r'HAS\("(.+?)"\)', row)]
+    return flags
+
 
 BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
+ISA_FLAGS = isa_flags()
 IS_X86_64 = sysconfig.get_platform().endswith(("x86_64", "amd64"))
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data"}
@@ -127,19 +141,28 @@ def static_libraries():
 
 
 def extensions():
-    """One extension for each .pyx of engine/_native, before Cython has translated it."""
+    """One extension of all .pyx files of engine/_native but one, which is another."""
+    parts = {CORE_MODULE: []}
+    for path in sorted(Path("engine/_native").glob("*.pyx")):
+        name = TESTING_MODULE if module_of(path) == TESTING_MODULE else CORE_MODULE
+        parts.setdefault(name, []).append(str(path))
     return [
         Extension(
-            f"engine3d._native.{path.stem}",
-            [str(path)],
+            name,
+            sources,
             include_dirs=INCLUDE_DIRS,
             # build_ext lists the static libraries once more after these, so their order is free.
-            libraries=[*(name for name, _ in static_libraries()), "m"],
+            libraries=[*(library for library, _ in static_libraries()), "m"],
             extra_compile_args=[*hardened_flags(), *GATEWAY_FLAGS.get(BUILD, [])],
             extra_link_args=[*LINK_FLAGS, *SANITIZERS.get(BUILD, [])],
         )
-        for path in sorted(Path("engine/_native").glob("*.pyx"))
+        for name, sources in parts.items()
     ]
+
+
+def module_of(source):
+    """The name of the module that a .pyx file becomes."""
+    return f"{NATIVE}.{Path(source).stem}"
 
 
 def packages():
@@ -214,14 +237,19 @@ class BuildExtensions(build_ext):
         super().run()
 
     def build_extensions(self):
-        jobs = sorted(self.extensions, key=lambda e: -os.path.getsize(e.sources[0]))
-        run_in_parallel(self.make_object, [(extension,) for extension in jobs])
+        jobs = [(e, module_of(source), source) for e in self.extensions for source in e.sources]
+        jobs.sort(key=lambda job: -os.path.getsize(job[2]))
+        common = [(e, COMMON_MODULE, None) for e in self.extensions if e.name == CORE_MODULE]
+        run_in_parallel(self.make_object, [*common, *jobs])
+        for extension in self.extensions:
+            extension.sources = []
+            extension.extra_objects.sort()
         super().build_extensions()
 
-    def make_object(self, extension):
-        """Leave `extension` without sources, but with the object to link."""
-        (source,) = extension.sources
-        translated = translate_changed(extension.name, source, Path(self.build_temp) / source)
+    def make_object(self, extension, name, source):
+        """Add the object of module `name` to those that `extension` links."""
+        folder = Path(self.build_temp, "engine", "_native")
+        translated = translate_changed(name, source, folder / f"{name.rpartition('.')[2]}.c")
         target = compile_changed(
             self.compiler,
             str(translated),
@@ -230,8 +258,7 @@ class BuildExtensions(build_ext):
             include_dirs=[*extension.include_dirs, *self.include_dirs],
             flags=extension.extra_compile_args,
         )
-        extension.sources = []
-        extension.extra_objects = [target]
+        extension.extra_objects.append(target)
 
     def build_extension(self, extension):
         library = self.get_finalized_command("build_clib")
@@ -254,12 +281,18 @@ def run_in_parallel(function, jobs):
 
 
 def translate_changed(name, source, target):
-    """Translate `source`, the .pyx file of module `name`, unless it was; return the C file."""
+    """Translate `source`, the .pyx file of module `name`, unless it was; return the C file.
+
+    The module of what the others have in common has no source.
+    """
     import Cython
 
-    target = target.with_suffix(".c")
-    command = [sys.executable, "-m", "cython", "-3", "-X", "embedsignature=True", "--depfile"]
-    command += ["-I", "csrc/pxd", "--module-name", name, source, "-o", str(target)]
+    command = [sys.executable, "-m", "cython", "--module-name", name]
+    if source is None:
+        command += ["--generate-shared", str(target)]
+    else:
+        command += ["-3", "-X", "embedsignature=True", "--depfile", "-I", "csrc/pxd"]
+        command += ["--shared", COMMON_MODULE, source, "-o", str(target)]
     # A build in isolation has a Cython of its own each time, so its version stands for its files.
     noted = [Cython.__version__, *command[1:]]
     needs = [path for path in prerequisites(f"{target}.dep") if not path.startswith("..")]

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import io
 import os
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._native import rasterizer as _native
 from ._native.images import encode_png
 from .atomic_write import atomic_write, checked_path
 from .choices import ImageFormat, Output
@@ -27,20 +28,8 @@ if TYPE_CHECKING:
 
 # Every output: dtype and number of channels (0: no third axis).
 OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
-    "color": (np.dtype(np.uint8), 4),
-    "depth": (np.dtype(np.float32), 0),
-    "ndc_depth": (np.dtype(np.float32), 0),
-    "triangle_id": (np.dtype(np.int32), 0),
-    "object_id": (np.dtype(np.int32), 0),
-    "instance_id": (np.dtype(np.int32), 0),
-    "material_id": (np.dtype(np.int32), 0),
-    "albedo": (np.dtype(np.float32), 3),
-    "normal": (np.dtype(np.float32), 3),
-    "position": (np.dtype(np.float32), 3),
-    "world_normal": (np.dtype(np.float32), 3),
-    "world_position": (np.dtype(np.float32), 3),
-    "uv": (np.dtype(np.float32), 2),
-    "barycentric": (np.dtype(np.float32), 3),
+    cast(Output, name): (np.dtype(dtype), channels)
+    for name, (dtype, channels) in _native.OUTPUTS.items()
 }
 
 # File name suffix -> (Pillow's format, what it is saved with).

@@ -18,9 +18,8 @@
 
 const char *e3d_backend_name(e3d_backend backend)
 {
-    static const char *const names[E3D_BACKEND_COUNT] = {"scalar", "portable", "sse41", "avx2",
-                                                         "avx512"};
-    return (unsigned)backend < E3D_BACKEND_COUNT ? names[backend] : "unknown";
+    const char *name = e3d_option_name(E3D_OPTION_BACKEND, (int32_t)backend);
+    return name ? name : "unknown";
 }
 
 int e3d_backend_available(e3d_backend backend)
@@ -29,12 +28,10 @@ int e3d_backend_available(e3d_backend backend)
     case E3D_BACKEND_SCALAR:
     case E3D_BACKEND_PORTABLE: return 1;
 #ifdef E3D_HAVE_X86 /* __builtin_cpu_supports also asks whether the system saves the registers */
-    case E3D_BACKEND_SSE41: return __builtin_cpu_supports("sse4.1") != 0;
-    case E3D_BACKEND_AVX2: return __builtin_cpu_supports("avx2") != 0;
-    case E3D_BACKEND_AVX512:
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
-               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-               __builtin_cpu_supports("avx512vl");
+#define HAS(instructions) __builtin_cpu_supports(instructions)
+#define AVAILABLE(backend, name, has_all) \
+    case backend: return (has_all) != 0;
+        E3D_EACH_X86_BACKEND(AVAILABLE)
 #endif
     default: return 0;
     }

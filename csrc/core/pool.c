@@ -219,16 +219,8 @@ static void run_job(int helpers, void (*work)(void *, int), void *argument)
     e3d_helping_note(&pool.helping, &times, now);
 }
 
-static e3d_pool_runner borrowed; /* NULL: this copy's own pool */
-
-void e3d_pool_borrow(e3d_pool_runner runner) { borrowed = runner; }
-
 void e3d_pool_run(int threads, void (*work)(void *, int), void *argument)
 {
-    if (borrowed) {
-        borrowed(threads, work, argument);
-        return;
-    }
     pthread_once(&fork_guard, guard_fork);
     if (threads > E3D_MAX_THREADS)
         threads = E3D_MAX_THREADS;

@@ -8,11 +8,6 @@
  * counter, not by the worker's number. */
 void e3d_pool_run(int threads, void (*work)(void *argument, int worker), void *argument);
 
-/* Extension modules are linked with a copy of this file each: those that borrow another one's e3d_pool_run make no threads of
- * their own. */
-typedef void (*e3d_pool_runner)(int threads, void (*work)(void *argument, int worker), void *argument);
-void e3d_pool_borrow(e3d_pool_runner runner);
-
 /* Runs task(argument, i) for i = 0 .. tasks - 1, each once, shared out over up to `threads` threads. */
 void e3d_pool_share(int threads, int tasks, void (*task)(void *argument, int i), void *argument);
 

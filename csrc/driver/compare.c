@@ -17,38 +17,23 @@
 
 #include "driver/scenes.h"
 
-enum { OUTPUTS = 14 };
-
-typedef struct output {
-    const char *name;
-    int channels, is_float, bytes; /* bytes a channel */
-} output;
-
-static const output LAYOUT[OUTPUTS] = {
-    {"color", 4, 0, 1},       {"depth", 1, 1, 4},        {"ndc_depth", 1, 1, 4},
-    {"triangle_id", 1, 0, 4}, {"object_id", 1, 0, 4},    {"instance_id", 1, 0, 4},
-    {"material_id", 1, 0, 4}, {"albedo", 3, 1, 4},       {"normal", 3, 1, 4},
-    {"position", 3, 1, 4},    {"world_normal", 3, 1, 4}, {"world_position", 3, 1, 4},
-    {"uv", 2, 1, 4},          {"barycentric", 3, 1, 4},
-};
-
 /* One run's outputs; NULL where not asked for. */
 typedef struct picture {
-    void *arrays[OUTPUTS];
+    void *arrays[E3D_OUTPUTS];
     size_t pixels;
     e3d_status status;
 } picture;
 
 static size_t output_size(const picture *p, int k)
 {
-    return p->pixels * (size_t)(LAYOUT[k].channels * LAYOUT[k].bytes);
+    return p->pixels * (size_t)(E3D_OUTPUT_FORMATS[k].channels * E3D_OUTPUT_FORMATS[k].bytes);
 }
 
 /* Bit k of `mask` asks for output k. */
 static picture picture_create(size_t pixels, uint32_t mask, int poison)
 {
     picture p = {.pixels = pixels};
-    for (int k = 0; k < OUTPUTS; k++) {
+    for (int k = 0; k < E3D_OUTPUTS; k++) {
         if (!(mask >> k & 1))
             continue;
         p.arrays[k] = malloc(output_size(&p, k));
@@ -61,21 +46,22 @@ static picture picture_create(size_t pixels, uint32_t mask, int poison)
 
 static void picture_destroy(picture *p)
 {
-    for (int k = 0; k < OUTPUTS; k++)
+    for (int k = 0; k < E3D_OUTPUTS; k++)
         free(p->arrays[k]);
 }
 
 static e3d_targets picture_targets(const picture *p)
 {
-    void *const *a = p->arrays;
-    return (e3d_targets){a[0], a[1], a[2], a[3],  a[4],  a[5],  a[6],
-                         a[7], a[8], a[9], a[10], a[11], a[12], a[13]};
+    e3d_targets targets;
+    for (int k = 0; k < E3D_OUTPUTS; k++)
+        e3d_targets_set(&targets, k, p->arrays[k]);
+    return targets;
 }
 
 static uint64_t picture_hash(const picture *p)
 {
     uint64_t hash = HASH_START ^ (uint64_t)p->status;
-    for (int k = 0; k < OUTPUTS && p->status == E3D_OK; k++)
+    for (int k = 0; k < E3D_OUTPUTS && p->status == E3D_OK; k++)
         if (p->arrays[k] != NULL)
             hash = hash_bytes(hash, p->arrays[k], output_size(p, k));
     return hash;
@@ -92,12 +78,12 @@ static int complain(const char *title, const char *run, const char *name, const 
 static int has_no_nan(const picture *p, const char *title, const char *run)
 {
     int fine = 1;
-    for (int k = 0; k < OUTPUTS && p->status == E3D_OK; k++) {
+    for (int k = 0; k < E3D_OUTPUTS && p->status == E3D_OK; k++) {
         const float *values = p->arrays[k];
-        size_t count = p->pixels * (size_t)LAYOUT[k].channels;
-        for (size_t i = 0; LAYOUT[k].is_float && values != NULL && i < count; i++)
+        size_t count = p->pixels * (size_t)E3D_OUTPUT_FORMATS[k].channels;
+        for (size_t i = 0; E3D_OUTPUT_FORMATS[k].is_float && values != NULL && i < count; i++)
             if (isnan(values[i])) {
-                fine = complain(title, run, LAYOUT[k].name, "is NaN", i);
+                fine = complain(title, run, E3D_OUTPUT_FORMATS[k].name, "is NaN", i);
                 break;
             }
     }
@@ -109,14 +95,14 @@ static int same_picture(const picture *a, const picture *b, const char *title, c
     if (a->status != b->status)
         return complain(title, run, "the status", e3d_status_text(b->status), 0);
     int same = 1;
-    for (int k = 0; k < OUTPUTS && a->status == E3D_OK; k++) {
+    for (int k = 0; k < E3D_OUTPUTS && a->status == E3D_OK; k++) {
         const uint8_t *left = a->arrays[k], *right = b->arrays[k];
         if (left == NULL || memcmp(left, right, output_size(a, k)) == 0)
             continue;
         size_t i = 0;
         while (left[i] == right[i])
             i++;
-        same = complain(title, run, LAYOUT[k].name, "differs", i / (size_t)LAYOUT[k].bytes);
+        same = complain(title, run, E3D_OUTPUT_FORMATS[k].name, "differs", i / (size_t)E3D_OUTPUT_FORMATS[k].bytes);
     }
     return same;
 }
@@ -239,7 +225,7 @@ outcome compare_scene(random_stream r, const run_plan *plan, const char *title)
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title)
 {
     clip_triangles t = clip_triangles_create(&r, plan->most_side);
-    uint32_t mask = 1u << 2 | 1u << 3 | 1u << 13;
+    uint32_t mask = 1u << E3D_OUTPUT_NDC_DEPTH | 1u << E3D_OUTPUT_TRIANGLE_ID | 1u << E3D_OUTPUT_BARYCENTRIC;
     drawing all = {draw_clip_triangles, &t, (size_t)t.width * (size_t)t.height, mask};
     outcome result = compare(&all, plan, title);
     clip_triangles_destroy(&t);

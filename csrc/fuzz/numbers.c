@@ -5,7 +5,7 @@
  * Claims: a reader that takes word after word finds the same numbers, with strtod's bits; a walk by floor() the same
  *      lists; indices are those numbers that are whole and in range.
  */
-#include "e3d_loaders.h"
+#include "e3d_numbers.h"
 #include "fuzz/input.h"
 #include "loaders/number_text.h"
 

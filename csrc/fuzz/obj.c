@@ -1,9 +1,9 @@
 /* Fuzzes the reading of OBJ files, and the welding of what they hold.
  *
- * Claims: read at once or in pieces, a file gives the same; what a file gives is in range, as e3d_loaders.h says;
+ * Claims: read at once or in pieces, a file gives the same; what a file gives is in range, as e3d_obj.h says;
  * so are its faces, once welded.
  */
-#include "e3d_loaders.h"
+#include "e3d_obj.h"
 #include "fuzz/input.h"
 
 static void read_in_pieces(const uint8_t *bytes, size_t size, e3d_obj *obj)

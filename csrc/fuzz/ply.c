@@ -4,7 +4,7 @@
  * Claims: a walk that cannot overflow finds the same; lists of one length are told from others; copies are the
  *      body's bytes, in this machine's order.
  */
-#include "e3d_loaders.h"
+#include "e3d_ply.h"
 #include "fuzz/input.h"
 
 enum { MOST_LISTS = 3 };

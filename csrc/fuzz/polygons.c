@@ -4,7 +4,7 @@
  * Claims: an index out of range is found; triangles have corners of their polygon, three different ones; all edges of a
  *      polygon are shown once, and with enough tests none is cut as a fan.
  */
-#include "e3d_loaders.h"
+#include "e3d_surfaces.h"
 #include "fuzz/input.h"
 
 enum { MOST_CORNERS = 256, MOST_POSITIONS = 32, ENOUGH = 100000000 };

@@ -3,7 +3,7 @@
  * In:  a byte each: columns, rows a record, gap behind a record, whether floats; then the records.
  * Claims: a row's number is that of an equal row; no two numbers' rows are equal; numbers come in order.
  */
-#include "e3d_loaders.h"
+#include "e3d_rows.h"
 #include "fuzz/input.h"
 
 static size_t row_size;

@@ -5,7 +5,7 @@
  *      corners has none; triangles wound the other way round add the opposite, to the bit; of the sides between two points the first is
  *      an edge, and no other.
  */
-#include "e3d_loaders.h"
+#include "e3d_surfaces.h"
 #include "fuzz/input.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  * In:  a byte each: the number of positions, which lists there are; then three bytes a corner.
  * Claims: a corner's vertex has the corner's indices; vertices stand in order, so that none is there twice.
  */
-#include "e3d_loaders.h"
+#include "e3d_rows.h"
 #include "fuzz/input.h"
 
 enum { POSITION, UV, NORMAL, LISTS };

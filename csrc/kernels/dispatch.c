@@ -9,9 +9,9 @@ const e3d_kernels *e3d_kernels_for(e3d_backend backend)
     switch (backend) {
     case E3D_BACKEND_PORTABLE: return &e3d_kernels_portable;
 #ifdef E3D_HAVE_X86
-    case E3D_BACKEND_SSE41: return &e3d_kernels_sse41;
-    case E3D_BACKEND_AVX2: return &e3d_kernels_avx2;
-    case E3D_BACKEND_AVX512: return &e3d_kernels_avx512;
+#define KERNELS(backend, name, ...) \
+    case backend: return &e3d_kernels_##name;
+        E3D_EACH_X86_BACKEND(KERNELS)
 #endif
     default: return NULL;
     }

@@ -101,9 +101,8 @@ const e3d_kernels *e3d_kernels_for(e3d_backend backend);
 
 extern const e3d_kernels e3d_kernels_portable;
 #ifdef E3D_HAVE_X86
-extern const e3d_kernels e3d_kernels_sse41;
-extern const e3d_kernels e3d_kernels_avx2;
-extern const e3d_kernels e3d_kernels_avx512;
+#define E3D_DECLARE_KERNELS(backend, name, ...) extern const e3d_kernels e3d_kernels_##name;
+E3D_EACH_X86_BACKEND(E3D_DECLARE_KERNELS)
 #endif
 
 #endif

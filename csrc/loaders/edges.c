@@ -7,7 +7,7 @@
  */
 #include <stdlib.h>
 
-#include "e3d_loaders.h"
+#include "e3d_surfaces.h"
 
 /* A wanted side of two different points. */
 typedef struct side {

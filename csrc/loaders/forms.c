@@ -4,7 +4,7 @@
  *      form's lines, row after row, and where marks stand between them.
  * Always: a line of no form ends the reading, so that whoever asked can take it, or tell what is wrong with it.
  */
-#include "e3d_loaders.h"
+#include "e3d_forms.h"
 
 #include "core/grow.h"
 #include "number_text.h"

@@ -5,7 +5,7 @@
  * sums are made of blocks of triangles, and then of the blocks' sums: docs of engine3d.normals.
  * Always: what is not finite adds zero, and so does a triangle without area.
  */
-#include "e3d_loaders.h"
+#include "e3d_surfaces.h"
 
 #include "core/fpenv.h"
 

@@ -3,7 +3,7 @@
  * In:  numbers as e3d_read_numbers() gives them. Out: where rows of lists stand, their items, indices.
  * Always: a number is a length or an index only if it is whole and in range; NaN is neither.
  */
-#include "e3d_loaders.h"
+#include "e3d_numbers.h"
 
 #include <math.h>
 

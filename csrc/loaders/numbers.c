@@ -3,7 +3,7 @@
  * In:  bytes, the last of which is a blank or ends a line. Out: all numbers, and how many each line holds.
  * Always: lines end in LF, CR or both; those without a number count for nothing.
  */
-#include "e3d_loaders.h"
+#include "e3d_numbers.h"
 
 #include "core/large_pages.h"
 #include "number_text.h"

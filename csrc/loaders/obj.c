@@ -8,40 +8,12 @@
 #include "decimal.h"
 #include "obj_reader.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Statements that change nothing that is drawn here. */
 static const char *const ignored[] = {"lod",      "shadow_obj", "trace_obj", "bevel",
                                       "c_interp", "d_interp",   "vp",        "mg"};
-
-bool obj_fail(e3d_obj *obj, e3d_obj_problem problem)
-{
-    obj->error = (e3d_obj_error){.problem = problem};
-    return false;
-}
-
-bool obj_fail_at(e3d_obj *obj, e3d_obj_error error, const uint8_t *word, const uint8_t *end)
-{
-    error.place.word_length = (size_t)(end - word);
-    if (obj_keep_name(obj, word, end, &error.place.word))
-        obj->error = error;
-    return false;
-}
-
-bool obj_keep_name(e3d_obj *obj, const uint8_t *word, const uint8_t *end, size_t *start)
-{
-    e3d_array *names = &obj->reader->names;
-    const size_t length = (size_t)(end - word);
-    if (length > UINT32_MAX - names->count)
-        return obj_fail(obj, E3D_OBJ_TOO_LARGE);
-    if (!e3d_array_reserve(names, names->count + length, 1))
-        return obj_fail(obj, E3D_OBJ_NO_MEMORY);
-    if (length)
-        memcpy((uint8_t *)names->data + names->count, word, length);
-    *start = names->count;
-    names->count += length;
-    return true;
-}
 
 static bool is_word(const uint8_t *at, const uint8_t *end, const char *word)
 {
@@ -115,28 +87,6 @@ static bool read_other(e3d_obj *obj, const obj_line *line, const uint8_t *keywor
     return add_setter(obj, E3D_OBJ_UNKNOWN, line, keyword, keyword_end);
 }
 
-/* Whether a line, whose blanks are skipped, begins with a keyword of two letters, or of one where `second` is 0. */
-static inline bool begins(const obj_line *line, char first, char second)
-{
-    const uint8_t *at = line->at;
-    return at[0] == (uint8_t)first && (second ? at[1] == (uint8_t)second && e3d_is_gap(at[2])
-                                              : e3d_is_gap(at[1]));
-}
-
-obj_element_kind obj_elements_of(obj_line *line)
-{
-    line->at = obj_skip_gaps(line->at, line->end);
-    if (line->at == line->end)
-        return OBJ_ELEMENT_KINDS;
-    const obj_element_kind kind = begins(line, 'f', 0) || begins(line, 'f', 'o') ? OBJ_FACES
-                                  : begins(line, 'l', 0)                         ? OBJ_LINES
-                                  : begins(line, 'p', 0)                         ? OBJ_POINTS
-                                                                                 : OBJ_ELEMENT_KINDS;
-    if (kind != OBJ_ELEMENT_KINDS)
-        line->at = obj_word_end(line->at, line->end);
-    return kind;
-}
-
 static bool read_line(e3d_obj *obj, obj_line *line)
 {
     const obj_element_kind kind = obj_elements_of(line);
@@ -146,7 +96,7 @@ static bool read_line(e3d_obj *obj, obj_line *line)
         return obj_read_corners(obj, kind, line);
     const uint8_t *const keyword_end = obj_word_end(line->at, line->end);
     for (int list = 0; list < E3D_OBJ_LISTS; list++)
-        if (begins(line, 'v', "\0tn"[list])) {
+        if (obj_begins(line, 'v', "\0tn"[list])) {
             line->at = keyword_end;
             return obj_read_row(obj, (e3d_obj_list)list, line);
         }

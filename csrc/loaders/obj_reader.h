@@ -1,12 +1,12 @@
 /* What reading an OBJ file keeps while it goes on, and the pieces of the work.
  *
  * obj.c takes line after line; obj_rows.c reads lists of numbers, obj_corners.c faces, lines and points;
- * obj_check.c checks at the end what needs all lists.
+ * obj_check.c checks at the end what needs all lists; obj_errors.c keeps what is wrong.
  */
 #ifndef E3D_OBJ_READER_H
 #define E3D_OBJ_READER_H
 
-#include "e3d_loaders.h"
+#include "e3d_obj.h"
 #include "obj_lines.h"
 
 /* The most of anything that int32_t numbers. */
@@ -14,8 +14,6 @@
 /* An index that is 0, or negative and too large. A positive one beyond all lists is OBJ_MOST. */
 #define OBJ_OUTSIDE (-2)
 #define OBJ_NONE (-1)
-
-typedef enum obj_element_kind { OBJ_FACES, OBJ_LINES, OBJ_POINTS, OBJ_ELEMENT_KINDS } obj_element_kind;
 
 typedef struct obj_elements {
     e3d_array sizes, indices[E3D_OBJ_LISTS];
@@ -47,8 +45,5 @@ bool obj_keep_name(e3d_obj *obj, const uint8_t *word, const uint8_t *end, size_t
 /* Notes an error; always false. */
 bool obj_fail(e3d_obj *obj, e3d_obj_problem problem);
 bool obj_fail_at(e3d_obj *obj, e3d_obj_error error, const uint8_t *word, const uint8_t *end);
-
-/* The elements that a line holds, with line->at behind the keyword; OBJ_ELEMENT_KINDS for none. */
-obj_element_kind obj_elements_of(obj_line *line);
 
 #endif

@@ -6,7 +6,7 @@
  *      believes the places that it found.
  */
 #include "core/always_inline.h"
-#include "e3d_loaders.h"
+#include "e3d_ply.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
  * clipped in the plane of two axes that they cover most of.
  * Every operation is one of + - * in double precision, in the order written here.
  */
-#include "e3d_loaders.h"
+#include "e3d_surfaces.h"
 
 #include "core/fpenv.h"
 #include "loaders/ears.h"

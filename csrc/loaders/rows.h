@@ -8,7 +8,7 @@
 #define E3D_LOADERS_ROWS_H
 
 #include "core/always_inline.h"
-#include "e3d_loaders.h"
+#include "e3d_rows.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
  * sorted where they are many. So the vertices stand in the order of (position, uv, normal), as the
  * positions of a file do, which keeps neighbours together.
  */
-#include "e3d_loaders.h"
+#include "e3d_rows.h"
 
 #include <stdlib.h>
 #include <string.h>

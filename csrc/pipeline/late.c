@@ -2,6 +2,7 @@
  * many at once hold up the core. A tile's rows wait until the next one is shaded; after them come those of blank tiles.
  */
 #include "core/limits.h"
+#include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
 #include "pipeline/blank.h"

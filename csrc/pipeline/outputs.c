@@ -18,26 +18,17 @@
 #include "pipeline/surface.h"
 #include "pipeline/tile.h"
 
-enum { FLOAT_INFINITY = 0x7F800000 };
-
 /* Of each output: words a pixel, and the background's, all alike. */
 static const struct {
     int channels;
-    int32_t background;
+    union {
+        int32_t as_int32_t;
+        float as_float;
+        uint8_t as_uint8_t;
+    } background;
 } KINDS[E3D_OUTPUTS] = {
-    [E3D_OUTPUT_NDC_DEPTH] = {1, FLOAT_INFINITY},
-    [E3D_OUTPUT_DEPTH] = {1, 0},
-    [E3D_OUTPUT_TRIANGLE_ID] = {1, -1},
-    [E3D_OUTPUT_OBJECT_ID] = {1, -1},
-    [E3D_OUTPUT_INSTANCE_ID] = {1, -1},
-    [E3D_OUTPUT_MATERIAL_ID] = {1, -1},
-    [E3D_OUTPUT_ALBEDO] = {3, 0},
-    [E3D_OUTPUT_NORMAL] = {3, 0},
-    [E3D_OUTPUT_POSITION] = {3, 0},
-    [E3D_OUTPUT_WORLD_NORMAL] = {3, 0},
-    [E3D_OUTPUT_WORLD_POSITION] = {3, 0},
-    [E3D_OUTPUT_UV] = {2, 0},
-    [E3D_OUTPUT_BARYCENTRIC] = {3, 0},
+#define KIND(output, name, type, channels, background, ...) {channels, {.as_##type = background}},
+    E3D_EACH_OUTPUT(KIND)
 };
 
 /* A tile's pixels are E3D_TILE apart from row to row; the last place is of samples that stand for none. */
@@ -45,15 +36,11 @@ enum { NO_PIXEL = E3D_TILE_SAMPLES, PLACES = E3D_TILE_SAMPLES + E3D_PAD };
 
 int e3d_outputs_prepare(e3d_context *context)
 {
-    const e3d_targets *t = context->targets;
-    void *const targets[E3D_OUTPUTS] = {
-        t->ndc_depth, t->depth,    t->triangle_id,  t->object_id,      t->instance_id, t->material_id, t->albedo,
-        t->normal,    t->position, t->world_normal, t->world_position, t->uv,          t->barycentric,
-    };
     size_t words = 0;
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        context->outputs[k] = (e3d_output){targets[k], words};
-        words += targets[k] ? (size_t)KINDS[k].channels * PLACES : 0;
+        void *target = k == E3D_OUTPUT_COLOR ? NULL : e3d_targets_get(context->targets, k); /* which others resolve */
+        context->outputs[k] = (e3d_output){target, words};
+        words += target ? (size_t)KINDS[k].channels * PLACES : 0;
     }
     for (int32_t w = 0; w < context->renderer->threads; w++)
         if (!e3d_array_reserve(&context->renderer->workers[w]->outputs, words, sizeof(int32_t)))
@@ -71,7 +58,7 @@ static void *gathered(const e3d_context *context, const e3d_worker *worker, e3d_
 void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        int32_t *words = gathered(context, worker, k), background = KINDS[k].background;
+        int32_t *words = gathered(context, worker, k), background = KINDS[k].background.as_int32_t;
         for (int i = 0; words && i < KINDS[k].channels * E3D_TILE_SAMPLES; i++)
             words[i] = background;
     }
@@ -253,7 +240,7 @@ void e3d_outputs_blank(const e3d_context *context, const e3d_tile *tile)
         if (!context->outputs[k].target)
             continue;
         for (int i = 0; i < KINDS[k].channels * E3D_TILE; i++)
-            row[i] = KINDS[k].background;
+            row[i] = KINDS[k].background.as_int32_t;
         e3d_write_tile(context, tile, context->outputs[k].target, sizeof(int32_t) * (size_t)KINDS[k].channels, row, 0);
     }
 }

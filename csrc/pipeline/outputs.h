@@ -8,24 +8,6 @@ typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;
 typedef struct e3d_tile e3d_tile;
 
-/* What is asked for beside colour. */
-typedef enum e3d_output_kind {
-    E3D_OUTPUT_NDC_DEPTH = 0,
-    E3D_OUTPUT_DEPTH,
-    E3D_OUTPUT_TRIANGLE_ID,
-    E3D_OUTPUT_OBJECT_ID,
-    E3D_OUTPUT_INSTANCE_ID,
-    E3D_OUTPUT_MATERIAL_ID,
-    E3D_OUTPUT_ALBEDO,
-    E3D_OUTPUT_NORMAL,
-    E3D_OUTPUT_POSITION,
-    E3D_OUTPUT_WORLD_NORMAL,
-    E3D_OUTPUT_WORLD_POSITION,
-    E3D_OUTPUT_UV,
-    E3D_OUTPUT_BARYCENTRIC,
-    E3D_OUTPUTS
-} e3d_output_kind;
-
 typedef struct e3d_output {
     void *target; /* or NULL */
     size_t first; /* word in e3d_worker.outputs */

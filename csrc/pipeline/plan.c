@@ -44,11 +44,10 @@ static e3d_plan asked_if(int is_asked, e3d_plan_item item) { return (e3d_plan)(i
 
 static e3d_plan asked_outputs(const e3d_targets *t)
 {
-    return asked_if(t->color != NULL, E3D_ASKED_COLOR) | asked_if(t->ndc_depth != NULL, E3D_ASKED_NDC_DEPTH) |
-           asked_if(t->depth || t->position || t->world_position, E3D_ASKED_POSITIONS) |
-           asked_if(t->normal || t->world_normal, E3D_ASKED_NORMALS) | asked_if(t->uv != NULL, E3D_ASKED_UVS) |
-           asked_if(t->albedo != NULL, E3D_ASKED_ALBEDO) |
-           asked_if(t->triangle_id || t->object_id || t->instance_id || t->material_id || t->barycentric, E3D_ASKED_IDENTITIES);
+    e3d_plan asked = 0;
+#define ASK(output, name, type, channels, background, what) asked |= asked_if(t->name != NULL, E3D_ASKED_##what);
+    E3D_EACH_OUTPUT(ASK)
+    return asked;
 }
 
 static e3d_plan asked_mode(const e3d_frame *f)

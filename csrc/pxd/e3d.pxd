@@ -12,9 +12,23 @@ cdef extern from "e3d.h" nogil:
         E3D_TOO_MANY_PRIMITIVES
         E3D_CANCELLED
 
+    ctypedef enum e3d_option:
+        E3D_OPTION_BACKEND
+        E3D_OPTION_CULL
+        E3D_OPTION_CULLING
+        E3D_OPTION_FALLOFF
+        E3D_OPTION_FILTER
+        E3D_OPTION_HIDDEN
+        E3D_OPTION_MODE
+        E3D_OPTION_NORMALS
+        E3D_OPTION_SHADING
+        E3D_OPTION_WIREFRAME
+        E3D_OPTION_WRAP
+
+    const char *e3d_option_name(e3d_option option, int32_t value)
+
     ctypedef enum e3d_backend:
-        E3D_BACKEND_SCALAR
-        E3D_BACKEND_COUNT
+        pass
 
     const char *e3d_status_text(e3d_status status)
     const char *e3d_backend_name(e3d_backend backend)
@@ -56,14 +70,10 @@ cdef extern from "e3d.h" nogil:
         pass
 
     ctypedef enum e3d_filter:
-        E3D_NEAREST
-        E3D_BILINEAR
-        E3D_TRILINEAR
+        pass
 
     ctypedef enum e3d_wrap:
-        E3D_REPEAT
-        E3D_CLAMP
-        E3D_MIRROR
+        pass
 
     e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height,
                                   int decode_srgb, e3d_filter filter, e3d_wrap wrap,
@@ -85,8 +95,7 @@ cdef extern from "e3d.h" nogil:
         E3D_LIGHT_POINT
 
     ctypedef enum e3d_falloff:
-        E3D_FALLOFF_INVERSE_SQUARE
-        E3D_FALLOFF_WINDOW
+        pass
 
     ctypedef struct e3d_light:
         e3d_light_kind kind
@@ -118,44 +127,25 @@ cdef extern from "e3d.h" nogil:
         const int32_t *node_ids
 
     ctypedef enum e3d_mode:
-        E3D_MODE_LIT
-        E3D_MODE_UNLIT
-        E3D_MODE_RANDOM
-        E3D_MODE_DEPTH
-        E3D_MODE_NORMAL
-        E3D_MODE_TRIANGLE_ID
-        E3D_MODE_OBJECT_ID
-        E3D_MODE_OVERDRAW
+        pass
 
     ctypedef enum e3d_cull:
-        E3D_CULL_NONE
-        E3D_CULL_BACK
-        E3D_CULL_FRONT
+        pass
 
     ctypedef enum e3d_wireframe:
-        E3D_WIRE_NONE
-        E3D_WIRE_OVERLAY
-        E3D_WIRE_ONLY
+        pass
 
     ctypedef enum e3d_hidden:
-        E3D_HIDDEN_ZBUFFER
-        E3D_HIDDEN_PAINTER
-        E3D_HIDDEN_NONE
+        pass
 
     ctypedef enum e3d_shading:
-        E3D_SHADING_DEFERRED
-        E3D_SHADING_FORWARD
+        pass
 
     ctypedef enum e3d_normals:
-        E3D_NORMALS_AUTO
-        E3D_NORMALS_SMOOTH
-        E3D_NORMALS_FLAT
+        pass
 
     ctypedef enum e3d_culling:
-        E3D_CULLING_ALL
-        E3D_CULLING_FRUSTUM
-        E3D_CULLING_NONE
-        E3D_CULLING_ALWAYS
+        pass
 
     ctypedef struct e3d_frame:
         int32_t width
@@ -193,21 +183,21 @@ cdef extern from "e3d.h" nogil:
         e3d_culling culling
         const double *frozen_clip_from_world
 
+    ctypedef enum e3d_output_kind:
+        E3D_OUTPUTS
+
     ctypedef struct e3d_targets:
-        uint8_t *color
-        float *depth
-        float *ndc_depth
-        int32_t *triangle_id
-        int32_t *object_id
-        int32_t *instance_id
-        int32_t *material_id
-        float *albedo
-        float *normal
-        float *position
-        float *world_normal
-        float *world_position
-        float *uv
-        float *barycentric
+        pass
+
+    void e3d_targets_set(e3d_targets *targets, e3d_output_kind output, void *pixels)
+
+    ctypedef struct e3d_output_format:
+        const char *name
+        int32_t channels
+        int32_t bytes
+        int32_t is_float
+
+    const e3d_output_format E3D_OUTPUT_FORMATS[]
 
     ctypedef struct e3d_stats:
         int64_t draws

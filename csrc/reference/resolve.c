@@ -113,21 +113,10 @@ static void write_id(int32_t *target, size_t pixel, int32_t id)
 
 static void write_background(const e3d_targets *targets, size_t pixel)
 {
-    static const float zero[3] = {0.0f, 0.0f, 0.0f};
-    if (targets->ndc_depth)
-        targets->ndc_depth[pixel] = INFINITY;
-    write_id(targets->triangle_id, pixel, -1);
-    write_id(targets->object_id, pixel, -1);
-    write_id(targets->instance_id, pixel, -1);
-    write_id(targets->material_id, pixel, -1);
-    write_floats(targets->depth, pixel, zero, 1);
-    write_floats(targets->albedo, pixel, zero, 3);
-    write_floats(targets->normal, pixel, zero, 3);
-    write_floats(targets->position, pixel, zero, 3);
-    write_floats(targets->world_normal, pixel, zero, 3);
-    write_floats(targets->world_position, pixel, zero, 3);
-    write_floats(targets->uv, pixel, zero, 2);
-    write_floats(targets->barycentric, pixel, zero, 3);
+#define WRITE_BACKGROUND(output, name, type, channels, background, ...) \
+    for (size_t c = 0; output != E3D_OUTPUT_COLOR && targets->name && c < channels; c++) \
+        targets->name[channels * pixel + c] = background;
+    E3D_EACH_OUTPUT(WRITE_BACKGROUND)
 }
 
 static void write_surface(const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
@@ -165,11 +154,9 @@ static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_
 void ref_resolve_band(ref_scene *scene, const ref_band *band, const e3d_targets *targets)
 {
     int32_t n = scene->frame->samples_axis, width = scene->frame->width;
-    e3d_targets data = *targets;
-    data.color = NULL;
-    int has_data = data.depth || data.ndc_depth || data.triangle_id || data.object_id || data.instance_id ||
-                   data.material_id || data.albedo || data.normal || data.position || data.world_normal ||
-                   data.world_position || data.uv || data.barycentric;
+    int has_data = 0;
+    for (int k = E3D_OUTPUT_COLOR + 1; k < E3D_OUTPUTS; k++)
+        has_data |= e3d_targets_get(targets, k) != NULL;
     for (int32_t y = band->first_row; y < band->first_row + band->rows; y += n)
         for (int32_t column = 0; column < width; column++) {
             size_t pixel = (size_t)(y / n) * (size_t)width + (size_t)column;

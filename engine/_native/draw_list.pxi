@@ -128,15 +128,15 @@ cdef class NativeDrawList:
                                batch):
             raise OutOfMemoryError("no memory for the list of what to draw")
 
-    def set_instance_tree(self, int index, tree):
-        """Let instances be left out by a NativeTree of their boxes, or by none.
+    def set_instance_tree(self, int index, NativeTree tree):
+        """Let instances be left out by a tree of their boxes, or by none.
 
         None also where the tree is of others than are listed: those came a moment ago.
         """
         require(0 <= index < self.object_count, "no such object")
         if tree is not None and tree.count != self.objects[index].draw.instances:
             tree = None
-        self.objects[index].instances = NULL if tree is None else <e3d_tree *><size_t>tree.address
+        self.objects[index].instances = NULL if tree is None else tree.tree
         self.trees[index] = tree
 
     def set_instances(

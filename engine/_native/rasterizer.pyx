@@ -16,42 +16,47 @@ from libc.string cimport memcpy, memset
 from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
 
 from e3d cimport *
-from e3d_pool cimport e3d_pool_run
 from e3d_scene cimport *
+
+from .scene_graph cimport NativeTree
 
 from ..errors import BackendError, Engine3DError, InvalidArgumentError, OutOfMemoryError
 
-FILTERS = {"nearest": E3D_NEAREST, "bilinear": E3D_BILINEAR, "trilinear": E3D_TRILINEAR}
-WRAPS = {"repeat": E3D_REPEAT, "clamp": E3D_CLAMP, "mirror": E3D_MIRROR}
-FALLOFFS = {"inverse_square": E3D_FALLOFF_INVERSE_SQUARE, "window": E3D_FALLOFF_WINDOW}
-MODES = {
-    "lit": E3D_MODE_LIT,
-    "unlit": E3D_MODE_UNLIT,
-    "random": E3D_MODE_RANDOM,
-    "depth": E3D_MODE_DEPTH,
-    "normal": E3D_MODE_NORMAL,
-    "triangle_id": E3D_MODE_TRIANGLE_ID,
-    "object_id": E3D_MODE_OBJECT_ID,
-    "overdraw": E3D_MODE_OVERDRAW,
+
+cdef dict values_of(e3d_option option):
+    """The number of each name that may be chosen, in the core's order."""
+    values = {}
+    while e3d_option_name(option, <int32_t>len(values)) != NULL:
+        values[e3d_option_name(option, <int32_t>len(values)).decode()] = len(values)
+    return values
+
+
+CULLS = values_of(E3D_OPTION_CULL)
+CULLINGS = values_of(E3D_OPTION_CULLING)
+FALLOFFS = values_of(E3D_OPTION_FALLOFF)
+FILTERS = values_of(E3D_OPTION_FILTER)
+HIDDEN_SURFACES = values_of(E3D_OPTION_HIDDEN)
+MODES = values_of(E3D_OPTION_MODE)
+NORMALS = values_of(E3D_OPTION_NORMALS)
+SHADINGS = values_of(E3D_OPTION_SHADING)
+WIREFRAMES = {
+    None if name == "none" else name: value
+    for name, value in values_of(E3D_OPTION_WIREFRAME).items()
 }
-CULLS = {"none": E3D_CULL_NONE, "back": E3D_CULL_BACK, "front": E3D_CULL_FRONT}
-WIREFRAMES = {None: E3D_WIRE_NONE, "overlay": E3D_WIRE_OVERLAY, "only": E3D_WIRE_ONLY}
-HIDDEN_SURFACES = {
-    "zbuffer": E3D_HIDDEN_ZBUFFER,
-    "painter": E3D_HIDDEN_PAINTER,
-    "none": E3D_HIDDEN_NONE,
-}
-CULLINGS = {
-    "all": E3D_CULLING_ALL,
-    "frustum": E3D_CULLING_FRUSTUM,
-    "none": E3D_CULLING_NONE,
-    "always": E3D_CULLING_ALWAYS,
-}
-SHADINGS = {"deferred": E3D_SHADING_DEFERRED, "forward": E3D_SHADING_FORWARD}
-NORMALS = {"auto": E3D_NORMALS_AUTO, "smooth": E3D_NORMALS_SMOOTH, "flat": E3D_NORMALS_FLAT}
+WRAPS = values_of(E3D_OPTION_WRAP)
 # Every backend that the interface knows, whether this machine can run it or not.
-BACKENDS = {
-    e3d_backend_name(<e3d_backend>index).decode(): index for index in range(E3D_BACKEND_COUNT)
+BACKENDS = values_of(E3D_OPTION_BACKEND)
+
+
+cdef output_format(const e3d_output_format *format):
+    dtype = "float32" if format.is_float else "uint8" if format.bytes == 1 else "int32"
+    return dtype, format.channels if format.channels > 1 else 0
+
+
+cdef dict OUTPUT_NUMBERS = {E3D_OUTPUT_FORMATS[k].name.decode(): k for k in range(E3D_OUTPUTS)}
+# Of each output the dtype and the number of channels (0: no third axis).
+OUTPUTS = {
+    name: output_format(&E3D_OUTPUT_FORMATS[number]) for name, number in OUTPUT_NUMBERS.items()
 }
 
 # Seconds of a frame between two looks at the pending signals: Ctrl-C feels immediate, and a busy
@@ -92,11 +97,6 @@ def best_backend():
 def thread_count():
     """How many threads the core takes when asked for 0."""
     return e3d_thread_count()
-
-
-def pool_address():
-    """Of what runs work on this module's threads, for another module of this package."""
-    return <size_t>&e3d_pool_run
 
 
 def bound_points(const float[:, ::1] points not None):
@@ -349,37 +349,19 @@ cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height)
     """Point the core at the arrays, whose shape and dtype are checked on the way."""
     memset(outputs, 0, sizeof(e3d_targets))
     for name, array in targets.items():
-        if name == "color":
-            outputs.color = bytes_of(array, width, height)
-        elif name == "depth":
-            outputs.depth = floats_of(array, width, height)
-        elif name == "ndc_depth":
-            outputs.ndc_depth = floats_of(array, width, height)
-        elif name == "triangle_id":
-            outputs.triangle_id = integers_of(array, width, height)
-        elif name == "object_id":
-            outputs.object_id = integers_of(array, width, height)
-        elif name == "instance_id":
-            outputs.instance_id = integers_of(array, width, height)
-        elif name == "material_id":
-            outputs.material_id = integers_of(array, width, height)
-        elif name == "albedo":
-            outputs.albedo = vectors_of(array, width, height, 3)
-        elif name == "normal":
-            outputs.normal = vectors_of(array, width, height, 3)
-        elif name == "position":
-            outputs.position = vectors_of(array, width, height, 3)
-        elif name == "world_normal":
-            outputs.world_normal = vectors_of(array, width, height, 3)
-        elif name == "world_position":
-            outputs.world_position = vectors_of(array, width, height, 3)
-        elif name == "uv":
-            outputs.uv = vectors_of(array, width, height, 2)
-        elif name == "barycentric":
-            outputs.barycentric = vectors_of(array, width, height, 3)
-        else:
+        number = OUTPUT_NUMBERS.get(name)
+        if number is None:
             raise InvalidArgumentError(f"no such output: {name!r}")
+        e3d_targets_set(outputs, number, pixels_of(array, &E3D_OUTPUT_FORMATS[number], width, height))
     return 0
+
+
+cdef void *pixels_of(array, const e3d_output_format *format, int width, int height) except NULL:
+    if format.bytes == 1:
+        return bytes_of(array, width, height)
+    if format.channels > 1:
+        return vectors_of(array, width, height, format.channels)
+    return floats_of(array, width, height) if format.is_float else <void *>integers_of(array, width, height)
 
 
 cdef uint8_t *bytes_of(uint8_t[:, :, ::1] array, int width, int height) except NULL:

@@ -14,13 +14,9 @@ from libc.string cimport memcmp, memcpy, memset
 from e3d cimport (
     E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind, e3d_thread_count,
 )
-from e3d_pool cimport e3d_pool_borrow, e3d_pool_runner
 from e3d_scene cimport *
 
 from ..errors import InvalidArgumentError, OutOfMemoryError
-from .rasterizer import pool_address
-
-e3d_pool_borrow(<e3d_pool_runner><size_t>pool_address())  # one pool a process
 
 ALIVE = E3D_NODE_ALIVE
 VISIBLE = E3D_NODE_VISIBLE
@@ -32,9 +28,6 @@ OBJECT_BOX = E3D_OBJECT_BOX
 
 cdef class NativeTree:
     """A tree of boxes that stay as they are: of a mesh's triangles, or of instances."""
-
-    cdef e3d_tree *tree
-    cdef readonly Py_ssize_t count
 
     def __cinit__(self, const double[:, ::1] boxes not None):
         self.count = boxes.shape[0]
@@ -73,11 +66,6 @@ cdef class NativeTree:
             raise InvalidArgumentError("a ray has two vectors, and a selection a bit an item")
         if self.count:
             e3d_tree_ray(self.tree, &origin[0], &direction[0], farthest, &bits[0])
-
-    @property
-    def address(self):
-        """Of the handle, for another module of this package; true for as long as this lives."""
-        return <size_t>self.tree
 
 
 cdef class NativeShapes:

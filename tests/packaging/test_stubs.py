@@ -9,6 +9,7 @@ from types import ModuleType
 import pytest
 
 import engine3d as e3d
+from engine3d import _native
 
 NATIVE = Path(__file__).resolve().parents[2] / "engine" / "_native"
 # What calls single kernels is built in place only, for tests and benchmarks.
@@ -42,6 +43,10 @@ def defined_names(module):
 
 def test_marker_for_type_checkers():
     assert (NATIVE.parent / "py.typed").is_file()
+
+
+def test_the_core_is_said_to_hold_what_is_built_into_it():
+    assert sorted([*_native.MODULES, TESTING]) == MODULES
 
 
 @pytest.mark.parametrize("name", MODULES)

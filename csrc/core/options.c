@@ -1,0 +1,29 @@
+/* The names of what options can be, from the lists that their enums are made of. */
+#include "e3d.h"
+
+#define NAME(enumerator, name, ...) #name,
+#define NAMES(list) (const char *const[]){list(NAME) NULL}
+
+static const char *const *const NAMES_OF[E3D_OPTIONS] = {
+    [E3D_OPTION_BACKEND] = NAMES(E3D_EACH_BACKEND),
+    [E3D_OPTION_CULL] = NAMES(E3D_EACH_CULL),
+    [E3D_OPTION_CULLING] = NAMES(E3D_EACH_CULLING),
+    [E3D_OPTION_FALLOFF] = NAMES(E3D_EACH_FALLOFF),
+    [E3D_OPTION_FILTER] = NAMES(E3D_EACH_FILTER),
+    [E3D_OPTION_HIDDEN] = NAMES(E3D_EACH_HIDDEN),
+    [E3D_OPTION_MODE] = NAMES(E3D_EACH_MODE),
+    [E3D_OPTION_NORMALS] = NAMES(E3D_EACH_NORMALS),
+    [E3D_OPTION_SHADING] = NAMES(E3D_EACH_SHADING),
+    [E3D_OPTION_WIREFRAME] = NAMES(E3D_EACH_WIREFRAME),
+    [E3D_OPTION_WRAP] = NAMES(E3D_EACH_WRAP),
+};
+
+const char *e3d_option_name(e3d_option option, int32_t value)
+{
+    const char *const *name = (unsigned)option < E3D_OPTIONS ? NAMES_OF[option] : NULL;
+    while (name && *name && value > 0) {
+        name++;
+        value--;
+    }
+    return name && value == 0 ? *name : NULL;
+}

@@ -1,0 +1,94 @@
+/* A frame: what is drawn, from where, and how. */
+#ifndef E3D_API_FRAME_H
+#define E3D_API_FRAME_H
+
+#include <stdint.h>
+
+#include "e3d_options.h"
+#include "e3d_draw.h"
+#include "e3d_light.h"
+#include "e3d_material.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define E3D_EACH_MODE(X)                  \
+    X(E3D_MODE_LIT, lit)                  \
+    X(E3D_MODE_UNLIT, unlit)              \
+    X(E3D_MODE_RANDOM, random)            \
+    X(E3D_MODE_DEPTH, depth)              \
+    X(E3D_MODE_NORMAL, normal)            \
+    X(E3D_MODE_TRIANGLE_ID, triangle_id)  \
+    X(E3D_MODE_OBJECT_ID, object_id)      \
+    X(E3D_MODE_OVERDRAW, overdraw)
+typedef enum e3d_mode { E3D_EACH_MODE(E3D_ENUMERATOR) } e3d_mode;
+
+#define E3D_EACH_CULL(X) X(E3D_CULL_NONE, none) X(E3D_CULL_BACK, back) X(E3D_CULL_FRONT, front)
+typedef enum e3d_cull { E3D_EACH_CULL(E3D_ENUMERATOR) } e3d_cull;
+
+#define E3D_EACH_WIREFRAME(X) X(E3D_WIRE_NONE, none) X(E3D_WIRE_OVERLAY, overlay) X(E3D_WIRE_ONLY, only)
+typedef enum e3d_wireframe { E3D_EACH_WIREFRAME(E3D_ENUMERATOR) } e3d_wireframe;
+
+#define E3D_EACH_HIDDEN(X) X(E3D_HIDDEN_ZBUFFER, zbuffer) X(E3D_HIDDEN_PAINTER, painter) X(E3D_HIDDEN_NONE, none)
+typedef enum e3d_hidden { E3D_EACH_HIDDEN(E3D_ENUMERATOR) } e3d_hidden;
+
+#define E3D_EACH_SHADING(X) X(E3D_SHADING_DEFERRED, deferred) X(E3D_SHADING_FORWARD, forward)
+typedef enum e3d_shading { E3D_EACH_SHADING(E3D_ENUMERATOR) } e3d_shading;
+
+#define E3D_EACH_NORMALS(X) X(E3D_NORMALS_AUTO, auto) X(E3D_NORMALS_SMOOTH, smooth) X(E3D_NORMALS_FLAT, flat)
+typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
+
+/* What is left out before it is drawn; the picture is the same. ALL: what is outside the frustum, or behind what is drawn
+ * already. ALWAYS: as ALL, and what is drawn already is tried against even where that cannot pay. */
+#define E3D_EACH_CULLING(X)            \
+    X(E3D_CULLING_ALL, all)            \
+    X(E3D_CULLING_FRUSTUM, frustum)    \
+    X(E3D_CULLING_NONE, none)          \
+    X(E3D_CULLING_ALWAYS, always)
+typedef enum e3d_culling { E3D_EACH_CULLING(E3D_ENUMERATOR) } e3d_culling;
+
+enum { E3D_MAX_SIZE = 16384 };
+
+typedef struct e3d_frame {
+    int32_t width, height;       /* 1 .. E3D_MAX_SIZE output pixels */
+    int32_t samples_axis;        /* 1, 2 or 4: samples a pixel along each axis */
+    double clip_from_world[16];
+    double view_from_world[16];
+    float eye[4];                /* world: w = 1 the camera's position, w = 0 the unit direction
+                                  * towards the viewer (orthographic) */
+    e3d_mode mode;
+    e3d_cull cull;
+    e3d_wireframe wireframe;
+    e3d_hidden hidden;
+    e3d_shading shading;
+    e3d_normals normals;
+    int32_t remove_hidden_lines; /* with E3D_WIRE_ONLY: faces hide the edges behind them */
+    float line_width, point_size; /* output pixels, 0 < size <= 256 */
+    float line_color[3];         /* display-ready: goes through the frame's encoder like any colour */
+    float background[4];         /* rgb through the encoder; a is 0 or 1 */
+    int32_t encode_srgb;         /* lit and unlit only: encoder is sRGB, else floor(255 v + 1/2) */
+    int32_t decode_srgb;         /* 8-bit vertex and instance colours are decoded from sRGB */
+    int64_t view;                /* any number that tells this eye from others: the renderer remembers what each saw last */
+    float depth_near, depth_far; /* metric depths that mode depth shows white and black; near < far */
+    float ambient[3];
+    float light_clamp[2];        /* {0, +inf}: no clamp */
+    const e3d_material *materials;
+    int32_t material_count;
+    const e3d_light *lights;
+    int32_t light_count;
+    const e3d_draw *draws;
+    int32_t draw_count;
+    /* Numbers of draws, in the order of drawing: each once, but one of E3D_POSE_NODES once for each of its nodes.
+     * NULL: the draws as given, none of which is of E3D_POSE_NODES. */
+    const int32_t *order;
+    int32_t order_count;
+    e3d_culling culling;
+    const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
+} e3d_frame;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,32 @@
+/* Lights. */
+#ifndef E3D_API_LIGHT_H
+#define E3D_API_LIGHT_H
+
+#include <stdint.h>
+
+#include "e3d_options.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum e3d_light_kind { E3D_LIGHT_DIRECTIONAL = 0, E3D_LIGHT_POINT } e3d_light_kind;
+
+#define E3D_EACH_FALLOFF(X) X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) X(E3D_FALLOFF_WINDOW, window)
+typedef enum e3d_falloff { E3D_EACH_FALLOFF(E3D_ENUMERATOR) } e3d_falloff;
+
+typedef struct e3d_light {
+    e3d_light_kind kind;
+    e3d_falloff falloff;
+    float color[3];      /* colour times intensity, in the frame's working space */
+    float to_light[3];   /* directional: unit vector towards the light, world space */
+    float position[3];   /* point: world space */
+    float range;         /* point: contributes exactly 0 at distance >= range; may be +inf
+                          * (inverse square only) */
+} e3d_light;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

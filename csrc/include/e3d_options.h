@@ -1,0 +1,37 @@
+/* Lists of named values. Each stands once, as a macro E3D_EACH_…(X) beside its enum: X(ENUMERATOR, name, ...), where the
+ * name is what users write. Everything else that is a list of these is made of it. */
+#ifndef E3D_API_OPTIONS_H
+#define E3D_API_OPTIONS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define E3D_ENUMERATOR(enumerator, ...) enumerator,
+
+typedef enum e3d_option {
+    E3D_OPTION_BACKEND = 0,
+    E3D_OPTION_CULL,
+    E3D_OPTION_CULLING,
+    E3D_OPTION_FALLOFF,
+    E3D_OPTION_FILTER,
+    E3D_OPTION_HIDDEN,
+    E3D_OPTION_MODE,
+    E3D_OPTION_NORMALS,
+    E3D_OPTION_SHADING,
+    E3D_OPTION_WIREFRAME,
+    E3D_OPTION_WRAP,
+    E3D_OPTIONS
+} e3d_option;
+
+/* The name of a value; NULL behind the last, and where there is no such value. */
+const char *e3d_option_name(e3d_option option, int32_t value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

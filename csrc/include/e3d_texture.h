@@ -1,0 +1,49 @@
+/* Textures: handles that hold linear texels with their mip levels. */
+#ifndef E3D_API_TEXTURE_H
+#define E3D_API_TEXTURE_H
+
+#include <stdint.h>
+
+#include "e3d_options.h"
+#include "e3d_status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct e3d_texture e3d_texture;
+
+#define E3D_EACH_FILTER(X) X(E3D_NEAREST, nearest) X(E3D_BILINEAR, bilinear) X(E3D_TRILINEAR, trilinear)
+typedef enum e3d_filter { E3D_EACH_FILTER(E3D_ENUMERATOR) } e3d_filter;
+
+#define E3D_EACH_WRAP(X) X(E3D_REPEAT, repeat) X(E3D_CLAMP, clamp) X(E3D_MIRROR, mirror)
+typedef enum e3d_wrap { E3D_EACH_WRAP(E3D_ENUMERATOR) } e3d_wrap;
+
+/* One mip level: linear RGBA texels, top row first, within a border of one texel: the other side's where the wrap is
+ * E3D_REPEAT, else the nearest. */
+typedef struct e3d_level {
+    const void *texels; /* (height + 2, width + 2, 4), of channel_bits 16: int16, at least 0; of 8: int8, c - 128 */
+    int32_t width, height;
+} e3d_level;
+
+enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 16384 };
+
+typedef struct e3d_texture_view {
+    e3d_level levels[E3D_MAX_LEVELS];
+    int32_t level_count; /* 1 unless the filter is E3D_TRILINEAR */
+    int32_t channel_bits;
+    e3d_filter filter;
+    e3d_wrap wrap;
+} e3d_texture_view;
+
+/* pixels: (height, width, 4) uint8, top row first, copied. decode_srgb: 0 takes 8-bit values as they are. */
+e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height, int decode_srgb,
+                              e3d_filter filter, e3d_wrap wrap, e3d_texture **out);
+void e3d_texture_destroy(e3d_texture *texture);
+const e3d_texture_view *e3d_texture_get_view(const e3d_texture *texture);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -19,6 +19,7 @@ from ._native.scene_graph import STATIC, VISIBLE
 from .attributes import frozen_floats, matrix4, vector3
 from .errors import InvalidArgumentError
 from .number_checks import floats
+from .spatial.colliders import check_collider
 
 if TYPE_CHECKING:
     from .cameras import Camera
@@ -82,8 +83,6 @@ class Node:
         if self._scene is None:
             raise InvalidArgumentError("the node was removed from its scene")
         if self._collider is not None:
-            from .spatial.colliders import check_collider
-
             check_collider(value, self._collider)
         self._scene._put(self, value)
 
@@ -241,8 +240,6 @@ class Node:
 
     @collider.setter
     def collider(self, value: Collider | None) -> None:
-        from .spatial.colliders import check_collider
-
         check_collider(self._object, value)
         self._collider = value
         if self._scene is not None:

@@ -403,7 +403,7 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        from .spatial.colliders import overlap_box
+        from .spatial.collider_queries import overlap_box
 
         return overlap_box(self, low, high)
 
@@ -415,7 +415,7 @@ class Scene(Closed):
         center : (3,) float
         radius : float
         """
-        from .spatial.colliders import overlap_sphere
+        from .spatial.collider_queries import overlap_sphere
 
         return overlap_sphere(self, center, radius)
 
@@ -439,7 +439,7 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        from .spatial.colliders import raycast_colliders
+        from .spatial.collider_queries import raycast_colliders
 
         return raycast_colliders(self, origin, direction, max_distance)
 

@@ -37,6 +37,17 @@ def faces_in_box(mesh: Mesh, low: np.ndarray, high: np.ndarray) -> np.ndarray:
     return np.flatnonzero(np.unpackbits(bits.view(np.uint8), bitorder="little"))
 
 
+def way_to_face(
+    mesh: Mesh, pose: np.ndarray, origin: np.ndarray, direction: np.ndarray, farthest: float
+) -> float:
+    """Return how far a ray of unit length goes to a face of a mesh; infinite if farther."""
+    arrays = dict(mesh._arrays)
+    tree = triangle_tree(mesh, arrays)
+    return tree.nearest_triangle(
+        arrays["positions"], arrays["faces"], pose, origin, direction, farthest
+    )
+
+
 def tell(shapes: NativeShapes, number: int, obj) -> None:
     """Tell the shape of a scene's object, as it is at one moment."""
     mesh, poses, tree = obj, None, None

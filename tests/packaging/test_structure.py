@@ -44,8 +44,6 @@ CALL_CIRCLES = {"loaders: obj.c obj_check.c obj_corners.c obj_rows.c"}
 BACKWARD_IMPORTS = {
     "mesh -> trimesh_conversion",
     "mesh -> writers",
-    "nodes -> spatial.colliders",
-    "spatial.colliders -> scene",
 }
 # Lists that repeat a type of engine/choices.py.
 COPIED_CHOICES = {

@@ -9,21 +9,30 @@ from __future__ import annotations
 import argparse
 import math
 import re
+from typing import get_args
 
+from ..choices import (
+    Backend,
+    Cull,
+    HiddenSurfaces,
+    Mode,
+    Samples,
+    Shading,
+    Wireframe,
+)
 from . import values
 from .inputs import model_files
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
 from .usage import UsageError
 
-MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
-BACKENDS = ("auto", "scalar", "portable", "sse41", "avx2", "avx512")
+MODES = get_args(Mode)
+BACKENDS = get_args(Backend)
+WIREFRAMES = get_args(Wireframe)
 SCENES = (
     *("default", "vertices", "edges", "faces", "cube", "shapes"),
     *("textured", "asc", "city", "solar"),
 )
-SAMPLES = (1, 4, 16)
-WIREFRAMES = ("overlay", "only")
 #: Options whose value may start with a minus sign, which argparse would take for an option.
 SIGNED_OPTIONS = frozenset(
     {
@@ -118,7 +127,7 @@ def add_picture(parser) -> None:
     group.add_argument(
         "--samples",
         type=int,
-        choices=SAMPLES,
+        choices=get_args(Samples),
         help="samples per pixel: more give smoother edges",
     )
     group.add_argument(
@@ -211,18 +220,18 @@ def add_look(parser) -> None:
     )
     group.add_argument(
         "--cull",
-        choices=("back", "front", "none"),
+        choices=get_args(Cull),
         help="which faces to leave out; back by default",
     )
     group.add_argument(
         "--hidden-surfaces",
-        choices=("zbuffer", "painter", "none"),
+        choices=get_args(HiddenSurfaces),
         help="method of hidden-surface removal: depth buffer (the default), painter's algorithm "
         "(drawing from far to near), or none",
     )
     group.add_argument(
         "--shading",
-        choices=("deferred", "forward"),
+        choices=get_args(Shading),
         help="shade visible pixels once (the default) or every fragment; the picture is the same",
     )
 

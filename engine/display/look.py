@@ -7,27 +7,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import get_args
 
 from .. import linalg
+from ..choices import Cull, HiddenSurfaces, Mode, Wireframe
 from ..colors import linear_color
 from ..instances import InstancedMesh
 from ..mesh import Mesh
 
-MODES = (
-    "lit",
-    "unlit",
-    "random",
-    "depth",
-    "normal",
-    "triangle_id",
-    "object_id",
-    "overdraw",
-)
-WIREFRAMES = (None, "overlay", "only")
-CULLS = ("back", "front", "none")
-SHADINGS = ("deferred", "forward")
-NORMALS = ("auto", "smooth", "flat")
-HIDDEN_SURFACES = ("zbuffer", "painter", "none")
+MODES = get_args(Mode)
+WIREFRAMES = (None, *get_args(Wireframe))
+CULLS = get_args(Cull)
+HIDDEN_SURFACES = get_args(HiddenSurfaces)
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)
 #: Points are as large as this share of the distance from one to the next, were they spread evenly
 #: over the picture; but not smaller than one pixel of a picture this many pixels high, nor larger

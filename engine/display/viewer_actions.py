@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import get_args
 
+from ..choices import Samples
 from .animation_files import numbered_path
 from .ground import controller
 from .look import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
 from .viewpoint import QUARTER_TURN
 
-SAMPLES = (1, 4, 16)
+SAMPLES = get_args(Samples)
 LINE_WIDTHS = (1.0, 16.0)
 ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 

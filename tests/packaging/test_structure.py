@@ -46,16 +46,7 @@ BACKWARD_IMPORTS = {
     "mesh -> writers",
 }
 # Lists that repeat a type of engine/choices.py.
-COPIED_CHOICES = {
-    "cli/options.py: BACKENDS",
-    "cli/options.py: MODES",
-    "cli/options.py: SAMPLES",
-    "display/look.py: CULLS",
-    "display/look.py: HIDDEN_SURFACES",
-    "display/look.py: MODES",
-    "display/look.py: NORMALS",
-    "display/viewer_actions.py: SAMPLES",
-}
+COPIED_CHOICES = set()
 
 
 def without_comments(text):

@@ -29,7 +29,7 @@ the package's stubs and annotations.
 """
 #: Title of a chapter -> its names; together they are `engine3d.__all__`.
 CHAPTERS = {
-    "Drawing": ("render", "Renderer", "Frame", "backends"),
+    "Drawing": ("render", "Renderer", "RenderOptions", "Frame", "backends"),
     "Scenes": (
         "Scene",
         "Node",

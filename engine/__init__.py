@@ -75,6 +75,7 @@ _PUBLIC = {
     "RayHit": "spatial.rays",
     "RayHits": "spatial.rays",
     "Frame": "frame",
+    "RenderOptions": "render_options",
     "Renderer": "renderer",
     "render": "renderer",
     "Canvas": "canvas",

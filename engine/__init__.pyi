@@ -53,6 +53,7 @@ from .primitives import torus as torus
 from .primitives import uv_sphere as uv_sphere
 from .rasterization import RasterizeResult as RasterizeResult
 from .rasterization import rasterize as rasterize
+from .render_options import RenderOptions as RenderOptions
 from .renderer import Renderer as Renderer
 from .renderer import render as render
 from .resources import Resources as Resources

@@ -8,7 +8,6 @@ gives the same bytes on every backend and every number of threads.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from operator import is_
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,10 +34,11 @@ from .colors import COLOR_SPACES
 from .draw_list import DrawList
 from .errors import InvalidArgumentError, SceneChangedError
 from .frame import OUTPUTS, Frame
-from .frame_options import OptionsCache, RenderOptions
+from .frame_options import OptionsCache
 from .framing import frame_scene
 from .image_size import check_side, check_size
 from .output_pool import OutputPool
+from .render_options import WHITE, RenderKeywords, RenderOptions, either
 from .renderer_turn import RendererTurn
 from .scene import Scene
 from .view import CameraChoice, View, find_camera
@@ -46,7 +46,6 @@ from .view import CameraChoice, View, find_camera
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-_WHITE = (1.0, 1.0, 1.0)
 _SAMPLES = {1: 1, 4: 2, 16: 4}  # samples per pixel -> samples along an axis
 
 
@@ -163,6 +162,7 @@ class Renderer(Closed):
         wireframe: Wireframe | None = None,
         outputs: Iterable[Output] = ("color",),
         normals: Normals = "auto",
+        options: RenderOptions | None = None,
     ) -> None:
         """Do beforehand what the first frame of a scene would do, so that it is as fast as others.
 
@@ -173,30 +173,29 @@ class Renderer(Closed):
         Parameters
         ----------
         scene : Scene
-        mode, wireframe, outputs, normals
+        mode, wireframe, outputs, normals, options
             As the frames will be drawn: see `render`.
 
         Raises
         ------
         InvalidArgumentError, OutOfMemoryError
         """
-        names = _names_of(outputs)
         with self._turn.taken():
             self._check_drawable(scene)
-            rest = "zbuffer", False, 1.0, 1.0, "none"
-            options = self._options.get(
-                scene, _WHITE, mode, wireframe, "back", "deferred", normals, *rest
+            keywords = RenderOptions(
+                mode=mode, wireframe=wireframe, outputs=outputs, normals=normals
             )
-            headlight = options.headlight_color, (0.0, 0.0, 1.0)
+            options = either(options, keywords)
+            frame_options = self._options.get(scene, options)
+            headlight = frame_options.headlight_color, (0.0, 0.0, 1.0)
+            needs = frame_options.needs(options.outputs)
             census = scene._census()
             try:
-                self._draw_list.update(
-                    scene, options.needs(names), options.normals, headlight, None, 0.0, True
-                )
+                self._draw_list.update(scene, needs, options.normals, headlight, None, 0.0, True)
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
-            self._pool.prepare(self._arrays_of(names))
+            self._pool.prepare(self._arrays_of(options.outputs))
             axis = _SAMPLES[self._samples]
             self._native.prepare(self._width * axis, self._height * axis)
 
@@ -220,12 +219,13 @@ class Renderer(Closed):
         normals: Normals = "auto",
         hidden_surfaces: HiddenSurfaces = "zbuffer",
         line_width: float = 1.0,
-        line_color: ColorLike = _WHITE,
+        line_color: ColorLike = WHITE,
         hidden_lines: bool = False,
         point_size: float = 1.0,
         culling: Culling = "all",
         culling_camera: CameraChoice = None,
         batching: bool = True,
+        options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
 
@@ -273,6 +273,8 @@ class Renderer(Closed):
             leaves out.
         batching : bool
             Hand nodes of the same mesh to the core as one draw. The picture is the same.
+        options : RenderOptions, optional
+            Instead of the arguments above that it holds, which must then be left out.
 
         Returns
         -------
@@ -291,82 +293,92 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            options = self._options.get(
+            keywords = {
+                "mode": mode,
+                "wireframe": wireframe,
+                "cull": cull,
+                "shading": shading,
+                "normals": normals,
+                "hidden_surfaces": hidden_surfaces,
+                "line_width": line_width,
+                "line_color": line_color,
+                "hidden_lines": hidden_lines,
+                "point_size": point_size,
+                "culling": culling,
+                "batching": batching,
+            }
+            named = self._options.of_keywords(keywords, outputs)
+            return self._draw(scene, camera, either(options, named), out, culling_camera)
+
+    def _draw(
+        self,
+        scene: Scene,
+        camera: CameraChoice,
+        options: RenderOptions,
+        out: Frame | None,
+        culling_camera: CameraChoice,
+    ) -> Frame:
+        """Draw a frame in the turn that the caller has."""
+        frame_options = self._options.get(scene, options)
+        frame = self._new_frame(options.outputs) if out is None else self._check_out(out)
+        census = scene._census()
+        try:
+            view = self._look(scene, camera)
+            headlight = frame_options.headlight_color, view.towards_viewer
+            chosen = None
+            if culling_camera is not None:
+                chosen = self._clip_from_world(scene, culling_camera)
+            frustum = view.clip_from_world if chosen is None else chosen
+            self._draw_list.update(
                 scene,
-                line_color,
-                mode,
-                wireframe,
-                cull,
-                shading,
-                normals,
-                hidden_surfaces,
-                bool(hidden_lines),
-                line_width,
-                point_size,
-                culling,
+                frame_options.needs(frame.outputs),
+                options.normals,
+                headlight,
+                None if options.culling == "none" else frustum,
+                frame_options.mark_size / min(self._width, self._height),
+                options.batching,
             )
-            frame = self._new_frame(outputs) if out is None else self._check_out(out)
-            census = scene._census()
-            try:
-                view = self._look(scene, camera)
-                headlight = options.headlight_color, view.towards_viewer
-                needs = options.needs(frame.outputs)
-                chosen = None
-                if culling_camera is not None:
-                    chosen = self._clip_from_world(scene, culling_camera)
-                frustum = view.clip_from_world if chosen is None else chosen
-                self._draw_list.update(
-                    scene,
-                    needs,
-                    options.normals,
-                    headlight,
-                    None if culling == "none" else frustum,
-                    options.mark_size / min(self._width, self._height),
-                    bool(batching),
-                )
-                near, far = 0.0, 1.0
-                if options.mode == "depth":
-                    near, far = view.depth_range(scene.bounds)
-            except Exception as error:
-                _blame_change(scene, census, error)
-                raise
-            drawn = self._native.render(
-                self._draw_list.native,
-                frame._outputs,
-                options.native,
-                self._width,
-                self._height,
-                _SAMPLES[self._samples],
-                view.clip_from_world,
-                view.view_from_world,
-                view.eye,
-                near,
-                far,
-                chosen,
-            )
-            self._turn.check()
-            frame._seen = view, cull
-            frame._drawn = scene._arrays.count - scene._removed, drawn
+            near, far = 0.0, 1.0
+            if options.mode == "depth":
+                near, far = view.depth_range(scene.bounds)
+        except Exception as error:
+            _blame_change(scene, census, error)
+            raise
+        drawn = self._native.render(
+            self._draw_list.native,
+            frame._outputs,
+            frame_options.native,
+            self._width,
+            self._height,
+            _SAMPLES[self._samples],
+            view.clip_from_world,
+            view.view_from_world,
+            view.eye,
+            near,
+            far,
+            chosen,
+        )
+        self._turn.check()
+        frame._seen = view, options.cull
+        frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame
 
     def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:
         camera, pose = find_camera(scene, camera)
         return View(camera, pose, self._width, self._height).clip_from_world
 
-    def _new_frame(self, outputs: Iterable[str]) -> Frame:
-        if not _are_names(outputs, self._asked):
+    def _new_frame(self, outputs: tuple[str, ...]) -> Frame:
+        if outputs is not self._asked:
             self._wanted, self._asked = self._arrays_of(outputs), outputs
         return Frame(self._width, self._height, self._pool.take(self._wanted))
 
-    def _arrays_of(self, outputs: Iterable[str]) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
+    def _arrays_of(self, outputs: tuple[str, ...]) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
         """Shape and dtype of each output."""
         wanted = {}
-        for name in _names_of(outputs):
+        for name in outputs:
             dtype, channels = OUTPUTS[name]
             shape = (self._height, self._width, channels)
             wanted[name] = (shape if channels else shape[:2], dtype)
-        if not wanted:
-            raise InvalidArgumentError('outputs must name at least one output, such as "color"')
         return wanted
 
     def _check_out(self, out: Frame) -> Frame:
@@ -407,19 +419,6 @@ def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> No
         ) from error
 
 
-def _are_names(outputs: Iterable[str], asked: tuple[str, ...]) -> bool:
-    """Whether outputs are the very names that were asked for before, and so need no check."""
-    known = type(outputs) is tuple and len(outputs) == len(asked) > 0
-    return known and all(map(is_, outputs, asked))
-
-
-def _names_of(outputs: Iterable[str]) -> tuple[str, ...]:
-    """The names of outputs, checked."""
-    if isinstance(outputs, str) or not isinstance(outputs, Iterable):
-        raise InvalidArgumentError(f"outputs must be a tuple of names, not {outputs!r}")
-    return tuple(choose(name, OUTPUTS, "outputs") for name in outputs)
-
-
 def render(
     scene: Scene,
     camera: CameraChoice = None,
@@ -429,7 +428,7 @@ def render(
     threads: int = 0,
     color_space: ColorSpace = "srgb",
     samples: Samples = 1,
-    **options: Unpack[RenderOptions],
+    **options: Unpack[RenderKeywords],
 ) -> Frame:
     """Draw one frame of a scene.
 

@@ -15,8 +15,8 @@ import sys
 from pathlib import Path
 
 import engine3d
+from engine3d._support.validation import CheckedAttribute
 from engine3d.atomic_write import atomic_write
-from engine3d.attributes import CheckedAttribute
 
 PAGE = Path(__file__).resolve().parent / "api.md"
 INTRODUCTION = """\

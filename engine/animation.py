@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import linalg
-from .attributes import Closed, finite, vector3
+from ._support.numbers import floats, real
+from ._support.validation import Closed, finite, vector3
 from .errors import InvalidArgumentError
 from .nodes import Node
-from .number_checks import floats, real
 from .scene import Scene
 
 _SLOWEST = 6  # far nodes move at least every 2**6 updates

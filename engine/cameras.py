@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
-from .attributes import (
+from ._support.numbers import real, shown
+from ._support.validation import (
     CheckedAttribute,
     NumberAttribute,
     OptionalNumberAttribute,
@@ -26,7 +27,6 @@ from .attributes import (
     positive,
 )
 from .errors import InvalidArgumentError
-from .number_checks import real, shown
 
 
 def _angle(value: float, what: str) -> float:

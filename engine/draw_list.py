@@ -13,7 +13,7 @@ import weakref
 import numpy as np
 
 from ._native.rasterizer import NativeDrawList
-from .changes import Watch
+from ._support.dirty_tracking import Watch
 from .display_colors import shading_color
 from .instances import InstancedMesh
 from .light_list import LightList

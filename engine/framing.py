@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
-from .attributes import positive
+from ._support.numbers import floats, real, shown
+from ._support.validation import positive
 from .cameras import PerspectiveCamera
 from .errors import InvalidArgumentError
-from .number_checks import floats, real, shown
 from .reach import Reach, box_reach, scene_reach
 from .scene import Scene
 

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
-from .attributes import CheckedAttribute, Closed
-from .changes import renew
+from ._support.dirty_tracking import renew
+from ._support.numbers import as_array, floats
+from ._support.validation import CheckedAttribute, Closed
 from .colors import eight_bit_or_float, float32_of
 from .errors import InvalidArgumentError
 from .mesh import Mesh
-from .number_checks import as_array, floats
 
 
 def _check_mesh(value: Mesh, what: str) -> Mesh:

@@ -13,7 +13,8 @@ from typing import get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .attributes import (
+from ._support.numbers import real, shown
+from ._support.validation import (
     CheckedAttribute,
     ColorAttribute,
     NumberAttribute,
@@ -26,7 +27,6 @@ from .attributes import (
 from .choices import ColorLike, Falloff
 from .colors import check_color
 from .errors import InvalidArgumentError
-from .number_checks import real, shown
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 

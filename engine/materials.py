@@ -10,7 +10,13 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-from .attributes import CheckedAttribute, Closed, ColorAttribute, NumberAttribute, not_negative
+from ._support.validation import (
+    CheckedAttribute,
+    Closed,
+    ColorAttribute,
+    NumberAttribute,
+    not_negative,
+)
 from .choices import ColorLike
 from .colors import check_color, linear_color
 from .errors import InvalidArgumentError

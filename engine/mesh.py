@@ -21,8 +21,8 @@ from . import normals as _normals
 from . import topology as _topology
 from ._native.loaders import exchange, frozen
 from ._native.rasterizer import bound_points
-from .attributes import Closed, own
-from .changes import renew
+from ._support.dirty_tracking import renew
+from ._support.validation import Closed, own
 from .errors import InvalidArgumentError
 from .materials import Material
 from .mesh_arrays import (

@@ -12,9 +12,9 @@ from typing import Any, Generic, TypeVar, overload
 import numpy as np
 
 from ._native.loaders import is_frozen
+from ._support.numbers import as_array
 from .colors import eight_bit_or_float
 from .errors import InvalidArgumentError
-from .number_checks import as_array
 
 _INT32_MAX = 2**31 - 1
 

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native.scene_graph import VISIBLE
-from .attributes import Closed
+from ._support.numbers import floats
+from ._support.validation import Closed
 from .errors import InvalidArgumentError
 from .nodes import Node
-from .number_checks import floats
 from .scene_arrays import matrices_of
 
 if TYPE_CHECKING:

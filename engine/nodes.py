@@ -16,9 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
 from ._native.scene_graph import STATIC, VISIBLE
-from .attributes import frozen_floats, matrix4, vector3
+from ._support.numbers import floats
+from ._support.validation import frozen_floats, matrix4, vector3
 from .errors import InvalidArgumentError
-from .number_checks import floats
 from .spatial.colliders import check_collider
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
-from .attributes import positive, vector3
+from ._support.validation import positive, vector3
 from .errors import InvalidArgumentError
 
 

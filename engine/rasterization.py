@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import rasterizer as _native
-from .attributes import choose
+from ._support.image_size import check_side
+from ._support.numbers import as_array, floats
+from ._support.validation import choose
 from .backend_selection import resolve_backend, resolve_threads
 from .choices import Backend, Cull
 from .errors import InvalidArgumentError
-from .image_size import check_side
-from .number_checks import as_array, floats
 
 
 class RasterizeResult(NamedTuple):

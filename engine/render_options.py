@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypedDict
 
 from ._native import rasterizer as _native
-from .attributes import choose
+from ._support.numbers import real, shown
+from ._support.validation import choose
 from .choices import (
     ColorLike,
     Cull,
@@ -26,7 +27,6 @@ from .choices import (
 from .colors import check_color
 from .errors import InvalidArgumentError
 from .frame import OUTPUTS
-from .number_checks import real, shown
 
 if TYPE_CHECKING:
     from .frame import Frame

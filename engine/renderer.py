@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._native import rasterizer as _native
-from .attributes import Closed, choose
+from ._support.image_size import check_side, check_size
+from ._support.validation import Closed, choose
 from .backend_selection import resolve_backend, resolve_threads
 from .cameras import Camera
 from .choices import (
@@ -36,7 +37,6 @@ from .errors import InvalidArgumentError, SceneChangedError
 from .frame import OUTPUTS, Frame
 from .frame_options import OptionsCache
 from .framing import frame_scene
-from .image_size import check_side, check_size
 from .output_pool import OutputPool
 from .render_options import WHITE, RenderKeywords, RenderOptions, either
 from .renderer_turn import RendererTurn

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
 from ._native.scene_graph import OBJECT_BOX, union
-from .attributes import Closed, vector3
+from ._support.validation import Closed, vector3
 from .cameras import Camera
 from .choices import Color, ColorLike, Cull
 from .colors import check_color

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from ._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
-from .changes import Watch
+from ._support.dirty_tracking import Watch
 from .instances import InstancedMesh, mesh_box
 from .mesh import Mesh
 

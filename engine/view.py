@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import linalg
 from ._native.scene_graph import camera_view
-from .attributes import matrix4
+from ._support.validation import matrix4
 from .cameras import Camera
 from .errors import InvalidArgumentError
 from .linalg.vectors import as_vectors

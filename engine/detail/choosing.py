@@ -10,11 +10,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..attributes import matrix4
+from .._support.image_size import check_size
+from .._support.numbers import real, shown
+from .._support.validation import matrix4
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
-from ..image_size import check_size
-from ..number_checks import real, shown
 
 
 def checked_view(camera, pose, size) -> tuple[np.ndarray, tuple[int, int]]:

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._support.numbers import real
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..mesh import Mesh
 from ..nodes import Node
-from ..number_checks import real
 from ..scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 from .impostors import Impostor, bounding_ball

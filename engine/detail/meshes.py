@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import linalg
+from .._support.numbers import real
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
 from ..nodes import Node
-from ..number_checks import real
 from ..scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 

@@ -15,12 +15,12 @@ from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._native import navigation as _native
-from ..attributes import Closed, not_negative
+from .._support.numbers import floats, real
+from .._support.validation import Closed, not_negative
 from ..errors import InvalidArgumentError
 from ..instances import InstancedMesh
 from ..materials import Material
 from ..mesh import Mesh
-from ..number_checks import floats, real
 from ..scene import Scene
 from .placed_meshes import bounds_of, placed_meshes
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from .. import linalg
 from .._native.scene_graph import BOX, SHOWN, NativeTree
-from ..attributes import how_far, positive, vector3
-from ..changes import Watch
+from .._support.dirty_tracking import Watch
+from .._support.validation import how_far, positive, vector3
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
 from ..nodes import Node

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..attributes import Closed, freeze, positive, vector3
+from .._support.validation import Closed, freeze, positive, vector3
 from ..errors import InvalidArgumentError
 from ..mesh import Mesh
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..attributes import own
+from .._support.validation import own
 from ..materials import Material
 from ..mesh import Mesh
 from ..primitives.arguments import integer

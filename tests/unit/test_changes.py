@@ -11,7 +11,7 @@ import pytest
 from patience import HUNG
 
 import engine3d as e3d
-from engine3d.changes import Watch
+from engine3d._support.dirty_tracking import Watch
 
 VIEW = e3d.PerspectiveCamera(yfov=0.9), e3d.look_at((0, 0, 9), (0, 0, 0))
 
@@ -266,7 +266,7 @@ def test_a_watch_tells_once():
 FORK = """
 import os
 import engine3d as e3d
-from engine3d.changes import Watch
+from engine3d._support.dirty_tracking import Watch
 things = [e3d.Material() for _ in range(3)]
 watch = Watch(things)
 things[2].name = "before"

@@ -12,7 +12,7 @@ import numbers
 
 import numpy as np
 
-from .errors import InvalidArgumentError
+from ..errors import InvalidArgumentError
 
 
 def real(value) -> float:

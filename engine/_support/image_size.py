@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numbers
 
-from .errors import InvalidArgumentError
+from ..errors import InvalidArgumentError
 
 MAX_SIZE = 16384
 

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._native.loaders import is_frozen
-from .changes import renew
-from .choices import Color, ColorLike
-from .errors import InvalidArgumentError
-from .number_checks import floats, real, shown
+from .._native.loaders import is_frozen
+from ..choices import Color, ColorLike
+from ..errors import InvalidArgumentError
+from .dirty_tracking import renew
+from .numbers import floats, real, shown
 
 Given = TypeVar("Given")
 Kept = TypeVar("Kept")

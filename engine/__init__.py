@@ -28,7 +28,7 @@ _PUBLIC = {
     "OutOfMemoryError": "errors",
     "RendererBusyError": "errors",
     "SceneChangedError": "errors",
-    "Mesh": "mesh",
+    "Mesh": "geometry.mesh",
     "Material": "materials",
     "Texture": "textures",
     "InstancedMesh": "instances",

@@ -31,6 +31,7 @@ from .errors import SceneChangedError as SceneChangedError
 from .frame import Frame as Frame
 from .framing import frame_bounds as frame_bounds
 from .framing import frame_scene as frame_scene
+from .geometry.mesh import Mesh as Mesh
 from .instances import InstancedMesh as InstancedMesh
 from .lights import DirectionalLight as DirectionalLight
 from .lights import PointLight as PointLight
@@ -38,7 +39,6 @@ from .linalg import look_at as look_at
 from .loaders import load_mesh as load_mesh
 from .loaders import load_texture as load_texture
 from .materials import Material as Material
-from .mesh import Mesh as Mesh
 from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
 from .node_selection import NodeSelection as NodeSelection

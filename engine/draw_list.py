@@ -15,10 +15,10 @@ import numpy as np
 from ._native.rasterizer import NativeDrawList
 from ._support.dirty_tracking import Watch
 from .display_colors import shading_color
+from .geometry.mesh import Mesh
 from .instances import InstancedMesh
 from .light_list import LightList
 from .materials import Material
-from .mesh import Mesh
 from .native_handles import MeshNeeds, native_mesh, native_texture
 from .scene import Scene
 from .scene_arrays import NodeArrays

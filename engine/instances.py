@@ -18,7 +18,7 @@ from ._support.numbers import as_array, floats
 from ._support.validation import CheckedAttribute, Closed
 from .colors import eight_bit_or_float, float32_of
 from .errors import InvalidArgumentError
-from .mesh import Mesh
+from .geometry.mesh import Mesh
 
 
 def _check_mesh(value: Mesh, what: str) -> Mesh:

@@ -14,7 +14,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
-from .mesh import Mesh
+from .geometry.mesh import Mesh
 from .textures import Texture
 
 

@@ -23,9 +23,9 @@ from .spatial.colliders import check_collider
 
 if TYPE_CHECKING:
     from .cameras import Camera
+    from .geometry.mesh import Mesh
     from .instances import InstancedMesh
     from .lights import DirectionalLight, PointLight
-    from .mesh import Mesh
     from .scene import Scene
     from .spatial.colliders import Collider
 

@@ -14,8 +14,8 @@ import numpy as np
 
 from . import linalg
 from ._native.scene_graph import SHOWN
+from .geometry.mesh import Mesh
 from .instances import InstancedMesh
-from .mesh import Mesh
 from .scene import Scene
 
 Reach = Callable[[np.ndarray], np.ndarray]

@@ -16,11 +16,11 @@ from weakref import WeakValueDictionary
 
 from .errors import Engine3DError, Engine3DWarning, InvalidArgumentError
 from .file_states import FileState
+from .geometry.mesh import Mesh
 from .loaders import load_mesh, load_texture
 from .loaders.linked_files import found_files
 from .loaders.open_files import unreadable
 from .materials import Material
-from .mesh import Mesh
 from .textures import Texture
 
 if TYPE_CHECKING:

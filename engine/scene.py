@@ -22,9 +22,9 @@ from .cameras import Camera
 from .choices import Color, ColorLike, Cull
 from .colors import check_color
 from .errors import InvalidArgumentError
+from .geometry.mesh import Mesh
 from .instances import InstancedMesh
 from .lights import DirectionalLight, PointLight
-from .mesh import Mesh
 from .node_selection import NodeSelection
 from .nodes import Node, check_pose, check_rotation, check_scale
 from .scene_arrays import NodeArrays

@@ -14,8 +14,8 @@ import numpy as np
 
 from ._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
 from ._support.dirty_tracking import Watch
+from .geometry.mesh import Mesh
 from .instances import InstancedMesh, mesh_box
-from .mesh import Mesh
 
 _REMEMBERED = 1024  # numbers that got other objects
 _NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)

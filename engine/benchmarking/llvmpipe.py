@@ -15,9 +15,9 @@ import numpy as np
 from .. import linalg
 from ..colors import linear_color
 from ..errors import Engine3DError
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
 from ..lights import DirectionalLight, PointLight
-from ..mesh import Mesh
 from ..textures import Texture
 from . import shaders
 from .workloads import Workload

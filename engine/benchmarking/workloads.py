@@ -17,11 +17,11 @@ import numpy as np
 
 from .. import linalg
 from ..cameras import PerspectiveCamera
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
 from ..lights import DirectionalLight
 from ..loaders import load_mesh, load_texture
 from ..materials import Material
-from ..mesh import Mesh
 from ..primitives import uv_sphere
 from ..scene import Scene
 from ..textures import Texture

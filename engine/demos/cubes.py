@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import linalg
 from ..display.subject import Subject
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..primitives import box
 from ..scene import Scene
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from .. import linalg
 from ..display.subject import Subject
+from ..geometry.mesh import Mesh
 from ..lights import DirectionalLight, PointLight
 from ..materials import Material
-from ..mesh import Mesh
 from ..primitives import box, icosphere, plane, uv_sphere
 from ..scene import Scene
 from ..textures import Texture

@@ -14,10 +14,10 @@ import numpy as np
 from .. import linalg
 from ..animation import Animator
 from ..display.subject import Subject
+from ..geometry.mesh import Mesh
 from ..lights import PointLight
 from ..loaders import load_texture
 from ..materials import Material
-from ..mesh import Mesh
 from ..primitives import uv_sphere
 from ..scene import Scene
 from ..textures import Texture

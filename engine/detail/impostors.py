@@ -17,8 +17,8 @@ from .. import linalg
 from ..cameras import OrthographicCamera
 from ..colors import srgb_bytes
 from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
 from ..materials import Material
-from ..mesh import Mesh
 from ..renderer import Renderer
 from ..scene import Scene
 from ..textures import Texture

@@ -15,7 +15,7 @@ from .. import linalg
 from .._support.numbers import real
 from ..cameras import Camera
 from ..errors import InvalidArgumentError
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..nodes import Node
 from ..scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit

@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import linalg
 from ..errors import InvalidArgumentError
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 
 _ATTRIBUTES = ("normals", "uvs", "colors")
 

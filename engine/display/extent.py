@@ -12,8 +12,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from .. import linalg
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
-from ..mesh import Mesh
 from ..orbiting import cosine, home_axes, sine
 from .viewpoint import Sphere
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from .. import linalg
 from ..errors import Engine3DWarning
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
 from ..lights import DirectionalLight, PointLight
-from ..mesh import Mesh
 from ..scene import Scene
 from .opening import open_model
 from .subject import Subject

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from .. import linalg
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..orbiting import home_axes
 from .viewpoint import Sphere
 

@@ -12,8 +12,8 @@ from typing import get_args
 from .. import linalg
 from ..choices import Cull, HiddenSurfaces, Mode, Wireframe
 from ..colors import linear_color
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
-from ..mesh import Mesh
 
 MODES = get_args(Mode)
 WIREFRAMES = (None, *get_args(Wireframe))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import Engine3DWarning, FileFormatError, InvalidArgumentError
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..textures import Texture
 from .documents import Document
 from .extents import extent_warnings

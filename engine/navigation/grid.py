@@ -18,9 +18,9 @@ from .._native import navigation as _native
 from .._support.numbers import floats, real
 from .._support.validation import Closed, not_negative
 from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
 from ..materials import Material
-from ..mesh import Mesh
 from ..scene import Scene
 from .placed_meshes import bounds_of, placed_meshes
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from .. import linalg
 from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
-from ..mesh import Mesh
 from ..scene import Scene
 
 _IDENTITY = np.eye(4)

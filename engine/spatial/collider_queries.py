@@ -16,7 +16,7 @@ from .._native.scene_graph import BOX, SHOWN, NativeTree
 from .._support.dirty_tracking import Watch
 from .._support.validation import how_far, positive, vector3
 from ..errors import InvalidArgumentError
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..nodes import Node
 from .colliders import BoxCollider, ColliderHit, MeshCollider, SphereCollider
 from .shapes import faces_in_box, way_to_face

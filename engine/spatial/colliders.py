@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._support.validation import Closed, freeze, positive, vector3
 from ..errors import InvalidArgumentError
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 
 if TYPE_CHECKING:
     from ..nodes import Node

@@ -11,8 +11,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from .._native.scene_graph import BOX, NativeShapes, NativeTree, triangle_boxes
+from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
-from ..mesh import Mesh
 
 _triangles: WeakKeyDictionary[Mesh, tuple[tuple, NativeTree]] = WeakKeyDictionary()
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._support.validation import own
+from ..geometry.mesh import Mesh
 from ..materials import Material
-from ..mesh import Mesh
 from ..primitives.arguments import integer
 from ..scene import Node, Scene
 from .buildings import add_houses, house_quads

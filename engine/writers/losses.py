@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ..colors import linear_color
+from ..geometry.mesh import Mesh
 from ..materials import Material, says_something
-from ..mesh import Mesh
 
 _NAMES = {
     "uvs": "texture coordinates",

@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 
 from ..atomic_write import AtomicFiles, StreamFiles, checked_path
 from ..errors import Engine3DWarning, InvalidArgumentError, located
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from .registry import find_writer
 
 

@@ -42,8 +42,8 @@ POPULAR_HEADERS = {"fuzz/input.h", "pipeline/frame.h"}
 CALL_CIRCLES = {"loaders: obj.c obj_check.c obj_corners.c obj_rows.c"}
 # Imports inside functions without which no modules would import each other in a circle.
 BACKWARD_IMPORTS = {
-    "mesh -> trimesh_conversion",
-    "mesh -> writers",
+    "geometry.mesh -> geometry.trimesh_conversion",
+    "geometry.mesh -> writers",
 }
 # Lists that repeat a type of engine/choices.py.
 COPIED_CHOICES = set()

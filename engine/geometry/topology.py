@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._native.loaders import find_edges
+from .._native.loaders import find_edges
 
 
 def visible_edges(

@@ -11,10 +11,10 @@ from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from ._native.loaders import is_frozen
-from ._support.numbers import as_array
-from .colors import eight_bit_or_float
-from .errors import InvalidArgumentError
+from .._native.loaders import is_frozen
+from .._support.numbers import as_array
+from ..colors import eight_bit_or_float
+from ..errors import InvalidArgumentError
 
 _INT32_MAX = 2**31 - 1
 

@@ -17,15 +17,15 @@ from typing import Any, BinaryIO, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import exchange, frozen
+from .._native.rasterizer import bound_points
+from .._support.dirty_tracking import renew
+from .._support.validation import Closed, own
+from ..errors import InvalidArgumentError
+from ..materials import Material
 from . import normals as _normals
 from . import topology as _topology
-from ._native.loaders import exchange, frozen
-from ._native.rasterizer import bound_points
-from ._support.dirty_tracking import renew
-from ._support.validation import Closed, own
-from .errors import InvalidArgumentError
-from .materials import Material
-from .mesh_arrays import (
+from ._arrays import (
     ArrayAttribute,
     check_colors,
     check_flags3,
@@ -216,7 +216,7 @@ class Mesh(Closed):
         What only some of them have is filled in: computed normals, zero texture coordinates,
         white vertex colours. Materials that are the same object are kept once.
         """
-        from .mesh_concatenation import concatenate
+        from ._concatenation import concatenate
 
         if not isinstance(meshes, Iterable):
             raise InvalidArgumentError(f"meshes must be several Mesh, not {meshes!r}")
@@ -268,7 +268,7 @@ class Mesh(Closed):
         self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
     ) -> None:
         """Write the mesh to an OBJ, PLY or STL file; parameters and exceptions of `save_mesh`."""
-        from .writers import save_mesh
+        from ..writers import save_mesh
 
         save_mesh(self, path, format=format, **options)
 

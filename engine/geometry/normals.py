@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._native import loaders as native
+from .._native import loaders as native
 
 # A group of triangles whose area vectors cancel by more than half is no polygon but a curved patch.
 _PLANARITY = 0.5
@@ -133,7 +133,7 @@ def face_normals(
     positions : (V, 3) float
     faces : (F, 3) int
     polygon_ids : (F,) int, optional
-        The polygon of each face, as `engine3d.topology.polygon_ids` gives it.
+        The polygon of each face, as `engine3d.geometry.topology.polygon_ids` gives it.
 
     Returns
     -------

@@ -38,7 +38,8 @@ from .lights import PointLight as PointLight
 from .linalg import look_at as look_at
 from .loaders import load_mesh as load_mesh
 from .loaders import load_texture as load_texture
-from .materials import Material as Material
+from .materials.material import Material as Material
+from .materials.textures import Texture as Texture
 from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
 from .node_selection import NodeSelection as NodeSelection
@@ -66,7 +67,6 @@ from .spatial.colliders import MeshCollider as MeshCollider
 from .spatial.colliders import SphereCollider as SphereCollider
 from .spatial.rays import RayHit as RayHit
 from .spatial.rays import RayHits as RayHits
-from .textures import Texture as Texture
 from .version import __version__ as __version__
 from .worlds import World as World
 from .worlds import city as city

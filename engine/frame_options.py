@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from operator import is_
 
 from ._native import rasterizer as _native
-from .display_colors import display_color, shading_color
+from .materials.display_colors import display_color, shading_color
 from .native_handles import MeshNeeds
 from .render_options import RenderOptions, check_outputs
 from .scene import Scene

@@ -25,8 +25,8 @@ from ._support.validation import (
     vector3,
 )
 from .choices import ColorLike, Falloff
-from .colors import check_color
 from .errors import InvalidArgumentError
+from .materials.colors import check_color
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
 from .geometry.mesh import Mesh
-from .textures import Texture
+from .materials.textures import Texture
 
 
 class MeshNeeds(NamedTuple):

@@ -24,9 +24,9 @@ from .choices import (
     Shading,
     Wireframe,
 )
-from .colors import check_color
 from .errors import InvalidArgumentError
 from .frame import OUTPUTS
+from .materials.colors import check_color
 
 if TYPE_CHECKING:
     from .frame import Frame

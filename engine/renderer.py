@@ -31,12 +31,12 @@ from .choices import (
     Shading,
     Wireframe,
 )
-from .colors import COLOR_SPACES
 from .draw_list import DrawList
 from .errors import InvalidArgumentError, SceneChangedError
 from .frame import OUTPUTS, Frame
 from .frame_options import OptionsCache
 from .framing import frame_scene
+from .materials.colors import COLOR_SPACES
 from .output_pool import OutputPool
 from .render_options import WHITE, RenderKeywords, RenderOptions, either
 from .renderer_turn import RendererTurn

@@ -20,13 +20,13 @@ from .geometry.mesh import Mesh
 from .loaders import load_mesh, load_texture
 from .loaders.linked_files import found_files
 from .loaders.open_files import unreadable
-from .materials import Material
-from .textures import Texture
+from .materials.material import Material
+from .materials.textures import Texture
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from .textures import TextureOptions
+    from .materials.textures import TextureOptions
 
 
 class ResourceStats(NamedTuple):

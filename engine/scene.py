@@ -20,11 +20,11 @@ from ._native.scene_graph import OBJECT_BOX, union
 from ._support.validation import Closed, vector3
 from .cameras import Camera
 from .choices import Color, ColorLike, Cull
-from .colors import check_color
 from .errors import InvalidArgumentError
 from .geometry.mesh import Mesh
 from .instances import InstancedMesh
 from .lights import DirectionalLight, PointLight
+from .materials.colors import check_color
 from .node_selection import NodeSelection
 from .nodes import Node, check_pose, check_rotation, check_scale
 from .scene_arrays import NodeArrays

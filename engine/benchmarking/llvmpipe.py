@@ -13,12 +13,12 @@ import os
 import numpy as np
 
 from .. import linalg
-from ..colors import linear_color
 from ..errors import Engine3DError
 from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
 from ..lights import DirectionalLight, PointLight
-from ..textures import Texture
+from ..materials.colors import linear_color
+from ..materials.textures import Texture
 from . import shaders
 from .workloads import Workload
 

@@ -13,7 +13,7 @@ import time
 
 import numpy as np
 
-from ..colors import linear_color
+from ..materials.colors import linear_color
 from ..renderer import Renderer
 from .workloads import Workload
 

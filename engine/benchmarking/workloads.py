@@ -21,10 +21,10 @@ from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
 from ..lights import DirectionalLight
 from ..loaders import load_mesh, load_texture
-from ..materials import Material
+from ..materials.material import Material
+from ..materials.textures import Texture
 from ..primitives import uv_sphere
 from ..scene import Scene
-from ..textures import Texture
 from ..worlds import city
 from . import city_views
 

@@ -13,10 +13,10 @@ from .. import linalg
 from ..display.subject import Subject
 from ..geometry.mesh import Mesh
 from ..lights import DirectionalLight, PointLight
-from ..materials import Material
+from ..materials.material import Material
+from ..materials.textures import Texture
 from ..primitives import box, icosphere, plane, uv_sphere
 from ..scene import Scene
-from ..textures import Texture
 
 BACKGROUND = (14, 16, 22)
 PERIOD = 10.0

@@ -17,10 +17,10 @@ from ..display.subject import Subject
 from ..geometry.mesh import Mesh
 from ..lights import PointLight
 from ..loaders import load_texture
-from ..materials import Material
+from ..materials.material import Material
+from ..materials.textures import Texture
 from ..primitives import uv_sphere
 from ..scene import Scene
-from ..textures import Texture
 
 BACKGROUND = (4, 5, 10)
 MONTH = 18.0  # seconds

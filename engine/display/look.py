@@ -11,9 +11,9 @@ from typing import get_args
 
 from .. import linalg
 from ..choices import Cull, HiddenSurfaces, Mode, Wireframe
-from ..colors import linear_color
 from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
+from ..materials.colors import linear_color
 
 MODES = get_args(Mode)
 WIREFRAMES = (None, *get_args(Wireframe))

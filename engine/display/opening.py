@@ -11,7 +11,7 @@ import warnings
 
 from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
-from ..materials import says_something
+from ..materials.material import says_something
 from ..scene_loading import scene_from_document
 from .subject import Subject
 

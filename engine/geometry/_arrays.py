@@ -13,8 +13,8 @@ import numpy as np
 
 from .._native.loaders import is_frozen
 from .._support.numbers import as_array
-from ..colors import eight_bit_or_float
 from ..errors import InvalidArgumentError
+from ..materials.colors import eight_bit_or_float
 
 _INT32_MAX = 2**31 - 1
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..colors import srgb_to_linear_table
 from ..errors import InvalidArgumentError
-from ..materials import Material
+from ..materials.colors import srgb_to_linear_table
+from ..materials.material import Material
 
 
 def concatenate(mesh_type: type, meshes: list, name: str):

@@ -22,7 +22,7 @@ from .._native.rasterizer import bound_points
 from .._support.dirty_tracking import renew
 from .._support.validation import Closed, own
 from ..errors import InvalidArgumentError
-from ..materials import Material
+from ..materials.material import Material
 from . import normals as _normals
 from . import topology as _topology
 from ._arrays import (

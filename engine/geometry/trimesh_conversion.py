@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..colors import linear_color, srgb_bytes
 from ..errors import InvalidArgumentError
 from ..loaders.images import check_image_size, rgba_pixels
 from ..loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
 from ..loaders.posed_parts import PosedPart, posed_mesh
 from ..loaders.warning_list import WarningList
-from ..materials import Material
-from ..textures import Texture
+from ..materials.colors import linear_color, srgb_bytes
+from ..materials.material import Material
+from ..materials.textures import Texture
 from .mesh import Mesh
 
 

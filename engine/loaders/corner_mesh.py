@@ -13,7 +13,7 @@ import numpy as np
 
 from .._native import loaders as native
 from ..geometry.mesh import Mesh
-from ..materials import Material
+from ..materials.material import Material
 from .mtl import uv_transform
 
 # All positions as they are.

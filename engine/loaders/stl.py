@@ -15,7 +15,7 @@ import numpy as np
 from .._native import loaders as native
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
-from ..materials import Material
+from ..materials.material import Material
 from .documents import Document, DocumentObject
 from .registry import Reader
 from .sources import Source

@@ -20,7 +20,7 @@ from .._support.validation import Closed, not_negative
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..instances import InstancedMesh
-from ..materials import Material
+from ..materials.material import Material
 from ..scene import Scene
 from .placed_meshes import bounds_of, placed_meshes
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from .._support.validation import own
 from ..geometry.mesh import Mesh
-from ..materials import Material
+from ..materials.material import Material
 from ..primitives.arguments import integer
 from ..scene import Node, Scene
 from .buildings import add_houses, house_quads

@@ -14,12 +14,12 @@ from typing import TypedDict, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._support.dirty_tracking import renew
-from ._support.numbers import as_array
-from ._support.validation import CheckedAttribute, Closed, one_of
-from .choices import ColorSpace, Filter, Wrap
+from .._support.dirty_tracking import renew
+from .._support.numbers import as_array
+from .._support.validation import CheckedAttribute, Closed, one_of
+from ..choices import ColorSpace, Filter, Wrap
+from ..errors import InvalidArgumentError
 from .colors import COLOR_SPACES
-from .errors import InvalidArgumentError
 
 FILTERS: tuple[Filter, ...] = get_args(Filter)
 WRAPS: tuple[Wrap, ...] = get_args(Wrap)

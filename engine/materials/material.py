@@ -1,8 +1,8 @@
 """What a surface is made of: the numbers and the texture that shading reads.
 
 A `Material` is plain data. Colours are kept as they were given (floats are linear light, 8-bit
-integers sRGB; see `engine3d.colors`) and become linear when the renderer reads them. Whatever a
-file says beyond this (physically based parameters, further maps) is kept in ``extras``.
+integers sRGB; see `engine3d.materials.colors`) and become linear when the renderer reads them.
+Whatever a file says beyond this (physically based parameters, further maps) is kept in ``extras``.
 """
 
 from __future__ import annotations
@@ -10,16 +10,16 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-from ._support.validation import (
+from .._support.validation import (
     CheckedAttribute,
     Closed,
     ColorAttribute,
     NumberAttribute,
     not_negative,
 )
-from .choices import ColorLike
+from ..choices import ColorLike
+from ..errors import InvalidArgumentError
 from .colors import check_color, linear_color
-from .errors import InvalidArgumentError
 from .textures import Texture
 
 

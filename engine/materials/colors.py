@@ -14,9 +14,9 @@ from typing import get_args
 
 import numpy as np
 
-from ._support.numbers import real, shown
-from .choices import Color, ColorLike, ColorSpace
-from .errors import InvalidArgumentError, warn
+from .._support.numbers import real, shown
+from ..choices import Color, ColorLike, ColorSpace
+from ..errors import InvalidArgumentError, warn
 
 COLOR_SPACES: tuple[ColorSpace, ...] = get_args(ColorSpace)
 _LEAST_SUSPECT = 16.0  # whole floats from here on look like 8-bit values

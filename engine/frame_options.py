@@ -14,7 +14,7 @@ from ._native import rasterizer as _native
 from .materials.display_colors import display_color, shading_color
 from .native_handles import MeshNeeds
 from .render_options import RenderOptions, check_outputs
-from .scene import Scene
+from .scene.scene import Scene
 
 _NO_CLAMP = (0.0, math.inf)
 # Modes whose colours go through the sRGB encoder; the others give display values.

@@ -16,10 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import linalg
 from ._support.numbers import floats, real, shown
 from ._support.validation import positive
-from .cameras import PerspectiveCamera
 from .errors import InvalidArgumentError
 from .reach import Reach, box_reach, scene_reach
-from .scene import Scene
+from .scene.cameras import PerspectiveCamera
+from .scene.scene import Scene
 
 _DIRECTION = (-0.35, -0.25, -1.0)
 _UP = (0.0, 1.0, 0.0)

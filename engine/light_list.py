@@ -10,10 +10,10 @@ import numpy as np
 
 from ._native.rasterizer import FALLOFFS, NativeDrawList
 from ._native.scene_graph import SHOWN
-from .lights import DirectionalLight
 from .linalg.single import normalize
 from .materials.display_colors import shading_color
-from .scene import Scene
+from .scene.lights import DirectionalLight
+from .scene.scene import Scene
 
 
 class LightList:

@@ -15,8 +15,8 @@ import numpy as np
 from . import linalg
 from ._native.scene_graph import SHOWN
 from .geometry.mesh import Mesh
-from .instances import InstancedMesh
-from .scene import Scene
+from .scene.instances import InstancedMesh
+from .scene.scene import Scene
 
 Reach = Callable[[np.ndarray], np.ndarray]
 

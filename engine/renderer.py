@@ -16,7 +16,6 @@ from ._native import rasterizer as _native
 from ._support.image_size import check_side, check_size
 from ._support.validation import Closed, choose
 from .backend_selection import resolve_backend, resolve_threads
-from .cameras import Camera
 from .choices import (
     Backend,
     ColorLike,
@@ -40,7 +39,8 @@ from .materials.colors import COLOR_SPACES
 from .output_pool import OutputPool
 from .render_options import WHITE, RenderKeywords, RenderOptions, either
 from .renderer_turn import RendererTurn
-from .scene import Scene
+from .scene.cameras import Camera
+from .scene.scene import Scene
 from .view import CameraChoice, View, find_camera
 
 if TYPE_CHECKING:

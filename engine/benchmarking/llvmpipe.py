@@ -15,10 +15,10 @@ import numpy as np
 from .. import linalg
 from ..errors import Engine3DError
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
-from ..lights import DirectionalLight, PointLight
 from ..materials.colors import linear_color
 from ..materials.textures import Texture
+from ..scene.instances import InstancedMesh
+from ..scene.lights import DirectionalLight, PointLight
 from . import shaders
 from .workloads import Workload
 

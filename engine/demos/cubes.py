@@ -13,7 +13,7 @@ from .. import linalg
 from ..display.subject import Subject
 from ..geometry.mesh import Mesh
 from ..primitives import box
-from ..scene import Scene
+from ..scene.scene import Scene
 
 BACKGROUND = (18, 20, 26)
 SPIN_SECONDS = 8.0

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..display.opening import open_model
 from ..display.subject import Subject
-from ..lights import DirectionalLight
+from ..scene.lights import DirectionalLight
 
 SHOWCASE_MODEL = "island.obj"
 SKY = (142, 178, 204)

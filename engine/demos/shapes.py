@@ -12,11 +12,11 @@ import numpy as np
 from .. import linalg
 from ..display.subject import Subject
 from ..geometry.mesh import Mesh
-from ..lights import DirectionalLight, PointLight
 from ..materials.material import Material
 from ..materials.textures import Texture
 from ..primitives import box, icosphere, plane, uv_sphere
-from ..scene import Scene
+from ..scene.lights import DirectionalLight, PointLight
+from ..scene.scene import Scene
 
 BACKGROUND = (14, 16, 22)
 PERIOD = 10.0

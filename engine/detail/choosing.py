@@ -13,8 +13,8 @@ import numpy as np
 from .._support.image_size import check_size
 from .._support.numbers import real, shown
 from .._support.validation import matrix4
-from ..cameras import Camera
 from ..errors import InvalidArgumentError
+from ..scene.cameras import Camera
 
 
 def checked_view(camera, pose, size) -> tuple[np.ndarray, tuple[int, int]]:

@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import linalg
-from ..cameras import OrthographicCamera
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import srgb_bytes
 from ..materials.material import Material
 from ..materials.textures import Texture
 from ..renderer import Renderer
-from ..scene import Scene
+from ..scene.cameras import OrthographicCamera
+from ..scene.scene import Scene
 
 _CELLS = 4  # along each side of a card: normals are kept at their corners
 _PIXELS = 4  # along each side of a texel

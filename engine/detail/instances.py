@@ -14,12 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._support.numbers import real
-from ..cameras import Camera
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
-from ..nodes import Node
-from ..scene import Scene
+from ..scene.cameras import Camera
+from ..scene.instances import InstancedMesh
+from ..scene.nodes import Node
+from ..scene.scene import Scene
 from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 from .impostors import Impostor, bounding_ball
 from .simplification import simplify

@@ -13,8 +13,8 @@ import numpy as np
 
 from .. import linalg
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
-from ..orbiting import cosine, home_axes, sine
+from ..scene.instances import InstancedMesh
+from ..scene.orbiting import cosine, home_axes, sine
 from .viewpoint import Sphere
 
 #: How finely `turning_outline` follows a scene.

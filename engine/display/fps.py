@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from ..orbiting import home_axes
+from ..scene.orbiting import home_axes
 from .orbit import MAX_DISTANCE
 from .viewpoint import QUARTER_TURN, Sphere, Viewpoint
 

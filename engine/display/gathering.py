@@ -13,9 +13,9 @@ import numpy as np
 from .. import linalg
 from ..errors import Engine3DWarning
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
-from ..lights import DirectionalLight, PointLight
-from ..scene import Scene
+from ..scene.instances import InstancedMesh
+from ..scene.lights import DirectionalLight, PointLight
+from ..scene.scene import Scene
 from .opening import open_model
 from .subject import Subject
 from .viewpoint import UP_DIRECTIONS, home_axes

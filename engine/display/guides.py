@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import linalg
 from ..geometry.mesh import Mesh
-from ..orbiting import home_axes
+from ..scene.orbiting import home_axes
 from .viewpoint import Sphere
 
 MINOR_COLOR = (92, 96, 104, 255)

@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from ..lights import DirectionalLight, PointLight
-from ..orbiting import home_axes
+from ..scene.lights import DirectionalLight, PointLight
+from ..scene.orbiting import home_axes
 from .viewpoint import Sphere
 
 #: Per set-up: the way the light travels, in camera space (or the home frame, if fixed), the linear

@@ -12,8 +12,8 @@ from typing import get_args
 from .. import linalg
 from ..choices import Cull, HiddenSurfaces, Mode, Wireframe
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
 from ..materials.colors import linear_color
+from ..scene.instances import InstancedMesh
 
 MODES = get_args(Mode)
 WIREFRAMES = (None, *get_args(Wireframe))

@@ -12,7 +12,7 @@ import warnings
 from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
-from ..scene_loading import scene_from_document
+from ..scene.loading import scene_from_document
 from .subject import Subject
 
 #: Formats whose models, by custom, stand on the XY plane.

@@ -3,7 +3,7 @@
 In: a target, a distance, two angles and an up direction (world space, radians).
 Out: a camera with clip planes that enclose the scene, and its 4x4 pose (``world_from_view``).
 Always holds: the elevation stays within a quarter turn of the horizon, the distance above zero.
-The pose comes from the angles: see `engine3d.orbiting`.
+The pose comes from the angles: see `engine3d.scene.orbiting`.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import linalg
-from ..cameras import OrthographicCamera, PerspectiveCamera
 from ..errors import InvalidArgumentError
 from ..framing import fit_frustum, frustum_reach
-from ..orbiting import home_axes, orbit_axes
 from ..reach import Reach, points_reach
+from ..scene.cameras import OrthographicCamera, PerspectiveCamera
+from ..scene.orbiting import home_axes, orbit_axes
 
 #: What ``up`` may be, as the command line spells it.
 UP_DIRECTIONS = {

@@ -19,9 +19,9 @@ from .._support.numbers import floats, real
 from .._support.validation import Closed, not_negative
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
 from ..materials.material import Material
-from ..scene import Scene
+from ..scene.instances import InstancedMesh
+from ..scene.scene import Scene
 from .placed_meshes import bounds_of, placed_meshes
 
 MAX_CELLS = 1 << 26

@@ -13,8 +13,8 @@ import numpy as np
 from .. import linalg
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
-from ..scene import Scene
+from ..scene.instances import InstancedMesh
+from ..scene.scene import Scene
 
 _IDENTITY = np.eye(4)
 

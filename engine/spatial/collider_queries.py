@@ -17,7 +17,7 @@ from .._support.dirty_tracking import Watch
 from .._support.validation import how_far, positive, vector3
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..nodes import Node
+from ..scene.nodes import Node
 from .colliders import BoxCollider, ColliderHit, MeshCollider, SphereCollider
 from .shapes import faces_in_box, way_to_face
 from .triangles import sphere_meets_triangles, triangles_meet_box

@@ -16,7 +16,7 @@ from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 
 if TYPE_CHECKING:
-    from ..nodes import Node
+    from ..scene.nodes import Node
 
 
 class BoxCollider(Closed):

@@ -12,7 +12,7 @@ import numpy as np
 
 from .._native.scene_graph import BOX, NativeShapes, NativeTree, triangle_boxes
 from ..geometry.mesh import Mesh
-from ..instances import InstancedMesh
+from ..scene.instances import InstancedMesh
 
 _triangles: WeakKeyDictionary[Mesh, tuple[tuple, NativeTree]] = WeakKeyDictionary()
 

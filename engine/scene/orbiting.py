@@ -13,9 +13,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import linalg
-from ._support.validation import positive, vector3
-from .errors import InvalidArgumentError
+from .. import linalg
+from .._support.validation import positive, vector3
+from ..errors import InvalidArgumentError
 
 
 def orbit(

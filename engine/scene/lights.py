@@ -13,8 +13,8 @@ from typing import get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._support.numbers import real, shown
-from ._support.validation import (
+from .._support.numbers import real, shown
+from .._support.validation import (
     CheckedAttribute,
     ColorAttribute,
     NumberAttribute,
@@ -24,9 +24,9 @@ from ._support.validation import (
     one_of,
     vector3,
 )
-from .choices import ColorLike, Falloff
-from .errors import InvalidArgumentError
-from .materials.colors import check_color
+from ..choices import ColorLike, Falloff
+from ..errors import InvalidArgumentError
+from ..materials.colors import check_color
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 

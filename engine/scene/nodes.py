@@ -14,20 +14,20 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import linalg
-from ._native.scene_graph import STATIC, VISIBLE
-from ._support.numbers import floats
-from ._support.validation import frozen_floats, matrix4, vector3
-from .errors import InvalidArgumentError
-from .spatial.colliders import check_collider
+from .. import linalg
+from .._native.scene_graph import STATIC, VISIBLE
+from .._support.numbers import floats
+from .._support.validation import frozen_floats, matrix4, vector3
+from ..errors import InvalidArgumentError
+from ..spatial.colliders import check_collider
 
 if TYPE_CHECKING:
+    from ..geometry.mesh import Mesh
+    from ..spatial.colliders import Collider
     from .cameras import Camera
-    from .geometry.mesh import Mesh
     from .instances import InstancedMesh
     from .lights import DirectionalLight, PointLight
     from .scene import Scene
-    from .spatial.colliders import Collider
 
     #: What a node holds.
     SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | DirectionalLight | PointLight

@@ -12,10 +12,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import linalg
-from ._support.numbers import floats, real
-from ._support.validation import Closed, finite, vector3
-from .errors import InvalidArgumentError
+from .. import linalg
+from .._support.numbers import floats, real
+from .._support.validation import Closed, finite, vector3
+from ..errors import InvalidArgumentError
 from .nodes import Node
 from .scene import Scene
 

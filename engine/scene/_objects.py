@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
-from ._support.dirty_tracking import Watch
-from .geometry.mesh import Mesh
+from .._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
+from .._support.dirty_tracking import Watch
+from ..geometry.mesh import Mesh
 from .instances import InstancedMesh, mesh_box
 
 _REMEMBERED = 1024  # numbers that got other objects

@@ -15,26 +15,26 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import linalg
-from ._native.scene_graph import OBJECT_BOX, union
-from ._support.validation import Closed, vector3
+from .. import linalg
+from .._native.scene_graph import OBJECT_BOX, union
+from .._support.validation import Closed, vector3
+from ..choices import Color, ColorLike, Cull
+from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..materials.colors import check_color
+from ._objects import ObjectTable
 from .cameras import Camera
-from .choices import Color, ColorLike, Cull
-from .errors import InvalidArgumentError
-from .geometry.mesh import Mesh
 from .instances import InstancedMesh
 from .lights import DirectionalLight, PointLight
-from .materials.colors import check_color
-from .node_selection import NodeSelection
+from .node_arrays import NodeArrays
 from .nodes import Node, check_pose, check_rotation, check_scale
-from .scene_arrays import NodeArrays
-from .scene_objects import ObjectTable
+from .selection import NodeSelection
 
 if TYPE_CHECKING:
-    from .frame import Frame
+    from ..frame import Frame
+    from ..spatial.colliders import ColliderHit
+    from ..spatial.rays import RayHit, RayHits
     from .nodes import SceneObject
-    from .spatial.colliders import ColliderHit
-    from .spatial.rays import RayHit, RayHits
 
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
 _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, DirectionalLight, PointLight)
@@ -325,7 +325,7 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        from .spatial.rays import raycast
+        from ..spatial.rays import raycast
 
         return raycast(self, origin, direction, max_distance, cull)
 
@@ -355,7 +355,7 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        from .spatial.rays import raycast_many
+        from ..spatial.rays import raycast_many
 
         return raycast_many(self, origins, directions, max_distance, cull)
 
@@ -382,7 +382,7 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        from .spatial.rays import pick
+        from ..spatial.rays import pick
 
         return pick(self, frame, x, y)
 
@@ -403,7 +403,7 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        from .spatial.collider_queries import overlap_box
+        from ..spatial.collider_queries import overlap_box
 
         return overlap_box(self, low, high)
 
@@ -415,7 +415,7 @@ class Scene(Closed):
         center : (3,) float
         radius : float
         """
-        from .spatial.collider_queries import overlap_sphere
+        from ..spatial.collider_queries import overlap_sphere
 
         return overlap_sphere(self, center, radius)
 
@@ -439,7 +439,7 @@ class Scene(Closed):
         ------
         InvalidArgumentError
         """
-        from .spatial.collider_queries import raycast_colliders
+        from ..spatial.collider_queries import raycast_colliders
 
         return raycast_colliders(self, origin, direction, max_distance)
 

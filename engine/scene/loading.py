@@ -11,12 +11,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import linalg
+from .. import linalg
+from ..errors import InvalidArgumentError
+from ..loaders import CameraRecord, Document, LightRecord, load_document
+from ..loaders.sources import File
 from .cameras import PerspectiveCamera
-from .errors import InvalidArgumentError
 from .lights import DirectionalLight, PointLight
-from .loaders import CameraRecord, Document, LightRecord, load_document
-from .loaders.sources import File
 from .scene import Scene
 
 

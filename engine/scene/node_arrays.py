@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._native.scene_graph import ALIVE, BOX, NativeGraph
+from .._native.scene_graph import ALIVE, BOX, NativeGraph
 
 #: Name of the array -> type and length of a row.
 _COLUMNS = {

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._native.scene_graph import VISIBLE
-from ._support.numbers import floats
-from ._support.validation import Closed
-from .errors import InvalidArgumentError
+from .._native.scene_graph import VISIBLE
+from .._support.numbers import floats
+from .._support.validation import Closed
+from ..errors import InvalidArgumentError
+from .node_arrays import matrices_of
 from .nodes import Node
-from .scene_arrays import matrices_of
 
 if TYPE_CHECKING:
     from .scene import Scene

@@ -13,9 +13,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import linalg
-from ._support.numbers import real, shown
-from ._support.validation import (
+from .. import linalg
+from .._support.numbers import real, shown
+from .._support.validation import (
     CheckedAttribute,
     NumberAttribute,
     OptionalNumberAttribute,
@@ -26,7 +26,7 @@ from ._support.validation import (
     optional_positive,
     positive,
 )
-from .errors import InvalidArgumentError
+from ..errors import InvalidArgumentError
 
 
 def _angle(value: float, what: str) -> float:

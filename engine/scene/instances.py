@@ -12,13 +12,13 @@ import operator
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
-from ._support.dirty_tracking import renew
-from ._support.numbers import as_array, floats
-from ._support.validation import CheckedAttribute, Closed
-from .errors import InvalidArgumentError
-from .geometry.mesh import Mesh
-from .materials.colors import eight_bit_or_float, float32_of
+from .._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
+from .._support.dirty_tracking import renew
+from .._support.numbers import as_array, floats
+from .._support.validation import CheckedAttribute, Closed
+from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..materials.colors import eight_bit_or_float, float32_of
 
 
 def _check_mesh(value: Mesh, what: str) -> Mesh:

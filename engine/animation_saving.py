@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from .atomic_write import checked_path
 from .display import animation_files
 from .errors import InvalidArgumentError
-from .frame import Frame
+from .rendering.frame import Frame
 
 
 def save_animation(

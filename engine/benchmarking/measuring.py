@@ -14,7 +14,7 @@ import time
 import numpy as np
 
 from ..materials.colors import linear_color
-from ..renderer import Renderer
+from ..rendering.renderer import Renderer
 from .workloads import Workload
 
 #: Milliseconds: a frame as slow is not drawn many times.

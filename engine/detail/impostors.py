@@ -19,7 +19,7 @@ from ..geometry.mesh import Mesh
 from ..materials.colors import srgb_bytes
 from ..materials.material import Material
 from ..materials.textures import Texture
-from ..renderer import Renderer
+from ..rendering.renderer import Renderer
 from ..scene.cameras import OrthographicCamera
 from ..scene.scene import Scene
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..atomic_write import atomic_write
-from ..frame import Frame
+from ..rendering.frame import Frame
 from .video_files import save_video
 
 if TYPE_CHECKING:

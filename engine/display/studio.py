@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from .. import linalg
-from ..reach import scene_reach
-from ..renderer import Renderer
+from ..rendering.renderer import Renderer
+from ..rendering.support_functions import support_of_scene
 from .extent import turning_outline
 from .guides import grid
 from .lighting import Lighting, PlacedLight
@@ -90,7 +90,7 @@ class Studio:
         self._outline = subject.focus
         if self._outline is None:
             self._outline = turning_outline(subject.scene, UP_DIRECTIONS[self.up])
-        self._reach = scene_reach(subject.scene) if subject.focus is None else None
+        self._support = support_of_scene(subject.scene) if subject.focus is None else None
         self._grid = None
         self._points = count_points(subject.scene)
         if self._transparent:
@@ -159,10 +159,10 @@ class Studio:
 
         That is nearer than `frame`, which leaves room for the subject to turn.
         """
-        if self._reach is None:
+        if self._support is None:
             self.frame(view)
         else:
-            view.fit(self._reach, np.array(self.bounds.center), self.aspect)
+            view.fit(self._support, np.array(self.bounds.center), self.aspect)
 
     def draw(self, view: Viewpoint, time: float = 0.0):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""

@@ -16,8 +16,8 @@ import numpy as np
 
 from .. import linalg
 from ..errors import InvalidArgumentError
-from ..framing import fit_frustum, frustum_reach
-from ..reach import Reach, points_reach
+from ..rendering.framing import fit_frustum, frustum_reach
+from ..rendering.support_functions import SupportFunction, support_of_points
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.orbiting import home_axes, orbit_axes
 
@@ -126,8 +126,8 @@ class Viewpoint:
         middle = (low + high) / 2
         up = home_axes(self.up)[1]
         axes = self.rotation().T
-        reach, slopes = points_reach(points), self._slopes(aspect)
-        edges = frustum_reach(reach, axes, middle, *slopes)
+        support, slopes = support_of_points(points), self._slopes(aspect)
+        edges = frustum_reach(support, axes, middle, *slopes)
         # What a step of the target upward is on the screen, and towards the camera.
         rise, approach = _dot(up, axes[1]), _dot(up, axes[2])
         half = _dot(high - low, np.abs(up)) / 2
@@ -135,19 +135,19 @@ class Viewpoint:
         y = height * rise
         side = max(edges.right, edges.left) / slopes[0]
         distance = max(side, (edges.top - y) / slopes[1], (edges.bottom + y) / slopes[1])
-        right, left, top, bottom = self._sides(reach, middle)
+        right, left, top, bottom = self._sides(support, middle)
         parallel = max(right / slopes[0], left / slopes[0], (top - y) / slopes[1])
         parallel = max(parallel, (bottom + y) / slopes[1])
         self.target = middle + up * height
         self.distance = FRAMING_MARGIN * max(distance - height * approach, parallel) or 1.0
 
-    def fit(self, reach: Reach, center: np.ndarray, aspect: float) -> None:
+    def fit(self, support: SupportFunction, center: np.ndarray, aspect: float) -> None:
         """Show something as large as possible, as it stands and from this direction.
 
         Parameters
         ----------
-        reach : callable
-            What to show; see `engine3d.reach`.
+        support : callable
+            What to show; see `engine3d.rendering.support_functions`.
         center : (3,) ndarray of float64
             About the middle of it.
         aspect : float
@@ -155,11 +155,11 @@ class Viewpoint:
         """
         axes, slopes = self.rotation().T, self._slopes(aspect)
         if self.orthographic:
-            right, left, top, bottom = self._sides(reach, center)
+            right, left, top, bottom = self._sides(support, center)
             x, y = (right - left) / 2, (top - bottom) / 2
             distance = max((right + left) / slopes[0], (top + bottom) / slopes[1]) / 2
         else:
-            x, y, distance, _ = fit_frustum(reach, axes, center, *slopes)
+            x, y, distance, _ = fit_frustum(support, axes, center, *slopes)
         self.target = center + axes[0] * x + axes[1] * y
         self.distance = FRAMING_MARGIN * distance or 1.0
 
@@ -172,11 +172,13 @@ class Viewpoint:
         slope = math.tan(self.yfov / 2)
         return slope * aspect, slope
 
-    def _sides(self, reach: Reach, center: np.ndarray) -> tuple[float, float, float, float]:
+    def _sides(
+        self, support: SupportFunction, center: np.ndarray
+    ) -> tuple[float, float, float, float]:
         """How far something reaches to the right, left, top and bottom of ``center``."""
         right, up, _ = self.rotation().T
         directions = np.array([right, -right, up, -up])
-        return tuple((reach(directions) - linalg.dot(directions, center)).tolist())
+        return tuple((support(directions) - linalg.dot(directions, center)).tolist())
 
     def sees(self, sphere: Sphere, aspect: float) -> bool:
         """Return whether a sphere reaches into the picture, and is more than a dot there."""

@@ -31,7 +31,7 @@ from .nodes import Node, check_pose, check_rotation, check_scale
 from .selection import NodeSelection
 
 if TYPE_CHECKING:
-    from ..frame import Frame
+    from ..rendering.frame import Frame
     from ..spatial.colliders import ColliderHit
     from ..spatial.rays import RayHit, RayHits
     from .nodes import SceneObject

@@ -18,9 +18,9 @@ from .._support.validation import how_far, positive, vector3
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..scene.nodes import Node
+from ._shapes import faces_in_box, way_to_face
+from ._triangles import sphere_meets_triangles, triangles_meet_box
 from .colliders import BoxCollider, ColliderHit, MeshCollider, SphereCollider
-from .shapes import faces_in_box, way_to_face
-from .triangles import sphere_meets_triangles, triangles_meet_box
 
 _quiet = np.errstate(over="ignore", invalid="ignore")  # what overflows is infinitely far away
 

@@ -18,10 +18,10 @@ from .._native.rasterizer import CULLS
 from .._support.numbers import floats
 from .._support.validation import choose, how_far, vector3
 from ..errors import InvalidArgumentError
-from ..frame import Frame
+from ..rendering.frame import Frame
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
-from .shapes import tell
+from ._shapes import tell
 
 _LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
 

@@ -7,10 +7,12 @@ from typing import get_args, get_type_hints
 import pytest
 
 import engine3d as e3d
-from engine3d import choices, frame, render_options
+from engine3d import choices
 from engine3d._native import rasterizer as native
 from engine3d.materials import colors, textures
-from engine3d.renderer import _SAMPLES
+from engine3d.rendering import frame
+from engine3d.rendering import options as render_options
+from engine3d.rendering.renderer import _SAMPLES
 from engine3d.scene import lights
 
 ACCEPTED = {

@@ -12,7 +12,7 @@ import threading
 import weakref
 from contextlib import contextmanager
 
-from .errors import RendererBusyError
+from ..errors import RendererBusyError
 
 _WITHIN = (
     "the renderer is drawing already, and this comes from within that frame (a signal handler, or "

@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._native.images import encode_png
-from .atomic_write import atomic_write, checked_path
-from .choices import ImageFormat, Output
-from .errors import InvalidArgumentError, MissingOutputError
-from .picture_mark import TGA_MARK
+from .._native.images import encode_png
+from ..atomic_write import atomic_write, checked_path
+from ..choices import ImageFormat, Output
+from ..errors import InvalidArgumentError, MissingOutputError
+from ..picture_mark import TGA_MARK
 
 if TYPE_CHECKING:
     from PIL import Image
 
-    from .canvas import Canvas
+    from ..canvas import Canvas
 
 # Every output: dtype and number of channels (0: no third axis).
 OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
@@ -208,7 +208,7 @@ class Frame:
 
     def canvas(self) -> Canvas:
         """Return an `engine3d.Canvas` that draws into this frame's colour."""
-        from .canvas import Canvas
+        from ..canvas import Canvas
 
         return Canvas(self.color)
 

@@ -1,4 +1,4 @@
-"""How far things reach in a direction: the support functions of boxes, points and scenes.
+"""Support functions of boxes, points and scenes: how far each reaches in a direction.
 
 In: a box, points, or a `Scene`. Out: functions from directions (D, 3) float64, of any length, to
 the largest scalar product of each with any point, (D,) float64. That is all that framing needs to
@@ -12,13 +12,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import linalg
-from ._native.scene_graph import SHOWN
-from .geometry.mesh import Mesh
-from .scene.instances import InstancedMesh
-from .scene.scene import Scene
+from .. import linalg
+from .._native.scene_graph import SHOWN
+from ..geometry.mesh import Mesh
+from ..scene.instances import InstancedMesh
+from ..scene.scene import Scene
 
-Reach = Callable[[np.ndarray], np.ndarray]
+SupportFunction = Callable[[np.ndarray], np.ndarray]
 
 _BLOCK = 1 << 14  # vertices at a time: three coordinates and a sum stay in the cache
 # What is looked at vertex by vertex, some 20 ns each; beyond that, boxes must do.
@@ -26,20 +26,20 @@ _MAX_VERTICES = 1 << 23
 _MAX_INSTANCES = 1 << 16
 
 
-def box_reach(bounds) -> Reach:
-    """Return the reach of a box, (2, 3)."""
+def support_of_box(bounds) -> SupportFunction:
+    """Return the support function of a box, (2, 3)."""
     low, high = np.asarray(bounds, np.float64)
     center, half = (low + high) * 0.5, (high - low) * 0.5
     return lambda directions: linalg.dot(directions, center) + linalg.dot(np.abs(directions), half)
 
 
-def points_reach(points: np.ndarray) -> Reach:
-    """Return the reach of points, (N, 3); without any it is minus infinity."""
+def support_of_points(points: np.ndarray) -> SupportFunction:
+    """Return the support function of points, (N, 3); without any it is minus infinity."""
     return lambda directions: _farthest(points, directions)
 
 
-def scene_reach(scene: Scene) -> Reach | None:
-    """Return the reach of everything visible in a scene, or None if there is nothing.
+def support_of_scene(scene: Scene) -> SupportFunction | None:
+    """Return the support function of everything visible in a scene, or None if there is nothing.
 
     Meshes count with their vertices. Where those are too many to look at each, their boxes stand in
     for some of them: nothing ever reaches farther than is said.
@@ -53,7 +53,7 @@ def scene_reach(scene: Scene) -> Reach | None:
         slots = np.flatnonzero(shown & (numbers == number))
         if obj is not None and len(slots):
             placed.add(obj, arrays.world_poses(slots))
-    return placed.reach if placed.count else None
+    return placed.support if placed.count else None
 
 
 class _Placed:
@@ -85,7 +85,7 @@ class _Placed:
         self._poses.append(poses)
         self._boxes.append(np.broadcast_to(box, (len(poses), 2, 3)))
 
-    def reach(self, directions: np.ndarray) -> np.ndarray:
+    def support(self, directions: np.ndarray) -> np.ndarray:
         """The farthest vertices are looked for where the boxes reach farthest."""
         poses, boxes = np.concatenate(self._poses), np.concatenate(self._boxes)
         local, offset = _in_their_own_space(poses, directions)

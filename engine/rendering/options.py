@@ -1,7 +1,7 @@
 """The options of a picture, checked once and used for any number of frames.
 
 In: options as callers write them. Out: `RenderOptions`, which cannot change; what depends on the
-scene as well is found for each frame (frame_options.py).
+scene as well is found for each frame (_frame_options.py).
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypedDict
 
-from ._native import rasterizer as _native
-from ._support.numbers import real, shown
-from ._support.validation import choose
-from .choices import (
+from .._native import rasterizer as _native
+from .._support.numbers import real, shown
+from .._support.validation import choose
+from ..choices import (
     ColorLike,
     Cull,
     Culling,
@@ -24,13 +24,13 @@ from .choices import (
     Shading,
     Wireframe,
 )
-from .errors import InvalidArgumentError
+from ..errors import InvalidArgumentError
+from ..materials.colors import check_color
 from .frame import OUTPUTS
-from .materials.colors import check_color
 
 if TYPE_CHECKING:
+    from ._view import CameraChoice
     from .frame import Frame
-    from .view import CameraChoice
 
 WHITE = (1.0, 1.0, 1.0)
 _MAX_LINE = 256.0

@@ -12,17 +12,17 @@ import weakref
 
 import numpy as np
 
-from ._native.rasterizer import NativeDrawList
-from ._support.dirty_tracking import Watch
-from .geometry.mesh import Mesh
-from .light_list import LightList
-from .materials.display_colors import shading_color
-from .materials.material import Material
-from .materials.textures import Texture
-from .native_handles import MeshNeeds, native_mesh, native_texture
-from .scene.instances import InstancedMesh
-from .scene.node_arrays import NodeArrays
-from .scene.scene import Scene
+from .._native.rasterizer import NativeDrawList
+from .._support.dirty_tracking import Watch
+from ..geometry.mesh import Mesh
+from ..materials.display_colors import shading_color
+from ..materials.material import Material
+from ..materials.textures import Texture
+from ..scene.instances import InstancedMesh
+from ..scene.node_arrays import NodeArrays
+from ..scene.scene import Scene
+from ._light_list import LightList
+from ._native_handles import MeshNeeds, native_mesh, native_texture
 
 _MANY = 1024  # instances that are worth a tree of their boxes
 _SETTLED = 3  # frames in which they did not change

@@ -13,13 +13,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import linalg
-from ._support.numbers import floats, real, shown
-from ._support.validation import positive
-from .errors import InvalidArgumentError
-from .reach import Reach, box_reach, scene_reach
-from .scene.cameras import PerspectiveCamera
-from .scene.scene import Scene
+from .. import linalg
+from .._support.numbers import floats, real, shown
+from .._support.validation import positive
+from ..errors import InvalidArgumentError
+from ..scene.cameras import PerspectiveCamera
+from ..scene.scene import Scene
+from .support_functions import SupportFunction, support_of_box, support_of_scene
 
 _DIRECTION = (-0.35, -0.25, -1.0)
 _UP = (0.0, 1.0, 0.0)
@@ -102,26 +102,26 @@ def frame_scene(
     """
     if not isinstance(scene, Scene):
         raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
-    return _frame(scene_reach(scene), scene.bounds, aspect, yfov, direction, up, margin)
+    return _frame(support_of_scene(scene), scene.bounds, aspect, yfov, direction, up, margin)
 
 
 @np.errstate(all="ignore")
-def _frame(reach: Reach | None, bounds, aspect, yfov, direction, up, margin):
+def _frame(support: SupportFunction | None, bounds, aspect, yfov, direction, up, margin):
     smallest, largest = _corners(bounds)
     y_slope = linalg.tan(0.5 * _angle(yfov))
     x_slope = y_slope * positive(aspect, "aspect")
     margin = positive(margin, "margin")
     center, half = (smallest + largest) * 0.5, (largest - smallest) * 0.5
     if not half.any():
-        reach, half = None, np.ones(3)
-    if reach is None:
-        reach = box_reach((center - half, center + half))
+        support, half = None, np.ones(3)
+    if support is None:
+        support = support_of_box((center - half, center + half))
     backward = -linalg.normalize(_direction(direction))
     # Only its axes are used: a target so far away that the step from it is lost is the origin.
     target = center if (np.abs(center) < _FAR_AWAY).all() else np.zeros(3)
     pose = linalg.look_at(target + backward, target, up)
     slopes = x_slope / margin, y_slope / margin
-    x, y, distance, edges = fit_frustum(reach, pose[:3, :3].T, center, *slopes)
+    x, y, distance, edges = fit_frustum(support, pose[:3, :3].T, center, *slopes)
     pose[:3, 3] = center + pose[:3, 0] * x + pose[:3, 1] * y + backward * distance
     room = max(margin - 1.0, 0.0) * 0.5 * (edges.near + edges.far)
     zfar = (distance + edges.far + room) * (1.0 + _SLACK)
@@ -134,13 +134,13 @@ def _frame(reach: Reach | None, bounds, aspect, yfov, direction, up, margin):
 
 
 def fit_frustum(
-    reach: Reach, axes: np.ndarray, center: np.ndarray, x_slope: float, y_slope: float
+    support: SupportFunction, axes: np.ndarray, center: np.ndarray, x_slope: float, y_slope: float
 ) -> tuple[float, float, float, FrustumReach]:
     """Return where a camera stands to show all of something as large as possible.
 
     Parameters
     ----------
-    reach, axes, center, x_slope, y_slope
+    support, axes, center, x_slope, y_slope
         As for `frustum_reach`.
 
     Returns
@@ -150,15 +150,15 @@ def fit_frustum(
     edges : FrustumReach
         How far what is shown reaches.
     """
-    edges = frustum_reach(reach, axes, center, x_slope, y_slope)
+    edges = frustum_reach(support, axes, center, x_slope, y_slope)
     distance = max(edges.distances)
     if distance - edges.near < _NEAREST * (distance + edges.far):
         distance = edges.near + 0.5 * (edges.near + edges.far)  # a line that is seen end on
-    x, y = _middle(reach, axes, center, edges, distance)
+    x, y = _middle(support, axes, center, edges, distance)
     return x, y, distance, edges
 
 
-def _middle(reach, axes, center, edges: FrustumReach, distance: float) -> tuple[float, float]:
+def _middle(support, axes, center, edges: FrustumReach, distance: float) -> tuple[float, float]:
     """Where the eye stands across its line of sight, to have as much room on both sides.
 
     From farther away than one of the ways needs, narrower planes touch there, and between them is
@@ -173,7 +173,7 @@ def _middle(reach, axes, center, edges: FrustumReach, distance: float) -> tuple[
     for _ in range(_SECANTS):
         if slopes == list(narrow.slopes):
             break
-        before, narrow = narrow, frustum_reach(reach, axes, center, *slopes)
+        before, narrow = narrow, frustum_reach(support, axes, center, *slopes)
         for way in range(2):
             gap, gap_before = narrow.gap(way, distance), before.gap(way, distance)
             if gap != gap_before:
@@ -236,14 +236,14 @@ class FrustumReach(NamedTuple):
 
 
 def frustum_reach(
-    reach: Reach, axes: np.ndarray, center: np.ndarray, x_slope: float, y_slope: float
+    support: SupportFunction, axes: np.ndarray, center: np.ndarray, x_slope: float, y_slope: float
 ) -> FrustumReach:
     """Return how far something reaches across the planes of a camera.
 
     Parameters
     ----------
-    reach : callable
-        See `reach`.
+    support : callable
+        See support_functions.py.
     axes : (3, 3) float64
         Rows: the camera's right, up and back, in world space.
     center : (3,) float64
@@ -262,7 +262,7 @@ def frustum_reach(
             -back,
         ]
     )
-    return FrustumReach(*(reach(directions) - linalg.dot(directions, center)), x_slope, y_slope)
+    return FrustumReach(*(support(directions) - linalg.dot(directions, center)), x_slope, y_slope)
 
 
 def _corners(bounds) -> tuple[np.ndarray, np.ndarray]:

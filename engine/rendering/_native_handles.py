@@ -13,9 +13,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
-from .geometry.mesh import Mesh
-from .materials.textures import Texture
+from .._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
+from ..geometry.mesh import Mesh
+from ..materials.textures import Texture
 
 
 class MeshNeeds(NamedTuple):

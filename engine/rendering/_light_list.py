@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._native.rasterizer import FALLOFFS, NativeDrawList
-from ._native.scene_graph import SHOWN
-from .linalg.single import normalize
-from .materials.display_colors import shading_color
-from .scene.lights import DirectionalLight
-from .scene.scene import Scene
+from .._native.rasterizer import FALLOFFS, NativeDrawList
+from .._native.scene_graph import SHOWN
+from ..linalg.single import normalize
+from ..materials.display_colors import shading_color
+from ..scene.lights import DirectionalLight
+from ..scene.scene import Scene
 
 
 class LightList:

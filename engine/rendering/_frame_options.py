@@ -10,11 +10,11 @@ import math
 from collections.abc import Iterable
 from operator import is_
 
-from ._native import rasterizer as _native
-from .materials.display_colors import display_color, shading_color
-from .native_handles import MeshNeeds
-from .render_options import RenderOptions, check_outputs
-from .scene.scene import Scene
+from .._native import rasterizer as _native
+from ..materials.display_colors import display_color, shading_color
+from ..scene.scene import Scene
+from ._native_handles import MeshNeeds
+from .options import RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
 # Modes whose colours go through the sRGB encoder; the others give display values.

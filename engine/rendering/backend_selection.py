@@ -10,9 +10,9 @@ from __future__ import annotations
 import numbers
 import os
 
-from ._native import rasterizer as _native
-from .choices import Backend
-from .errors import BackendError, InvalidArgumentError
+from .._native import rasterizer as _native
+from ..choices import Backend
+from ..errors import BackendError, InvalidArgumentError
 
 _MAX_THREADS = 256
 

@@ -12,11 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._native import rasterizer as _native
-from ._support.image_size import check_side, check_size
-from ._support.validation import Closed, choose
-from .backend_selection import resolve_backend, resolve_threads
-from .choices import (
+from .._native import rasterizer as _native
+from .._support.image_size import check_side, check_size
+from .._support.validation import Closed, choose
+from ..choices import (
     Backend,
     ColorLike,
     ColorSpace,
@@ -30,18 +29,19 @@ from .choices import (
     Shading,
     Wireframe,
 )
-from .draw_list import DrawList
-from .errors import InvalidArgumentError, SceneChangedError
+from ..errors import InvalidArgumentError, SceneChangedError
+from ..materials.colors import COLOR_SPACES
+from ..scene.cameras import Camera
+from ..scene.scene import Scene
+from ._draw_list import DrawList
+from ._frame_options import OptionsCache
+from ._output_pool import OutputPool
+from ._turn import RendererTurn
+from ._view import CameraChoice, View, find_camera
+from .backend_selection import resolve_backend, resolve_threads
 from .frame import OUTPUTS, Frame
-from .frame_options import OptionsCache
 from .framing import frame_scene
-from .materials.colors import COLOR_SPACES
-from .output_pool import OutputPool
-from .render_options import WHITE, RenderKeywords, RenderOptions, either
-from .renderer_turn import RendererTurn
-from .scene.cameras import Camera
-from .scene.scene import Scene
-from .view import CameraChoice, View, find_camera
+from .options import WHITE, RenderKeywords, RenderOptions, either
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._native import rasterizer as _native
-from ._support.image_size import check_side
-from ._support.numbers import as_array, floats
-from ._support.validation import choose
+from .._native import rasterizer as _native
+from .._support.image_size import check_side
+from .._support.numbers import as_array, floats
+from .._support.validation import choose
+from ..choices import Backend, Cull
+from ..errors import InvalidArgumentError
 from .backend_selection import resolve_backend, resolve_threads
-from .choices import Backend, Cull
-from .errors import InvalidArgumentError
 
 
 class RasterizeResult(NamedTuple):

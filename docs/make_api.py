@@ -16,7 +16,7 @@ from pathlib import Path
 
 import engine3d
 from engine3d._support.validation import CheckedAttribute
-from engine3d.atomic_write import atomic_write
+from engine3d.files.atomic_write import atomic_write
 
 PAGE = Path(__file__).resolve().parent / "api.md"
 INTRODUCTION = """\

@@ -5,7 +5,6 @@ from . import errors as errors
 from . import linalg as linalg
 from . import loaders as loaders
 from . import primitives as primitives
-from .animation_saving import save_animation as save_animation
 from .canvas import Canvas as Canvas
 from .detail import DetailedInstances as DetailedInstances
 from .detail import DetailedMeshes as DetailedMeshes
@@ -22,6 +21,9 @@ from .errors import MissingOutputError as MissingOutputError
 from .errors import OutOfMemoryError as OutOfMemoryError
 from .errors import RendererBusyError as RendererBusyError
 from .errors import SceneChangedError as SceneChangedError
+from .files.animation_saving import save_animation as save_animation
+from .files.resources import Resources as Resources
+from .files.resources import ResourceStats as ResourceStats
 from .geometry.mesh import Mesh as Mesh
 from .linalg import look_at as look_at
 from .loaders import load_mesh as load_mesh
@@ -46,8 +48,6 @@ from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
 from .rendering.renderer import Renderer as Renderer
 from .rendering.renderer import render as render
-from .resources import Resources as Resources
-from .resources import ResourceStats as ResourceStats
 from .scene.animation import Animator as Animator
 from .scene.cameras import Camera as Camera
 from .scene.cameras import IntrinsicsCamera as IntrinsicsCamera

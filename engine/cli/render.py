@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from ..display import headless
-from ..display.animation_files import save_animation
 from ..display.studio import Studio
+from ..files.animation_files import save_animation
 from . import options
 from .outputs import (
     STANDARD_OUTPUT,

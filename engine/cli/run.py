@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 
 from ..display import headless
-from ..display.animation_files import numbered_path, save_animation
 from ..display.ground import controller
 from ..display.studio import Studio
 from ..errors import DisplayError
+from ..files.animation_files import numbered_path, save_animation
 from . import options
 from .inputs import STANDARD_INPUT
 from .outputs import check_animation, check_picture, with_progress

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import get_args
 
 from ..choices import Samples
-from .animation_files import numbered_path
+from ..files.animation_files import numbered_path
 from .ground import controller
 from .look import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
 from .viewpoint import QUARTER_TURN

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.images import encode_png
-from ..atomic_write import atomic_write, checked_path
 from ..choices import ImageFormat, Output
 from ..errors import InvalidArgumentError, MissingOutputError
-from ..picture_mark import TGA_MARK
+from ..files.atomic_write import atomic_write, checked_path
+from ..files.picture_mark import TGA_MARK
 
 if TYPE_CHECKING:
     from PIL import Image

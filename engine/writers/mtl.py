@@ -11,7 +11,7 @@ import os
 import re
 
 from .._native.images import encode_png
-from ..atomic_write import AtomicFiles
+from ..files.atomic_write import AtomicFiles
 from ..loaders.mtl import parse_map
 from ..materials.colors import linear_color
 from ..materials.material import Material, says_something

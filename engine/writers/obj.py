@@ -12,8 +12,8 @@ import os
 import numpy as np
 
 from .._native import writers as native
-from ..atomic_write import Files, StreamFiles
 from ..errors import InvalidArgumentError
+from ..files.atomic_write import Files, StreamFiles
 from ..geometry.mesh import Mesh
 from ..loaders.welding import number_rows
 from ..materials.colors import srgb_bytes

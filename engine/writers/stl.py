@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..atomic_write import Files
+from ..files.atomic_write import Files
 from ..geometry.mesh import Mesh
 from ..geometry.normals import face_area_vectors, unit_vectors
 from .losses import lost_parts

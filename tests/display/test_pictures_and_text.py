@@ -6,11 +6,6 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.canvas import Canvas
-from engine3d.display.animation_files import (
-    ANIMATION_FORMATS,
-    numbered_path,
-    save_animation,
-)
 from engine3d.display.counts import count_names
 from engine3d.display.guides import grid, grid_step
 from engine3d.display.help_panel import draw_help, help_columns
@@ -18,6 +13,11 @@ from engine3d.display.overlay import draw_axes, draw_block, statistics_lines
 from engine3d.display.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from engine3d.display.watch import FileWatch
 from engine3d.errors import FileAccessError
+from engine3d.files.animation_files import (
+    ANIMATION_FORMATS,
+    numbered_path,
+    save_animation,
+)
 
 
 @pytest.mark.parametrize("corner", ["top left", "top right", "bottom left", "bottom", "middle"])

@@ -16,7 +16,7 @@ import stat
 from collections.abc import Iterator
 from typing import BinaryIO
 
-from .errors import FileAccessError, InvalidArgumentError
+from ..errors import FileAccessError, InvalidArgumentError
 
 
 @contextlib.contextmanager

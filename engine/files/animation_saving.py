@@ -14,10 +14,10 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import InvalidArgumentError
+from ..rendering.frame import Frame
+from . import animation_files
 from .atomic_write import checked_path
-from .display import animation_files
-from .errors import InvalidArgumentError
-from .rendering.frame import Frame
 
 
 def save_animation(

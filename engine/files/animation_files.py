@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..atomic_write import atomic_write
 from ..rendering.frame import Frame
+from .atomic_write import atomic_write
 from .video_files import save_video
 
 if TYPE_CHECKING:

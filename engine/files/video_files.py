@@ -17,8 +17,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..atomic_write import atomic_write
 from ..errors import Engine3DWarning, FileAccessError, printable
+from .atomic_write import atomic_write
 
 #: Constant quality of x264: 18 can hardly be told from the original.
 QUALITY = 18

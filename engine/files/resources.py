@@ -14,19 +14,19 @@ import warnings
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakValueDictionary
 
-from .errors import Engine3DError, Engine3DWarning, InvalidArgumentError
-from .file_states import FileState
-from .geometry.mesh import Mesh
-from .loaders import load_mesh, load_texture
-from .loaders.linked_files import found_files
-from .loaders.open_files import unreadable
-from .materials.material import Material
-from .materials.textures import Texture
+from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..loaders import load_mesh, load_texture
+from ..loaders.linked_files import found_files
+from ..loaders.open_files import unreadable
+from ..materials.material import Material
+from ..materials.textures import Texture
+from .stamps import FileState
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from .materials.textures import TextureOptions
+    from ..materials.textures import TextureOptions
 
 
 class ResourceStats(NamedTuple):

@@ -6,10 +6,6 @@ from . import linalg as linalg
 from . import loaders as loaders
 from . import primitives as primitives
 from .canvas import Canvas as Canvas
-from .detail import DetailedInstances as DetailedInstances
-from .detail import DetailedMeshes as DetailedMeshes
-from .detail import Impostor as Impostor
-from .detail import simplify as simplify
 from .errors import BackendError as BackendError
 from .errors import DisplayError as DisplayError
 from .errors import Engine3DError as Engine3DError
@@ -28,6 +24,10 @@ from .geometry.mesh import Mesh as Mesh
 from .linalg import look_at as look_at
 from .loaders import load_mesh as load_mesh
 from .loaders import load_texture as load_texture
+from .lod import DetailedInstances as DetailedInstances
+from .lod import DetailedMeshes as DetailedMeshes
+from .lod import Impostor as Impostor
+from .lod import simplify as simplify
 from .materials.material import Material as Material
 from .materials.textures import Texture as Texture
 from .navigation import NavigationGrid as NavigationGrid

@@ -22,7 +22,7 @@ from ..geometry.mesh import Mesh
 from ..materials.material import Material
 from ..scene.instances import InstancedMesh
 from ..scene.scene import Scene
-from .placed_meshes import bounds_of, placed_meshes
+from ._placed_meshes import bounds_of, placed_meshes
 
 MAX_CELLS = 1 << 26
 Choice: TypeAlias = Collection[str] | Callable[[Material], bool] | None

@@ -5,9 +5,9 @@ import sys
 import numpy as np
 import pytest
 
-from engine3d.detail import simplify
 from engine3d.errors import InvalidArgumentError
 from engine3d.geometry.mesh import Mesh
+from engine3d.lod import simplify
 from engine3d.materials.material import Material
 from engine3d.rendering._native_handles import MeshNeeds, native_mesh
 

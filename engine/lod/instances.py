@@ -20,7 +20,7 @@ from ..scene.cameras import Camera
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
-from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
+from ._choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 from .impostors import Impostor, bounding_ball
 from .simplification import simplify
 

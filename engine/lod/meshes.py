@@ -18,7 +18,7 @@ from ..geometry.mesh import Mesh
 from ..scene.cameras import Camera
 from ..scene.nodes import Node
 from ..scene.scene import Scene
-from .choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
+from ._choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 
 
 class DetailedMeshes:

@@ -1,7 +1,7 @@
 """The options that commands share, and the types of their values.
 
 In: an argparse parser. Out: the same parser with options; `settings` and `place_view` turn what was
-parsed into what the display package takes. Spellings follow f3d where it has the option.
+parsed into what the viewer takes. Spellings follow f3d where it has the option.
 """
 
 from __future__ import annotations
@@ -385,7 +385,7 @@ def add_render(parser) -> None:
 
 def settings(args: argparse.Namespace):
     """Return the `Settings` that the options name."""
-    from ..display.settings import Settings
+    from ..viewer.settings import Settings
 
     if args.unlit and args.mode not in (None, "unlit"):
         raise UsageError(f"--unlit does not go with --mode {args.mode}")
@@ -459,7 +459,7 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
 
         size = {} if args.triangles is None else {"triangles": args.triangles}
         return load_demo(args.scene or default_scene, **size)
-    from ..display.gathering import open_models
+    from ..viewer.open_models import open_models
 
     with LoadingBar() as progress:
         return open_models(model_files(args.models), **opening(args), progress=progress)

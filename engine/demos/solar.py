@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 
 from .. import linalg
-from ..display.subject import Subject
 from ..geometry.mesh import Mesh
 from ..loaders import load_texture
 from ..materials.material import Material
@@ -21,6 +20,7 @@ from ..primitives import uv_sphere
 from ..scene.animation import Animator
 from ..scene.lights import PointLight
 from ..scene.scene import Scene
+from ..viewer.viewed_scene import Subject
 
 BACKGROUND = (4, 5, 10)
 MONTH = 18.0  # seconds

@@ -7,14 +7,14 @@ import pytest
 from display.projection import project
 
 import engine3d as e3d
-from engine3d.display.viewpoint import (
+from engine3d.rendering.support_functions import support_of_points
+from engine3d.viewer.viewpoint import (
     UP_DIRECTIONS,
     Sphere,
     Viewpoint,
     clip_planes,
     home_axes,
 )
-from engine3d.rendering.support_functions import support_of_points
 
 
 @pytest.mark.parametrize("up", UP_DIRECTIONS.values())

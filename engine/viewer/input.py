@@ -2,7 +2,7 @@
 
 In: an ``SDL_Event``. Out: one of the classes below, or None for events that mean nothing here.
 Keys carry both what they type and where they are (named as on a US keyboard). The rest of the
-display package never sees SDL's structures.
+viewer never sees SDL's structures.
 """
 
 from __future__ import annotations

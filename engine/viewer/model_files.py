@@ -9,8 +9,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from .gathering import open_models
-from .subject import Subject
+from .open_models import open_models
+from .viewed_scene import Subject
 from .watch import FileWatch
 
 

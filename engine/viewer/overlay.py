@@ -10,7 +10,7 @@ import textwrap
 from itertools import zip_longest
 
 from ..canvas import text_size
-from .counts import count_names, count_table
+from .draw_counts import count_names, count_table
 from .viewpoint import Viewpoint
 
 TEXT = (235, 238, 242, 255)

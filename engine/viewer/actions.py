@@ -12,9 +12,9 @@ from typing import get_args
 
 from ..choices import Samples
 from ..files.animation_files import numbered_path
-from .ground import controller
-from .look import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .appearance import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
 from .viewpoint import QUARTER_TURN
+from .walking import controller
 
 SAMPLES = get_args(Samples)
 LINE_WIDTHS = (1.0, 16.0)

@@ -13,7 +13,7 @@ from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
 from ..scene.loading import scene_from_document
-from .subject import Subject
+from .viewed_scene import Subject
 
 #: Formats whose models, by custom, stand on the XY plane.
 Z_UP_FORMATS = ("asc", "stl")

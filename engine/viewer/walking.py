@@ -16,7 +16,7 @@ from .fps import FpsController
 from .viewpoint import Sphere, Viewpoint
 
 if TYPE_CHECKING:
-    from .studio import Studio
+    from .view_renderer import Studio
 
 #: Metres a second.
 WALKING_SPEED = 3.5

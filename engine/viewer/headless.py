@@ -12,9 +12,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .ground import controller
-from .studio import Studio
+from .view_renderer import Studio
 from .viewpoint import Viewpoint
+from .walking import controller
 
 #: Viewers of animations falter outside these.
 SHORTEST_FRAME = 0.02

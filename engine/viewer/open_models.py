@@ -16,8 +16,8 @@ from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight, PointLight
 from ..scene.scene import Scene
-from .opening import open_model
-from .subject import Subject
+from .open_model import open_model
+from .viewed_scene import Subject
 from .viewpoint import UP_DIRECTIONS, home_axes
 
 #: Room between models that stand side by side, as a share of the widest.

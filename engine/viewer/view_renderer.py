@@ -10,12 +10,12 @@ import numpy as np
 from .. import linalg
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
-from .extent import turning_outline
-from .guides import grid
+from .appearance import Look, count_points, point_size
+from .grid_lines import grid
 from .lighting import Lighting, PlacedLight
-from .look import Look, count_points, point_size
+from .scene_bounds import turning_outline
 from .settings import Settings
-from .subject import Subject
+from .viewed_scene import Subject
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
 
 

@@ -11,8 +11,8 @@ import math
 import time as clock
 
 from ..errors import Engine3DError, printable
+from . import actions as viewer_actions
 from . import input as events
-from . import viewer_actions
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
@@ -20,7 +20,7 @@ from .keymap import ORBIT_ARROWS, action_for
 from .model_files import ModelFiles
 from .orbit import OrbitController
 from .overlay import draw_block, statistics_lines
-from .studio import Studio
+from .view_renderer import Studio
 from .viewpoint import Sphere
 
 #: How long the loop sleeps when nothing happens; also how often a watched file is looked at.

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .extent import bounding_sphere
+from .scene_bounds import bounding_sphere
 from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
 
 if TYPE_CHECKING:

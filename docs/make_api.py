@@ -15,8 +15,8 @@ import sys
 from pathlib import Path
 
 import engine3d
-from engine3d.atomic_write import atomic_write
-from engine3d.attributes import CheckedAttribute
+from engine3d._support.validation import CheckedAttribute
+from engine3d.files.atomic_write import atomic_write
 
 PAGE = Path(__file__).resolve().parent / "api.md"
 INTRODUCTION = """\
@@ -29,7 +29,7 @@ the package's stubs and annotations.
 """
 #: Title of a chapter -> its names; together they are `engine3d.__all__`.
 CHAPTERS = {
-    "Drawing": ("render", "Renderer", "Frame", "backends"),
+    "Drawing": ("render", "Renderer", "RenderOptions", "Frame", "backends"),
     "Scenes": (
         "Scene",
         "Node",

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import engine3d as e3d
 from engine3d._native.kernels_testing import plan_items, plan_rules
-from engine3d.atomic_write import atomic_write
+from engine3d.files.atomic_write import atomic_write
 
 PAGE = Path(__file__).resolve().parent / "plan.md"
 INTRODUCTION = """\

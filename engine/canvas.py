@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import canvas as native
+from ._support.numbers import as_array, floats, real, shown
 from .errors import InvalidArgumentError
-from .number_checks import as_array, floats, real, shown
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -1,14 +1,16 @@
 """The values that arguments with few choices take, as types: editors complete them.
 
 Each is written once, here; what a module accepts at run time is the same list, which a test checks.
+The command line has its choices from here as well, and prints its help without loading NumPy.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Union
 
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 Backend = Literal["auto", "scalar", "portable", "sse41", "avx2", "avx512"]
 ColorSpace = Literal["srgb", "linear"]
@@ -46,4 +48,4 @@ EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
 
 #: Three numbers: floats are linear light, integers from 0 to 255 sRGB.
 Color: TypeAlias = tuple[float, float, float]
-ColorLike: TypeAlias = Sequence[float] | NDArray[Any]
+ColorLike: TypeAlias = Union[Sequence[float], "NDArray[Any]"]

@@ -2,7 +2,7 @@
  *
  * In:  positions, the triangles' indices of them, and the group of each corner. Out: sums, not normalised.
  * Every operation is one of + - * / and the square root in double precision, in the order written here;
- * sums are made of blocks of triangles, and then of the blocks' sums: docs of engine3d.normals.
+ * sums are made of blocks of triangles, and then of the blocks' sums: docs of engine3d.geometry.normals.
  * Always: what is not finite adds zero, and so does a triangle without area.
  */
 #include "e3d_surfaces.h"

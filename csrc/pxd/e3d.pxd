@@ -130,7 +130,7 @@ cdef extern from "e3d.h" nogil:
         pass
 
     ctypedef enum e3d_cull:
-        pass
+        E3D_CULL_NONE
 
     ctypedef enum e3d_wireframe:
         pass

@@ -109,6 +109,10 @@ cdef extern from "e3d_scene.h" nogil:
         int32_t shape_count, const double *origin, const double *direction, double farthest,
         e3d_cull cull, e3d_hit *hit,
     )
+    void e3d_shape_ray(
+        const e3d_shape *shape, const double *world, const double *origin,
+        const double *direction, double farthest, e3d_cull cull, e3d_hit *hit,
+    )
 
     ctypedef struct e3d_placed:
         e3d_draw draw

@@ -298,6 +298,18 @@ int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_sh
     return s.missing;
 }
 
+void e3d_shape_ray(const e3d_shape *shape, const double world[12], const double origin[3],
+                   const double direction[3], double farthest, e3d_cull cull, e3d_hit *hit)
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    search s = {.shape = shape, .cull = cull, .ray = make_ray(origin, direction), .hit = hit};
+    for (int k = 0; k < 12; k++)
+        s.world[k] = world[k];
+    *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
+    meet_shape(&s);
+    e3d_fpenv_leave(saved);
+}
+
 static void note_item(search *s, int32_t item) { s->bits[item >> 6] |= (uint64_t)1 << (item & 63); }
 
 void e3d_tree_ray(const e3d_tree *tree, const double origin[3], const double direction[3], double farthest,

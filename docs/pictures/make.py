@@ -21,10 +21,10 @@ import numpy as np
 import engine3d as e3d
 from engine3d import linalg
 from engine3d.demos import load_demo
-from engine3d.display.ground import controller
-from engine3d.display.opening import open_model
-from engine3d.display.settings import Settings
-from engine3d.display.studio import Studio
+from engine3d.viewer.open_model import open_model
+from engine3d.viewer.settings import Settings
+from engine3d.viewer.view_renderer import Studio
+from engine3d.viewer.walking import controller
 
 FOLDER = Path(__file__).resolve().parent
 MODELS = files("engine3d.data") / "models"

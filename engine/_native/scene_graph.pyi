@@ -26,6 +26,15 @@ class NativeTree:
         farthest: float,
         bits: NDArray[np.uint64],
     ) -> None: ...
+    def nearest_triangle(
+        self,
+        positions: NDArray[np.float32],
+        faces: NDArray[np.int32],
+        pose: NDArray[np.float64],
+        origin: NDArray[np.float64],
+        direction: NDArray[np.float64],
+        farthest: float,
+    ) -> float: ...
 
 class NativeShapes:
     def __init__(self, count: int) -> None: ...

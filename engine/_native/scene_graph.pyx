@@ -7,12 +7,14 @@ Always: the GIL is held, so that threads take turns; what is asked of a slot tha
      error. ``changes`` grows with everything that may show; ``updated`` is what it was at the last update.
 """
 
+from libc.math cimport INFINITY
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 from libc.stdlib cimport calloc, free
 from libc.string cimport memcmp, memcpy, memset
 
 from e3d cimport (
-    E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind, e3d_thread_count,
+    E3D_CULL_NONE, E3D_POSE_MATRIX, E3D_POSE_OFFSET_SCALE, e3d_cull, e3d_pose_kind,
+    e3d_thread_count,
 )
 from e3d_scene cimport *
 
@@ -67,6 +69,51 @@ cdef class NativeTree:
         if self.count:
             e3d_tree_ray(self.tree, &origin[0], &direction[0], farthest, &bits[0])
 
+    def nearest_triangle(
+        self,
+        const float[:, ::1] positions not None,
+        const int32_t[:, ::1] faces not None,
+        const double[:, ::1] pose not None,
+        const double[::1] origin not None,
+        const double[::1] direction not None,
+        double farthest,
+    ):
+        """Return how far a ray of unit direction goes to the triangles that this is the tree of.
+
+        They are at a pose (4, 4). Infinite where the ray meets none up to `farthest`.
+        """
+        cdef e3d_shape shape
+        cdef e3d_hit hit
+        if pose.shape[0] != 4 or pose.shape[1] != 4:
+            raise InvalidArgumentError("a pose is 4x4")
+        if origin.shape[0] != 3 or direction.shape[0] != 3:
+            raise InvalidArgumentError("a ray has two vectors")
+        fill_triangles(&shape, positions, faces, self)
+        e3d_shape_ray(
+            &shape, &pose[0, 0], &origin[0], &direction[0], farthest, E3D_CULL_NONE, &hit
+        )
+        return INFINITY if hit.slot < 0 else hit.distance
+
+
+cdef int fill_triangles(
+    e3d_shape *shape,
+    const float[:, ::1] positions,
+    const int32_t[:, ::1] faces,
+    NativeTree triangles,
+) except -1:
+    """Make a shape of triangles and nothing else, or leave it as it is and raise."""
+    if positions.shape[1] != 3 or faces.shape[1] != 3:
+        raise InvalidArgumentError("positions and faces must be (N, 3)")
+    if triangles.count != faces.shape[0]:
+        raise InvalidArgumentError("the tree must be of the faces")
+    memset(shape, 0, sizeof(e3d_shape))
+    shape.known = 1
+    shape.face_count = <int32_t>faces.shape[0]
+    shape.positions = &positions[0, 0] if positions.shape[0] else NULL
+    shape.faces = &faces[0, 0] if faces.shape[0] else NULL
+    shape.triangles = triangles.tree
+    return 0
+
 
 cdef class NativeShapes:
     """What the objects of a scene are to rays, by number; each is known once it was asked for."""
@@ -95,19 +142,12 @@ cdef class NativeShapes:
         NativeTree instances,
     ):
         """Tell an object's triangles; its poses, (N, 16) or (N, 4), and their tree if there are any."""
-        if not 0 <= number < self.count or positions.shape[1] != 3 or faces.shape[1] != 3:
-            raise InvalidArgumentError("no such object, or wrong arrays of triangles")
-        if triangles.count != faces.shape[0]:
-            raise InvalidArgumentError("the tree must be of the faces")
+        if not 0 <= number < self.count:
+            raise InvalidArgumentError("no such object")
         if poses is not None and instances is not None and instances.count != poses.shape[0]:
             raise InvalidArgumentError("the tree must be of the poses")
         cdef e3d_shape *shape = &self.shapes[number]
-        memset(shape, 0, sizeof(e3d_shape))
-        shape.known = 1
-        shape.face_count = <int32_t>faces.shape[0]
-        shape.positions = &positions[0, 0] if positions.shape[0] else NULL
-        shape.faces = &faces[0, 0] if faces.shape[0] else NULL
-        shape.triangles = triangles.tree
+        fill_triangles(shape, positions, faces, triangles)
         if poses is not None:
             if poses.shape[1] not in (4, 16) or instances is None:
                 raise InvalidArgumentError("poses must be (N, 16) or (N, 4), with a tree")

@@ -10,7 +10,7 @@ import io
 import os
 from xml.sax.saxutils import escape
 
-from ..atomic_write import atomic_write
+from ..files.atomic_write import atomic_write
 
 _FORMATS = {".png": "PNG", ".jpg": "JPEG", ".webp": "WEBP"}
 COLORS = [(122, 132, 150), (214, 170, 60), (78, 160, 214), (64, 176, 120), (200, 90, 120)]

@@ -12,10 +12,10 @@ import time
 
 import numpy as np
 
-from ..cameras import PerspectiveCamera
-from ..lights import DirectionalLight, PointLight
 from ..linalg import look_at
-from ..scene import Scene
+from ..scene.cameras import PerspectiveCamera
+from ..scene.lights import DirectionalLight, PointLight
+from ..scene.scene import Scene
 
 #: Where the walk begins: eyes over the pavement of the street in the middle, looking along it.
 START, TARGET = (6.2, 1.85, 60.0), (0.0, 5.0, -60.0)

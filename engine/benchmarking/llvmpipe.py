@@ -13,12 +13,12 @@ import os
 import numpy as np
 
 from .. import linalg
-from ..colors import linear_color
 from ..errors import Engine3DError
-from ..instances import InstancedMesh
-from ..lights import DirectionalLight, PointLight
-from ..mesh import Mesh
-from ..textures import Texture
+from ..geometry.mesh import Mesh
+from ..materials.colors import linear_color
+from ..materials.textures import Texture
+from ..scene.instances import InstancedMesh
+from ..scene.lights import DirectionalLight, PointLight
 from . import shaders
 from .workloads import Workload
 

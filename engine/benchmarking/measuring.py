@@ -13,8 +13,8 @@ import time
 
 import numpy as np
 
-from ..colors import linear_color
-from ..renderer import Renderer
+from ..materials.colors import linear_color
+from ..rendering.renderer import Renderer
 from .workloads import Workload
 
 #: Milliseconds: a frame as slow is not drawn many times.

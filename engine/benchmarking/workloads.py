@@ -16,15 +16,15 @@ from pathlib import Path
 import numpy as np
 
 from .. import linalg
-from ..cameras import PerspectiveCamera
-from ..instances import InstancedMesh
-from ..lights import DirectionalLight
+from ..geometry.mesh import Mesh
 from ..loaders import load_mesh, load_texture
-from ..materials import Material
-from ..mesh import Mesh
+from ..materials.material import Material
+from ..materials.textures import Texture
 from ..primitives import uv_sphere
-from ..scene import Scene
-from ..textures import Texture
+from ..scene.cameras import PerspectiveCamera
+from ..scene.instances import InstancedMesh
+from ..scene.lights import DirectionalLight
+from ..scene.scene import Scene
 from ..worlds import city
 from . import city_views
 

@@ -8,9 +8,9 @@ import os
 import time
 from collections.abc import Iterator
 
-from ..atomic_write import atomic_write
-from ..backend_selection import backends, resolve_backend
 from ..benchmarking import bar_chart, measuring, report, workloads
+from ..files.atomic_write import atomic_write
+from ..rendering.backend_selection import backends, resolve_backend
 from .outputs import STANDARD_OUTPUT, check_folder, check_output
 
 PLOTS = (".svg", ".png", ".jpg", ".webp")

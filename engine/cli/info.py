@@ -8,9 +8,9 @@ import sys
 import warnings
 
 from ..errors import Engine3DError, Engine3DWarning, printable
+from ..geometry.mesh import Mesh
 from ..linalg import transform_points
 from ..loaders import load_document
-from ..mesh import Mesh
 from .inputs import model_files
 from .loading_bar import LoadingBar
 

@@ -1,7 +1,7 @@
 """The options that commands share, and the types of their values.
 
 In: an argparse parser. Out: the same parser with options; `settings` and `place_view` turn what was
-parsed into what the display package takes. Spellings follow f3d where it has the option.
+parsed into what the viewer takes. Spellings follow f3d where it has the option.
 """
 
 from __future__ import annotations
@@ -9,21 +9,30 @@ from __future__ import annotations
 import argparse
 import math
 import re
+from typing import get_args
 
+from ..choices import (
+    Backend,
+    Cull,
+    HiddenSurfaces,
+    Mode,
+    Samples,
+    Shading,
+    Wireframe,
+)
 from . import values
 from .inputs import model_files
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
 from .usage import UsageError
 
-MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
-BACKENDS = ("auto", "scalar", "portable", "sse41", "avx2", "avx512")
+MODES = get_args(Mode)
+BACKENDS = get_args(Backend)
+WIREFRAMES = get_args(Wireframe)
 SCENES = (
     *("default", "vertices", "edges", "faces", "cube", "shapes"),
     *("textured", "asc", "city", "solar"),
 )
-SAMPLES = (1, 4, 16)
-WIREFRAMES = ("overlay", "only")
 #: Options whose value may start with a minus sign, which argparse would take for an option.
 SIGNED_OPTIONS = frozenset(
     {
@@ -118,7 +127,7 @@ def add_picture(parser) -> None:
     group.add_argument(
         "--samples",
         type=int,
-        choices=SAMPLES,
+        choices=get_args(Samples),
         help="samples per pixel: more give smoother edges",
     )
     group.add_argument(
@@ -211,18 +220,18 @@ def add_look(parser) -> None:
     )
     group.add_argument(
         "--cull",
-        choices=("back", "front", "none"),
+        choices=get_args(Cull),
         help="which faces to leave out; back by default",
     )
     group.add_argument(
         "--hidden-surfaces",
-        choices=("zbuffer", "painter", "none"),
+        choices=get_args(HiddenSurfaces),
         help="method of hidden-surface removal: depth buffer (the default), painter's algorithm "
         "(drawing from far to near), or none",
     )
     group.add_argument(
         "--shading",
-        choices=("deferred", "forward"),
+        choices=get_args(Shading),
         help="shade visible pixels once (the default) or every fragment; the picture is the same",
     )
 
@@ -376,7 +385,7 @@ def add_render(parser) -> None:
 
 def settings(args: argparse.Namespace):
     """Return the `Settings` that the options name."""
-    from ..display.settings import Settings
+    from ..viewer.settings import Settings
 
     if args.unlit and args.mode not in (None, "unlit"):
         raise UsageError(f"--unlit does not go with --mode {args.mode}")
@@ -450,7 +459,7 @@ def subject(args: argparse.Namespace, default_scene: str | None = None):
 
         size = {} if args.triangles is None else {"triangles": args.triangles}
         return load_demo(args.scene or default_scene, **size)
-    from ..display.gathering import open_models
+    from ..viewer.open_models import open_models
 
     with LoadingBar() as progress:
         return open_models(model_files(args.models), **opening(args), progress=progress)

@@ -35,7 +35,7 @@ def check_output(output: str, formats: Iterable[str], what: str) -> str:
 
 def check_animation(output: str, *, transparent: bool = False) -> None:
     """Raise, before any work, if an animation cannot be written to ``output``."""
-    from ..display.animation_files import (
+    from ..files.animation_files import (
         ANIMATION_SUFFIXES,
         OPAQUE_SUFFIXES,
         PICTURE_SUFFIXES,
@@ -48,7 +48,7 @@ def check_animation(output: str, *, transparent: bool = False) -> None:
     else:
         extension = check_output(output, ANIMATION_SUFFIXES, "an animation").lower()
     if extension == VIDEO_SUFFIX:
-        from ..display.video_files import find_ffmpeg
+        from ..files.video_files import find_ffmpeg
 
         find_ffmpeg(output)
     if transparent and extension in (*OPAQUE_SUFFIXES, VIDEO_SUFFIX):
@@ -57,7 +57,7 @@ def check_animation(output: str, *, transparent: bool = False) -> None:
 
 def check_picture(output: str, *, transparent: bool = False, series: str) -> None:
     """Raise, before any work, if a picture cannot be written; ``series`` makes several."""
-    from ..display.animation_files import OPAQUE_SUFFIXES, PICTURE_SUFFIXES, is_numbered
+    from ..files.animation_files import OPAQUE_SUFFIXES, PICTURE_SUFFIXES, is_numbered
 
     if is_numbered(output):
         raise UsageError(f"{output!r} has a place for numbers: several pictures come of {series}")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from ..display import headless
-from ..display.animation_files import save_animation
-from ..display.studio import Studio
+from ..files.animation_files import save_animation
+from ..viewer import headless
+from ..viewer.view_renderer import Studio
 from . import options
 from .outputs import (
     STANDARD_OUTPUT,

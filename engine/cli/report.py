@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import time
 
-from ..display.counts import count_line
 from ..errors import printable
+from ..viewer.draw_counts import count_line
 
 
 class Report:

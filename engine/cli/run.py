@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..display import headless
-from ..display.animation_files import numbered_path, save_animation
-from ..display.ground import controller
-from ..display.studio import Studio
 from ..errors import DisplayError
+from ..files.animation_files import numbered_path, save_animation
+from ..viewer import headless
+from ..viewer.view_renderer import Studio
+from ..viewer.walking import controller
 from . import options
 from .inputs import STANDARD_INPUT
 from .outputs import check_animation, check_picture, with_progress
@@ -57,7 +57,7 @@ def _check(args: argparse.Namespace) -> None:
 
 def _missing_screen() -> str | None:
     """Return why no window can open, as far as that shows without loading SDL, or None."""
-    from ..display.window import find_screen
+    from ..viewer.window import find_screen
 
     try:
         find_screen()
@@ -80,9 +80,9 @@ def _studio(args: argparse.Namespace, subject, size, samples: int, report: Repor
 
 def _show(args: argparse.Namespace, subject, report: Report) -> None:
     """Open a window and stay until it closes."""
-    from ..display.model_files import ModelFiles
-    from ..display.viewer import Viewer
-    from ..display.window import Window
+    from ..viewer.model_files import ModelFiles
+    from ..viewer.viewer import Viewer
+    from ..viewer.window import Window
 
     size = args.resolution or WINDOW_SIZE
     with (

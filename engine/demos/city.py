@@ -7,11 +7,11 @@ import math
 
 import numpy as np
 
-from ..display.subject import Subject
-from ..lights import DirectionalLight
 from ..navigation import NavigationGrid, Walker
 from ..primitives import box
-from ..scene import Scene
+from ..scene.lights import DirectionalLight
+from ..scene.scene import Scene
+from ..viewer.viewed_scene import Subject
 from ..worlds import World
 from ..worlds import city as make_city
 from .city_lights import LIGHTS, PERIOD, Lamps, Traffic

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from .. import linalg
-from ..lights import PointLight
-from ..scene import Scene
+from ..scene.lights import PointLight
+from ..scene.scene import Scene
 from ..worlds import World
 from ..worlds.furniture import CARS, car
 from ..worlds.plan import PITCH

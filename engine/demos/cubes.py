@@ -10,10 +10,10 @@ import math
 import numpy as np
 
 from .. import linalg
-from ..display.subject import Subject
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..primitives import box
-from ..scene import Scene
+from ..scene.scene import Scene
+from ..viewer.viewed_scene import Subject
 
 BACKGROUND = (18, 20, 26)
 SPIN_SECONDS = 8.0

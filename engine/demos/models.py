@@ -5,9 +5,9 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
-from ..display.opening import open_model
-from ..display.subject import Subject
-from ..lights import DirectionalLight
+from ..scene.lights import DirectionalLight
+from ..viewer.open_model import open_model
+from ..viewer.viewed_scene import Subject
 
 SHOWCASE_MODEL = "island.obj"
 SKY = (142, 178, 204)

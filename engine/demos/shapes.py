@@ -10,13 +10,13 @@ import math
 import numpy as np
 
 from .. import linalg
-from ..display.subject import Subject
-from ..lights import DirectionalLight, PointLight
-from ..materials import Material
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
+from ..materials.textures import Texture
 from ..primitives import box, icosphere, plane, uv_sphere
-from ..scene import Scene
-from ..textures import Texture
+from ..scene.lights import DirectionalLight, PointLight
+from ..scene.scene import Scene
+from ..viewer.viewed_scene import Subject
 
 BACKGROUND = (14, 16, 22)
 PERIOD = 10.0

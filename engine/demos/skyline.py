@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..worlds.plan import PITCH
 
 #: How far things reach over the side of the square that their corners are in, and cars drive.

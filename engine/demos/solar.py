@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 
 from .. import linalg
-from ..animation import Animator
-from ..display.subject import Subject
-from ..lights import PointLight
+from ..geometry.mesh import Mesh
 from ..loaders import load_texture
-from ..materials import Material
-from ..mesh import Mesh
+from ..materials.material import Material
+from ..materials.textures import Texture
 from ..primitives import uv_sphere
-from ..scene import Scene
-from ..textures import Texture
+from ..scene.animation import Animator
+from ..scene.lights import PointLight
+from ..scene.scene import Scene
+from ..viewer.viewed_scene import Subject
 
 BACKGROUND = (4, 5, 10)
 MONTH = 18.0  # seconds

@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native.scene_graph import invert
+from .._support.numbers import floats
 from ..errors import InvalidArgumentError
-from ..number_checks import floats
 from . import single
 from .quaternions import matrix_to_quaternion, quaternion_from_axis_angle, quaternion_to_matrix
 from .trigonometry import cos, sin

@@ -12,9 +12,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from .._support.numbers import floats, real, shown
 from ..choices import EulerOrder
 from ..errors import InvalidArgumentError
-from ..number_checks import floats, real, shown
 from . import single
 from .trigonometry import atan2, cos, sin
 from .vectors import as_vectors, normalize

@@ -16,7 +16,7 @@ from typing import overload
 import numpy as np
 import numpy.typing as npt
 
-from ..number_checks import floats
+from .._support.numbers import floats
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .._support.numbers import floats
 from ..errors import InvalidArgumentError
-from ..number_checks import floats
 from . import single
 
 FloatArray = npt.NDArray[np.float64]

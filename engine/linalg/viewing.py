@@ -11,8 +11,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from .._support.numbers import real
 from ..errors import InvalidArgumentError
-from ..number_checks import real
 from . import single
 from .trigonometry import tan
 from .vectors import as_vectors

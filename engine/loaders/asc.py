@@ -16,9 +16,9 @@ import numpy as np
 
 from .._native import loaders as native
 from ..errors import FileFormatError
-from ..materials import Material
-from ..mesh import Mesh
-from ..topology import polygon_ids
+from ..geometry.mesh import Mesh
+from ..geometry.topology import polygon_ids
+from ..materials.material import Material
 from .corner_mesh import Geometry, Triangles, Vertices, build_mesh
 from .documents import CameraRecord, Document, DocumentObject, LightRecord
 from .linked_textures import give_companion_texture

@@ -11,7 +11,7 @@ import os
 from collections.abc import Callable, Iterator
 
 from ..errors import Engine3DError
-from ..picture_mark import MARKED_BYTES, is_own_picture
+from ..files.picture_mark import MARKED_BYTES, is_own_picture
 from .linked_files import LinkedFileError, LinkedFiles
 from .registry import formats
 from .sources import stem_and_extension

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .._native import loaders as native
-from ..materials import Material
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
 from .mtl import uv_transform
 
 # All positions as they are.

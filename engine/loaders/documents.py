@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 
 
 class DocumentObject(NamedTuple):

@@ -7,7 +7,7 @@ maps, extensions) is told in warnings. Source: Khronos, "glTF 2.0 Specification"
 
 from __future__ import annotations
 
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from .documents import Document
 from .gltf_buffers import GltfBuffers
 from .gltf_extensions import check_extensions, warn_of_unread

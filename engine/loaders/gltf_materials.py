@@ -12,8 +12,8 @@ import math
 import numpy as np
 
 from ..errors import Engine3DError
-from ..materials import Material
-from ..textures import Texture
+from ..materials.material import Material
+from ..materials.textures import Texture
 from .gltf_buffers import GltfBuffers
 from .gltf_file import GltfFile
 from .registry import find_reader

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from .gltf_buffers import GltfBuffers
 from .gltf_file import GltfFile
 from .gltf_materials import GltfMaterials

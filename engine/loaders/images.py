@@ -16,7 +16,7 @@ from contextvars import ContextVar
 import numpy as np
 
 from ..errors import FileFormatError
-from ..textures import MAX_SIDE
+from ..materials.textures import MAX_SIDE
 from .registry import Reader
 from .sources import Source
 

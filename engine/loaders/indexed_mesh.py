@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._native import loaders as native
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from .smoothing import join_seams
 from .welding import number_rows
 

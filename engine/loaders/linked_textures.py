@@ -9,8 +9,8 @@ from __future__ import annotations
 import os
 
 from ..errors import Engine3DError
-from ..materials import Material
-from ..textures import Texture
+from ..materials.material import Material
+from ..materials.textures import Texture
 from .companions import companion_texture
 from .linked_files import LinkedFileError, LinkedFiles
 from .sources import Source

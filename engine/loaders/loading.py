@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import Engine3DWarning, FileFormatError, InvalidArgumentError
-from ..mesh import Mesh
-from ..textures import Texture
+from ..geometry.mesh import Mesh
+from ..materials.textures import Texture
 from .documents import Document
 from .extents import extent_warnings
 from .images import images_of_one_model
@@ -22,7 +22,7 @@ from .sources import File, Source, read_source
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ..textures import TextureOptions
+    from ..materials.textures import TextureOptions
 
 
 # Told the share of the work that is done; what it returns does not matter.

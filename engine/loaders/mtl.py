@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 from ..errors import Engine3DError
-from ..materials import Material
-from ..textures import Texture
+from ..materials.material import Material
+from ..materials.textures import Texture
 from .linked_files import LinkedFileError
 from .linked_textures import TextureCache
 from .sources import Source

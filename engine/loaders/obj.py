@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..materials import Material
+from ..materials.material import Material
 from .corner_mesh import Triangles
 from .documents import Document
 from .linked_textures import give_companion_texture

@@ -7,7 +7,7 @@ is missing, damaged or out of bounds is a warning; its materials are plain then.
 from __future__ import annotations
 
 from ..errors import Engine3DError
-from ..materials import Material
+from ..materials.material import Material
 from .linked_files import LinkedFileError, LinkedFiles
 from .linked_textures import TextureCache
 from .mtl import read_mtl

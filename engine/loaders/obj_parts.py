@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..materials import Material
+from ..materials.material import Material
 from .corner_mesh import Geometry, Triangles, build_mesh
 from .documents import DocumentObject
 from .obj_file import Elements, ObjFile

@@ -16,7 +16,7 @@ import numpy as np
 
 from .._native import loaders as native
 from ..errors import FileFormatError
-from ..materials import Material
+from ..materials.material import Material
 from .documents import Document, DocumentObject
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .linked_textures import give_companion_texture

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import FileFormatError
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from .documents import Document, DocumentObject
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .ply_faces import PlyFaces, read_edges, read_faces, read_strips

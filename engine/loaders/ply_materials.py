@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import Engine3DError
-from ..materials import Material
-from ..textures import Texture
+from ..materials.material import Material
+from ..materials.textures import Texture
 from .linked_files import LinkedFileError, LinkedFiles
 from .linked_textures import TextureCache, give_companion_texture
 from .sources import Source

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import FileFormatError
+from ..geometry.mesh import Mesh
+from ..geometry.normals import unit_vectors
 from ..linalg import normal_matrix, transform_directions, transform_points
-from ..mesh import Mesh
-from ..normals import unit_vectors
 from .documents import DocumentObject
 from .sources import Source
 from .text import shown

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from .._native import loaders as native
-from ..mesh import Mesh
-from ..normals import face_normals, smooth_sums, unit_vectors
+from ..geometry.mesh import Mesh
+from ..geometry.normals import face_normals, smooth_sums, unit_vectors
 from .welding import number_rows, rows_repeat
 
 FLAT = 0

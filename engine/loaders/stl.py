@@ -14,8 +14,8 @@ import numpy as np
 
 from .._native import loaders as native
 from ..errors import FileFormatError
-from ..materials import Material
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
 from .documents import Document, DocumentObject
 from .registry import Reader
 from .sources import Source

@@ -67,7 +67,7 @@ def read_here(source: Source, split: bool) -> Document:
     """Read a file with trimesh in this process."""
     import trimesh
 
-    from ..trimesh_conversion import scene_parts
+    from ..geometry.trimesh_conversion import scene_parts
 
     kind = source.extension.removeprefix(".")
     if kind not in trimesh.available_formats():

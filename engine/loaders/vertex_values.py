@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..normals import vertex_normals
+from ..geometry.normals import vertex_normals
 
 # Normals whose largest component is outside have no direction that float32 could tell.
 _SHORTEST, _LONGEST = 1e-15, 1e15

@@ -15,14 +15,14 @@ from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._native import navigation as _native
-from ..attributes import Closed, not_negative
+from .._support.numbers import floats, real
+from .._support.validation import Closed, not_negative
 from ..errors import InvalidArgumentError
-from ..instances import InstancedMesh
-from ..materials import Material
-from ..mesh import Mesh
-from ..number_checks import floats, real
-from ..scene import Scene
-from .placed_meshes import bounds_of, placed_meshes
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
+from ..scene.instances import InstancedMesh
+from ..scene.scene import Scene
+from ._placed_meshes import bounds_of, placed_meshes
 
 MAX_CELLS = 1 << 26
 Choice: TypeAlias = Collection[str] | Callable[[Material], bool] | None

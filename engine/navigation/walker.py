@@ -13,9 +13,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..attributes import Closed, finite
+from .._support.numbers import real
+from .._support.validation import Closed, finite
 from ..errors import InvalidArgumentError
-from ..number_checks import real
 from .grid import NavigationGrid
 
 #: Length of a step in cells.

@@ -8,8 +8,8 @@ from __future__ import annotations
 import operator
 from typing import Any
 
+from .._support.numbers import as_array, shown
 from ..errors import InvalidArgumentError
-from ..number_checks import as_array, shown
 
 # Keeps every index below 2**31, and a slip of the keyboard from eating the memory.
 MAX_SEGMENTS = 8192

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import linalg
+from .._support.numbers import as_array, floats
 from ..errors import InvalidArgumentError
-from ..mesh import Mesh
-from ..number_checks import as_array, floats
+from ..geometry.mesh import Mesh
 from .arguments import MAX_SEGMENTS, integer, positives, segment_pair
 from .faces import grid_quads, split_quads
 

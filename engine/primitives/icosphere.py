@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import linalg
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from .arguments import integer, positive
 
 FloatArray = npt.NDArray[np.float64]

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from .. import linalg
 from ..errors import InvalidArgumentError
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from .arguments import MAX_SEGMENTS, integer, positive, segment_pair
 from .faces import BoolArray, IntArray, grid_points, grid_quads, split_quads
 

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from .. import linalg
 from .._native.rasterizer import CULLS
-from ..attributes import choose, how_far, vector3
+from .._support.numbers import floats
+from .._support.validation import choose, how_far, vector3
 from ..errors import InvalidArgumentError
-from ..frame import Frame
-from ..instances import InstancedMesh
-from ..nodes import Node
-from ..number_checks import floats
-from .shapes import tell
+from ..rendering.frame import Frame
+from ..scene.instances import InstancedMesh
+from ..scene.nodes import Node
+from ._shapes import tell
 
 _LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..attributes import own
-from ..materials import Material
-from ..mesh import Mesh
+from .._support.validation import own
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
 from ..primitives.arguments import integer
-from ..scene import Node, Scene
+from ..scene.scene import Node, Scene
 from .buildings import add_houses, house_quads
 from .furniture import LAMP_HEIGHT, template
 from .parks import add_parks

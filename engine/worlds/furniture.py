@@ -10,7 +10,7 @@ import functools
 import numpy as np
 
 from .. import linalg
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..primitives import icosphere
 from .frames import box, frames, quads, top
 from .hashing import unit_floats

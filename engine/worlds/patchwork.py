@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import linalg
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
 from ..primitives.faces import split_quads
 from .surfaces import FITTED, TEXTURE_METRES
 

@@ -11,8 +11,8 @@ import functools
 
 import numpy as np
 
-from ..materials import Material
-from ..textures import Texture
+from ..materials.material import Material
+from ..materials.textures import Texture
 from .hashing import unit_floats
 
 #: name -> (sRGB colour, texture or None, metres that the texture spans or 0 to fit the quad)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..colors import linear_color
-from ..materials import Material, says_something
-from ..mesh import Mesh
+from ..geometry.mesh import Mesh
+from ..materials.colors import linear_color
+from ..materials.material import Material, says_something
 
 _NAMES = {
     "uvs": "texture coordinates",

@@ -11,10 +11,10 @@ import os
 import re
 
 from .._native.images import encode_png
-from ..atomic_write import AtomicFiles
-from ..colors import linear_color
+from ..files.atomic_write import AtomicFiles
 from ..loaders.mtl import parse_map
-from ..materials import Material, says_something
+from ..materials.colors import linear_color
+from ..materials.material import Material, says_something
 from .names import encoded, line_text, unique
 from .rows import float_words
 from .side_files import LIBRARY_MARK, SideFiles

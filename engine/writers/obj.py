@@ -12,11 +12,11 @@ import os
 import numpy as np
 
 from .._native import writers as native
-from ..atomic_write import Files, StreamFiles
-from ..colors import srgb_bytes
 from ..errors import InvalidArgumentError
+from ..files.atomic_write import Files, StreamFiles
+from ..geometry.mesh import Mesh
 from ..loaders.welding import number_rows
-from ..mesh import Mesh
+from ..materials.colors import srgb_bytes
 from .losses import lost_of_materials, not_held
 from .mtl import Library, is_plain, material_names
 from .names import encoded, line_text, renamed, unique

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..geometry.mesh import Mesh
 from ..loaders.triangulation import triangulate
-from ..mesh import Mesh
 
 # Polygons that are no fans are put together in Python, and tried from each of their corners: work
 # that grows with the square of their size.

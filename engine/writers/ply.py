@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..atomic_write import Files
-from ..mesh import Mesh
+from ..files.atomic_write import Files
+from ..geometry.mesh import Mesh
 from .losses import lost_parts, not_held
 from .outlines import Outlines, polygon_outlines
 from .registry import Writer

@@ -6,9 +6,9 @@ import os
 import warnings
 from typing import Any, BinaryIO
 
-from ..atomic_write import AtomicFiles, StreamFiles, checked_path
 from ..errors import Engine3DWarning, InvalidArgumentError, located
-from ..mesh import Mesh
+from ..files.atomic_write import AtomicFiles, StreamFiles, checked_path
+from ..geometry.mesh import Mesh
 from .registry import find_writer
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..atomic_write import Files
-from ..mesh import Mesh
-from ..normals import face_area_vectors, unit_vectors
+from ..files.atomic_write import Files
+from ..geometry.mesh import Mesh
+from ..geometry.normals import face_area_vectors, unit_vectors
 from .losses import lost_parts
 from .names import encoded, line_text, renamed
 from .registry import Writer

@@ -9,8 +9,8 @@ from engine3d.cli import options, values
 from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
 from engine3d.demos import DEMO_NAMES
-from engine3d.display.look import CULLS, HIDDEN_SURFACES, MODES
-from engine3d.display.viewpoint import UP_DIRECTIONS
+from engine3d.viewer.appearance import CULLS, HIDDEN_SURFACES, MODES
+from engine3d.viewer.viewpoint import UP_DIRECTIONS
 from engine3d.worlds.city import LEAST, MOST
 
 

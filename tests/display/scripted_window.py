@@ -18,7 +18,7 @@ class ScriptedWindow:
         self.scale = 1
 
     def events(self, timeout=0.0):
-        from engine3d.display.input import CloseRequested
+        from engine3d.viewer.input import CloseRequested
 
         return self._script.pop(0) if self._script else [CloseRequested()]
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.display.fps import FAST, MAX_PITCH, RADIANS_A_SECOND, FpsController
-from engine3d.display.ground import GroundController
-from engine3d.display.orbit import DOLLY_STEP, OrbitController
-from engine3d.display.viewpoint import QUARTER_TURN, Sphere, Viewpoint
+from engine3d.viewer.fps import FAST, MAX_PITCH, RADIANS_A_SECOND, FpsController
+from engine3d.viewer.orbit import DOLLY_STEP, OrbitController
+from engine3d.viewer.viewpoint import QUARTER_TURN, Sphere, Viewpoint
+from engine3d.viewer.walking import GroundController
 
 BOUNDS = Sphere((0.0, 0.0, 0.0), 1.0)
 

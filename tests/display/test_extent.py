@@ -7,8 +7,8 @@ import pytest
 from display.projection import project
 
 import engine3d as e3d
-from engine3d.display.extent import bounding_sphere, turning_outline
-from engine3d.display.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from engine3d.viewer.scene_bounds import bounding_sphere, turning_outline
+from engine3d.viewer.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 
 
 @pytest.mark.parametrize("up", UP_DIRECTIONS.values())

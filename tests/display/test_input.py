@@ -4,8 +4,8 @@ import ctypes
 
 import pytest
 
-from engine3d.display import input as events
-from engine3d.display.window import load_sdl
+from engine3d.viewer import input as events
+from engine3d.viewer.window import load_sdl
 
 sdl2 = load_sdl()
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from engine3d.display import viewer_actions
-from engine3d.display.fps import LOOKS, MOVES
-from engine3d.display.help_panel import help_columns
-from engine3d.display.keymap import BINDINGS, action_for
+from engine3d.viewer import actions as viewer_actions
+from engine3d.viewer.fps import LOOKS, MOVES
+from engine3d.viewer.help_panel import help_columns
+from engine3d.viewer.keymap import BINDINGS, action_for
 
 
 def test_no_key_is_bound_twice():

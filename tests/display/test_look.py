@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.display.look import contrasting, point_size
-from engine3d.display.settings import Settings
-from engine3d.display.studio import Studio
-from engine3d.display.subject import Subject
+from engine3d.viewer.appearance import contrasting, point_size
+from engine3d.viewer.settings import Settings
+from engine3d.viewer.view_renderer import Studio
+from engine3d.viewer.viewed_scene import Subject
 
 
 def luminance(color):

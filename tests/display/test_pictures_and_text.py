@@ -6,18 +6,18 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.canvas import Canvas
-from engine3d.display.animation_files import (
+from engine3d.errors import FileAccessError
+from engine3d.files.animation_files import (
     ANIMATION_FORMATS,
     numbered_path,
     save_animation,
 )
-from engine3d.display.counts import count_names
-from engine3d.display.guides import grid, grid_step
-from engine3d.display.help_panel import draw_help, help_columns
-from engine3d.display.overlay import draw_axes, draw_block, statistics_lines
-from engine3d.display.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
-from engine3d.display.watch import FileWatch
-from engine3d.errors import FileAccessError
+from engine3d.viewer.draw_counts import count_names
+from engine3d.viewer.grid_lines import grid, grid_step
+from engine3d.viewer.help_panel import draw_help, help_columns
+from engine3d.viewer.overlay import draw_axes, draw_block, statistics_lines
+from engine3d.viewer.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from engine3d.viewer.watch import FileWatch
 
 
 @pytest.mark.parametrize("corner", ["top left", "top right", "bottom left", "bottom", "middle"])
@@ -179,7 +179,7 @@ def test_numbered_paths_take_the_first_free_number(tmp_path):
 
 
 def test_a_file_watch_reports_a_change_once_it_has_settled(tmp_path, monkeypatch):
-    monkeypatch.setattr("engine3d.display.watch.CHECK_SECONDS", 0.0)
+    monkeypatch.setattr("engine3d.viewer.watch.CHECK_SECONDS", 0.0)
     path = tmp_path / "model"
     path.write_text("one")
     watch = FileWatch(path)
@@ -200,7 +200,7 @@ def test_a_file_watch_reports_a_change_once_it_has_settled(tmp_path, monkeypatch
 
 
 def test_a_file_watch_does_not_report_what_is_away_for_a_moment(tmp_path, monkeypatch):
-    monkeypatch.setattr("engine3d.display.watch.CHECK_SECONDS", 0.0)
+    monkeypatch.setattr("engine3d.viewer.watch.CHECK_SECONDS", 0.0)
     path, other = tmp_path / "model", tmp_path / "other"
     path.write_text("one")
     watch = FileWatch(path)

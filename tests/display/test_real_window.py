@@ -14,8 +14,8 @@ from patience import HUNG
 from PIL import Image, ImageGrab, features
 
 from engine3d.canvas import Canvas
-from engine3d.display.help_panel import draw_help
-from engine3d.display.viewer import MESSAGE_SECONDS
+from engine3d.viewer.help_panel import draw_help
+from engine3d.viewer.viewer import MESSAGE_SECONDS
 
 MISSING = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
 if not features.check("xcb"):

@@ -7,14 +7,14 @@ import pytest
 from display.projection import project
 
 import engine3d as e3d
-from engine3d.display.viewpoint import (
+from engine3d.rendering.support_functions import support_of_points
+from engine3d.viewer.viewpoint import (
     UP_DIRECTIONS,
     Sphere,
     Viewpoint,
     clip_planes,
     home_axes,
 )
-from engine3d.reach import points_reach
 
 
 @pytest.mark.parametrize("up", UP_DIRECTIONS.values())
@@ -92,7 +92,7 @@ def test_framing_shows_all_points_and_wastes_no_room(aspect, orthographic, eleva
 def test_fitting_fills_the_picture_in_its_middle(aspect, orthographic, elevation):
     points = np.random.default_rng(1).normal(size=(500, 3)) * (1.0, 2.0, 0.5) + (3.0, -2.0, 1.0)
     view = Viewpoint(np.zeros(3), 1.0, elevation=elevation, orthographic=orthographic)
-    view.fit(points_reach(points), np.array((3.0, -2.0, 1.0)), aspect)
+    view.fit(support_of_points(points), np.array((3.0, -2.0, 1.0)), aspect)
     ndc = project(view, points, round(500 * aspect), 500)[:, :2]
     assert 0.9 < np.abs(ndc).max() < 1.0
     np.testing.assert_allclose(ndc.min(axis=0), -ndc.max(axis=0), atol=0.03)

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.display import input as events
-from engine3d.display.settings import Settings
-from engine3d.display.studio import Studio
-from engine3d.display.subject import Subject
-from engine3d.display.viewer import Viewer
-from engine3d.display.window import Window, _is_opengl_on_the_cpu, find_screen, load_sdl
+from engine3d.viewer import input as events
+from engine3d.viewer.settings import Settings
+from engine3d.viewer.view_renderer import Studio
+from engine3d.viewer.viewed_scene import Subject
+from engine3d.viewer.viewer import Viewer
+from engine3d.viewer.window import Window, _is_opengl_on_the_cpu, find_screen, load_sdl
 
 sdl2 = load_sdl()
 
@@ -127,7 +127,7 @@ def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
 
 
 def test_loading_sdl_prints_nothing():
-    code = "from engine3d.display.window import load_sdl; load_sdl()"
+    code = "from engine3d.viewer.window import load_sdl; load_sdl()"
     environment = {**os.environ, "SDL_VIDEODRIVER": "dummy"}
     done = subprocess.run(
         [sys.executable, "-W", "default", "-c", code],

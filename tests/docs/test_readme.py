@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from engine3d._support.image_size import MAX_SIZE
 from engine3d.cli.parser import make_parser
-from engine3d.display.keymap import BINDINGS
-from engine3d.image_size import MAX_SIZE
 from engine3d.loaders import formats
 from engine3d.loaders.images import MAX_PIXELS
-from engine3d.textures import MAX_SIDE
+from engine3d.materials.textures import MAX_SIDE
+from engine3d.viewer.keymap import BINDINGS
 
 ROOT = Path(__file__).resolve().parents[2]
 

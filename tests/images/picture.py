@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import engine3d as e3d
-from engine3d.frame import OUTPUTS
+from engine3d.rendering.frame import OUTPUTS
 
 SCENES = {}
 SIZE = (150, 106)  # six tiles, the last column and row of which are not whole

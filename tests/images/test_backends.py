@@ -8,7 +8,7 @@ from images.scenes import SCENES
 
 import engine3d as e3d
 from engine3d._native.rasterizer import BACKENDS
-from engine3d.frame import OUTPUTS
+from engine3d.rendering.frame import OUTPUTS
 
 THREADS = (1, 2, 3, 8)
 

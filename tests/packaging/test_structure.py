@@ -43,22 +43,11 @@ PROGRAMS = {"fuzz"}
 POPULAR_HEADERS = {"pipeline/frame.h"}
 # Imports inside functions without which no modules would import each other in a circle.
 BACKWARD_IMPORTS = {
-    "mesh -> trimesh_conversion",
-    "mesh -> writers",
-    "nodes -> spatial.colliders",
-    "spatial.colliders -> scene",
+    "geometry.mesh -> geometry.trimesh_conversion",
+    "geometry.mesh -> writers",
 }
 # Lists that repeat a type of engine/choices.py.
-COPIED_CHOICES = {
-    "cli/options.py: BACKENDS",
-    "cli/options.py: MODES",
-    "cli/options.py: SAMPLES",
-    "display/look.py: CULLS",
-    "display/look.py: HIDDEN_SURFACES",
-    "display/look.py: MODES",
-    "display/look.py: NORMALS",
-    "display/viewer_actions.py: SAMPLES",
-}
+COPIED_CHOICES = set()
 
 
 def without_comments(text):

@@ -7,7 +7,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.frame import OUTPUTS
+from engine3d.rendering.frame import OUTPUTS
 
 BACKENDS = e3d.backends()
 MODES = ["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]

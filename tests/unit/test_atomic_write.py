@@ -5,8 +5,8 @@ import stat
 
 import pytest
 
-from engine3d.atomic_write import atomic_write
 from engine3d.errors import FileAccessError
+from engine3d.files.atomic_write import atomic_write
 
 
 def test_the_file_appears_whole(tmp_path):

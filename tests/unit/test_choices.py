@@ -7,9 +7,13 @@ from typing import get_args, get_type_hints
 import pytest
 
 import engine3d as e3d
-from engine3d import choices, colors, frame, frame_options, lights, textures
+from engine3d import choices
 from engine3d._native import rasterizer as native
-from engine3d.renderer import _SAMPLES
+from engine3d.materials import colors, textures
+from engine3d.rendering import frame
+from engine3d.rendering import options as render_options
+from engine3d.rendering.renderer import _SAMPLES
+from engine3d.scene import lights
 
 ACCEPTED = {
     "Backend": ["auto", *native.BACKENDS],
@@ -54,10 +58,8 @@ def passed_on(function):
 
 
 def test_options_that_functions_pass_on_are_those_of_the_function():
-    assert (
-        frame_options.RenderOptions.__annotations__.keys() == passed_on(e3d.Renderer.render).keys()
-    )
+    declared = render_options.RenderKeywords.__annotations__
+    assert declared.keys() == passed_on(e3d.Renderer.render).keys()
     for name, annotation in passed_on(e3d.Renderer.render).items():
-        declared = frame_options.RenderOptions.__annotations__[name].__forward_arg__
-        assert declared == annotation, name
+        assert declared[name].__forward_arg__ == annotation, name
     assert get_type_hints(textures.TextureOptions).keys() == passed_on(e3d.Texture.__init__).keys()

@@ -5,8 +5,8 @@ from decimal import Decimal, getcontext
 import numpy as np
 import pytest
 
-from engine3d.colors import linear_color, srgb_to_linear_table
 from engine3d.errors import Engine3DError
+from engine3d.materials.colors import linear_color, srgb_to_linear_table
 
 
 def test_the_table_is_the_srgb_curve_rounded_once():

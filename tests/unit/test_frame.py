@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.frame import OUTPUTS
+from engine3d.rendering.frame import OUTPUTS
 
 
 @pytest.fixture

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d import linalg, reach
+from engine3d import linalg
+from engine3d.rendering import support_functions as support
 
 ASPECTS = (0.25, 1.0, 3.0)
 DIRECTIONS = [(0, 0, -1), (1, -2, 0.5), (0, -1, 0)]
@@ -25,7 +26,7 @@ def vertices(scene):
         thing = node.object
         mesh = getattr(thing, "mesh", thing)
         poses = (
-            reach._instance_poses(thing) if isinstance(thing, e3d.InstancedMesh) else [np.eye(4)]
+            support._instance_poses(thing) if isinstance(thing, e3d.InstancedMesh) else [np.eye(4)]
         )
         if node.shown and len(mesh.positions):
             points = np.c_[mesh.positions, np.ones(len(mesh.positions))]
@@ -141,7 +142,7 @@ def test_automatic_framing_follows_what_moves():
 
 @pytest.mark.parametrize("limit", ["_MAX_VERTICES", "_MAX_INSTANCES"])
 def test_what_is_too_much_to_look_at_is_shown_all_the_same(monkeypatch, limit):
-    monkeypatch.setattr(reach, limit, 5)
+    monkeypatch.setattr(support, limit, 5)
     scene = crowd()
     camera, pose = e3d.frame_scene(scene, margin=1.0)
     seen = ndc(camera, pose, vertices(scene))
@@ -201,6 +202,6 @@ def test_reach_of_points_goes_block_by_block(monkeypatch):
     points[17], points[500:520] = np.nan, np.inf
     directions = np.random.default_rng(4).normal(size=(7, 3))
     finite = points[np.isfinite(points).all(axis=1)].astype(np.float64)
-    monkeypatch.setattr(reach, "_BLOCK", 10)
-    found = reach.points_reach(points)(directions)
+    monkeypatch.setattr(support, "_BLOCK", 10)
+    found = support.support_of_points(points)(directions)
     np.testing.assert_allclose(found, (directions @ finite.T).max(axis=1))

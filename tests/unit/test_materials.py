@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from engine3d.errors import InvalidArgumentError
-from engine3d.materials import Material
-from engine3d.textures import Texture
+from engine3d.materials.material import Material
+from engine3d.materials.textures import Texture
 
 
 def test_defaults():

@@ -5,11 +5,11 @@ import sys
 import numpy as np
 import pytest
 
-from engine3d.detail import simplify
 from engine3d.errors import InvalidArgumentError
-from engine3d.materials import Material
-from engine3d.mesh import Mesh
-from engine3d.native_handles import MeshNeeds, native_mesh
+from engine3d.geometry.mesh import Mesh
+from engine3d.lod import simplify
+from engine3d.materials.material import Material
+from engine3d.rendering._native_handles import MeshNeeds, native_mesh
 
 SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
 HALVES = [(0, 1, 2), (0, 2, 3)]

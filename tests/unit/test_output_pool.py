@@ -6,7 +6,7 @@ import resource
 import numpy as np
 import pytest
 
-from engine3d.output_pool import OutputPool
+from engine3d.rendering._output_pool import OutputPool
 
 
 @pytest.fixture

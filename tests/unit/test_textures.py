@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from engine3d.errors import InvalidArgumentError
-from engine3d.textures import Texture
+from engine3d.materials.textures import Texture
 
 
 def image(*shape):

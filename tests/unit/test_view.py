@@ -5,7 +5,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.view import View
+from engine3d.rendering._view import View
 
 CAMERAS = (
     e3d.PerspectiveCamera(0.9, znear=0.05, zfar=100.0),

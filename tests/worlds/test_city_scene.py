@@ -7,9 +7,9 @@ import pytest
 
 import engine3d as e3d
 from engine3d.demos import load_demo
-from engine3d.display.ground import controller
-from engine3d.display.settings import Settings
-from engine3d.display.studio import Studio
+from engine3d.viewer.settings import Settings
+from engine3d.viewer.view_renderer import Studio
+from engine3d.viewer.walking import controller
 
 SIZE = (480, 270)
 

@@ -20,8 +20,8 @@ from patience import HUNG
 
 import engine3d as e3d
 from engine3d.benchmarking import bar_chart
-from engine3d.display.animation_files import save_animation
 from engine3d.errors import FileAccessError
+from engine3d.files.animation_files import save_animation
 
 BEFORE = b"what was there before"
 LIMIT = 64  # bytes: less than any of these files

@@ -1,0 +1,28 @@
+"""The size of an image in pixels, checked.
+
+In: what a caller gave for width and height. Out: integers within what the core can draw.
+"""
+
+from __future__ import annotations
+
+import numbers
+
+from ..errors import InvalidArgumentError
+
+MAX_SIZE = 16384
+
+
+def check_side(value, what: str) -> int:
+    """Return a side of an image, checked."""
+    if not isinstance(value, numbers.Integral) or not 1 <= value <= MAX_SIZE:
+        raise InvalidArgumentError(f"{what} must be a whole number in 1..{MAX_SIZE}, not {value!r}")
+    return int(value)
+
+
+def check_size(value) -> tuple[int, int]:
+    """Return the width and the height of an image, checked."""
+    try:
+        width, height = value
+    except (TypeError, ValueError):
+        raise InvalidArgumentError(f"size must be (width, height), not {value!r}") from None
+    return check_side(width, "width"), check_side(height, "height")

@@ -1,0 +1,52 @@
+"""Numbers and arrays of numbers, from whatever a caller calls so.
+
+In: anything. Out: a float, or a float64 array; an `InvalidArgumentError` that says what must be a
+number. Integers of any size are taken: those that no float reaches are infinite, which the checks
+that follow refuse where they must.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+
+import numpy as np
+
+from ..errors import InvalidArgumentError
+
+
+def real(value) -> float:
+    """Return a number as a float; not-a-number for what is none."""
+    if not isinstance(value, numbers.Real):
+        return math.nan
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def shown(value) -> str:
+    """Return a value as a message shows it: on one line, and short."""
+    try:
+        text = " ".join(repr(value).split())
+    except ValueError:  # more digits than Python writes
+        text = f"an integer of {value.bit_length()} bits"
+    return text if len(text) <= 80 else f"{text[:60]} …"
+
+
+def as_array(value, what: str) -> np.ndarray:
+    """Return an array of any type."""
+    try:
+        return np.asarray(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidArgumentError(f"{what} is not an array: {error}") from None
+
+
+def floats(value, what: str) -> np.ndarray:
+    """Return a float64 copy of numbers, C-contiguous."""
+    if getattr(getattr(value, "dtype", None), "kind", "f") in "cmM":
+        raise InvalidArgumentError(f"{what} must be numbers, not {value.dtype}")
+    try:
+        return np.array(value, np.float64, order="C")
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidArgumentError(f"{what} must be numbers: {error}") from None

@@ -1,0 +1,215 @@
+"""Attributes that check what is assigned to them and count the assignments; owners without others.
+
+In: whatever a caller assigns. Out: the checked value; the owner's ``version`` grows, which tells
+the renderer to renew what it made of the owner. Used by cameras, lights and instances. What a
+`Closed` class does not declare cannot be assigned at all.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._native.loaders import is_frozen
+from ..choices import Color, ColorLike
+from ..errors import InvalidArgumentError
+from .dirty_tracking import renew
+from .numbers import floats, real, shown
+
+Given = TypeVar("Given")
+Kept = TypeVar("Kept")
+
+
+class Closed:
+    """Base of what has no public attributes but its class's, so that a misspelt one is an error.
+
+    Attributes of instances are declared by annotations; a subclass may declare more. Copies, and
+    what comes from a pickle, hold read-only arrays as well, and lists and dicts of their own.
+    """
+
+    _FORGOTTEN = ()  # attributes that are computed anew in a copy; the class has their first values
+
+    def __getstate__(self) -> dict:
+        return {key: self.__dict__[key] for key in self.__dict__ if key not in self._FORGOTTEN}
+
+    def __setstate__(self, state: dict) -> None:
+        self.__dict__.update({key: own(value) for key, value in state.items()})
+
+    if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
+
+        def __setattr__(self, name: str, value) -> None:
+            kind = type(self)
+            if name[0] != "_" and not hasattr(kind, name) and name not in _declared(kind):
+                raise AttributeError(f"a {kind.__name__} has no attribute {name!r}")
+            object.__setattr__(self, name, value)
+
+
+def own(value):
+    """Return what a copy keeps of a value: arrays that nobody can write to, its own containers."""
+    if isinstance(value, np.ndarray):
+        return freeze(value)
+    return type(value)(value) if type(value) in (dict, list) else value
+
+
+def freeze(array: np.ndarray) -> np.ndarray:
+    """Return an array that nobody can write to: this one, if only the caller has its memory."""
+    if not is_frozen(array):
+        array = array if array.base is None and array.flags.owndata else array.copy()
+        array.setflags(write=False)
+    return array
+
+
+@functools.cache
+def _declared(kind: type) -> frozenset[str]:
+    """The names that a class and its bases annotate."""
+    return frozenset().union(*(getattr(base, "__annotations__", {}) for base in kind.__mro__))
+
+
+_PLACES = {"position", "translation", "location", "pose", "rotation", "euler", "eye", "target"}
+
+
+class PlacedByNode(Closed):
+    """Base of lights and cameras, which have no place of their own: a node gives them theirs."""
+
+    if not TYPE_CHECKING:  # to a type checker, __init__ says what there is
+
+        def __new__(cls, *args, **kwargs):
+            for name in _PLACES.intersection(kwargs):
+                thing = "light" if cls.__name__.endswith("Light") else "camera"
+                how = "pose=engine3d.look_at(eye, target)"
+                how = how if thing == "camera" else "translation=(x, y, z)"
+                raise TypeError(
+                    f"{cls.__name__}() takes no {name!r}: it is placed by its node, "
+                    f"scene.add({thing}, {how})"
+                )
+            return super().__new__(cls)
+
+
+class CheckedAttribute(Generic[Given, Kept]):
+    """A data descriptor: ``check(value, name)`` returns what to keep, or raises.
+
+    Parameters
+    ----------
+    check : callable
+    doc : str
+        What ``help`` shows.
+    """
+
+    def __init__(self, check: Callable[[Given, str], Kept], doc: str = "") -> None:
+        self._check = check
+        self.__doc__ = doc
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, owner: None, owner_type: type | None = None) -> CheckedAttribute: ...
+
+    @overload
+    def __get__(self, owner: object, owner_type: type | None = None) -> Kept: ...
+
+    def __get__(self, owner, owner_type=None):
+        if owner is None:
+            return self
+        try:
+            return owner.__dict__[self._name]
+        except KeyError:
+            kind = type(owner).__name__
+            raise AttributeError(f"{kind!r} object has no attribute {self._name!r}") from None
+
+    def __set__(self, owner: object, value: Given) -> None:
+        owner.__dict__[self._name] = self._check(value, self._name)
+        renew(owner)
+
+
+NumberAttribute: TypeAlias = CheckedAttribute[float, float]
+OptionalNumberAttribute: TypeAlias = CheckedAttribute[float | None, float | None]
+VectorAttribute: TypeAlias = CheckedAttribute[ArrayLike, NDArray[np.float64]]
+ColorAttribute: TypeAlias = CheckedAttribute[ColorLike, Color]
+
+
+def one_of(allowed: tuple[Kept, ...]) -> Callable[[Kept, str], Kept]:
+    """Return a check that a value is one of a few."""
+
+    def check(value: Kept, what: str) -> Kept:
+        return choose(value, allowed, what)
+
+    return check
+
+
+def choose(value, allowed, what: str):
+    """Return ``value`` if it is one of ``allowed``; the message lists what is allowed."""
+    try:
+        if value in allowed:
+            return value
+    except (TypeError, ValueError):  # not hashable, or an array
+        pass
+    choices = ", ".join(repr(choice) for choice in allowed)
+    raise InvalidArgumentError(f"{what} must be one of {choices}, not {value!r}")
+
+
+def finite(value: float, what: str) -> float:
+    """Check a finite number."""
+    number = real(value)
+    if not math.isfinite(number):
+        raise InvalidArgumentError(f"{what} must be a finite number, not {shown(value)}")
+    return number
+
+
+def positive(value: float, what: str) -> float:
+    """Check a finite number greater than 0."""
+    number = real(value)
+    if not 0 < number < math.inf:
+        raise InvalidArgumentError(
+            f"{what} must be a finite number greater than 0, not {shown(value)}"
+        )
+    return number
+
+
+def optional_positive(value: float | None, what: str) -> float | None:
+    """Check a finite number greater than 0, or None."""
+    return None if value is None else positive(value, what)
+
+
+def not_negative(value: float, what: str) -> float:
+    """Check a finite number that is 0 or greater."""
+    number = real(value)
+    if not 0 <= number < math.inf:
+        raise InvalidArgumentError(
+            f"{what} must be a finite number, 0 or greater, not {shown(value)}"
+        )
+    return number
+
+
+def how_far(value: float, what: str) -> float:
+    """Check a distance: a number that is 0 or greater, and may be infinite."""
+    number = real(value)
+    if not number >= 0:
+        raise InvalidArgumentError(f"{what} must be a number, 0 or greater, not {shown(value)}")
+    return number
+
+
+def vector3(value: ArrayLike, what: str) -> NDArray[np.float64]:
+    """Check three finite numbers; return them as a read-only float64 array."""
+    return frozen_floats(value, what, (3,))
+
+
+def matrix4(value: ArrayLike, what: str) -> NDArray[np.float64]:
+    """Check a 4x4 matrix of finite numbers; return it as a read-only float64 array."""
+    return frozen_floats(value, what, (4, 4))
+
+
+def frozen_floats(value: ArrayLike, what: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return a read-only float64 copy of ``value``, of one shape and finite."""
+    array = floats(value, what)
+    if array.shape != shape:
+        raise InvalidArgumentError(f"{what} must have shape {shape}, not {array.shape}")
+    if not all(map(math.isfinite, array.ravel().tolist())):  # of few numbers, faster than NumPy
+        raise InvalidArgumentError(f"{what} must be finite: {array.tolist()}")
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,260 @@
+"""Meshes and textures that are stored once, however often and from wherever they are loaded.
+
+In: files, or objects made elsewhere. Out: the object of that content, shared. An object is kept for
+as long as somebody else holds it. A file that changed on disk is loaded again when asked for, into
+the objects that are there, so that every scene shows it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import threading
+import warnings
+from typing import TYPE_CHECKING, Any, NamedTuple
+from weakref import WeakValueDictionary
+
+from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..loaders import load_mesh, load_texture
+from ..loaders.linked_files import found_files
+from ..loaders.open_files import unreadable
+from ..materials.material import Material
+from ..materials.textures import Texture
+from .stamps import FileState
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ..materials.textures import TextureOptions
+
+
+class ResourceStats(NamedTuple):
+    """What a `Resources` holds.
+
+    Attributes
+    ----------
+    meshes, textures : int
+    mesh_bytes, texture_bytes : int
+        Of their arrays, as Python holds them.
+    loads, shared : int
+        How often something was asked for, and how often of these it was there already.
+    """
+
+    meshes: int
+    textures: int
+    mesh_bytes: int
+    texture_bytes: int
+    loads: int
+    shared: int
+
+
+class Resources:
+    """Loads meshes and textures, each content once.
+
+    What is shared is one object: who changes it changes it for all, and from then on it is no
+    longer shared with later loads of the old content.
+    """
+
+    def __init__(self) -> None:
+        self._by_file: WeakValueDictionary = WeakValueDictionary()
+        self._by_content: WeakValueDictionary = WeakValueDictionary()
+        self._files: dict[tuple, _Loaded] = {}
+        self._loads = self._shared = 0
+        # Held while things are looked up and kept, not while files are read.
+        self._lock = threading.RLock()
+
+    def load_mesh(self, path: str | os.PathLike[str], **options: Any) -> Mesh:
+        """Return the mesh of a file; parameters and exceptions are those of `load_mesh`.
+
+        Its textures are shared as well.
+        """
+        return self._load(load_mesh, path, options)
+
+    def load_texture(
+        self, path: str | os.PathLike[str], **options: Unpack[TextureOptions]
+    ) -> Texture:
+        """Return the texture of a file; parameters and exceptions are those of `load_texture`."""
+        return self._load(load_texture, path, options)
+
+    def share(self, thing: Mesh | Texture) -> Mesh | Texture:
+        """Return the object that is there with this content, or keep this one.
+
+        Raises
+        ------
+        InvalidArgumentError
+            It is neither a Mesh nor a Texture.
+        """
+        if not isinstance(thing, (Mesh, Texture)):
+            raise InvalidArgumentError(f"not a Mesh or Texture: {type(thing).__name__}")
+        with self._lock:
+            self._loads += 1
+            return self._same(thing)
+
+    def reload_changed(self) -> tuple[str, ...]:
+        """Load the files again that changed since they were loaded; return their paths.
+
+        A model counts as changed with the files that it names, such as its textures. One that is
+        damaged now, or gone, leaves its object as it is and is warned of as `Engine3DWarning`.
+        """
+        done = []
+        for key, loaded in list(self._files.items()):
+            thing = self._by_file.get(key)
+            if thing is None:
+                self._files.pop(key, None)
+                continue
+            if not any(state.changed() for state in loaded.states.values()):
+                continue
+            loaded.states = {path: FileState(path) for path in loaded.states}
+            path = key[1]
+            try:
+                fresh, states = _read(loaded.load, path, loaded.options)
+            except Engine3DError as error:
+                warnings.warn(f"not loaded again: {error}", Engine3DWarning, stacklevel=2)
+                continue
+            with self._lock:
+                self._forget_content(thing)
+                _become(thing, fresh)
+                loaded.states, loaded.versions = states, _versions(thing)
+            done.append(path)
+        return tuple(done)
+
+    @property
+    def stats(self) -> ResourceStats:
+        """Counts and sizes of what is held now."""
+        with self._lock:
+            things = {id(thing): thing for thing in self._by_content.values()}
+            things.update((id(thing), thing) for thing in self._by_file.values())
+        meshes = [thing for thing in things.values() if isinstance(thing, Mesh)]
+        textures = {id(thing): thing for thing in things.values() if isinstance(thing, Texture)}
+        return ResourceStats(
+            len(meshes),
+            len(textures),
+            sum(array.nbytes for mesh in meshes for array in _arrays(mesh)),
+            sum(texture.pixels.nbytes for texture in textures.values()),
+            self._loads,
+            self._shared,
+        )
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("Resources cannot be copied or pickled: they are what is shared")
+
+    def _load(self, load, path, options: dict):
+        if not isinstance(path, (str, os.PathLike)):
+            kind = type(path).__name__
+            raise InvalidArgumentError(f"resources are loaded by their paths, not from {kind}")
+        name = _real_path(path)
+        key = (load.__name__, name, tuple(sorted(options.items())))
+        with self._lock:
+            self._loads += 1
+            thing = self._known(key)
+        if thing is not None:
+            return thing
+        thing, states = _read(load, name, options)
+        with self._lock:
+            return self._known(key) or self._keep(key, thing, _Loaded(load, options, states))
+
+    def _known(self, key: tuple):
+        """What was loaded so, as long as nobody has changed it since."""
+        thing, loaded = self._by_file.get(key), self._files.get(key)
+        if thing is None or loaded is None or loaded.versions != _versions(thing):
+            return None
+        self._shared += 1
+        return thing
+
+    def _keep(self, key: tuple, thing, loaded: _Loaded):
+        """The object of what was read: this one, or one that is there already."""
+        for material in thing.materials if isinstance(thing, Mesh) else ():
+            if material.texture is not None:
+                material.texture = self._same(material.texture, count=False)
+        thing = self._same(thing)
+        loaded.versions = _versions(thing)
+        self._files[key] = loaded
+        self._by_file[key] = thing
+        return thing
+
+    def _same(self, thing, *, count: bool = True):
+        """The object of the same content, as long as nobody has changed it since."""
+        content = _content(thing)
+        other = self._by_content.get(content)
+        if other is not None and (other is thing or _content(other) == content):
+            self._shared += count
+            return other
+        self._by_content[content] = thing
+        return thing
+
+    def _forget_content(self, thing) -> None:
+        for content, other in list(self._by_content.items()):
+            if other is thing:
+                del self._by_content[content]
+
+
+def _real_path(path: str | os.PathLike) -> str:
+    try:
+        return os.path.realpath(os.fspath(path))
+    except (OSError, ValueError) as error:
+        raise unreadable(os.fspath(path), error) from error
+
+
+class _Loaded:
+    """How a file was loaded: by what, with which options, from which files in which states."""
+
+    def __init__(self, load, options: dict, states: dict[str, FileState]) -> None:
+        self.load, self.options, self.states = load, options, states
+        self.versions: tuple = ()
+
+
+def _versions(thing) -> tuple:
+    """What is another once somebody has changed the thing."""
+    materials = thing.materials if isinstance(thing, Mesh) else ()
+    textures = (material.texture for material in materials if material.texture is not None)
+    return tuple(part.version for part in (thing, *materials, *textures))
+
+
+def _read(load, path: str, options: dict) -> tuple[Mesh | Texture, dict[str, FileState]]:
+    """Load a file; return what it holds, and how all files were before they were read for it."""
+    states = {path: FileState(path)}
+
+    def note(found: str) -> None:
+        if found not in states:
+            states[found] = FileState(found)
+
+    with found_files(note):
+        thing = load(path, **options)
+    return thing, states
+
+
+def _arrays(mesh: Mesh) -> list:
+    return [array for array in mesh._arrays.values() if array is not None]
+
+
+def _content(thing) -> tuple:
+    """What two things have in common if and only if they are equal, but for their names."""
+    digest = hashlib.blake2b(digest_size=20)
+    if isinstance(thing, Texture):
+        digest.update(thing.pixels)
+        kind = thing.pixels.shape, thing.color_space, thing.filter, thing.wrap
+        return ("texture", digest.digest(), *kind)
+    shapes = []
+    for name, array in sorted(thing._arrays.items()):
+        shapes.append((name, None if array is None else (array.shape, array.dtype.str)))
+        if array is not None:
+            digest.update(array)
+    materials = tuple(_material_content(material) for material in thing.materials)
+    groups = tuple((name, array.tobytes()) for name, array in thing.groups.items())
+    return ("mesh", digest.digest(), tuple(shapes), materials, groups)
+
+
+def _material_content(material: Material) -> tuple:
+    numbers = material.specular, material.shininess, material.emissive, material.two_sided
+    look = material.color, *numbers, material.flat_shading, material.name
+    texture = None if material.texture is None else _content(material.texture)
+    return (*map(repr, look), repr(material.extras), texture)
+
+
+def _become(thing, fresh) -> None:
+    """Put the content of one object into another of its kind."""
+    if isinstance(thing, Texture):
+        thing.pixels = fresh.pixels
+    else:
+        thing._become(fresh)

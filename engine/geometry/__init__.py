@@ -1,0 +1,1 @@
+"""Meshes: their arrays, what follows from these (normals, edges), and meshes of other libraries."""

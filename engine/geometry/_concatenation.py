@@ -1,0 +1,133 @@
+"""Joining several meshes into one, in their order.
+
+In: meshes. Out: one mesh whose arrays are theirs one after the other, with the indices moved along.
+What only some of them have is filled in for the others.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import InvalidArgumentError
+from ..materials.colors import srgb_to_linear_table
+from ..materials.material import Material
+
+
+def concatenate(mesh_type: type, meshes: list, name: str):
+    """Return a ``mesh_type`` that holds everything of ``meshes``; see `Mesh.concatenate`."""
+    for mesh in meshes:
+        if not isinstance(mesh, mesh_type):
+            raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+    if not meshes:
+        return mesh_type(np.zeros((0, 3), np.float32), name=name)
+    starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])[:-1]
+    materials, material_ids = _joined_materials(meshes)
+    joined = mesh_type(
+        np.concatenate([mesh.positions for mesh in meshes]),
+        _moved(meshes, starts, "faces"),
+        normals=_joined_normals(meshes),
+        uvs=_joined_uvs(meshes),
+        colors=_joined_colors(meshes),
+        materials=materials,
+        material_ids=material_ids,
+        lines=_moved(meshes, starts, "lines"),
+        points=_moved(meshes, starts, "points"),
+        edge_visible=_joined_edge_flags(meshes),
+        position_ids=_joined_position_ids(meshes),
+        name=name,
+    )
+    joined._groups = _joined_groups(meshes)
+    joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
+    return joined
+
+
+def _moved(meshes, starts, what: str) -> np.ndarray:
+    """Index arrays, each raised by the number of vertices before its mesh."""
+    parts = zip(meshes, starts, strict=True)
+    return np.concatenate([getattr(mesh, what) + np.int32(start) for mesh, start in parts])
+
+
+def _joined_materials(meshes) -> tuple[list[Material], np.ndarray]:
+    materials: list[Material] = []
+    number: dict[int, int] = {}
+    ids = []
+    for mesh in meshes:
+        for material in mesh.materials:
+            if number.setdefault(id(material), len(materials)) == len(materials):
+                materials.append(material)
+        own = np.array([number[id(material)] for material in mesh.materials], np.int32)
+        ids.append(own[mesh.material_ids])
+    return materials, np.concatenate(ids)
+
+
+def _joined_normals(meshes):
+    if not any(mesh.has_normals for mesh in meshes):
+        return None
+    return np.concatenate([mesh.normals for mesh in meshes])
+
+
+def _joined_uvs(meshes):
+    if all(mesh.uvs is None for mesh in meshes):
+        return None
+    return np.concatenate(
+        [np.zeros((len(m.positions), 2), np.float32) if m.uvs is None else m.uvs for m in meshes]
+    )
+
+
+def _joined_colors(meshes):
+    """Bytes stay bytes; beside floats they become linear light."""
+    if all(mesh.colors is None for mesh in meshes):
+        return None
+    given = [mesh.colors for mesh in meshes if mesh.colors is not None]
+    as_bytes = all(colors.dtype == np.uint8 for colors in given)
+    dtype, white = (np.uint8, 255) if as_bytes else (np.float32, 1)
+    parts = []
+    for mesh in meshes:
+        colors = mesh.colors
+        if colors is None:
+            colors = np.full((len(mesh.positions), 4), white, dtype)
+        elif not as_bytes and colors.dtype == np.uint8:
+            colors = _linear_from_bytes(colors)
+        parts.append(colors)
+    return np.concatenate(parts)
+
+
+def _linear_from_bytes(colors: np.ndarray) -> np.ndarray:
+    linear = srgb_to_linear_table()[colors]
+    linear[:, 3] = colors[:, 3].astype(np.float64) / 255
+    return linear
+
+
+def _joined_edge_flags(meshes):
+    if all(mesh.edge_visible is None for mesh in meshes):
+        return None
+    return np.concatenate(
+        [
+            np.ones((len(m.faces), 3), bool) if m.edge_visible is None else m.edge_visible
+            for m in meshes
+        ]
+    )
+
+
+def _joined_position_ids(meshes):
+    if all(mesh.position_ids is None for mesh in meshes):
+        return None
+    parts = []
+    start = 0
+    for mesh in meshes:
+        ids = mesh.position_ids
+        ids = np.arange(len(mesh.positions), dtype=np.int32) if ids is None else ids
+        parts.append(ids + np.int32(start))
+        start += int(ids.max(initial=-1)) + 1
+    return np.concatenate(parts)
+
+
+def _joined_groups(meshes) -> dict[str, np.ndarray]:
+    """Groups of the same name become one."""
+    parts: dict[str, list[np.ndarray]] = {}
+    start = 0
+    for mesh in meshes:
+        for name, faces in mesh.groups.items():
+            parts.setdefault(name, []).append(np.asarray(faces, np.int32) + np.int32(start))
+        start += len(mesh.faces)
+    return {name: np.concatenate(faces) for name, faces in parts.items()}

@@ -1,0 +1,386 @@
+"""Geometry: vertices, triangles, lines and points, with the materials they are drawn with.
+
+A `Mesh` checks what it is given once, keeps it as read-only C-contiguous arrays of fixed types, and
+derives normals, edges and polygons on demand. Nothing ever holds an index out of range. Every
+assignment raises ``version``, which tells the renderer to renew what it made of the mesh.
+Conventions: object space, right-handed, counter-clockwise faces are seen from their front, texture
+coordinates have their origin at the bottom left.
+"""
+
+from __future__ import annotations
+
+import operator
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, BinaryIO, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._native.loaders import exchange, frozen
+from .._native.rasterizer import bound_points
+from .._support.dirty_tracking import renew
+from .._support.validation import Closed, own
+from ..errors import InvalidArgumentError
+from ..materials.material import Material
+from . import normals as _normals
+from . import topology as _topology
+from ._arrays import (
+    ArrayAttribute,
+    check_colors,
+    check_flags3,
+    check_groups,
+    check_indices,
+    check_pairs,
+    check_triples,
+    check_vectors2,
+    check_vectors3,
+    require_range,
+)
+
+_Floats: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.float32]]
+_Integers: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.int32]]
+_OptionalFloats: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.float32] | None]
+_OptionalIntegers: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.int32] | None]
+_OptionalFlags: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.bool_] | None]
+_OptionalColors: TypeAlias = ArrayAttribute[
+    ArrayLike | None, NDArray[np.uint8] | NDArray[np.float32] | None
+]
+
+
+class Mesh(Closed):
+    """Triangles, lines and points over one list of vertices.
+
+    Parameters
+    ----------
+    positions : (V, 3) float
+        Vertices in object space. Not-finite ones are allowed; what uses them is not drawn.
+    faces : (F, 3) int, optional
+        Vertex indices of the triangles.
+    normals : (V, 3) float, optional
+        Vertex normals; without them they are computed.
+    uvs : (V, 2) float, optional
+        Texture coordinates, (0, 0) at the image's bottom left.
+    colors : (V, 3) or (V, 4) int or float, optional
+        Vertex colours: integers 0..255 are sRGB, floats are linear light; integers that are all 0
+        or 1 mean 0.0 and 1.0, unless they are ``uint8``. Alpha is opaque if left out.
+    materials : list of Material, optional
+        One default material if left out.
+    material_ids : (F,) int, optional
+        The material of each face; all zero if left out.
+    lines : (L, 2) int, optional
+        Vertex indices of line segments.
+    points : (P,) int, optional
+        Vertex indices of points.
+    edge_visible : (F, 3) bool, optional
+        Whether the edge from vertex k to vertex (k + 1) % 3 of a face is one of the model's edges;
+        False for the diagonals of polygons. All are if left out.
+    position_ids : (V,) int, optional
+        Vertices with the same number are one point of the surface that was split for another
+        attribute, such as a texture seam. Computed normals and the edges respect it.
+    name : str
+
+    Attributes
+    ----------
+    positions, faces, normals, uvs, colors, material_ids, lines, points, edge_visible, position_ids
+        As above, read-only: float32, int32, uint8 or bool. Assigning replaces one; arrays that go
+        together must keep matching lengths.
+    materials : list of Material
+    groups : dict of str to (N,) int32
+        Face indices of named parts; none once the number of faces changes.
+    warnings : list of str
+        What the loader left out or replaced.
+    version : int
+
+    Raises
+    ------
+    InvalidArgumentError
+        A wrong shape or type, lengths that do not match, an index out of range.
+    """
+
+    name: str
+    version: int
+    warnings: list[str]
+    positions: _Floats = ArrayAttribute(check_vectors3)
+    faces: _Integers = ArrayAttribute(check_triples)
+    uvs: _OptionalFloats = ArrayAttribute(check_vectors2, optional=True)
+    colors: _OptionalColors = ArrayAttribute(check_colors, optional=True)
+    material_ids: _Integers = ArrayAttribute(check_indices)
+    lines: _Integers = ArrayAttribute(check_pairs)
+    points: _Integers = ArrayAttribute(check_indices)
+    edge_visible: _OptionalFlags = ArrayAttribute(check_flags3, optional=True)
+    position_ids: _OptionalIntegers = ArrayAttribute(check_indices, optional=True)
+    _given_normals: _OptionalFloats = ArrayAttribute(check_vectors3, optional=True)
+    _FORGOTTEN = ("_derived",)
+
+    def __init__(
+        self,
+        positions: ArrayLike,
+        faces: ArrayLike | None = None,
+        *,
+        normals: ArrayLike | None = None,
+        uvs: ArrayLike | None = None,
+        colors: ArrayLike | None = None,
+        materials: Iterable[Material] | None = None,
+        material_ids: ArrayLike | None = None,
+        lines: ArrayLike | None = None,
+        points: ArrayLike | None = None,
+        edge_visible: ArrayLike | None = None,
+        position_ids: ArrayLike | None = None,
+        name: str = "",
+    ) -> None:
+        self.name = str(name)
+        self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
+        self.warnings = []
+        self._arrays: dict[str, np.ndarray | None] = {}
+        self._derived: dict[str, tuple[list, np.ndarray]] = {}  # with what it was computed from
+        self._materials = _check_materials(materials)
+        self.positions = positions
+        self.faces = () if faces is None else faces
+        self.lines = () if lines is None else lines
+        self.points = () if points is None else points
+        if material_ids is not None:
+            self.material_ids = material_ids
+        self._given_normals = normals
+        self.uvs = uvs
+        self.colors = colors
+        self.edge_visible = edge_visible
+        self.position_ids = position_ids
+
+    @property
+    def normals(self) -> NDArray[np.float32]:
+        """Vertex normals (V, 3) float32: the given ones, or angle-weighted ones, computed once."""
+        return self._derive("normals", dict(self._arrays))
+
+    @normals.setter
+    def normals(self, value: ArrayLike | None) -> None:
+        self._given_normals = value
+
+    @property
+    def has_normals(self) -> bool:
+        """Whether normals were given; False means that they are computed."""
+        return self._given_normals is not None
+
+    @property
+    def face_normals(self) -> NDArray[np.float32]:
+        """One unit normal per face, (F, 3) float32, the same for all triangles of a polygon."""
+        return self._derive("face_normals", dict(self._arrays))
+
+    @property
+    def polygons(self) -> NDArray[np.int32]:
+        """The polygon that each face is part of, (F,) int32 from 0 on, never decreasing.
+
+        Triangles that stand one after the other and share an edge hidden in both are one polygon.
+        """
+        return self._derive("polygons", dict(self._arrays))
+
+    def edges(self) -> NDArray[np.int32]:
+        """Return the visible edges of the faces, each once: (E, 2) int32 vertex indices.
+
+        An edge counts as visible if it is visible in any face. They stand in the order of their
+        first appearance; vertices with the same position id count as one.
+        """
+        return self._derive("edges", dict(self._arrays))
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Smallest and largest finite coordinates, (2, 3) float64; zeros if there are none."""
+        return self._derive("bounds", dict(self._arrays))
+
+    @property
+    def materials(self) -> list[Material]:
+        """The materials that ``material_ids`` refer to; at least one."""
+        return self._materials
+
+    @materials.setter
+    def materials(self, value: Iterable[Material] | None) -> None:
+        materials = _check_materials(value)
+        if len(materials) < len(self._materials):
+            require_range(self.material_ids, len(materials), "material_ids", "materials")
+        self._materials = materials
+        renew(self)
+
+    @property
+    def groups(self) -> dict[str, NDArray[np.int32]]:
+        """Face indices of named parts, each (N,) int32."""
+        return self._groups
+
+    @groups.setter
+    def groups(self, value: Mapping[str, ArrayLike]) -> None:
+        self._groups = check_groups(value, len(self.faces))
+
+    @classmethod
+    def concatenate(cls, meshes: Sequence[Mesh], name: str = "") -> Mesh:
+        """Return one mesh that holds everything of several, in their order.
+
+        What only some of them have is filled in: computed normals, zero texture coordinates,
+        white vertex colours. Materials that are the same object are kept once.
+        """
+        from ._concatenation import concatenate
+
+        if not isinstance(meshes, Iterable):
+            raise InvalidArgumentError(f"meshes must be several Mesh, not {meshes!r}")
+        return concatenate(cls, list(meshes), name)
+
+    @classmethod
+    def from_trimesh(cls, geometry: Any) -> Mesh:
+        """Return the mesh of what the package trimesh holds.
+
+        Parameters
+        ----------
+        geometry : trimesh.Trimesh, PointCloud, Path3D or Scene
+            The parts of a scene are joined, each at its place.
+
+        Returns
+        -------
+        mesh : Mesh
+            With texture coordinates, colours, materials and textures. Normals only if the geometry
+            was given some.
+
+        Raises
+        ------
+        InvalidArgumentError
+            It is none of these.
+        """
+        from .trimesh_conversion import mesh_from_trimesh
+
+        return mesh_from_trimesh(geometry)
+
+    def to_trimesh(self) -> Any:
+        """Return the mesh for the package trimesh, which must be installed.
+
+        Returns
+        -------
+        geometry : trimesh.Trimesh, PointCloud or Scene
+            A point cloud if there are no faces; a scene of one geometry for each material if faces
+            have several. Lines are left out.
+
+        Raises
+        ------
+        ImportError
+            There is no trimesh: ``pip install engine3d[formats]``.
+        """
+        from .trimesh_conversion import mesh_to_trimesh
+
+        return mesh_to_trimesh(self)
+
+    def save(
+        self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
+    ) -> None:
+        """Write the mesh to an OBJ, PLY or STL file; parameters and exceptions of `save_mesh`."""
+        from ..writers import save_mesh
+
+        save_mesh(self, path, format=format, **options)
+
+    def __setstate__(self, state: dict) -> None:
+        super().__setstate__({**state, "_derived": {}})
+        for arrays in (self._arrays, self._groups):
+            arrays.update({name: own(array) for name, array in arrays.items()})
+
+    def __repr__(self) -> str:
+        parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]
+        parts += [f"{len(self.lines)} lines"] if len(self.lines) else []
+        parts += [f"{len(self.points)} points"] if len(self.points) else []
+        return f"Mesh({', '.join(parts)}, name={self.name!r})"
+
+    def _derive(self, what: str, arrays: dict) -> Any:
+        """What follows from arrays, as they were at one moment: computed once for these."""
+        if what == "normals" and arrays["_given_normals"] is not None:
+            return arrays["_given_normals"]
+        compute, names = _DERIVED[what]
+        sources = [arrays[name] for name in names]
+        made_of, array = self._derived.get(what, (None, None))
+        if made_of is None or not all(map(operator.is_, made_of, sources)):
+            array = compute(*sources)
+            array.setflags(write=False)
+            self._derived[what] = sources, array
+        return array
+
+    def _replace(self, what: str, array: np.ndarray | None) -> None:
+        """Check an array against those that are there, and put it in its place."""
+        while True:  # until nothing was assigned between the check and this
+            others = dict(self._arrays)
+            self._check_new(what, array, others)
+            fresh = {what: array}
+            ids = others.get("material_ids")
+            anew = what == "faces" and (ids is None or len(ids) != len(array))
+            if anew:  # pages of zeros that nobody reads never come
+                zeros = frozen(np.zeros(len(array), np.int32))
+                fresh["material_ids"] = check_indices(zeros, "material_ids")
+            if exchange(self._arrays, others, fresh):
+                break
+        if anew:
+            self._groups = {}
+        self._derived.clear()
+        renew(self)
+
+    def _check_new(self, what: str, array: np.ndarray | None, others: dict) -> None:
+        if what == "positions":
+            _check_new_positions(array, others)
+        elif what == "faces":
+            require_range(array, len(others["positions"]), what, "vertices")
+            _check_length(others.get("edge_visible"), len(array), "edge_visible", "faces")
+        elif what in ("lines", "points"):
+            require_range(array, len(others["positions"]), what, "vertices")
+        elif what in ("material_ids", "edge_visible"):
+            _check_length(array, len(others["faces"]), what, "faces")
+        else:
+            shown = what.removeprefix("_given_")
+            _check_length(array, len(others["positions"]), shown, "vertices")
+        if what == "material_ids":
+            require_range(array, len(self._materials), what, "materials")
+
+    def _become(self, other: Mesh) -> None:
+        """Take over everything of another mesh but its name."""
+        self._arrays.update(other._arrays)  # one step: they fit together at every moment
+        self._derived.clear()
+        self._materials, self._groups = list(other._materials), dict(other.groups)
+        self.warnings = list(other.warnings)
+        renew(self)
+
+
+def _check_new_positions(positions: np.ndarray, others: dict) -> None:
+    count = len(positions)
+    for what in ("_given_normals", "uvs", "colors", "position_ids"):
+        other = others.get(what)
+        if other is not None and len(other) != count:
+            raise InvalidArgumentError(
+                f"positions has {count} rows, but {what.removeprefix('_given_')} {len(other)}"
+            )
+    for what in ("faces", "lines", "points"):
+        other = others.get(what)
+        if other is not None:
+            require_range(other, count, what, "vertices")
+
+
+def _face_normals(positions, faces, position_ids, edge_visible) -> np.ndarray:
+    polygons = _topology.polygon_ids(faces, edge_visible, position_ids)
+    return _normals.face_normals(positions, faces, polygons)
+
+
+def _bounds(positions: np.ndarray) -> np.ndarray:
+    return np.array(bound_points(positions), np.float64)
+
+
+_DERIVED = {  # how each is computed, and from which arrays
+    "normals": (_normals.vertex_normals, ("positions", "faces", "position_ids")),
+    "face_normals": (_face_normals, ("positions", "faces", "position_ids", "edge_visible")),
+    "polygons": (_topology.polygon_ids, ("faces", "edge_visible", "position_ids")),
+    "edges": (_topology.visible_edges, ("faces", "edge_visible", "position_ids")),
+    "bounds": (_bounds, ("positions",)),
+}
+
+
+def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:
+    if array is not None and len(array) != count:
+        raise InvalidArgumentError(f"{what} has {len(array)} rows for {count} {of_what}")
+
+
+def _check_materials(materials: Iterable[Material] | None) -> list[Material]:
+    if isinstance(materials, Material):
+        raise InvalidArgumentError("materials must be a list of Material, not one Material")
+    materials = [] if materials is None else list(materials)
+    for material in materials:
+        if not isinstance(material, Material):
+            raise InvalidArgumentError(f"not a Material: {type(material).__name__}")
+    return materials or [Material()]

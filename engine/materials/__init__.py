@@ -1,0 +1,1 @@
+"""What surfaces look like: materials, textures, and how colours are given and shown."""

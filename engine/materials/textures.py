@@ -1,0 +1,136 @@
+"""Images that surfaces are painted with.
+
+A `Texture` holds 8-bit RGBA pixels and says how they are to be read: colour space, filter and what
+lies beyond the edges. Pixels are stored top row first, as image files are; texture coordinates have
+their origin at the bottom left, and the core does that flip. Mip levels are the core's affair: it
+makes them anew when ``version`` has changed.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TypedDict, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._support.dirty_tracking import renew
+from .._support.numbers import as_array
+from .._support.validation import CheckedAttribute, Closed, one_of
+from ..choices import ColorSpace, Filter, Wrap
+from ..errors import InvalidArgumentError
+from .colors import COLOR_SPACES
+
+FILTERS: tuple[Filter, ...] = get_args(Filter)
+WRAPS: tuple[Wrap, ...] = get_args(Wrap)
+MAX_SIDE = 16384
+
+
+class TextureOptions(TypedDict, total=False):
+    """The keyword arguments of `Texture`, for functions that pass them on."""
+
+    color_space: ColorSpace
+    filter: Filter
+    wrap: Wrap
+    name: str
+
+
+class Texture(Closed):
+    """An image and the way to sample it.
+
+    Parameters
+    ----------
+    pixels : array-like of uint8
+        (H, W) or (H, W, 1) grey, (H, W, 2) grey and alpha, (H, W, 3) RGB or (H, W, 4) RGBA; the
+        top row first. Sides from 1 to 16384.
+    color_space : {"srgb", "linear"}
+        How the RGB bytes encode light; alpha is always linear.
+    filter : {"trilinear", "bilinear", "nearest"}
+    wrap : {"repeat", "clamp", "mirror"}
+    name : str
+
+    Attributes
+    ----------
+    pixels : (H, W, 4) uint8, read-only
+        Assigning replaces the image.
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    name: str
+    version: int
+    color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
+    filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
+    wrap: CheckedAttribute[Wrap, Wrap] = CheckedAttribute(one_of(WRAPS))
+
+    def __init__(
+        self,
+        pixels: ArrayLike,
+        *,
+        color_space: ColorSpace = "srgb",
+        filter: Filter = "trilinear",
+        wrap: Wrap = "repeat",
+        name: str = "",
+    ) -> None:
+        self.pixels = pixels
+        self.color_space = color_space
+        self.filter = filter
+        self.wrap = wrap
+        self.name = str(name)
+
+    @property
+    def pixels(self) -> NDArray[np.uint8]:
+        return self._pixels
+
+    @pixels.setter
+    def pixels(self, value: ArrayLike) -> None:
+        self._pixels = as_rgba(value)
+        renew(self)
+
+    @property
+    def width(self) -> int:
+        return self._pixels.shape[1]
+
+    @property
+    def height(self) -> int:
+        return self._pixels.shape[0]
+
+    def __repr__(self) -> str:
+        return f"Texture({self.width}x{self.height}, name={self.name!r})"
+
+
+def as_rgba(pixels: ArrayLike) -> NDArray[np.uint8]:
+    """Return an image of one to four channels as (H, W, 4) uint8, C-contiguous and read-only.
+
+    Alpha is 255 where the image has none. The result never shares memory that can be written to.
+    """
+    if isinstance(pixels, (str, os.PathLike)):
+        raise InvalidArgumentError(f"a Texture is made of pixels: use load_texture({pixels!r})")
+    image = as_array(pixels, "pixels")
+    if image.dtype != np.uint8:
+        raise InvalidArgumentError(f"texture pixels must be uint8, got {image.dtype}")
+    if image.ndim == 2:
+        image = image[:, :, np.newaxis]
+    if image.ndim != 3 or not 1 <= image.shape[2] <= 4:
+        raise InvalidArgumentError(f"texture pixels must be (H, W[, 1..4]), got {image.shape}")
+    height, width, channels = image.shape
+    if not (1 <= height <= MAX_SIDE and 1 <= width <= MAX_SIDE):
+        raise InvalidArgumentError(
+            f"a texture's sides must be in 1..{MAX_SIDE}, got {width}x{height}"
+        )
+    if channels == 4 and _is_frozen(image):
+        return image
+    rgba = np.empty((height, width, 4), np.uint8)
+    rgba[:, :, :3] = image[:, :, :3] if channels >= 3 else image[:, :, :1]
+    rgba[:, :, 3] = image[:, :, channels - 1] if channels in (2, 4) else 255
+    rgba.setflags(write=False)
+    return rgba
+
+
+def _is_frozen(image: np.ndarray) -> bool:
+    """An array that nobody can write to any more needs no copy."""
+    return image.base is None and image.flags.c_contiguous and not image.flags.writeable

@@ -1,0 +1,344 @@
+"""From a scene to what the core draws: draws, materials and lights, renewed where they changed.
+
+In: a `Scene` and what the picture needs of its meshes. Out: a `NativeDrawList` that is up to date.
+Between frames it keeps the part of the list that tells of objects, and what that was made from;
+nodes are placed by C, from the arrays of the scene. Python looks at the objects that came, went or
+changed, at all of them only where many did, and never at every node.
+"""
+
+from __future__ import annotations
+
+import weakref
+
+import numpy as np
+
+from .._native.rasterizer import NativeDrawList
+from .._support.dirty_tracking import Watch
+from ..geometry.mesh import Mesh
+from ..materials.display_colors import shading_color
+from ..materials.material import Material
+from ..materials.textures import Texture
+from ..scene.instances import InstancedMesh
+from ..scene.node_arrays import NodeArrays
+from ..scene.scene import Scene
+from ._light_list import LightList
+from ._native_handles import MeshNeeds, native_mesh, native_texture
+
+_MANY = 1024  # instances that are worth a tree of their boxes
+_SETTLED = 3  # frames in which they did not change
+_SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
+
+
+class DrawList:
+    """The draw list of one renderer, for the scene that it drew last.
+
+    Parameters
+    ----------
+    color_space : {"srgb", "linear"}
+        How 8-bit colours of materials and lights are read.
+    threads : int
+        That cut meshes into clusters, and move nodes; 0: all.
+
+    Attributes
+    ----------
+    native : NativeDrawList
+    changes : int
+        Grows whenever `update` finds that something else is to be drawn, or elsewhere.
+    """
+
+    def __init__(self, color_space: str, threads: int) -> None:
+        self.native = NativeDrawList()
+        self._color_space = color_space
+        self._threads = threads
+        self._scene = lambda: None
+        self._objects_version = -1
+        self._needs: MeshNeeds | None = None
+        self._normals = ""
+        self._watch = Watch()
+        self._changed: list = []  # of what is watched, since the list was made
+        self._materials: dict[Material, list[tuple[int, int]]] = {}  # where they are, as whose
+        self._flat: dict[Material, bool] = {}  # which normals they asked for
+        self._textured: dict[Material, Texture] = {}
+        self._users: dict[Texture, set[Material]] = {}
+        self._bases: dict[tuple[int, ...], int] = {}  # where materials begin, by their ids
+        self._material_lists: list[list[Material]] = []  # the meshes' own, by number of the object
+        self._lists_then: list[list[Material]] = []  # and as they were
+        self._listed: list = []  # what the objects were made of, by number: things, materials' ids
+        self._left = 0  # how often an object went, or took other materials, since all were listed
+        self._marks = False
+        self._many: dict[int, InstancedMesh] = {}  # by number
+        self._trees, self._frames = False, 0
+        self._placed: tuple | None = None
+        self._frustum: np.ndarray | None = None
+        self._how = 1.0, True
+        self._selected: bytes | None = None
+        self._lights = LightList(self.native, color_space)
+        self.changes = 0
+
+    def update(
+        self,
+        scene: Scene,
+        needs: MeshNeeds,
+        normals: str,
+        headlight,
+        frustum: np.ndarray | None,
+        marks: float,
+        batching: bool,
+    ) -> None:
+        """Make the native list draw ``scene``.
+
+        Parameters
+        ----------
+        scene : Scene
+        needs : MeshNeeds
+            Which derived arrays the picture reads; which of the two kinds of normals a mesh needs
+            is decided for each mesh.
+        normals : {"auto", "smooth", "flat"}
+        headlight : tuple of two vectors, or None
+            Colour and direction towards the light, for a scene that has no light.
+        frustum : (4, 4) float64 or None
+            clip_from_world of a camera: nodes outside of what it shows are left out.
+        marks : float
+            How far lines and points may reach beyond where they are, as a share of half the image.
+        batching : bool
+            Nodes of one mesh are drawn as one.
+        """
+        scene._update(self._threads)
+        if self._needs != needs or self._normals != normals or not self._lists(scene):
+            self._renew(scene, needs, normals)
+        if self._many and not self._trees:
+            self._settle()
+        widen = 1.0 + marks if self._marks or needs.edges else 1.0
+        self._place(scene._arrays, frustum, widen, batching)
+        self._lights.update(scene, headlight)
+
+    def _settle(self) -> None:
+        """Make trees of many instances, once these have stayed as they are for some frames."""
+        self._frames += 1
+        if self._frames == _SETTLED:
+            for number, instances in self._many.items():
+                self.native.set_instance_tree(number, instances._tree()[0])
+            self._trees = True
+            self._placed = None
+
+    def _unsettle(self) -> None:
+        for number in self._many:
+            self.native.set_instance_tree(number, None)
+        self._trees, self._frames = False, 0
+
+    def shows(self, scene: Scene) -> bool:
+        """Whether everything in the scene is still as and where it was at the last update."""
+        return self._placed == (scene._arrays, scene._arrays.changes) and self._lists(scene)
+
+    def _lists(self, scene: Scene) -> bool:
+        """Whether the objects are those of the scene, as they are now."""
+        self._changed += self._watch.changed()
+        return (
+            self._scene() is scene
+            and self._objects_version == scene._objects.version
+            and self._material_lists == self._lists_then
+            and not self._changed
+        )
+
+    def _renew(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
+        """Make the list of objects anew, or only what changed of it."""
+        self._changed += self._watch.changed()
+        same = self._scene() is scene and self._needs == needs and self._normals == normals
+        numbers = self._numbers_that_changed(scene) if same else None
+        self._scene = lambda: None  # if anything below raises, the list is not current
+        if numbers is None:
+            self._rebuild(scene, needs, normals)
+        else:
+            self._replace(scene, sorted(numbers))
+        self._objects_version = scene._objects.version
+        self._scene = weakref.ref(scene)
+
+    def _numbers_that_changed(self, scene: Scene) -> set[int] | None:
+        """Numbers of objects that are others or changed; None where all are to be listed anew."""
+        objects = scene._objects
+        numbers = objects.renewed_since(self._objects_version)
+        if numbers is None or self._material_lists != self._lists_then:
+            return None
+        for thing in self._changed:
+            if isinstance(thing, (Mesh, InstancedMesh)):
+                numbers |= objects.drawn_by(thing)
+            elif isinstance(thing, Material) and self._flat[thing] != thing.flat_shading:
+                numbers |= self._numbers_with(thing)
+        # Materials that nothing shows any longer are let go of when the list is made anew.
+        few = 4 * (self._left + len(numbers)) <= len(objects.objects)
+        return numbers if few or not numbers else None
+
+    def _numbers_with(self, material: Material) -> set[int]:
+        """Numbers of the objects that a material was listed with."""
+        key = id(material)
+        return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
+
+    def _materials_that_changed(self) -> set[Material]:
+        """Those that did, and those of textures that did."""
+        materials = {thing for thing in self._changed if isinstance(thing, Material)}
+        return materials.union(*(self._users.get(thing, ()) for thing in self._changed))
+
+    def _replace(self, scene: Scene, numbers: list[int]) -> None:
+        """Renew the materials that changed, and the objects of some numbers."""
+        for material in self._materials_that_changed():
+            for index, number in self._materials[material]:
+                self._set_material(index, material, number)
+        self._changed = []
+        if not numbers:
+            return
+        self._placed = None
+        many = set(self._many)
+        for number in numbers:
+            self._forget(scene, number)
+            self._set_object(number, scene._objects.objects[number])
+        if not many.union(self._many).isdisjoint(numbers):
+            self._unsettle()
+
+    def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
+        self._placed = None
+        self._needs, self._normals = needs, normals
+        self.native.clear()
+        self._lights.forget()
+        self._watch, self._changed = Watch(), []
+        self._materials, self._flat, self._textured, self._users = {}, {}, {}, {}
+        self._bases, self._material_lists, self._lists_then, self._listed = {}, [], [], []
+        self._left = 0
+        self._marks = self._trees = False
+        self._many, self._frames = {}, 0
+        for number, obj in enumerate(scene._objects.objects):
+            self._set_object(number, obj)
+
+    def _set_object(self, number: int, obj) -> None:
+        """List a mesh, once or at many poses, or nothing, under a number or the next one."""
+        self._many.pop(number, None)
+        if obj is None:
+            self.native.set_object(number, None, 0)
+            self._note(number, (), (), [])
+            return
+        mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
+        things = (mesh,) if obj is mesh else (mesh, obj)
+        for thing in things:
+            self._watch.add(thing)  # before it is read
+        surfaces = tuple(map(id, mesh.materials))
+        if surfaces not in self._bases:
+            self._bases[surfaces] = self._add_materials(mesh.materials)
+        native = native_mesh(mesh, _needs_of(mesh, self._needs, self._normals), self._threads)
+        self.native.set_object(number, native, self._bases[surfaces])
+        self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
+        self._note(number, things, surfaces, mesh.materials)
+        if obj is not mesh:
+            self._set_instances(number, obj)
+
+    def _set_instances(self, number: int, obj: InstancedMesh) -> None:
+        if len(obj) >= _MANY:
+            self._many[number] = obj
+        colors = obj.colors
+        eight_bit = colors is not None and colors.dtype == np.uint8
+        self.native.set_instances(
+            number,
+            obj._flat_poses(),
+            colors if eight_bit else None,
+            None if eight_bit else colors,
+            obj._ids,
+        )
+
+    def _note(self, number: int, things: tuple, surfaces: tuple, materials: list) -> None:
+        """Remember what would make a listed object, or its list of materials, out of date."""
+        if number == len(self._listed):
+            self._listed.append(((), ()))
+            self._material_lists.append([])
+            self._lists_then.append([])
+        self._left += self._listed[number][1] not in ((), surfaces)
+        self._listed[number] = things, surfaces
+        self._material_lists[number], self._lists_then[number] = materials, list(materials)
+
+    def _forget(self, scene: Scene, number: int) -> None:
+        """Look no longer at what a number's object was made of, where no other is."""
+        if number < len(self._listed):
+            for thing in self._listed[number][0]:
+                if not scene._objects.drawn_by(thing):
+                    self._watch.remove(thing)
+
+    def _add_materials(self, materials: list[Material]) -> int:
+        """Add materials to the native list; return the first one's number."""
+        base = self.native.material_count
+        for number, material in enumerate(materials):
+            index = base + number
+            self._materials.setdefault(material, []).append((index, number))
+            self._set_material(index, material, number)
+        return base
+
+    def _place(
+        self, arrays: NodeArrays, frustum: np.ndarray | None, widen: float, batching: bool
+    ) -> None:
+        """List the draws of what may show, where it is now."""
+        placed = arrays, arrays.updated  # what is assigned after the update shows in the next frame
+        moved = self._placed != placed
+        how = widen, batching
+        if not moved and self._frustum is frustum and self._how == how:
+            return
+        self._placed = None  # for if anything below raises
+        selection = None
+        if frustum is not None:
+            selection = np.empty((arrays.count + 63) // 64, np.uint64)
+            arrays.select(frustum, widen, selection)
+        selected = None if selection is None else selection.tobytes()
+        same = selected is not None and selected == self._selected and batching == self._how[1]
+        if moved or self._trees or not same:
+            columns = arrays.columns
+            self.native.place(
+                arrays.count,
+                columns["flags"],
+                columns["object"],
+                columns["object_id"],
+                columns["world"],
+                selection,
+                frustum,
+                widen,
+                batching,
+                moved,
+            )
+        self.changes += moved
+        self._placed, self._selected = placed, selected
+        self._frustum, self._how = frustum, how
+
+    def _set_material(self, index: int, material: Material, number: int) -> None:
+        self._watch.add(material)
+        self._flat[material] = material.flat_shading
+        texture = material.texture
+        self._note_texture(material, texture)
+        if texture is not None:
+            texture = native_texture(texture, self._color_space)
+        self.native.set_material(
+            index,
+            shading_color(material.color, self._color_space),
+            shading_color(material.specular, self._color_space),
+            max(material.shininess, _SMALLEST_SHININESS),
+            shading_color(material.emissive, self._color_space),
+            texture,
+            number,
+            material.two_sided,
+            material.flat_shading,
+        )
+
+    def _note_texture(self, material: Material, texture: Texture | None) -> None:
+        """Look at the texture of a material, and no longer at one that no material has now."""
+        before = self._textured.pop(material, None)
+        if before is not None and before is not texture:
+            self._users[before].discard(material)
+            if not self._users[before]:
+                del self._users[before]
+                self._watch.remove(before)
+        if texture is not None:
+            self._watch.add(texture)
+            self._textured[material] = texture
+            self._users.setdefault(texture, set()).add(material)
+
+
+def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:
+    """Which arrays of this mesh are read, once its materials' flat shading is known."""
+    smooth, flat = needs.vertex_normals, needs.face_normals
+    if normals == "auto":
+        flat = flat and any(material.flat_shading for material in mesh.materials)
+        smooth = smooth and not all(material.flat_shading for material in mesh.materials)
+    return MeshNeeds(smooth, flat, needs.edges)

@@ -1,0 +1,109 @@
+"""The lights of a frame: those of a scene that show, where they are now.
+
+In: a `Scene` that is up to date. Out: the lights of a `NativeDrawList`, renewed where they changed:
+Python looks at every light that moved, and at the others' versions only.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._native.rasterizer import FALLOFFS, NativeDrawList
+from .._native.scene_graph import SHOWN
+from ..linalg.single import normalize
+from ..materials.display_colors import shading_color
+from ..scene.lights import DirectionalLight
+from ..scene.scene import Scene
+
+
+class LightList:
+    """The lights of one native draw list.
+
+    Parameters
+    ----------
+    native : NativeDrawList
+    color_space : {"srgb", "linear"}
+        How 8-bit colours are read.
+    """
+
+    def __init__(self, native: NativeDrawList, color_space: str) -> None:
+        self._native = native
+        self._color_space = color_space
+        self._slots_of: tuple | None = None
+        self._slots = np.empty(0, np.int32)
+        self._lights: list = []  # not their nodes, which hold the scene
+        self.forget()
+
+    def forget(self) -> None:
+        """List all lights anew at the next update."""
+        self._listed: tuple | None = None
+        self._shown = np.empty(0, bool)
+        self._changes = 0
+        self._placed = np.empty(0, np.uint32)
+
+    def update(self, scene: Scene, headlight) -> None:
+        """Make the native lights those of a scene; ``headlight`` is for one that has none."""
+        self._find_slots(scene)
+        color, towards = (None, None) if self._lights else headlight or (None, None)
+        listed = self._slots_of, [light.version for light in self._lights], color
+        same, self._listed = self._listed == listed, None  # for if anything below raises
+        if self._lights:
+            changes = scene._arrays.updated
+            if not same or self._changes != changes:
+                self._renew(scene, same)
+            self._changes = changes
+        elif not same:
+            self._native.clear_lights()
+            if towards is not None:
+                self._native.add_directional_light(color, towards)
+        elif towards is not None:
+            self._native.turn_light(0, towards)
+        self._listed = listed
+
+    def _renew(self, scene: Scene, same: bool) -> None:
+        """List lights that show, if they are not the same as before, and place those that moved."""
+        columns = scene._arrays.columns
+        shown = columns["flags"][self._slots] & SHOWN != 0
+        slots = self._slots[shown]
+        placed = columns["world_version"][slots]
+        if same and shown.tobytes() == self._shown.tobytes():
+            moved = (placed != self._placed).nonzero()[0]
+        else:
+            moved = np.arange(len(slots))
+            self._native.clear_lights()
+            for light in shown.nonzero()[0].tolist():
+                self._add(self._lights[light])
+        if len(moved):
+            lights = shown.nonzero()[0][moved].tolist()
+            poses = columns["world"][slots[moved]].tolist()
+            for number, light, pose in zip(moved.tolist(), lights, poses, strict=True):
+                self._place(number, self._lights[light], pose)
+        self._shown, self._placed = shown, placed
+
+    def _find_slots(self, scene: Scene) -> None:
+        """Find the lights' rows in the scene's arrays, once for as long as these are the same."""
+        slots_of = scene._arrays, scene._removals, len(scene._lights)
+        if self._slots_of != slots_of:
+            nodes = scene._lights.values()
+            self._lights = [node.object for node in nodes]
+            self._slots = np.array([node._slot for node in nodes], np.int32)
+            self._slots_of = slots_of
+
+    def _add(self, light) -> None:
+        color = shading_color(light.color, self._color_space)
+        color = [component * light.intensity for component in color]
+        if isinstance(light, DirectionalLight):
+            self._native.add_directional_light(color, (0.0, 0.0, 1.0))
+        else:
+            light.check()
+            falloff = FALLOFFS[light.falloff]
+            self._native.add_point_light(color, (0.0, 0.0, 0.0), light.range, falloff)
+
+    def _place(self, number: int, light, pose: list[float]) -> None:
+        """Put a light where the first three rows of its world pose say."""
+        if isinstance(light, DirectionalLight):
+            x, y, z = light.direction.tolist()
+            towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
+            self._native.turn_light(number, normalize(towards))
+        else:
+            self._native.move_light(number, pose[3::4])

@@ -1,0 +1,77 @@
+"""The core's side of meshes and textures, made when a picture first needs it and kept.
+
+In: `Mesh` and `Texture`. Out: their native handles, made anew when arrays are others (and one for
+each way to decode a texture), forgotten with the object. The arrays that only some pictures need
+(normals, edges) are added to a mesh's handle when one does.
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from .._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
+from ..geometry.mesh import Mesh
+from ..materials.textures import Texture
+
+
+class MeshNeeds(NamedTuple):
+    """Which of a mesh's derived arrays a picture reads."""
+
+    vertex_normals: bool = False
+    face_normals: bool = False
+    edges: bool = False
+
+
+_meshes: WeakKeyDictionary[Mesh, tuple[dict, NativeMesh]] = WeakKeyDictionary()
+_textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple, NativeTexture]]] = WeakKeyDictionary()
+
+
+def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
+    """Return the handle of a mesh as it is now, with what is needed; 0 threads are all.
+
+    Threads that ask at once for the first time may each make one: these are alike.
+    """
+    arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
+    made_of, native = _meshes.get(mesh, (None, None))
+    if made_of is None or not all(map(operator.is_, arrays.values(), made_of.values())):
+        native = _make_mesh(arrays, threads)
+        _meshes[mesh] = arrays, native
+    if needs.vertex_normals and not native.has_normals:
+        native.set_normals(mesh._derive("normals", arrays))
+    if needs.face_normals and not native.has_face_normals:
+        native.set_face_normals(mesh._derive("face_normals", arrays))
+    if needs.edges and not native.has_edges:
+        native.set_edges(mesh._derive("edges", arrays))
+    return native
+
+
+def _make_mesh(arrays: dict, threads: int) -> NativeMesh:
+    colors = arrays["colors"]
+    eight_bit = colors is not None and colors.dtype == np.uint8
+    return NativeMesh(
+        arrays["positions"],
+        arrays["faces"],
+        uvs=arrays["uvs"],
+        colors_u8=colors if eight_bit else None,
+        colors_f32=None if eight_bit else colors,
+        material_ids=arrays["material_ids"],
+        lines=arrays["lines"],
+        points=arrays["points"],
+        threads=threads,
+    )
+
+
+def native_texture(texture: Texture, color_space: str) -> NativeTexture:
+    """Return the handle of a texture as it is now, for renderers of one colour space."""
+    pixels, filter, wrap = texture.pixels, texture.filter, texture.wrap
+    decode = color_space == "srgb" and texture.color_space == "srgb"
+    natives = _textures.setdefault(texture, {})
+    made_of, native = natives.get(decode, (None, None))
+    if made_of is None or made_of[0] is not pixels or made_of[1:] != (filter, wrap):
+        native = NativeTexture(pixels, decode, FILTERS[filter], WRAPS[wrap])
+        natives[decode] = (pixels, filter, wrap), native
+    return native

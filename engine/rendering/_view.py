@@ -1,0 +1,142 @@
+"""From where a frame looks: the matrices that the core gets, and depths along the view axis.
+
+In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. Matrices are found
+in C (csrc/scene/view.c), in float64 and a fixed order of operations: the same bits everywhere.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import linalg
+from .._native.scene_graph import camera_view
+from .._support.validation import matrix4
+from ..errors import InvalidArgumentError
+from ..linalg.vectors import as_vectors
+from ..scene.cameras import Camera
+from ..scene.nodes import Node
+from ..scene.scene import Scene
+
+#: How a camera is chosen: the scene's own, a node that holds one, or a camera and its pose.
+CameraChoice: TypeAlias = Node | tuple[Camera, ArrayLike] | None
+
+
+class View:
+    """The matrices of one camera at one pose.
+
+    Attributes
+    ----------
+    camera : Camera
+    projection, clip_from_world, view_from_world : (4, 4) float64
+    towards_viewer : tuple of 3 float
+        Of unit length, in the world.
+    eye : tuple of 4 float
+        The camera's world position and 1; without perspective the direction to the viewer and 0.
+    """
+
+    def __init__(
+        self,
+        camera: Camera,
+        pose: np.ndarray,
+        width: int,
+        height: int,
+        previous: View | None = None,
+    ) -> None:
+        self._lens = (camera, camera.version, width, height)
+        if previous is not None and previous._lens == self._lens:
+            projection = previous.projection  # only the pose has changed
+        else:
+            projection = np.ascontiguousarray(camera.projection(width, height), np.float64)
+        self.projection = projection
+        self.camera = camera
+        self._pose_bytes = pose.tobytes()
+        self.view_from_world, self.clip_from_world = np.empty((4, 4)), np.empty((4, 4))
+        look = camera_view(projection, pose, self.view_from_world, self.clip_from_world)
+        if look is None:
+            raise InvalidArgumentError("the camera's pose has no inverse: it is singular")
+        self.towards_viewer, self.eye = look
+
+    def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
+        """Whether the view is still that of this camera, pose and image."""
+        return self._lens == (camera, camera.version, width, height) and (
+            self._pose_bytes == pose.tobytes()
+        )
+
+    def project(
+        self, points: ArrayLike, width: int, height: int
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """See `Frame.project`."""
+        points = as_vectors("points", points)
+        x, y, _, w = (_rise(row, points) for row in self.clip_from_world)
+        with np.errstate(all="ignore"):
+            w = np.where(w > 0.0, w, np.nan)
+            pixels = np.stack(
+                [(x / w + 1.0) * (0.5 * width), (1.0 - y / w) * (0.5 * height)], axis=-1
+            )
+        return pixels, -_rise(self.view_from_world[2], points)
+
+    def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
+        """Return the metric depths between which a world box lies, within the camera's range."""
+        center = (bounds[0] + bounds[1]) * 0.5
+        half = (bounds[1] - bounds[0]) * 0.5
+        row = self.view_from_world[2]
+        middle = -(float(linalg.dot(row[:3], center)) + float(row[3]))
+        reach = float(linalg.dot(np.abs(row[:3]), half))
+        near, far = middle - reach, middle + reach
+        if self.camera.znear is not None:
+            near, far = max(near, self.camera.znear), min(far, self.camera.zfar)
+        if not near < far or np.float32(near) == np.float32(far):
+            near, far = middle - 0.5, middle + 0.5  # flat, or outside: any range shows as much
+        return near, far
+
+
+def _rise(row: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A row of a matrix times points with w = 1."""
+    return linalg.dot(points, row[:3]) + row[3]
+
+
+def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray] | None:
+    """Return the camera to draw with, and its pose.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : None, Node or (Camera, pose)
+        None is the scene's first visible camera; a node is one of this scene.
+
+    Returns
+    -------
+    camera, pose : Camera, (4, 4) float64
+        None if the scene has to be framed automatically.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    if camera is None:
+        node = scene._camera_node()
+        return None if node is None else (node.object, node.world_pose)
+    if isinstance(camera, Node):
+        if not isinstance(camera.object, Camera):
+            raise InvalidArgumentError(f"camera must be a node that holds a camera, not {camera!r}")
+        if camera._scene is not scene:
+            raise InvalidArgumentError(
+                f"{camera!r} is not a node of this scene: give (node.object, node.world_pose)"
+            )
+        return camera.object, camera.world_pose
+    if isinstance(camera, Camera):
+        raise InvalidArgumentError(
+            "camera must be a node or a pair (camera, pose): a camera alone has no place"
+        )
+    try:
+        what, pose = camera
+    except (TypeError, ValueError):
+        what = None
+    if not isinstance(what, Camera):
+        raise InvalidArgumentError(
+            f"camera must be None, a node or a pair (camera, pose), not {camera!r}"
+        )
+    return what, matrix4(pose, "camera pose")

@@ -1,0 +1,71 @@
+"""Which backend draws, and with how many threads.
+
+In: the arguments ``backend`` and ``threads`` and the environment. Out: a backend's number and a
+count of threads for the core. ``ENGINE3D_BACKEND`` and ``ENGINE3D_THREADS`` say what ``"auto"`` and
+0 mean. A backend that is unknown or that this machine cannot run is an error, never replaced.
+"""
+
+from __future__ import annotations
+
+import numbers
+import os
+
+from .._native import rasterizer as _native
+from ..choices import Backend
+from ..errors import BackendError, InvalidArgumentError
+
+_MAX_THREADS = 256
+
+
+def backends() -> list[Backend]:
+    """Return the backends that this machine can run, slowest first.
+
+    ``"scalar"`` is the reference, one thread of obvious loops; ``"portable"`` runs on every
+    processor; the others are named after the instruction set that they need. All draw the same.
+    """
+    return [name for name, number in _native.BACKENDS.items() if _native.backend_available(number)]
+
+
+def resolve_backend(backend: Backend = "auto") -> int:
+    """Return the core's number of a backend.
+
+    Raises
+    ------
+    BackendError
+        The backend is unknown or this machine cannot run it.
+    """
+    source = "backend"
+    if backend == "auto":
+        backend = os.environ.get("ENGINE3D_BACKEND") or "auto"
+        source = "ENGINE3D_BACKEND"
+        if backend == "auto":
+            return _native.best_backend()
+    number = _native.BACKENDS.get(backend) if isinstance(backend, str) else None
+    if number is None:
+        known = ", ".join(["auto", *_native.BACKENDS])
+        raise BackendError(f"{source}={backend!r} is unknown: it is one of {known}")
+    if not _native.backend_available(number):
+        raise BackendError(
+            f"{source}={backend!r} does not run on this machine: it has {', '.join(backends())}"
+        )
+    return number
+
+
+def resolve_threads(threads: int = 0) -> int:
+    """Return a number of threads; 0 means all CPUs that this process may use.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    source = "threads"
+    if isinstance(threads, numbers.Integral) and threads == 0:
+        text = os.environ.get("ENGINE3D_THREADS") or "0"
+        source = "ENGINE3D_THREADS"
+        try:
+            threads = int(text)
+        except ValueError:
+            threads = text
+    if not isinstance(threads, numbers.Integral) or not 0 <= threads <= _MAX_THREADS:
+        raise InvalidArgumentError(f"{source} must be a whole number in 0..256, not {threads!r}")
+    return int(threads)

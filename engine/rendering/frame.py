@@ -1,0 +1,260 @@
+"""A rendered frame: its outputs as arrays, and ways to show and save it.
+
+In: what `Renderer.render` drew. Out: one read-and-write array an output, top row first. Reading an
+output that was not asked for raises and names the argument that asks for it. Files appear whole or
+not at all.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._native import rasterizer as _native
+from .._native.images import encode_png
+from ..choices import ImageFormat, Output
+from ..errors import InvalidArgumentError, MissingOutputError
+from ..files.atomic_write import atomic_write, checked_path
+from ..files.picture_mark import TGA_MARK
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+    from ..canvas import Canvas
+
+# Every output: dtype and number of channels (0: no third axis).
+OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
+    cast(Output, name): (np.dtype(dtype), channels)
+    for name, (dtype, channels) in _native.OUTPUTS.items()
+}
+
+# File name suffix -> (Pillow's format, what it is saved with).
+_FORMATS: dict[ImageFormat, tuple[str, dict[str, Any]]] = {
+    "png": ("PNG", {}),
+    "jpg": ("JPEG", {"quality": 95, "subsampling": 0}),
+    "jpeg": ("JPEG", {"quality": 95, "subsampling": 0}),
+    "tga": ("TGA", {"compression": "tga_rle", "id_section": TGA_MARK}),
+    "webp": ("WEBP", {"lossless": True}),
+}
+
+
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+
+class _Output(Generic[Scalar]):
+    """A property that reads one output."""
+
+    def __init__(self, doc: str) -> None:
+        self.__doc__ = doc
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, frame: None, owner: type | None = None) -> _Output[Scalar]: ...
+
+    @overload
+    def __get__(self, frame: Frame, owner: type | None = None) -> NDArray[Scalar]: ...
+
+    def __get__(self, frame, owner=None):
+        if frame is None:
+            return self
+        try:
+            return frame._outputs[self._name]
+        except KeyError:
+            raise MissingOutputError(
+                f"this frame has no {self._name}: ask for it with "
+                f'render(..., outputs=("{self._name}",))'
+            ) from None
+
+
+class Frame:
+    """What a renderer drew.
+
+    The arrays belong to the caller: they stay as they are for as long as they are held, unless the
+    frame is given to ``render(out=...)``. ``np.asarray(frame)`` is ``frame.color``.
+
+    Attributes
+    ----------
+    width, height : int
+    outputs : tuple of str
+        The outputs that it holds.
+    stats : dict
+        Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), the
+        number of threads and tiles, and the backend. ``plan`` names the ways that the tiles took
+        (docs/plan.md has them all; none with the backend ``scalar``). ``nodes``, ``clusters`` and
+        ``triangles`` are all that the scene holds; with ``_in_frustum``, ``_unoccluded`` and
+        ``_drawn`` behind them, what is left after each stage of culling.
+    """
+
+    color: _Output[np.uint8] = _Output(
+        "(H, W, 4) uint8 RGBA; alpha is 255, and 0 where a background of None shows."
+    )
+    depth: _Output[np.float32] = _Output(
+        "(H, W) float32: metric distance along the view axis, 0 = background."
+    )
+    ndc_depth: _Output[np.float32] = _Output(
+        "(H, W) float32: z_ndc, smaller is nearer, +inf = background."
+    )
+    triangle_id: _Output[np.int32] = _Output(
+        "(H, W) int32: index into mesh.faces as given, -1 = none."
+    )
+    object_id: _Output[np.int32] = _Output("(H, W) int32: node.id, -1 = background.")
+    instance_id: _Output[np.int32] = _Output(
+        "(H, W) int32: row of the instances, 0 for a plain mesh, -1 = background."
+    )
+    material_id: _Output[np.int32] = _Output(
+        "(H, W) int32: index into mesh.materials, -1 = background."
+    )
+    albedo: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: surface colour before light, linear; 0 = background."
+    )
+    normal: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: unit normal in view space; 0 = background."
+    )
+    position: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: position in view space; 0 = background."
+    )
+    world_normal: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: unit normal in world space; 0 = background."
+    )
+    world_position: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: position in world space; 0 = background."
+    )
+    uv: _Output[np.float32] = _Output(
+        "(H, W, 2) float32: texture coordinates, origin bottom left; 0 = background."
+    )
+    barycentric: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: perspective-correct weights; 0 = background."
+    )
+
+    def __init__(self, width: int, height: int, outputs: dict[Output, NDArray[Any]]) -> None:
+        self.width = width
+        self.height = height
+        self._stats: dict[str, Any] = {}
+        self._drawn: tuple | None = None  # nodes and a NativeStats, till they are read
+        self._seen: tuple | None = None  # the view and the side culled: what picking needs
+        self._outputs = outputs
+
+    @property
+    def outputs(self) -> tuple[Output, ...]:
+        return tuple(self._outputs)
+
+    @property
+    def stats(self) -> dict[str, Any]:
+        unread = self._drawn  # another thread may read it meanwhile
+        if unread is not None:
+            nodes, drawn = unread
+            self._stats, self._drawn = {"nodes": nodes, **drawn.as_dict()}, None
+        return self._stats
+
+    def __getstate__(self) -> dict:
+        self._stats = self.stats  # what is left of a frame elsewhere
+        return self.__dict__
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        if copy is False and dtype is not None and np.dtype(dtype) != np.uint8:
+            raise ValueError("a frame's colour is uint8: another dtype needs a copy")
+        if copy:
+            return np.array(self.color, dtype)
+        return np.asarray(self.color, dtype)
+
+    def project(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where points of the world are in the picture, and how far from the camera.
+
+        Parameters
+        ----------
+        points : (3,) or (N, 3) float
+            World space.
+
+        Returns
+        -------
+        pixels : (2,) or (N, 2) float64
+            Screen space, in pixels: x to the right and y down from the top left corner; the centre
+            of the top left pixel is (0.5, 0.5). Points outside of the picture have positions
+            outside of it. NaN for points that are not in front of the camera.
+        depth : () or (N,) float64
+            Distance along the view axis in world units, as in ``frame.depth``; negative behind the
+            camera. A point shows if it is in the picture and nothing nearer is drawn there.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The points have another shape, or the frame was not drawn by a `Renderer`.
+        """
+        if self._seen is None:
+            raise InvalidArgumentError("the frame was not drawn by a Renderer")
+        return self._seen[0].project(points, self.width, self.height)
+
+    def image(self) -> Image.Image:
+        """Return the colour as an image of Pillow (``PIL.Image.Image``, RGBA), a copy."""
+        from PIL import Image
+
+        return Image.frombytes("RGBA", (self.width, self.height), self.color.tobytes())
+
+    def canvas(self) -> Canvas:
+        """Return an `engine3d.Canvas` that draws into this frame's colour."""
+        from ..canvas import Canvas
+
+        return Canvas(self.color)
+
+    def save(self, path: str | os.PathLike[str], **options: Any) -> None:
+        """Write the colour to an image file, whole or not at all.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The suffix decides the format: .png, .jpg, .jpeg (no alpha), .tga or .webp (lossless).
+        **options
+            Passed to Pillow's writer, such as ``quality=80``. A PNG without any is written by
+            the engine: fast, and the same bytes everywhere.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The suffix is none of those.
+        FileAccessError
+            The file cannot be written.
+        """
+        suffix = os.path.splitext(checked_path(path))[1].lstrip(".").lower()
+        data = self.encode(suffix, **options)
+        with atomic_write(path) as file:
+            file.write(data)
+
+    def encode(self, format: ImageFormat = "png", **options: Any) -> bytes:
+        """Return the colour as the bytes of an image file.
+
+        Parameters
+        ----------
+        format : {"png", "jpg", "jpeg", "tga", "webp"}
+        **options
+            As for `save`.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The format is none of those.
+        """
+        if format not in _FORMATS:
+            raise InvalidArgumentError(
+                f"an image format is one of {', '.join(_FORMATS)}, not {format!r}"
+            )
+        if format == "png" and not options:
+            return encode_png(self.color)
+        name, defaults = _FORMATS[format]
+        image = self.image()
+        if name == "JPEG":
+            image = image.convert("RGB")
+        buffer = io.BytesIO()
+        image.save(buffer, name, **{**defaults, **options})
+        return buffer.getvalue()
+
+    def _repr_png_(self) -> bytes | None:
+        return self.encode("png") if "color" in self._outputs else None
+
+    def __repr__(self) -> str:
+        return f"<Frame {self.width}x{self.height}: {', '.join(self._outputs)}>"

@@ -1,0 +1,152 @@
+"""Support functions of boxes, points and scenes: how far each reaches in a direction.
+
+In: a box, points, or a `Scene`. Out: functions from directions (D, 3) float64, of any length, to
+the largest scalar product of each with any point, (D,) float64. That is all that framing needs to
+know, and it is exact where a bounding box leaves corners empty. Vertices that are not finite do not
+count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .. import linalg
+from .._native.scene_graph import SHOWN
+from ..geometry.mesh import Mesh
+from ..scene.instances import InstancedMesh
+from ..scene.scene import Scene
+
+SupportFunction = Callable[[np.ndarray], np.ndarray]
+
+_BLOCK = 1 << 14  # vertices at a time: three coordinates and a sum stay in the cache
+# What is looked at vertex by vertex, some 20 ns each; beyond that, boxes must do.
+_MAX_VERTICES = 1 << 23
+_MAX_INSTANCES = 1 << 16
+
+
+def support_of_box(bounds) -> SupportFunction:
+    """Return the support function of a box, (2, 3)."""
+    low, high = np.asarray(bounds, np.float64)
+    center, half = (low + high) * 0.5, (high - low) * 0.5
+    return lambda directions: linalg.dot(directions, center) + linalg.dot(np.abs(directions), half)
+
+
+def support_of_points(points: np.ndarray) -> SupportFunction:
+    """Return the support function of points, (N, 3); without any it is minus infinity."""
+    return lambda directions: _farthest(points, directions)
+
+
+def support_of_scene(scene: Scene) -> SupportFunction | None:
+    """Return the support function of everything visible in a scene, or None if there is nothing.
+
+    Meshes count with their vertices. Where those are too many to look at each, their boxes stand in
+    for some of them: nothing ever reaches farther than is said.
+    """
+    placed = _Placed()
+    scene._update()
+    arrays = scene._arrays
+    shown = arrays.columns["flags"][: arrays.count] & SHOWN != 0
+    numbers = arrays.columns["object"][: arrays.count]
+    for number, obj in enumerate(scene._objects.objects):
+        slots = np.flatnonzero(shown & (numbers == number))
+        if obj is not None and len(slots):
+            placed.add(obj, arrays.world_poses(slots))
+    return placed.support if placed.count else None
+
+
+class _Placed:
+    """Meshes at their poses: nodes', and instances' one by one."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._meshes: list[Mesh | None] = []  # None where the box is all that is looked at
+        self._poses: list[np.ndarray] = []
+        self._boxes: list[np.ndarray] = []
+
+    def add(self, obj, poses: np.ndarray) -> None:
+        """Add an object at each of the world poses (K, 4, 4)."""
+        if isinstance(obj, Mesh):
+            if len(obj.positions):
+                self._add(obj, poses, obj.bounds)
+            return
+        box = obj.bounds_in_node()
+        if box is not None and len(obj) > _MAX_INSTANCES:
+            self._add(None, poses, box)
+        elif box is not None:
+            instances = _instance_poses(obj)
+            for pose in poses:
+                self._add(obj.mesh, linalg.multiply(pose, instances), obj.mesh.bounds)
+
+    def _add(self, mesh: Mesh | None, poses: np.ndarray, box: np.ndarray) -> None:
+        self.count += len(poses)
+        self._meshes += [mesh] * len(poses)
+        self._poses.append(poses)
+        self._boxes.append(np.broadcast_to(box, (len(poses), 2, 3)))
+
+    def support(self, directions: np.ndarray) -> np.ndarray:
+        """The farthest vertices are looked for where the boxes reach farthest."""
+        poses, boxes = np.concatenate(self._poses), np.concatenate(self._boxes)
+        local, offset = _in_their_own_space(poses, directions)
+        center, half = (boxes[:, 0] + boxes[:, 1]) * 0.5, (boxes[:, 1] - boxes[:, 0]) * 0.5
+        bound = linalg.dot(local, center[:, np.newaxis])
+        bound = offset + bound + linalg.dot(np.abs(local), half[:, np.newaxis])
+        farthest, most = np.full(len(directions), -np.inf), bound.max(axis=0)
+        budget = _MAX_VERTICES
+        for column in range(len(directions)):
+            while True:
+                row = int(bound[:, column].argmax())
+                if not bound[row, column] > farthest[column]:
+                    break
+                mesh = self._meshes[row]
+                if mesh is None or len(mesh.positions) > budget:
+                    found = bound[row]
+                else:
+                    budget -= len(mesh.positions)
+                    found = offset[row] + _farthest(mesh.positions, local[row])
+                farthest = np.maximum(farthest, found)
+                bound[row] = -np.inf
+        return np.where(np.isfinite(farthest), farthest, most)
+
+
+def _in_their_own_space(poses, directions) -> tuple[np.ndarray, np.ndarray]:
+    """Directions as (K, D, 3) in the spaces of K poses, and (K, D) what each origin reaches."""
+    columns = (poses[:, np.newaxis, :3, k] for k in range(4))
+    *local, offset = (linalg.dot(column, directions) for column in columns)
+    return np.stack(local, axis=-1), offset
+
+
+def _instance_poses(instances: InstancedMesh) -> np.ndarray:
+    """The finite node-from-instance matrices, (N, 4, 4) float64."""
+    given = instances.poses.astype(np.float64)
+    given = given[np.isfinite(given.reshape(len(given), -1)).all(axis=1)]
+    if given.ndim == 3:
+        return given
+    poses = np.zeros((len(given), 4, 4))
+    for axis in range(3):
+        poses[:, axis, axis] = given[:, 3]
+        poses[:, axis, 3] = given[:, axis]
+    poses[:, 3, 3] = 1.0
+    return poses
+
+
+def _farthest(points: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    """The largest scalar products of directions (D, 3) with points (N, 3)."""
+    farthest = np.full(len(directions), -np.inf)
+    for start in range(0, len(points), _BLOCK):
+        block = points[start : start + _BLOCK]
+        found = _farthest_of_block(block, directions)
+        if not np.isfinite(found).all():
+            finite = block[np.isfinite(block).all(axis=1)]
+            if len(finite) == 0:
+                continue
+            found = _farthest_of_block(finite, directions)
+        farthest = np.maximum(farthest, found)
+    return farthest
+
+
+def _farthest_of_block(points: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    x, y, z = points.T.astype(np.float64)
+    with np.errstate(invalid="ignore"):
+        return np.array([(x * a + y * b + z * c).max() for a, b, c in directions.tolist()])

@@ -1,0 +1,276 @@
+"""Nodes that move by themselves: spins and keyframes, as functions of the time.
+
+In: nodes, how they move, and the time. Out: their poses. A pose depends on the time alone, never on
+the frames before, with the same bits on every machine. Spins are found for all nodes together.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import linalg
+from .._support.numbers import floats, real
+from .._support.validation import Closed, finite, vector3
+from ..errors import InvalidArgumentError
+from .nodes import Node
+from .scene import Scene
+
+_SLOWEST = 6  # far nodes move at least every 2**6 updates
+
+
+class Animator(Closed):
+    """Moves nodes of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    full_rate_distance : float
+        `advance` moves nodes within this distance of the eye every time, nodes up to twice as far
+        every second time, and so on, down to every 64th time. Infinite: all nodes every time.
+
+    Attributes
+    ----------
+    time : float
+        Seconds; what `seek` set, and `advance` moved on.
+    paused : bool
+        Whether `advance` does nothing.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    time: float
+    paused: bool
+
+    def __init__(self, scene: Scene, *, full_rate_distance: float = math.inf) -> None:
+        if not isinstance(scene, Scene):
+            raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
+        if not real(full_rate_distance) > 0:
+            raise InvalidArgumentError("full_rate_distance must be greater than 0")
+        self.time = 0.0
+        self.paused = False
+        self._scene = scene
+        self._full_rate_distance = real(full_rate_distance)
+        self._updates = 0
+        self._spins: list[tuple] = []  # node, axis, turns a second, turns at 0, rotation at 0
+        self._tracks: list[Track] = []
+        self._batch: _Spins | None = None
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("an Animator belongs to its Scene: it cannot be copied or pickled")
+
+    def spin(
+        self,
+        nodes: Node | Iterable[Node],
+        *,
+        period: float,
+        axis: ArrayLike = (0, 1, 0),
+        phase: float = 0.0,
+    ) -> None:
+        """Let nodes turn at a constant rate, from the rotations that they have now.
+
+        Parameters
+        ----------
+        nodes : Node or iterable of Node
+        period : float
+            Seconds of a turn; negative turns the other way.
+        axis : (3,) float
+            In the node's own space; counter-clockwise seen from its tip.
+        phase : float
+            How far it is turned at time 0, in turns.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        axis = vector3(axis, "axis")
+        if not axis.any() or abs(finite(period, "period")) < 1e-300:
+            raise InvalidArgumentError("a spin needs an axis and a period other than 0")
+        nodes = self._scene.select(nodes if isinstance(nodes, Iterable) else [nodes]).nodes
+        axis, phase = linalg.normalize(axis), finite(phase, "phase")
+        self._spins += [(node, axis, 1.0 / period, phase, node.rotation) for node in nodes]
+        self._batch = None
+
+    def track(
+        self,
+        node: Node,
+        times: ArrayLike,
+        *,
+        translations: ArrayLike | None = None,
+        rotations: ArrayLike | None = None,
+        scales: ArrayLike | None = None,
+        repeat: bool = True,
+    ) -> None:
+        """Let a node follow keyframes.
+
+        Parameters
+        ----------
+        node : Node
+        times : (K,) float
+            Seconds, increasing.
+        translations : (K, 3) float, optional
+        rotations : (K, 4) float, optional
+            Quaternions x, y, z, w; between them the shorter way, at a constant rate.
+        scales : (K, 3) float, optional
+        repeat : bool
+            Start again after the last keyframe, instead of staying there.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        self._scene.select([node])
+        self._tracks.append(Track(node, times, translations, rotations, scales, repeat))
+
+    def seek(self, time: float) -> None:
+        """Move all nodes to where they are at a time, in seconds."""
+        self.time = finite(time, "time")
+        self._move(None)
+
+    def advance(self, seconds: float, eye: ArrayLike | None = None) -> None:
+        """Let time go on, unless paused.
+
+        Parameters
+        ----------
+        seconds : float
+        eye : (3,) float, optional
+            World position of the viewer: nodes far from there move less often.
+        """
+        if not self.paused:
+            self.time += finite(seconds, "seconds")
+            self._updates += 1
+            self._move(None if eye is None else vector3(eye, "eye"))
+
+    def _move(self, eye: np.ndarray | None) -> None:
+        scene = self._scene
+        if self._batch is None or self._batch.removals != scene._removals:
+            self._spins = [spin for spin in self._spins if spin[0]._scene is scene]
+            self._tracks = [track for track in self._tracks if track.node._scene is scene]
+            self._batch = _Spins(scene, self._spins)
+        self._batch.move(self.time, self._due(self._batch.rows, eye))
+        rows = np.array([track.node._slot for track in self._tracks], np.int32)
+        for number in self._due(rows, eye).tolist():
+            self._tracks[number].move(self.time)
+
+    def _due(self, rows: np.ndarray, eye: np.ndarray | None) -> np.ndarray:
+        """Which of the nodes in some slots move this time, by number."""
+        if eye is None or math.isinf(self._full_rate_distance):
+            return np.arange(len(rows))
+        self._scene._update()
+        offsets = self._scene._arrays.world_poses(rows)[:, :3, 3] - eye
+        distances = linalg.length(offsets)
+        steps = np.ones(len(rows), np.int64)
+        for power in range(_SLOWEST):
+            steps[distances > self._full_rate_distance * 2.0**power] *= 2
+        return np.flatnonzero((self._updates + rows) % steps == 0)
+
+
+class _Spins:
+    """All spins of an animator as arrays."""
+
+    def __init__(self, scene, spins: list[tuple]) -> None:
+        self.removals = scene._removals
+        self.rows = np.array([spin[0]._slot for spin in spins], np.int32)
+        self._arrays = scene._arrays
+        self._axes = np.array([spin[1] for spin in spins]).reshape(-1, 3)
+        self._rates = np.array([spin[2] for spin in spins])
+        self._phases = np.array([spin[3] for spin in spins])
+        self._first = np.array([spin[4] for spin in spins]).reshape(-1, 4)
+
+    def move(self, time: float, due: np.ndarray) -> None:
+        if len(due) == 0:
+            return
+        with np.errstate(over="ignore", invalid="ignore"):
+            turns = time * self._rates[due] + self._phases[due]
+        turns[~np.isfinite(turns)] = 0.0  # beyond all counting
+        half = math.pi * (turns - np.floor(turns))
+        turn = np.empty((len(due), 4))
+        turn[:, :3] = self._axes[due] * linalg.sin(half)[:, np.newaxis]
+        turn[:, 3] = linalg.cos(half)
+        rotations = linalg.quaternion_multiply(self._first[due], turn)
+        self._arrays.set_many_parts(self.rows[due], rotations, None)
+
+
+class Track:
+    """Keyframes of one node."""
+
+    def __init__(self, node: Node, times, translations, rotations, scales, repeat: bool) -> None:
+        self.node = node
+        self._times = _keys(times, "times", ())
+        if not len(self._times) or not (np.diff(self._times) > 0).all():
+            raise InvalidArgumentError("times must increase")
+        count = len(self._times)
+        self._translations = _keys(translations, "translations", (3,), count)
+        self._rotations = _keys(rotations, "rotations", (4,), count)
+        self._scales = _keys(scales, "scales", (3,), count)
+        if self._rotations is not None:
+            with np.errstate(over="ignore"):
+                squares = (self._rotations * self._rotations).sum(axis=1)
+            if not ((squares > 0.0) & (squares < math.inf)).all():
+                raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
+        self._repeat = bool(repeat)
+
+    def move(self, time: float) -> None:
+        first, last = float(self._times[0]), float(self._times[-1])
+        if self._repeat and last > first:
+            turns = (time - first) / (last - first)
+            turns = turns if math.isfinite(turns) else 0.0
+            time = first + (turns - math.floor(turns)) * (last - first)
+        after = int(np.searchsorted(self._times, time, side="right"))
+        after = min(max(after, 1), len(self._times) - 1) if len(self._times) > 1 else 0
+        before = max(after - 1, 0)
+        span = float(self._times[after] - self._times[before]) or 1.0
+        share = min(max((time - float(self._times[before])) / span, 0.0), 1.0)
+        if self._translations is not None:
+            self.node.translation = _between(self._translations, before, after, share)
+        if self._scales is not None:
+            self.node.scale = _between(self._scales, before, after, share)
+        if self._rotations is not None:
+            self.node.rotation = slerp(self._rotations[before], self._rotations[after], share)
+
+
+def slerp(a: np.ndarray, b: np.ndarray, share: float) -> np.ndarray:
+    """Return the rotation between two, the shorter way round.
+
+    Parameters
+    ----------
+    a, b : (4,) float64
+        Quaternions of any length but zero.
+    share : float
+        0 is a, 1 is b.
+
+    Returns
+    -------
+    (4,) float64
+    """
+    a, b = (q / math.sqrt(sum(x * x for x in q.tolist())) for q in (a, b))
+    cosine = sum(x * y for x, y in zip(a.tolist(), b.tolist(), strict=True))
+    if cosine < 0.0:
+        b, cosine = -b, -cosine
+    sine = math.sqrt(max(0.0, 1.0 - cosine * cosine))
+    if sine < 1e-6:
+        return a * (1.0 - share) + b * share
+    angle = linalg.atan2(sine, cosine)
+    return (a * linalg.sin((1.0 - share) * angle) + b * linalg.sin(share * angle)) / sine
+
+
+def _between(values: np.ndarray, before: int, after: int, share: float) -> np.ndarray:
+    return values[before] * (1.0 - share) + values[after] * share
+
+
+def _keys(value, what: str, row: tuple[int, ...], count: int | None = None) -> np.ndarray | None:
+    if value is None:
+        return None
+    array = floats(value, what)
+    if array.ndim != 1 + len(row) or array.shape[1:] != row:
+        raise InvalidArgumentError(f"{what} must have shape (K, {row})" if row else "times: (K,)")
+    if count is not None and len(array) != count:
+        raise InvalidArgumentError(f"{what} has {len(array)} rows for {count} times")
+    if not np.isfinite(array).all():
+        raise InvalidArgumentError(f"{what} must be finite")
+    return array

@@ -1,0 +1,142 @@
+"""Lights: plain data that a scene's nodes place in the world.
+
+A light has a colour (floats are linear light, 8-bit integers sRGB) times an intensity. Directional
+lights shine along their node's rotated ``direction``; point lights from their node's origin.
+docs/exactness.md, section 9, has the formulas.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._support.numbers import real, shown
+from .._support.validation import (
+    CheckedAttribute,
+    ColorAttribute,
+    NumberAttribute,
+    PlacedByNode,
+    VectorAttribute,
+    not_negative,
+    one_of,
+    vector3,
+)
+from ..choices import ColorLike, Falloff
+from ..errors import InvalidArgumentError
+from ..materials.colors import check_color
+
+FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
+
+
+def _direction(value: ArrayLike, what: str) -> NDArray[np.float64]:
+    direction = vector3(value, what)
+    if not direction.any():
+        raise InvalidArgumentError(f"{what} must not be the zero vector")
+    return direction
+
+
+def _range(value: float, what: str) -> float:
+    number = real(value)
+    if not number > 0:
+        raise InvalidArgumentError(f"{what} must be greater than 0, not {shown(value)}")
+    return number
+
+
+class DirectionalLight(PlacedByNode):
+    """A light infinitely far away, such as the sun.
+
+    Parameters
+    ----------
+    direction : (3,) float
+        The way the light travels, in the space of its node; of any length but zero.
+    color : sequence of 3 numbers
+    intensity : float
+        Multiplies the colour; a white surface that faces the light gets ``color * intensity``.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    version: int
+    direction: VectorAttribute = CheckedAttribute(_direction)
+    color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+
+    def __init__(
+        self,
+        direction: ArrayLike = (0, 0, -1),
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+    ) -> None:
+        self.direction = direction
+        self.color = color
+        self.intensity = intensity
+
+    def __repr__(self) -> str:
+        direction = tuple(self.direction.tolist())
+        return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"
+
+
+class PointLight(PlacedByNode):
+    """A light that shines from one point in all directions.
+
+    Parameters
+    ----------
+    color : sequence of 3 numbers
+    intensity : float
+        Multiplies the colour; at distance 1 with ``"inverse_square"`` a white surface that faces
+        the light gets ``color * intensity``.
+    range : float
+        World units; the light adds exactly nothing from this distance on. May be infinite with
+        ``"inverse_square"``.
+    falloff : {"inverse_square", "window"}
+        Attenuation at distance d: ``1 / d**2``, or ``(1 - d**2 / range**2)**2``.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    version: int
+    color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+    range: NumberAttribute = CheckedAttribute(_range)
+    falloff: CheckedAttribute[Falloff, Falloff] = CheckedAttribute(one_of(FALLOFFS))
+
+    def __init__(
+        self,
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        range: float = math.inf,
+        falloff: Falloff = "inverse_square",
+    ) -> None:
+        self.color = color
+        self.intensity = intensity
+        self.range = range
+        self.falloff = falloff
+        self.check()
+
+    def check(self) -> None:
+        """Raise unless ``range`` and ``falloff`` go together."""
+        if self.falloff == "window" and math.isinf(self.range):
+            raise InvalidArgumentError("falloff 'window' needs a finite range")
+
+    def __repr__(self) -> str:
+        return (
+            f"PointLight(color={self.color}, intensity={self.intensity:g}, range={self.range:g}, "
+            f"falloff={self.falloff!r})"
+        )

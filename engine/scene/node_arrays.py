@@ -1,0 +1,98 @@
+"""The nodes of a scene as arrays: a row per node, in the order in which they were added.
+
+In: slots. Out: arrays that C keeps up to date (csrc/scene/). A removed node keeps its slot until
+the rows of those that are left are packed into new arrays; the old ones stay with whoever still
+holds a removed node.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._native.scene_graph import ALIVE, BOX, NativeGraph
+
+#: Name of the array -> type and length of a row.
+_COLUMNS = {
+    "parent": (np.int32, ()),
+    "first_child": (np.int32, ()),
+    "last_child": (np.int32, ()),
+    "next": (np.int32, ()),
+    "previous": (np.int32, ()),
+    "object": (np.int32, ()),
+    "id": (np.int32, ()),
+    "object_id": (np.int32, ()),  # what frames show: the node's own id, or that of another
+    "flags": (np.uint8, ()),
+    "pose": (np.float64, (12,)),
+    "rotation": (np.float64, (4,)),
+    "scale": (np.float64, (3,)),
+    "world": (np.float64, (12,)),
+    "bounds": (np.float64, (BOX,)),
+    "pose_version": (np.uint32, ()),
+    "world_version": (np.uint32, ()),
+    "changed": (np.int32, ()),
+    "stack": (np.int32, ()),
+}
+_LINKS = ("parent", "first_child", "last_child", "next", "previous")
+_ROOM = 16
+
+
+class NodeArrays(NativeGraph):
+    """Arrays of nodes, with room for more.
+
+    Attributes
+    ----------
+    columns : dict of str to ndarray
+        As csrc/include/e3d_scene.h names them; only the first ``count`` rows are nodes.
+    nodes : list of Node or None
+        The handle of each slot; None once the node was removed.
+    """
+
+    def __init__(self) -> None:
+        self.nodes: list = []
+        self.columns: dict[str, np.ndarray] = {}
+        self._make_room(_ROOM)
+
+    def append(self, node, parent: int, number: int, identity: int) -> int:
+        """Make a node at the identity; return its slot."""
+        if self.count == self.room:
+            self._make_room(2 * self.room)
+        slot = self.add(parent, number, identity)
+        self.nodes.append(node)
+        self.columns["object_id"][slot] = identity
+        return slot
+
+    def world_poses(self, slots: np.ndarray) -> np.ndarray:
+        """Return world-from-node of some slots, (N, 4, 4) float64, as of the last update."""
+        return matrices_of(self.columns["world"][slots])
+
+    def packed(self) -> NodeArrays:
+        """Return new arrays without the rows of removed nodes; their nodes are not told yet."""
+        count = self.count
+        alive = np.flatnonzero(self.columns["flags"][:count] & ALIVE)
+        slots = np.full(count + 1, -1, np.int32)  # the last one is that of "none", -1
+        slots[alive] = np.arange(len(alive), dtype=np.int32)
+        other = NodeArrays()
+        other._make_room(max(_ROOM, 2 * len(alive)))
+        for name, column in self.columns.items():
+            kept = column[alive]
+            other.columns[name][: len(alive)] = slots[kept] if name in _LINKS else kept
+        other.nodes = [self.nodes[slot] for slot in alive.tolist()]
+        other.changes = self.changes
+        other.adopt(len(alive))
+        return other
+
+    def _make_room(self, room: int) -> None:
+        columns = {}
+        for name, (dtype, row) in _COLUMNS.items():
+            columns[name] = np.zeros((room, *row), dtype)
+            columns[name][: self.count] = self.columns.get(name, columns[name])[: self.count]
+        self.attach(**{name: column for name, column in columns.items() if name != "object_id"})
+        self.columns = columns
+
+
+def matrices_of(rows: np.ndarray) -> np.ndarray:
+    """Return 4x4 matrices of their first three rows, (N, 12)."""
+    matrices = np.zeros((len(rows), 4, 4))
+    matrices[:, :3] = rows.reshape(-1, 3, 4)
+    matrices[:, 3, 3] = 1.0
+    return matrices

@@ -1,0 +1,309 @@
+"""A node: the handle of one row of a scene's arrays.
+
+In: poses and their parts, parents, visibility, one node at a time; `Scene.select` does it for many.
+Out: the same, read-only, and what follows from what is above: world pose, `shown`, bounds. World
+poses are products in a fixed order of operations, found when asked for and kept until something
+above moves.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import linalg
+from .._native.scene_graph import STATIC, VISIBLE
+from .._support.numbers import floats
+from .._support.validation import frozen_floats, matrix4, vector3
+from ..errors import InvalidArgumentError
+from ..spatial.colliders import check_collider
+
+if TYPE_CHECKING:
+    from ..geometry.mesh import Mesh
+    from ..spatial.colliders import Collider
+    from .cameras import Camera
+    from .instances import InstancedMesh
+    from .lights import DirectionalLight, PointLight
+    from .scene import Scene
+
+    #: What a node holds.
+    SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | DirectionalLight | PointLight
+
+
+class Node:
+    """An object's place in a scene; made by `Scene.add`.
+
+    ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
+    w), ``euler`` and ``scale`` are the same pose in parts. Assign any of them at any time; the
+    arrays that are read are read-only. Setting a part of a pose that is sheared drops the shear.
+    """
+
+    __slots__ = (
+        "__weakref__",
+        "_arrays",
+        "_collider",
+        "_id",
+        "_name",
+        "_object",
+        "_pose",
+        "_pose_version",
+        "_scene",
+        "_slot",
+        "_world_pose",
+        "_world_version",
+    )
+
+    def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
+        self._scene = scene
+        self._object = obj
+        self._name = name
+        self._collider = None
+        self._pose_version = self._world_version = -1
+        self._id = number
+
+    @property
+    def id(self) -> int:
+        """What frames show as ``object_id``; counts up from 0 in the order of adding."""
+        return self._id
+
+    @property
+    def object(self) -> SceneObject | None:
+        """Mesh, InstancedMesh, Camera, DirectionalLight, PointLight, or None for a group.
+
+        Assign another, or None, at any time: the node keeps its id, name, pose and children. A
+        collider of the node's own mesh needs a mesh there.
+        """
+        return self._object
+
+    @object.setter
+    def object(self, value: SceneObject | None) -> None:
+        if self._scene is None:
+            raise InvalidArgumentError("the node was removed from its scene")
+        if self._collider is not None:
+            check_collider(value, self._collider)
+        self._scene._put(self, value)
+
+    @property
+    def name(self) -> str:
+        return self._name
+
+    @name.setter
+    def name(self, value: str) -> None:
+        self._name = str(value)
+        if self._scene is not None:
+            self._scene._names = None
+
+    @property
+    def parent(self) -> Node | None:
+        """The node that this one moves with; assigning keeps ``pose``, see `reparent`."""
+        slot = self._arrays.parent_of(self._slot)
+        return None if slot < 0 else self._arrays.nodes[slot]
+
+    @parent.setter
+    def parent(self, value: Node | None) -> None:
+        self.reparent(value)
+
+    @property
+    def children(self) -> tuple[Node, ...]:
+        """The nodes directly below, in the order in which they came there."""
+        nodes = self._arrays.nodes
+        below = (nodes[slot] for slot in self._arrays.children(self._slot))
+        return tuple(node for node in below if node is not None)
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Node belongs to its Scene: it cannot be copied or pickled")
+
+    def reparent(self, parent: Node | None, *, keep_world_pose: bool = False) -> None:
+        """Give the node, with everything below it, another parent.
+
+        Parameters
+        ----------
+        parent : Node or None
+            A node of the same scene; None is the scene itself.
+        keep_world_pose : bool
+            Change ``pose`` so that the node stays where it is in the world, up to rounding;
+            otherwise ``pose`` stays and the node moves.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The parent is the node itself, below it, or of another scene, or its world pose has no
+            inverse.
+        """
+        scene = self._scene
+        if parent is not None and not (isinstance(parent, Node) and parent._scene is scene):
+            raise InvalidArgumentError("parent must be a node of this scene")
+        if scene is None:
+            raise InvalidArgumentError("the node was removed from its scene")
+        pose = None
+        if keep_world_pose:
+            pose = self.world_pose
+            if parent is not None:
+                pose = linalg.multiply(linalg.inverse(parent.world_pose), pose)
+        if not self._arrays.link(self._slot, -1 if parent is None else parent._slot):
+            raise InvalidArgumentError(f"{parent!r} is {self!r} or below it: that would be a cycle")
+        if pose is not None:
+            self.pose = pose
+
+    @property
+    def pose(self) -> NDArray[np.float64]:
+        """parent-from-node, (4, 4) float64."""
+        version = self._arrays.pose_version(self._slot)
+        if version != self._pose_version:
+            pose = np.empty((4, 4))
+            self._arrays.copy_pose(self._slot, pose)
+            pose.setflags(write=False)
+            self._pose, self._pose_version = pose, version
+        return self._pose
+
+    @pose.setter
+    def pose(self, value: ArrayLike) -> None:
+        matrix = check_pose(value)
+        version = self._arrays.set_pose(self._slot, matrix)
+        self._pose, self._pose_version = matrix, version
+
+    @property
+    def translation(self) -> NDArray[np.float64]:
+        """(3,) float64."""
+        return self.pose[:3, 3]
+
+    @translation.setter
+    def translation(self, value: ArrayLike) -> None:
+        self._arrays.set_translation(self._slot, vector3(value, "translation"))
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """Quaternion x, y, z, w, (4,) float64."""
+        return self._rotation_and_scale()[0]
+
+    @rotation.setter
+    def rotation(self, value: ArrayLike) -> None:
+        self._arrays.set_parts(self._slot, check_rotation(value), None)
+
+    @property
+    def euler(self) -> NDArray[np.float64]:
+        """The rotation as angles in radians about x, y and z, (3,) float64.
+
+        Turns about x, then about the new y, then about the newest z, which is the default order of
+        `linalg.euler_to_quaternion`.
+        """
+        angles = linalg.quaternion_to_euler(self.rotation)
+        angles.setflags(write=False)
+        return angles
+
+    @euler.setter
+    def euler(self, value: ArrayLike) -> None:
+        self.rotation = linalg.euler_to_quaternion(vector3(value, "euler"))
+
+    @property
+    def scale(self) -> NDArray[np.float64]:
+        """Factors along the node's axes, (3,) float64; one number may be assigned."""
+        return self._rotation_and_scale()[1]
+
+    @scale.setter
+    def scale(self, value: ArrayLike) -> None:
+        self._arrays.set_parts(self._slot, None, check_scale(value))
+
+    @property
+    def visible(self) -> bool:
+        """False hides the node and everything below it."""
+        return self._arrays.get_flag(self._slot, VISIBLE)
+
+    @visible.setter
+    def visible(self, value: bool) -> None:
+        self._arrays.set_flag(self._slot, VISIBLE, bool(value))
+
+    @property
+    def shown(self) -> bool:
+        """Whether the node and all nodes above it are visible."""
+        return self._arrays.shown(self._slot)
+
+    @property
+    def static(self) -> bool:
+        """Whether the node is meant to stay where it is: a note for programs; it may be moved.
+
+        Nodes of the same mesh are drawn together whether they are static or not.
+        """
+        return self._arrays.get_flag(self._slot, STATIC)
+
+    @static.setter
+    def static(self, value: bool) -> None:
+        self._arrays.set_flag(self._slot, STATIC, bool(value))
+
+    @property
+    def collider(self) -> Collider | None:
+        """BoxCollider, SphereCollider, MeshCollider or None; see `Scene.overlap_box`."""
+        return self._collider
+
+    @collider.setter
+    def collider(self, value: Collider | None) -> None:
+        check_collider(self._object, value)
+        self._collider = value
+        if self._scene is not None:
+            self._scene._set_collider(self)
+
+    @property
+    def world_pose(self) -> NDArray[np.float64]:
+        """world-from-node, (4, 4) float64, read-only."""
+        version = self._arrays.world_version(self._slot)
+        if version != self._world_version:
+            pose = np.empty((4, 4))
+            self._arrays.copy_world(self._slot, pose)
+            pose.setflags(write=False)
+            self._world_pose, self._world_version = pose, version
+        return self._world_pose
+
+    @property
+    def bounds(self) -> NDArray[np.float64] | None:
+        """The box around the node's own object in world space, (2, 3) float64.
+
+        None if nothing of it can show: the node holds no mesh, an empty one, or is hidden. The box
+        encloses the object's own box, not its vertices, so it is loose where the node is turned.
+        """
+        if self._scene is None:
+            return None
+        self._scene._update()
+        bounds = self._arrays.columns["bounds"][self._slot, :6].reshape(2, 3).copy()
+        bounds.setflags(write=False)
+        return bounds if bounds[0, 0] <= bounds[1, 0] else None
+
+    def __repr__(self) -> str:
+        what = "group" if self._object is None else type(self._object).__name__
+        return f"<Node {self.id} {self.name!r}: {what}>"
+
+    def _show_as(self, other: Node) -> None:
+        """Let frames show another node's id for this one."""
+        self._arrays.columns["object_id"][self._slot] = other.id
+        self._arrays.changes += 1
+
+    def _rotation_and_scale(self) -> tuple[np.ndarray, np.ndarray]:
+        rotation, scale = np.empty(4), np.empty(3)
+        self._arrays.copy_parts(self._slot, rotation, scale)
+        rotation.setflags(write=False)
+        scale.setflags(write=False)
+        return rotation, scale
+
+
+def check_pose(value: ArrayLike) -> NDArray[np.float64]:
+    """Check an affine matrix; return it as a read-only (4, 4) float64 array."""
+    matrix = matrix4(value, "pose")
+    if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
+        raise InvalidArgumentError("pose must be affine: its last row is 0 0 0 1")
+    return matrix
+
+
+def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
+    """Check a quaternion; return it as a read-only (4,) float64 array."""
+    rotation = frozen_floats(value, "rotation", (4,))
+    if not 0.0 < sum(x * x for x in rotation.tolist()) < math.inf:
+        raise InvalidArgumentError("rotation must not be the zero quaternion, nor overflow")
+    return rotation
+
+
+def check_scale(value: ArrayLike) -> NDArray[np.float64]:
+    """Check one factor or three; return three as a read-only (3,) float64 array."""
+    factors = floats(value, "scale")
+    return vector3(np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors, "scale")

@@ -1,0 +1,498 @@
+"""A scene: a tree of nodes that place meshes, lights and cameras in the world.
+
+In: objects and poses, at any time. Out: nodes in the order they were added, which is the order of
+drawing. The nodes are handles of rows of arrays, from which C finds world poses, visibility and
+bounds of what changed; the scene counts its changes, so that a renderer renews only what it must.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import linalg
+from .._native.scene_graph import OBJECT_BOX, union
+from .._support.validation import Closed, vector3
+from ..choices import Color, ColorLike, Cull
+from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..materials.colors import check_color
+from ._objects import ObjectTable
+from .cameras import Camera
+from .instances import InstancedMesh
+from .lights import DirectionalLight, PointLight
+from .node_arrays import NodeArrays
+from .nodes import Node, check_pose, check_rotation, check_scale
+from .selection import NodeSelection
+
+if TYPE_CHECKING:
+    from ..rendering.frame import Frame
+    from ..spatial.colliders import ColliderHit
+    from ..spatial.rays import RayHit, RayHits
+    from .nodes import SceneObject
+
+_LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
+_OBJECT_TYPES = (Mesh, InstancedMesh, Camera, DirectionalLight, PointLight)
+
+
+class Scene(Closed):
+    """A tree of nodes to draw, with a background and ambient light.
+
+    Parameters
+    ----------
+    background : sequence of 3 numbers, or None
+        Colour behind everything; None is transparent black (alpha 0).
+    ambient : sequence of 3 numbers
+        Light that reaches every surface from all sides.
+    light_clamp : (low, high), optional
+        Limits of the light that a surface receives (ambient included) before its colour multiplies
+        it, such as (0.1, 1).
+
+    Attributes
+    ----------
+    background, ambient, light_clamp
+        As above; assign at any time.
+    warnings : list of str
+        What was left out or replaced where the scene was made from a file.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    warnings: list[str]
+
+    def __init__(
+        self,
+        background: ColorLike | None = (0, 0, 0),
+        ambient: ColorLike = (0.1, 0.1, 0.1),
+        light_clamp: Sequence[float] | None = None,
+    ) -> None:
+        self._arrays = NodeArrays()
+        self._objects = ObjectTable()
+        self._ids = itertools.count()
+        self._removed = 0  # slots of removed nodes
+        self._removals = 0  # how often a node, or what it held, went
+        self._cameras: dict[int, Node] = {}
+        self._lights: dict[int, Node] = {}
+        self._colliders: dict[int, Node] = {}
+        self._placed_colliders = None  # made when asked for
+        self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
+        self._names: dict[str, Node] | None = None
+        self.warnings = []
+        self.background = background
+        self.ambient = ambient
+        self.light_clamp = light_clamp
+
+    @property
+    def background(self) -> Color | None:
+        return self._background
+
+    @background.setter
+    def background(self, value: ColorLike | None) -> None:
+        self._background = None if value is None else check_color(value, "background")
+
+    @property
+    def ambient(self) -> Color:
+        return self._ambient
+
+    @ambient.setter
+    def ambient(self, value: ColorLike) -> None:
+        self._ambient = check_color(value, "ambient")
+
+    @property
+    def light_clamp(self) -> tuple[float, float] | None:
+        return self._light_clamp
+
+    @light_clamp.setter
+    def light_clamp(self, value: Sequence[float] | None) -> None:
+        if value is None:
+            self._light_clamp = None
+            return
+        low, high = _pair(value, "light_clamp")
+        if not 0 <= low <= high:
+            raise InvalidArgumentError(f"light_clamp must be 0 <= low <= high, not {value!r}")
+        self._light_clamp = (low, high)
+
+    def add(
+        self,
+        obj: SceneObject | None = None,
+        *,
+        name: str | None = None,
+        parent: Node | None = None,
+        pose: ArrayLike | None = None,
+        translation: ArrayLike | None = None,
+        rotation: ArrayLike | None = None,
+        euler: ArrayLike | None = None,
+        scale: ArrayLike | None = None,
+        static: bool = False,
+    ) -> Node:
+        """Put an object into the scene.
+
+        Parameters
+        ----------
+        obj : Mesh, InstancedMesh, Camera, DirectionalLight, PointLight or None
+            The same object may be added many times. None adds a node that groups others, or gets
+            its ``object`` later.
+        name : str, optional
+            The object's own name if left out.
+        parent : Node, optional
+            A node of this scene; the new node moves with it.
+        pose : (4, 4) float, optional
+            parent-from-node; or give the parts instead:
+        translation : (3,) float, optional
+        rotation : (4,) float, optional
+            Quaternion x, y, z, w.
+        euler : (3,) float, optional
+            Instead of ``rotation``: angles in radians about x, y and z. Turns about x, then about
+            the new y, then about the newest z, as `Node.euler` and three.js do; degrees go through
+            ``numpy.radians``.
+        scale : float or (3,) float, optional
+        static : bool
+            The node is meant to stay where it is; see `Node.static`.
+
+        Returns
+        -------
+        node : Node
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        _check_object(obj)
+        if parent is not None and not (isinstance(parent, Node) and parent._scene is self):
+            raise InvalidArgumentError("parent must be a node of this scene")
+        if name is None:
+            name = getattr(obj, "name", "")
+        if rotation is not None and euler is not None:
+            raise InvalidArgumentError("give rotation or euler, not both")
+        if euler is not None:
+            rotation = linalg.euler_to_quaternion(vector3(euler, "euler"))
+        parts = (translation, rotation, scale)
+        if pose is not None and any(part is not None for part in parts):
+            raise InvalidArgumentError("give pose or translation, rotation and scale, not both")
+        pose = None if pose is None else check_pose(pose)
+        translation = None if translation is None else vector3(translation, "translation")
+        rotation = None if rotation is None else check_rotation(rotation)
+        scale = None if scale is None else check_scale(scale)
+        node = Node(self, obj, str(name), next(self._ids))
+        above = -1 if parent is None else parent._slot
+        node._arrays = self._arrays
+        slot = node._slot = self._arrays.append(node, above, self._objects.take(obj), node.id)
+        if pose is not None:
+            self._arrays.set_pose(slot, pose)
+        if translation is not None:
+            self._arrays.set_translation(slot, translation)
+        if rotation is not None or scale is not None:
+            self._arrays.set_parts(slot, rotation, scale)
+        if static:
+            node.static = True
+        self._list(node)
+        self._nodes = None
+        if self._names is not None:
+            self._names.setdefault(node._name, node)
+        return node
+
+    def _list(self, node: Node) -> None:
+        """Keep the nodes of cameras and of lights, in the order in which the nodes were added."""
+        listed = self._cameras if isinstance(node.object, Camera) else self._lights
+        if isinstance(node.object, (Camera, DirectionalLight, PointLight)):
+            last = max(listed, default=-1)
+            listed[node.id] = node
+            if node.id < last:
+                ordered = dict(sorted(listed.items()))
+                listed.clear()
+                listed.update(ordered)
+
+    def _put(self, node: Node, obj) -> None:
+        """Let a node hold another object."""
+        _check_object(obj)
+        number = self._objects.take(obj)
+        self._objects.release(node._object)
+        node._object = obj
+        self._arrays.set_object(node._slot, number)
+        self._cameras.pop(node.id, None)
+        self._lights.pop(node.id, None)
+        self._list(node)
+        self._removals += 1
+
+    def remove(self, node: Node) -> None:
+        """Take a node and everything below it out of the scene, for good.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The node is not in this scene.
+        """
+        if not isinstance(node, Node) or node._scene is not self:
+            raise InvalidArgumentError("remove() needs a node of this scene")
+        arrays = self._arrays
+        for slot in arrays.remove(node._slot):
+            gone, arrays.nodes[slot] = arrays.nodes[slot], None
+            gone._scene = None
+            self._objects.release(gone._object)
+            self._cameras.pop(gone.id, None)
+            self._lights.pop(gone.id, None)
+            self._colliders.pop(gone.id, None)
+            self._removed += 1
+            self._removals += 1
+        self._nodes = self._names = None
+        if self._removed > max(_LEAST_REMOVED, arrays.count // 2):
+            self._pack()
+
+    def _pack(self) -> None:
+        """Give up the slots of removed nodes."""
+        self._arrays = self._arrays.packed()
+        self._removed = 0
+        for slot, node in enumerate(self._arrays.nodes):
+            node._arrays, node._slot = self._arrays, slot
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """All nodes, in the order they were added."""
+        nodes = self._nodes
+        if nodes is None:
+            nodes = tuple(node for node in self._arrays.nodes if node is not None)
+            self._nodes = nodes
+        return nodes
+
+    def _camera_node(self) -> Node | None:
+        """The first visible node that holds a camera: what is drawn through by default."""
+        return next((node for node in self._cameras.values() if node.shown), None)
+
+    def find(self, name: str) -> Node | None:
+        """Return the first node of that name, or None."""
+        names = self._names
+        if names is None:
+            names = {}
+            for node in self.nodes:
+                names.setdefault(node.name, node)
+            self._names = names  # whole: another thread may ask meanwhile
+        return names.get(name)
+
+    def select(self, nodes: Iterable[Node] | None = None) -> NodeSelection:
+        """Return a selection of nodes, to read or to move them together as arrays.
+
+        Parameters
+        ----------
+        nodes : iterable of Node, optional
+            All nodes of the scene, as they are now, if left out.
+
+        Returns
+        -------
+        selection : NodeSelection
+
+        Raises
+        ------
+        InvalidArgumentError
+            A node is not in this scene; also later, once one was removed.
+        """
+        if nodes is not None and not isinstance(nodes, Iterable):
+            raise InvalidArgumentError(f"nodes must be an iterable of Node, not {nodes!r}")
+        return NodeSelection(self, self.nodes if nodes is None else nodes)
+
+    def raycast(
+        self,
+        origin: ArrayLike,
+        direction: ArrayLike,
+        *,
+        max_distance: float = math.inf,
+        cull: Cull = "none",
+    ) -> RayHit | None:
+        """Return where a ray first meets a face of what is visible.
+
+        Parameters
+        ----------
+        origin, direction : (3,) float
+            World space; the direction may have any length but zero.
+        max_distance : float
+            World units.
+        cull : {"none", "back", "front"}
+            Which faces the ray passes through: none, or those that show it their back or front.
+
+        Returns
+        -------
+        hit : RayHit or None
+            Node, instance, face, distance, position, normal and barycentric coordinates. Of faces
+            at the same distance it is the first in the order of drawing.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from ..spatial.rays import raycast
+
+        return raycast(self, origin, direction, max_distance, cull)
+
+    def raycast_many(
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        *,
+        max_distance: float = math.inf,
+        cull: Cull = "none",
+    ) -> RayHits:
+        """Cast many rays at once, like `raycast`; the results have one row per ray.
+
+        Parameters
+        ----------
+        origins, directions : (N, 3) or (3,) float
+            World space. One origin may serve for many directions, and the other way round.
+        max_distance : float
+        cull : {"none", "back", "front"}
+
+        Returns
+        -------
+        hits : RayHits
+            Arrays: object_id, instance, face, distance, position, normal, barycentric.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from ..spatial.rays import raycast_many
+
+        return raycast_many(self, origins, directions, max_distance, cull)
+
+    def pick(self, frame: Frame, x: int, y: int) -> RayHit | None:
+        """Return what a pixel of a frame of this scene shows.
+
+        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` tells exactly.
+        Without these, the answer is what the ray through the pixel's centre meets in the scene as
+        it is now.
+
+        Parameters
+        ----------
+        frame : Frame
+        x, y : int
+            Column and row, from the top left.
+
+        Returns
+        -------
+        hit : RayHit or None
+            The distance is from the camera, or without perspective from the near plane. For a
+            line or a point, ``face`` is -1 and the position is unknown (NaN).
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from ..spatial.rays import pick
+
+        return pick(self, frame, x, y)
+
+    def overlap_box(self, low: ArrayLike, high: ArrayLike) -> tuple[Node, ...]:
+        """Return the visible nodes whose colliders have a point in a box.
+
+        Parameters
+        ----------
+        low, high : (3,) float
+            Corners in world space.
+
+        Returns
+        -------
+        nodes : tuple of Node
+            In the order in which they were added.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from ..spatial.collider_queries import overlap_box
+
+        return overlap_box(self, low, high)
+
+    def overlap_sphere(self, center: ArrayLike, radius: float) -> tuple[Node, ...]:
+        """Return the visible nodes whose colliders have a point in a ball; as `overlap_box`.
+
+        Parameters
+        ----------
+        center : (3,) float
+        radius : float
+        """
+        from ..spatial.collider_queries import overlap_sphere
+
+        return overlap_sphere(self, center, radius)
+
+    def raycast_colliders(
+        self, origin: ArrayLike, direction: ArrayLike, *, max_distance: float = math.inf
+    ) -> ColliderHit | None:
+        """Return where a ray first meets the collider of a visible node.
+
+        Parameters
+        ----------
+        origin, direction : (3,) float
+            World space; the direction may have any length but zero.
+        max_distance : float
+
+        Returns
+        -------
+        hit : ColliderHit or None
+            Node, distance, position.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from ..spatial.collider_queries import raycast_colliders
+
+        return raycast_colliders(self, origin, direction, max_distance)
+
+    def _set_collider(self, node: Node) -> None:
+        """Keep the nodes that have colliders, in the order of adding."""
+        self._placed_colliders = None
+        if node.collider is None:
+            self._colliders.pop(node.id, None)
+        elif node.id not in self._colliders:
+            self._colliders[node.id] = node
+            self._colliders = dict(sorted(self._colliders.items()))
+
+    def _census(self) -> tuple[int, int]:
+        """What is another once a node has come or gone."""
+        return self._arrays.count, self._removals
+
+    def _node_of(self, number: int) -> Node | None:
+        """The node of an id, if it is in the scene."""
+        ids = self._arrays.columns["id"][: self._arrays.count]
+        slot = int(np.searchsorted(ids, number))
+        return self._arrays.nodes[slot] if slot < len(ids) and ids[slot] == number else None
+
+    def _update(self, threads: int = 1) -> None:
+        """Make world poses, visibility and bounds of all nodes true; threads: 0 is all."""
+        self._objects.refresh(self._arrays)
+        self._arrays.update(self._objects.boxes, threads)
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """The box around all visible meshes, (2, 3) float64 in world space; zeros if none."""
+        self._update()
+        box = np.empty(OBJECT_BOX)
+        around = union(self._arrays.columns["bounds"][: self._arrays.count], box)
+        return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")
+
+    def __repr__(self) -> str:
+        return f"Scene({self._arrays.count - self._removed} nodes)"
+
+
+def _check_object(obj) -> None:
+    if obj is not None and not isinstance(obj, _OBJECT_TYPES):
+        allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
+        raise InvalidArgumentError(
+            f"a scene holds {allowed} or None (a group), not {type(obj).__name__}"
+        )
+
+
+def _pair(value, what: str) -> tuple[float, float]:
+    try:
+        low, high = value
+        return float(low), float(high)
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidArgumentError(f"{what} must be two numbers, not {value!r}") from None

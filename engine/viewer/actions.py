@@ -1,0 +1,228 @@
+"""What the keys do, one function an action; `keymap` says which key calls which.
+
+Every function takes the `Viewer` and a step: 1, or -1 with Shift, for the actions that go round a
+list of choices.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import get_args
+
+from ..choices import Samples
+from ..files.animation_files import numbered_path
+from .appearance import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .viewpoint import QUARTER_TURN
+from .walking import controller
+
+SAMPLES = get_args(Samples)
+LINE_WIDTHS = (1.0, 16.0)
+ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
+
+
+def cycle_wireframe(viewer, step: int) -> None:
+    """Next of: no wireframe, over the faces, alone."""
+    look = viewer.studio.look
+    look.wireframe = following(look.wireframe, WIREFRAMES, step)
+    viewer.say(f"wireframe: {look.wireframe or 'off'}")
+
+
+def toggle_edges(viewer, step: int) -> None:
+    """Edges over the faces, or not."""
+    look = viewer.studio.look
+    look.wireframe = None if look.wireframe == "overlay" else "overlay"
+    viewer.say(f"edges: {'on' if look.wireframe else 'off'}")
+
+
+def cycle_mode(viewer, step: int) -> None:
+    """Next drawing mode."""
+    look = viewer.studio.look
+    look.mode = following(look.mode, MODES, step)
+    viewer.say(f"mode: {look.mode}")
+
+
+def _toggle_mode(viewer, mode: str) -> None:
+    look = viewer.studio.look
+    look.mode = "lit" if look.mode == mode else mode
+    viewer.say(f"mode: {look.mode}")
+
+
+def toggle_normals_mode(viewer, step: int) -> None:
+    """Normals as colours, or lit."""
+    _toggle_mode(viewer, "normal")
+
+
+def toggle_unlit(viewer, step: int) -> None:
+    """Without light, or lit."""
+    _toggle_mode(viewer, "unlit")
+
+
+def toggle_flat(viewer, step: int) -> None:
+    """One normal per face, or smooth normals."""
+    look = viewer.studio.look
+    look.normals = "smooth" if look.normals == "flat" else "flat"
+    viewer.say(f"normals: {look.normals}")
+
+
+def cycle_cull(viewer, step: int) -> None:
+    """Next of the faces to leave out: back, front, none."""
+    look = viewer.studio.look
+    look.cull = following(look.cull, CULLS, step)
+    viewer.say(f"cull: {look.cull}")
+
+
+def cycle_hidden_surfaces(viewer, step: int) -> None:
+    """Next way to remove hidden surfaces."""
+    look = viewer.studio.look
+    look.hidden_surfaces = following(look.hidden_surfaces, HIDDEN_SURFACES, step)
+    viewer.say(f"hidden surfaces: {look.hidden_surfaces}")
+
+
+def cycle_lights(viewer, step: int) -> None:
+    """Next lights."""
+    lighting = viewer.studio.lighting
+    lighting.choose(following(lighting.name, lighting.names, step))
+    viewer.say(f"lights: {lighting.name}")
+
+
+def cycle_samples(viewer, step: int) -> None:
+    """Next number of samples per pixel."""
+    samples = following(viewer.studio.samples, SAMPLES, step)
+    viewer.studio.resample(samples)
+    viewer.say(f"samples per pixel: {samples}")
+
+
+def _scale_lines(viewer, factor: float) -> None:
+    look = viewer.studio.look
+    low, high = LINE_WIDTHS
+    look.line_width = min(high, max(low, look.line_width * factor))
+    look.point_size = min(high, max(low, viewer.studio.point_size * factor))
+    viewer.say(f"line width: {look.line_width:g}, point size: {look.point_size:g}")
+
+
+def widen_lines(viewer, step: int) -> None:
+    """Wider lines and larger points."""
+    _scale_lines(viewer, 2.0)
+
+
+def narrow_lines(viewer, step: int) -> None:
+    """Thinner lines and smaller points."""
+    _scale_lines(viewer, 0.5)
+
+
+def _look_along(viewer, azimuth: float, elevation: float) -> None:
+    if viewer.walker is not None:
+        toggle_walking(viewer)
+    viewer.view.azimuth, viewer.view.elevation = azimuth, elevation
+    viewer.studio.frame(viewer.view)
+
+
+def view_front(viewer, step: int) -> None:
+    """Look at the front."""
+    _look_along(viewer, 0.0, 0.0)
+
+
+def view_right(viewer, step: int) -> None:
+    """Look at the right side."""
+    _look_along(viewer, QUARTER_TURN, 0.0)
+
+
+def view_top(viewer, step: int) -> None:
+    """Look from the top."""
+    _look_along(viewer, 0.0, QUARTER_TURN)
+
+
+def view_isometric(viewer, step: int) -> None:
+    """Look along the diagonal of a cube."""
+    _look_along(viewer, QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
+
+
+def toggle_orthographic(viewer, step: int) -> None:
+    """Parallel projection, or perspective."""
+    viewer.view.orthographic = not viewer.view.orthographic
+    viewer.say("orthographic" if viewer.view.orthographic else "perspective")
+
+
+def reset_view(viewer, step: int = 1) -> None:
+    """Go back to the first view."""
+    if viewer.walker is not None:
+        toggle_walking(viewer)
+    viewer.view = viewer.first_view.copy()
+    viewer.orbit.view = viewer.view
+    viewer.changed = True
+
+
+def toggle_walking(viewer, step: int = 1) -> None:
+    """Walk, or orbit again; the picture stays where it is."""
+    if viewer.walker is None:
+        viewer.walker = controller(viewer.studio, viewer.view)
+        viewer.walker.place(viewer.view)
+        viewer.say("walking: WASD, mouse or arrows to look; Tab or Esc to leave")
+    else:
+        viewer.walker.leave(viewer.view)
+        viewer.walker = None
+        viewer.say("orbiting")
+    viewer.held_positions.clear()
+    viewer.drag = None
+    viewer.window.capture_mouse(viewer.walker is not None)
+
+
+def freeze_culling(viewer, step: int) -> None:
+    """Draw what shows from here, and nothing more, until the key comes up."""
+    viewer.studio.freeze_culling(viewer.view)
+    viewer.say("culling as from here, while C is held")
+
+
+def toggle_playing(viewer, step: int) -> None:
+    """Pause, or go on."""
+    viewer.playing = not viewer.playing
+    viewer.say("playing" if viewer.playing else "paused")
+
+
+def toggle_grid(viewer, step: int) -> None:
+    """A grid under the scene, or none."""
+    viewer.studio.show_grid(not viewer.studio.settings.grid)
+
+
+def toggle_axes(viewer, step: int) -> None:
+    """The axes in the corner, or none."""
+    viewer.studio.settings.axes = not viewer.studio.settings.axes
+
+
+def toggle_statistics(viewer, step: int) -> None:
+    """Frames per second and counters, or none."""
+    viewer.show_statistics = not viewer.show_statistics
+
+
+def toggle_metadata(viewer, step: int) -> None:
+    """What the file holds, or nothing."""
+    viewer.studio.settings.metadata = not viewer.studio.settings.metadata
+
+
+def toggle_help(viewer, step: int) -> None:
+    """The keys, or none; in a small window page by page."""
+    page = viewer.help_page + step if viewer.show_help else 0
+    viewer.show_help = 0 <= page < viewer.help_pages or not viewer.show_help
+    viewer.help_page = page
+
+
+def toggle_fullscreen(viewer, step: int) -> None:
+    """Fill the screen, or go back to a window."""
+    viewer.window.toggle_fullscreen()
+
+
+def save_screenshot(viewer, step: int) -> None:
+    """Write the frame, without help and messages, to a numbered PNG in the current folder."""
+    path = numbered_path(Path.cwd(), f"{Path(viewer.studio.subject.title).stem}-screenshot", ".png")
+    try:
+        viewer.studio.draw(viewer.view, viewer.time).save(path)
+    except OSError as error:
+        viewer.say(str(error))
+        return
+    viewer.say(f"saved {path.name}")
+
+
+def quit(viewer, step: int) -> None:
+    """Close the window."""
+    viewer.running = False

@@ -1,0 +1,108 @@
+"""How a scene is drawn: what the keys and the command line change of `Renderer.render`'s options.
+
+In: option values. Out: the keyword arguments of one ``render`` call.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import get_args
+
+from .. import linalg
+from ..choices import Cull, HiddenSurfaces, Mode, Wireframe
+from ..geometry.mesh import Mesh
+from ..materials.colors import linear_color
+from ..scene.instances import InstancedMesh
+
+MODES = get_args(Mode)
+WIREFRAMES = (None, *get_args(Wireframe))
+CULLS = get_args(Cull)
+HIDDEN_SURFACES = get_args(HiddenSurfaces)
+DARK, LIGHT = (22, 24, 28), (225, 229, 236)
+#: Points are as large as this share of the distance from one to the next, were they spread evenly
+#: over the picture; but not smaller than one pixel of a picture this many pixels high, nor larger
+#: than so many of them.
+POINT_SHARE = 0.4
+USUAL_HEIGHT = 720.0
+MOST_PIXELS = 6.0
+#: What a colour gives off, by its red, green and blue in linear light.
+_LUMINANCE = (0.2126, 0.7152, 0.0722)
+
+
+@dataclass
+class Look:
+    """The drawing options of one frame; the fields are those of `Renderer.render`.
+
+    ``line_color`` is (r, g, b), integers 0 to 255, sRGB; None is dark over faces, and without them
+    what is seen before the background. Widths and sizes are in pixels; a ``point_size`` of None
+    goes by the picture and by how many points there are.
+    """
+
+    mode: str = "lit"
+    wireframe: str | None = None
+    cull: str = "back"
+    shading: str = "deferred"
+    normals: str = "auto"
+    hidden_surfaces: str = "zbuffer"
+    line_width: float = 1.0
+    line_color: tuple[int, int, int] | None = None
+    hidden_lines: bool = False
+    point_size: float | None = None
+
+    def arguments(self, background, point_size: float) -> dict:
+        """Return the keyword arguments for `Renderer.render`.
+
+        Parameters
+        ----------
+        background : (3,) sequence or None
+            The scene's.
+        point_size : float
+            What suits the scene and the picture.
+        """
+        arguments = dict(vars(self))
+        if self.line_color is None:
+            alone = self.wireframe == "only"
+            arguments["line_color"] = contrasting(background) if alone else DARK
+        if self.point_size is None:
+            arguments["point_size"] = point_size
+        return arguments
+
+
+def contrasting(background) -> tuple[int, int, int]:
+    """Return a dark or a light colour, whichever is seen better before a background."""
+    if background is None:
+        return LIGHT
+    here, dark, light = (
+        float(linalg.dot(linear_color(color), _LUMINANCE)) + 0.05
+        for color in (background, DARK, LIGHT)
+    )
+    return DARK if here / dark > light / here else LIGHT
+
+
+def point_size(count: int, size: tuple[int, int]) -> float:
+    """Return how large ``count`` points should be in a picture of some size, in pixels."""
+    side = min(size)
+    pixel = max(1.0, side / USUAL_HEIGHT)
+    apart = side / math.sqrt(max(count, 1))
+    return float(round(max(pixel, min(MOST_PIXELS * pixel, POINT_SHARE * apart))))
+
+
+def count_points(scene) -> int:
+    """Return how many points a scene shows."""
+    count = 0
+    for node in scene.nodes:
+        shape = node.object
+        if not node.shown:
+            continue
+        if isinstance(shape, Mesh):
+            count += len(shape.points)
+        elif isinstance(shape, InstancedMesh):
+            count += len(shape.mesh.points) * len(shape.poses)
+    return count
+
+
+def following(value, choices, step: int = 1):
+    """Return the choice ``step`` places after ``value``, going round."""
+    index = choices.index(value) if value in choices else -1
+    return choices[(index + step) % len(choices)]

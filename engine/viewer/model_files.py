@@ -1,0 +1,68 @@
+"""The model files that the viewer shows: what opens them again, and what has become of them.
+
+In: paths, and how the command line said to open them. Out: subjects; whether files were written or
+went away meanwhile.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from .open_models import open_models
+from .viewed_scene import Subject
+from .watch import FileWatch
+
+
+class ModelFiles:
+    """The files that are shown.
+
+    Parameters
+    ----------
+    paths : sequence of path-like
+        May be empty: a scene of no file's.
+    watch : bool
+        Look whether they change.
+    side_by_side, up
+        As in `open_models`, for files that are dropped, too.
+    **options
+        More options of `open_models`, for these files only.
+    """
+
+    def __init__(
+        self,
+        paths: Sequence = (),
+        *,
+        watch: bool = False,
+        side_by_side: bool = False,
+        up: str | None = None,
+        **options,
+    ):
+        self._always = {"side_by_side": side_by_side, "up": up}
+        self._options = options
+        self._watches = watch
+        self._follow(paths)
+
+    def _follow(self, paths: Sequence) -> None:
+        self.paths = tuple(paths)
+        self._files = [FileWatch(path) for path in self.paths] if self._watches else []
+
+    def replace(self, paths: Sequence) -> Subject:
+        """Open other files, which take the place of these if they can be read."""
+        subject = open_models(paths, **self._always)
+        self._options = {}
+        self._follow(paths)
+        return subject
+
+    def reload(self) -> Subject:
+        """Open the same files again, as they were opened first."""
+        return open_models(self.paths, **self._always, **self._options)
+
+    def changed(self) -> bool:
+        """Return whether one of the files was written, came or went since it was last looked at."""
+        changed = [file.changed() for file in self._files]  # all of them: each tells it once
+        return any(changed)
+
+    def missing(self) -> list[str]:
+        """Return the names of the files that were not there when they were last looked at."""
+        return [os.path.basename(file.path) for file in self._files if file.missing]

@@ -1,0 +1,101 @@
+"""A model file, opened as a `Subject`.
+
+In: a path, and a texture or a colour for what the file leaves without. Out: a subject with a
+neutral background, the up direction usual for the format, and the file's counts and warnings.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+
+from ..errors import Engine3DWarning, printable
+from ..loaders import load_document, load_texture
+from ..materials.material import says_something
+from ..scene.loading import scene_from_document
+from .viewed_scene import Subject
+
+#: Formats whose models, by custom, stand on the XY plane.
+Z_UP_FORMATS = ("asc", "stl")
+BACKGROUND = (43, 46, 53)
+
+
+def open_model(path, *, texture=None, color=None, progress=None, companion=None) -> Subject:
+    """Load a file to look at.
+
+    Parameters
+    ----------
+    path : path-like or binary file object
+        A file of any format that `engine3d.loaders` reads.
+    texture : path-like, optional
+        The base colour texture of the meshes without materials.
+    color : (3,) sequence, optional
+        The base colour of the meshes without materials. If there are none, that is warned of.
+    progress : callable, optional
+        As in `engine3d.load_mesh`.
+    companion : callable, optional
+        As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
+
+    Returns
+    -------
+    Subject
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+        The file (or the texture asked for) cannot be read.
+    """
+    image = None if texture is None else load_texture(texture)
+    is_dressed = image is not None or color is not None
+    if is_dressed:
+        companion = _no_image
+    document = load_document(path, progress=progress, companion=companion)
+    path = None if hasattr(path, "read") else os.fspath(path)
+    if is_dressed:
+        _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
+    scene = scene_from_document(document)
+    scene.background = BACKGROUND
+    return Subject(
+        scene,
+        "model" if path is None else printable(os.path.basename(path)),
+        up="+Z" if document.format in Z_UP_FORMATS else "+Y",
+        path=path,
+        details=document_lines(document),
+        warnings=list(document.warnings),
+    )
+
+
+def _no_image(path: str) -> bool:
+    return False
+
+
+def has_materials(mesh) -> bool:
+    """Return whether any material of a mesh says how it looks; a name alone does not."""
+    return any(map(says_something, mesh.materials))
+
+
+def _dress(meshes, image, color) -> None:
+    """Give the materials of the meshes the image and the colour; warn if that changes nothing."""
+    if not meshes:
+        _warn("the model has materials of its own: it gets no other texture or colour")
+    elif image is not None and all(mesh.uvs is None for mesh in meshes):
+        _warn("the model has no texture coordinates: the texture does not show")
+    for material in (material for mesh in meshes for material in mesh.materials):
+        if image is not None:
+            material.texture = image
+        if color is not None:
+            material.color = color
+
+
+def _warn(message: str) -> None:
+    warnings.warn(message, Engine3DWarning, stacklevel=4)
+
+
+def document_lines(document) -> list[str]:
+    """Return the format and the counts of a document, a line each."""
+    lines = [f"{'format':<12}{document.format:>11}"]
+    for name, entries in document.counts.items():
+        count = entries if isinstance(entries, int) else len(entries)
+        if count:
+            lines.append(f"{name:<12}{count:>11,d}")
+    return lines

@@ -1,0 +1,148 @@
+"""Text and marks over the picture: statistics, metadata, messages, the axes.
+
+In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text sits on dark,
+translucent blocks in the corners; lines that are wider than the picture are wrapped.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from itertools import zip_longest
+
+from ..canvas import text_size
+from .draw_counts import count_names, count_table
+from .viewpoint import Viewpoint
+
+TEXT = (235, 238, 242, 255)
+BLOCK = (16, 18, 24, 210)
+PADDING = 8
+MARGIN = 10
+LINE_GAP = 3
+#: Pictures at least this high get text twice the size.
+LARGE_HEIGHT = 1400
+#: Larger text stays legible where this many characters fit into a line.
+FEWEST_COLUMNS = 40
+#: X, Y and Z, the usual red, green and blue, light enough for a dark background.
+AXIS_COLORS = ((235, 80, 80, 255), (95, 205, 95, 255), (95, 140, 255, 255))
+AXIS_LENGTH = 34
+
+
+def text_scale(canvas, screen: int = 1) -> int:
+    """Return the factor on the font's size that suits the picture, on a screen of some scale."""
+    height, width = canvas.pixels.shape[:2]
+    scale = max(screen, 2 if height >= LARGE_HEIGHT else 1)
+    return max(1, min(scale, width // (FEWEST_COLUMNS * text_size("M")[0])))
+
+
+def draw_block(
+    canvas, lines: list[str], *, corner: str = "top left", scale: int | None = None
+) -> None:
+    """Draw lines of text on a dark block.
+
+    Parameters
+    ----------
+    canvas : Canvas
+        Over the frame.
+    lines : list of str
+        The text. What is wider than the picture goes on in the next line; what is higher ends with
+        a line of dots.
+    corner : str
+        ``"top left"``, ``"top right"``, ``"bottom left"``, ``"bottom"`` or ``"middle"``.
+    scale : int, optional
+        Factor on the font's size; by default what suits the picture.
+    """
+    scale = scale or text_scale(canvas)
+    lines = _fitting(canvas, lines, scale)
+    if not lines:
+        return
+    sizes = [text_size(line, scale) for line in lines]
+    line_height = text_size("M", scale)[1] + LINE_GAP * scale
+    width = max(size[0] for size in sizes) + 2 * PADDING
+    height = line_height * len(lines) - LINE_GAP * scale + 2 * PADDING
+    x, y = place(canvas, width, height, corner)
+    canvas.rectangle(x, y, width, height, BLOCK)
+    for row, line in enumerate(lines):
+        canvas.text(x + PADDING, y + PADDING + row * line_height, line, TEXT, scale=scale)
+
+
+def _fitting(canvas, lines: list[str], scale: int) -> list[str]:
+    """Return the lines, wrapped to the picture's width and cut to its height."""
+    cell_width, cell_height = text_size("M", scale)
+    room = canvas.width - 2 * PADDING - MARGIN, canvas.height - 2 * PADDING - MARGIN
+    columns = max(room[0] // cell_width, 1)
+    rows = max(room[1] // (cell_height + LINE_GAP * scale), 1)
+    wrapped = []
+    for line in lines:
+        wrapped += [line] if len(line) <= columns else textwrap.wrap(line, columns)
+    return wrapped if len(wrapped) <= rows else [*wrapped[: rows - 1], "..."[:columns]]
+
+
+def place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
+    """Return the top left pixel of a block in the given corner."""
+    picture_height, picture_width = canvas.pixels.shape[:2]
+    x, y = MARGIN, MARGIN
+    if "right" in corner:
+        x = picture_width - width - MARGIN
+    if corner in ("bottom", "middle"):
+        x = (picture_width - width) // 2
+    if "bottom" in corner:
+        y = picture_height - height - MARGIN
+    if corner == "middle":
+        y = (picture_height - height) // 2
+    return max(x, 0), max(y, 0)
+
+
+def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[str]:
+    """Return the statistics of the last frame, line by line; they fit 640 x 480 pixels.
+
+    Parameters
+    ----------
+    seconds : float
+        Mean time from frame to frame.
+    size : (int, int)
+        Width and height in pixels.
+    samples : int
+        Samples a pixel.
+    stats : dict
+        `Frame.stats`: counters and milliseconds of each stage.
+    """
+    rate = 1.0 / seconds if seconds > 0.0 else 0.0
+    lines = [
+        f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
+        f"{size[0]}x{size[1]}" + (f", {samples} samples per pixel" if samples > 1 else ""),
+    ]
+    tabled = count_names()
+    if tabled <= stats.keys():
+        lines += count_table(stats)
+    else:
+        tabled = set()
+    entries = []
+    for name, value in stats.items():
+        if name in tabled:
+            continue
+        text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
+        entries.append(f"{name.replace('_', ' '):<19}{text:>11}")
+    return lines + _in_two_columns(entries)
+
+
+def _in_two_columns(entries: list[str]) -> list[str]:
+    """Return lines of two entries each, the first half of them on the left."""
+    half = (len(entries) + 1) // 2
+    pairs = zip_longest(entries[:half], entries[half:], fillvalue="")
+    return ["   ".join(pair).rstrip() for pair in pairs]
+
+
+def draw_axes(canvas, view: Viewpoint, scale: int | None = None) -> None:
+    """Draw the world's axes, as the camera sees their directions, in the bottom left corner."""
+    scale = scale or text_scale(canvas)
+    length = AXIS_LENGTH * scale
+    reach = length + 14 * scale
+    x0, y0 = reach, canvas.pixels.shape[0] - reach
+    # Row k of the rotation is the world's axis k in camera space: right, up, back.
+    axes = zip(view.rotation().tolist(), "XYZ", AXIS_COLORS, strict=True)
+    for (right, up, _), letter, color in sorted(axes, key=lambda axis: axis[0][2]):
+        x, y = round(x0 + right * length), round(y0 - up * length)
+        canvas.line(x0, y0, x, y, color, width=2 * scale)
+        half_width, half_height = (side / 2 for side in text_size(letter, scale))
+        x, y = x0 + right * (length + 8 * scale), y0 - up * (length + 8 * scale)
+        canvas.text(round(x - half_width), round(y - half_height), letter, color, scale=scale)

@@ -1,0 +1,107 @@
+"""How far a scene reaches: what clip planes must enclose and what a first view must show.
+
+In: a `Scene`. Out: a `Sphere`, or points round everything visible. Vertices that are not finite do
+not count; instances count as their boxes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from .. import linalg
+from ..geometry.mesh import Mesh
+from ..scene.instances import InstancedMesh
+from ..scene.orbiting import cosine, home_axes, sine
+from .viewpoint import Sphere
+
+#: How finely `turning_outline` follows a scene.
+OUTLINE_BANDS = 24
+OUTLINE_ANGLES = 24
+
+
+def bounding_sphere(scene) -> Sphere:
+    """Return a sphere round every visible mesh of ``scene``.
+
+    It is centred on the bounding box and reaches to the farthest vertex; instances count as their
+    boxes. A scene without extent gets a sphere of radius one.
+    """
+    low, high = scene.bounds
+    center = (low + high) / 2
+    farthest = 0.0
+    for points in _world_points(scene):
+        offsets = points - center
+        farthest = max(farthest, float(linalg.dot(offsets, offsets).max(initial=0.0)))
+    return Sphere(tuple(center.tolist()), math.sqrt(farthest) or 1.0)
+
+
+def turning_outline(scene, up) -> np.ndarray:
+    """Return points round everything visible in ``scene``, however it turns about ``up``.
+
+    Framing them keeps a turntable in the picture, closer than a sphere would. They lie on rings
+    about the vertical axis through the middle of the scene, as wide as it is at their height.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to go round.
+    up : (3,) sequence of float
+        The axis's direction.
+
+    Returns
+    -------
+    (N, 3) ndarray of float64
+        World space. A scene without extent gets rings of radius one.
+    """
+    right, up, back = home_axes(up)
+    low, high = scene.bounds
+    center = (low + high) / 2
+    heights, squares = [np.zeros(1)], [np.zeros(1)]
+    for points in _world_points(scene):
+        offsets = points - center
+        heights.append(linalg.dot(offsets, up))
+        across, along = linalg.dot(offsets, right), linalg.dot(offsets, back)
+        squares.append(across * across + along * along)
+    heights, widths = np.concatenate(heights), np.sqrt(np.concatenate(squares))
+    bottom, top = heights.min(), heights.max()
+    if top == bottom and not widths.any():
+        bottom, top, widths = -1.0, 1.0, np.ones_like(widths)
+    step = (top - bottom) / OUTLINE_BANDS or 1.0
+    bands = np.minimum(((heights - bottom) / step).astype(np.intp), OUTLINE_BANDS - 1)
+    widest = np.zeros(OUTLINE_BANDS)
+    np.maximum.at(widest, bands, widths)
+    levels = bottom + step * np.arange(OUTLINE_BANDS + 1)
+    # A band's ring stands at both of its ends: where in the band the scene is that wide is unknown.
+    rings = [(level, max(pair)) for level, pair in zip(levels, _ends(widest), strict=True)]
+    angles = [2 * math.pi * k / OUTLINE_ANGLES for k in range(OUTLINE_ANGLES)]
+    circle = [right * sine(angle) + back * cosine(angle) for angle in angles]
+    return np.array([center + up * level + spoke * w for level, w in rings for spoke in circle])
+
+
+def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
+    """Return the widths of the bands below and above each level."""
+    return list(zip([0.0, *widest], [*widest, 0.0], strict=True))
+
+
+def _world_points(scene) -> Iterator[np.ndarray]:
+    """Yield the finite vertices of each visible mesh, (N, 3) in world space; instances as boxes."""
+    for node in scene.nodes:
+        points = _outline(node) if node.shown else None
+        if points is not None:
+            with np.errstate(over="ignore", invalid="ignore"):
+                points = linalg.transform_points(node.world_pose, points)
+            yield points[np.isfinite(points).all(axis=1)]
+
+
+def _outline(node) -> np.ndarray | None:
+    """Return points of the node's mesh, (N, 3) in its own space, that its hull goes through."""
+    shape = node.object
+    if isinstance(shape, Mesh):
+        return shape.positions
+    if isinstance(shape, InstancedMesh):
+        box = shape.bounds_in_node()
+        corners = [[box[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
+        return np.array(corners, dtype=np.float64)
+    return None

@@ -1,0 +1,237 @@
+"""A subject, lit and drawn: what the window, the turntable and the still picture have in common.
+
+In: a `Subject`, a size, a `Look`, a `Viewpoint`. Out: a `Frame`, with guides and text drawn on it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import linalg
+from ..rendering.renderer import Renderer
+from ..rendering.support_functions import support_of_scene
+from .appearance import Look, count_points, point_size
+from .grid_lines import grid
+from .lighting import Lighting, PlacedLight
+from .scene_bounds import turning_outline
+from .settings import Settings
+from .viewed_scene import Subject
+from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
+
+
+class Studio:
+    """Holds a renderer and what it draws.
+
+    Parameters
+    ----------
+    subject : Subject
+        What to draw first; `show` changes it.
+    settings : Settings
+        What the user asked for.
+    size : (int, int)
+        Width and height in pixels.
+    backend, threads, samples
+        As in `Renderer`.
+    transparent : bool
+        Whether pixels that show no surface get alpha 0.
+    report : callable, optional
+        Called with each frame.
+
+    Attributes
+    ----------
+    screen_scale : int
+        How many times finer than usual the screen is that shows the frames.
+    """
+
+    def __init__(
+        self,
+        subject: Subject,
+        settings: Settings,
+        size: tuple[int, int],
+        *,
+        backend: str = "auto",
+        threads: int = 0,
+        samples: int = 1,
+        transparent: bool = False,
+        report=None,
+    ):
+        self._transparent = transparent
+        self._report = report
+        self._options = {"backend": backend, "threads": threads}
+        self.samples = samples
+        self.size = size
+        self._culling_camera = None
+        self.screen_scale = 1
+        self.renderer = self._make_renderer()
+        self.settings = settings
+        self.show(subject)
+
+    def _make_renderer(self) -> Renderer:
+        return Renderer(*self.size, samples=self.samples, **self._options)
+
+    def show(self, subject: Subject, *, keep_look: bool = False) -> None:
+        """Draw another subject from now on.
+
+        Parameters
+        ----------
+        subject : Subject
+            What to draw.
+        keep_look : bool
+            Draw it as the last one was drawn, in the same lights.
+        """
+        settings = self.settings
+        self.subject = subject
+        lights = self.lighting.name if keep_look else ""
+        if not keep_look:
+            self.look = Look(**(subject.look | settings.look))
+        self.bounds = subject.bounds
+        self.up = settings.up or subject.up
+        # Before the grid, which is no part of what the first view shows.
+        self._outline = subject.focus
+        if self._outline is None:
+            self._outline = turning_outline(subject.scene, UP_DIRECTIONS[self.up])
+        self._support = support_of_scene(subject.scene) if subject.focus is None else None
+        self._grid = None
+        self._points = count_points(subject.scene)
+        if self._transparent:
+            subject.scene.background = None
+        elif settings.background is not None:
+            subject.scene.background = settings.background
+        self.lighting = self._light()
+        if lights in self.lighting.names:
+            self.lighting.choose(lights)
+        self.show_grid(settings.grid)
+
+    def _light(self) -> Lighting | PlacedLight:
+        scene, settings = self.subject.scene, self.settings
+        intensity = settings.light_intensity
+        if settings.light_position is not None:
+            return PlacedLight(scene, settings.light_position, self.bounds, intensity)
+        return Lighting(scene, UP_DIRECTIONS[self.up], 1.0 if intensity is None else intensity)
+
+    def show_grid(self, shown: bool) -> None:
+        """Draw a grid under the scene, or not."""
+        self.settings.grid = shown
+        if shown and self._grid is None:
+            scene = self.subject.scene
+            lines = grid(self._lowest(), self.bounds, UP_DIRECTIONS[self.up])
+            self._grid = scene.add(lines, name="grid")
+        if self._grid is not None:
+            self._grid.visible = shown
+
+    def _lowest(self) -> float:
+        """Return how low the subject reaches along the up direction, however it moves."""
+        up = UP_DIRECTIONS[self.up]
+        if self.subject.update is not None:
+            return float(linalg.dot(self.bounds.center, up)) - self.bounds.radius
+        return float(linalg.dot(self.subject.scene.bounds, up).min())
+
+    def resize(self, width: int, height: int) -> None:
+        """Draw frames of another size from now on."""
+        if (width, height) != self.size:
+            self.size = (width, height)
+            self.renderer.resize(width, height)
+
+    def resample(self, samples: int) -> None:
+        """Take another number of samples per pixel from now on."""
+        self.samples = samples
+        self.renderer.close()
+        self.renderer = self._make_renderer()
+
+    @property
+    def aspect(self) -> float:
+        """Width over height of the frames."""
+        return self.size[0] / self.size[1]
+
+    def view(self, yfov: float = DEFAULT_YFOV) -> Viewpoint:
+        """Return the first view of the subject, with a vertical field of view in radians."""
+        subject, up = self.subject, UP_DIRECTIONS[self.up]
+        view = Viewpoint(np.zeros(3), 1.0, subject.azimuth, subject.elevation, up, yfov)
+        self.frame(view)
+        return view
+
+    def frame(self, view: Viewpoint) -> None:
+        """Move a view along its direction to where all of the subject shows."""
+        view.frame(self._outline, self.aspect)
+
+    def fill(self, view: Viewpoint) -> None:
+        """Move a view to where the subject, as it first stands, fills the picture.
+
+        That is nearer than `frame`, which leaves room for the subject to turn.
+        """
+        if self._support is None:
+            self.frame(view)
+        else:
+            view.fit(self._support, np.array(self.bounds.center), self.aspect)
+
+    def draw(self, view: Viewpoint, time: float = 0.0):
+        """Return the frame at ``time`` (seconds) as seen by ``view``."""
+        if self.subject.update is not None:
+            self.subject.update(time)
+        pose = view.pose()
+        self.lighting.follow(pose)
+        if self.subject.follow is not None:
+            self.subject.follow(pose[:3, 3])
+        frame = self.renderer.render(
+            self.subject.scene,
+            (self._camera(view), pose),
+            culling_camera=self._culling_camera,
+            **self.look.arguments(self.subject.scene.background, self.point_size),
+        )
+        if self.settings.axes or self.settings.metadata:
+            self._draw_overlays(frame.canvas(), view)
+        if self._report is not None:
+            self._report(frame)
+        return frame
+
+    @property
+    def point_size(self) -> float:
+        """How large points are, in pixels."""
+        if self.look.point_size is not None:
+            return self.look.point_size
+        return point_size(self._points, self.size)
+
+    def _camera(self, view: Viewpoint):
+        clearance = self.subject.clearance
+        free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
+        return view.camera(self._clip_bounds(), self.subject.nearest, free)
+
+    def freeze_culling(self, view: Viewpoint | None) -> None:
+        """Draw only what this view shows, wherever it is seen from; None: what each frame shows."""
+        self._culling_camera = None if view is None else (self._camera(view), view.pose())
+
+    def _draw_overlays(self, canvas, view: Viewpoint) -> None:
+        from .overlay import draw_axes, draw_block
+
+        scale = self.text_scale(canvas)
+        if self.settings.axes:
+            draw_axes(canvas, view, scale)
+        if self.settings.metadata:
+            draw_block(canvas, self.metadata(), corner="top right", scale=scale)
+
+    def text_scale(self, canvas) -> int:
+        """Return the factor on the font's size of texts over a picture."""
+        from .overlay import text_scale
+
+        return self.settings.ui_scale or text_scale(canvas, self.screen_scale)
+
+    def _clip_bounds(self) -> Sphere:
+        """Return what the clip planes must enclose: animated parts and the grid included."""
+        margin = 1.0 if self.subject.update is None else 1.6
+        if self.settings.grid:
+            margin = max(margin, 3.2)
+        return self.bounds._replace(radius=self.bounds.radius * margin)
+
+    def metadata(self) -> list[str]:
+        """Return what the subject's file holds, line by line."""
+        return [self.subject.title, *self.subject.details]
+
+    def close(self) -> None:
+        """Free the renderer's buffers."""
+        self.renderer.close()
+
+    def __enter__(self) -> Studio:
+        return self
+
+    def __exit__(self, *exception) -> None:
+        self.close()

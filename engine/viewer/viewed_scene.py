@@ -1,0 +1,93 @@
+"""What is shown: a scene, how it moves, and how it likes to be looked at.
+
+Models that are opened and demo scenes both arrive here; the window, the turntable and the still
+picture take them from here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .scene_bounds import bounding_sphere
+from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
+
+if TYPE_CHECKING:
+    from ..navigation import Walker
+
+#: Seconds of one turn of a turntable.
+TURN_SECONDS = 6.0
+
+
+@dataclass
+class Subject:
+    """A scene to look at.
+
+    Attributes
+    ----------
+    scene : Scene
+        What is drawn.
+    title : str
+        A name for the window and for files.
+    up : str
+        A key of `UP_DIRECTIONS`.
+    azimuth, elevation : float
+        The first view, in radians.
+    update : callable or None
+        Called with the time in seconds before a frame; moves the scene's nodes. Without it, playing
+        turns the camera round the scene.
+    period : float
+        Seconds after which the animation repeats.
+    plays : bool
+        Whether it moves from the start.
+    focus : (N, 3) ndarray of float64 or None
+        Points that the first view shows, in world space; by default all of the scene.
+    look : dict
+        Fields of `Look` that this scene wants unless the user says otherwise.
+    follow : callable or None
+        Called with the camera's position, (3,) float64 in world space, before a frame.
+    walker : callable or None
+        Returns the `Walker` on the scene's ground, always the same; without it, walking is flying.
+    gaze : (float, float)
+        Where the walker looks first: yaw and pitch in radians.
+    nearest : float
+        World units: inside the scene the near plane is not farther than this.
+    clearance : callable or None
+        Called with the camera's position, (3,) float64 in world space: returns a distance within
+        which nothing is, so that the near plane may be as far as that.
+    path : str or None
+        The file it came from.
+    details : list of str
+        What the file holds, line by line, for the metadata overlay.
+    warnings : list of str
+        What the loader had to pass over.
+    """
+
+    scene: object
+    title: str
+    up: str = "+Y"
+    azimuth: float = DEFAULT_AZIMUTH
+    elevation: float = DEFAULT_ELEVATION
+    update: Callable[[float], None] | None = None
+    period: float = TURN_SECONDS
+    plays: bool = False
+    focus: np.ndarray | None = None
+    look: dict = field(default_factory=dict)
+    follow: Callable[[np.ndarray], None] | None = None
+    walker: Callable[[], Walker] | None = None
+    gaze: tuple[float, float] = (0.0, 0.0)
+    nearest: float = math.inf
+    clearance: Callable[[np.ndarray], float] | None = None
+    path: str | None = None
+    details: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+    @cached_property
+    def bounds(self) -> Sphere:
+        """The bounding sphere of the scene as it first was, in world space."""
+        return bounding_sphere(self.scene)

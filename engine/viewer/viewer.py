@@ -1,0 +1,367 @@
+"""The viewer's loop: events in, frames out, as long as the window is open.
+
+In: a `Studio` and a `Window` (or anything with its methods). Out: frames on the screen.
+A frame is drawn only when something changed, moves or is walked through; otherwise the loop sleeps
+until the next event, and it does nothing at all while the window is minimised.
+"""
+
+from __future__ import annotations
+
+import math
+import time as clock
+
+from ..errors import Engine3DError, printable
+from . import actions as viewer_actions
+from . import input as events
+from .fps import LOOKS, MOVES, FpsController
+from .frame_times import FrameTimes
+from .help_panel import draw_help
+from .keymap import ORBIT_ARROWS, action_for
+from .model_files import ModelFiles
+from .orbit import OrbitController
+from .overlay import draw_block, statistics_lines
+from .view_renderer import Studio
+from .viewpoint import Sphere
+
+#: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
+IDLE_SECONDS = 0.25
+MESSAGE_SECONDS = 2.5
+#: Characters of a message that one reads in a second.
+READ_A_SECOND = 15.0
+#: A model that became so many times larger or smaller is framed anew.
+ALIKE = 8.0
+TITLE_SECONDS = 0.5
+#: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
+LONGEST_STEP = 0.1
+ARROW_RADIANS = math.radians(7.5)
+
+
+class Viewer:
+    """Shows a studio's subject in a window and lets the user turn it.
+
+    Parameters
+    ----------
+    studio : Studio
+        Draws the frames.
+    window : Window
+        Shows them and brings the events.
+    view : Viewpoint, optional
+        Where to look from at first and after a reset.
+    walking : bool
+        Start with the walking camera.
+    playing : bool, optional
+        Whether to move from the start; by default as the subject likes.
+    statistics : bool
+        Show statistics from the start.
+    files : ModelFiles, optional
+        Where the subject came from: it is loaded again when they change, if they are watched.
+    """
+
+    def __init__(
+        self,
+        studio: Studio,
+        window,
+        *,
+        view=None,
+        walking: bool = False,
+        playing: bool | None = None,
+        statistics: bool = False,
+        files: ModelFiles | None = None,
+    ):
+        self.studio = studio
+        self.window = window
+        studio.screen_scale = window.scale
+        self.first_view = view or studio.view()
+        self.view = self.first_view.copy()
+        self.orbit = OrbitController(self.view)
+        self.walker: FpsController | None = None
+        self.time = 0.0
+        self.playing = studio.subject.plays if playing is None else playing
+        self.show_help = False
+        self.help_page = 0
+        self.help_pages = 1
+        self.show_statistics = statistics
+        self.running = True
+        self.changed = True
+        self.frame = None
+        self.held_positions: set[str] = set()
+        self.fast = False
+        self.drag: str | None = None
+        self._message = ""
+        self._message_ends = 0.0
+        self.frame_times = FrameTimes()
+        self._title = ""
+        self._title_due = 0.0
+        self._last_turn = clock.monotonic()
+        self._files = files or ModelFiles()
+        self._trouble = ""
+        if walking:
+            viewer_actions.toggle_walking(self)
+
+    # The loop
+
+    def run(self, frames: int | None = None) -> None:
+        """Show frames until the window closes, or until ``frames`` have been drawn.
+
+        A number of frames is drawn whether or not anything moves.
+        """
+        drawn = 0
+        self._last_turn = clock.monotonic()
+        while self.running and (frames is None or drawn < frames):
+            self.changed |= frames is not None
+            drawn += self.run_once()
+
+    def run_once(self) -> bool:
+        """Obey what has happened, and return whether a frame was drawn for it."""
+        for event in self.window.events(0.0 if self._lively() else IDLE_SECONDS):
+            self.handle(event)
+        now = clock.monotonic()
+        self.advance(min(now - self._last_turn, LONGEST_STEP))
+        self._last_turn = now
+        drawn = self.changed and self.running and not self.window.minimised
+        if drawn:
+            self.draw()
+        self._update_title()
+        return drawn
+
+    def _lively(self) -> bool:
+        """Return whether the next frame should come at once rather than wait for an event."""
+        if self.window.minimised:
+            return False
+        return self.changed or self.playing or self._walking_now()
+
+    def _walking_now(self) -> bool:
+        return self.walker is not None and bool(self.held_positions)
+
+    def advance(self, seconds: float) -> None:
+        """Let ``seconds`` pass: animation, walking, messages that end, files that changed."""
+        if self.playing and not self.window.minimised:
+            self._play(seconds)
+        if self.walker is not None and self.walker.walk(self.held_positions, seconds, self.fast):
+            self.walker.place(self.view)
+            self.changed = True
+        if self._message and clock.monotonic() >= self._message_ends:
+            self._message = ""
+            self.changed = True
+        if self._files.changed():
+            self._reload()
+
+    def _play(self, seconds: float) -> None:
+        subject = self.studio.subject
+        self.changed = True
+        self.time = (self.time + seconds) % subject.period
+        if subject.update is None and self.walker is None and self.drag is None:
+            self.orbit.turn(2 * math.pi * seconds / subject.period, 0.0)
+
+    def draw(self) -> None:
+        """Draw one frame, its overlays, and show it."""
+        start = clock.monotonic()
+        width, height = self.window.size
+        self.studio.resize(width, height)
+        self.changed = False
+        self.frame = self.studio.draw(self.view, self.time)
+        self._draw_overlays()
+        drawn = clock.monotonic()
+        self.window.present(self.frame.color)
+        self.frame_times.add(drawn - start, clock.monotonic() - start)
+
+    def _draw_overlays(self) -> None:
+        messages = [line for line in (self._trouble, self._message) if line]
+        if not (self.show_help or self.show_statistics or messages):
+            return
+        canvas = self.frame.canvas()
+        scale = self.studio.text_scale(canvas)
+        if self.show_help:
+            self.help_pages = draw_help(canvas, self.help_page, scale)
+        elif self.show_statistics:
+            draw_block(canvas, self._statistics(), scale=scale)
+        draw_block(canvas, messages, corner="bottom", scale=scale)
+
+    def _statistics(self) -> list[str]:
+        studio = self.studio
+        return statistics_lines(
+            self.frame_times.seconds,
+            studio.size,
+            studio.samples,
+            self.frame.stats,
+        )
+
+    def _update_title(self) -> None:
+        """Write the name and what frames take, now and then; at once where nothing moves."""
+        now, idle = clock.monotonic(), not self._lively()
+        if now < self._title_due and not idle:
+            return
+        self._title_due = now + TITLE_SECONDS
+        parts = (self.studio.subject.title, "engine3d", self.frame_times.text(idle))
+        title = printable(" - ".join(filter(None, parts)))
+        if title != self._title:
+            self._title = title
+            self.window.set_title(title)
+
+    def say(self, message: str) -> None:
+        """Show a message for a moment, which is longer for more words."""
+        self._message = printable(message)
+        seconds = max(MESSAGE_SECONDS, len(message) / READ_A_SECOND)
+        self._message_ends = clock.monotonic() + seconds
+        self.changed = True
+
+    def open(self, paths) -> None:
+        """Show other files; where one cannot be read, what is there stays, and why is said."""
+        try:
+            subject = self._files.replace(paths)
+        except (Engine3DError, MemoryError) as error:
+            self.say(_reason(error))
+            return
+        self._show(subject)
+        self.time = 0.0
+        self.playing = subject.plays
+        self.first_view = self.studio.view()
+        viewer_actions.reset_view(self)
+        self.say(subject.warnings[0] if subject.warnings else f"opened {subject.title}")
+
+    def _reload(self) -> None:
+        """Show the files as they are now; what is wrong with them is said until they are whole."""
+        self.changed = True
+        if missing := self._files.missing():
+            self._trouble = printable(f"{', '.join(missing)} is not there: this is what it was")
+            return
+        try:
+            subject = self._files.reload()
+        except (Engine3DError, MemoryError) as error:
+            self._trouble = printable(_reason(error))
+            return
+        before = self.studio.bounds
+        self._show(subject, keep_look=True)
+        said = subject.warnings[0] if subject.warnings else f"loaded {subject.title} again"
+        if not self._in_view(before):
+            said += "; it was out of view"
+            self._frame_again()
+        self.say(said)
+
+    def _show(self, subject, *, keep_look: bool = False) -> None:
+        self.studio.show(subject, keep_look=keep_look)
+        self._trouble = ""
+        self._title_due = 0.0
+
+    def _frame_again(self) -> None:
+        """Look at all of what is shown now, from the same side; a reset does so from now on."""
+        if self.walker is not None:
+            viewer_actions.toggle_walking(self)
+        for view in (self.view, self.first_view):
+            self.studio.frame(view)
+
+    def _in_view(self, before: Sphere) -> bool:
+        """Return whether the subject, which had other bounds before, is still worth looking at."""
+        now = self.studio.bounds
+        alike = 1 / ALIKE < now.radius / before.radius < ALIKE
+        return alike and self.view.sees(now, self.studio.aspect)
+
+    # Events
+
+    def handle(self, event) -> None:
+        """Obey one event of `input`."""
+        handler = _HANDLERS.get(type(event))
+        if handler is not None:
+            handler(self, event)
+
+    def _key_down(self, event) -> None:
+        self.fast = event.shift
+        if self.walker is not None and self._walk_key(event):
+            return
+        if event.position in ORBIT_ARROWS and self.walker is None:
+            right, up = ORBIT_ARROWS[event.position]
+            self.orbit.turn(right * ARROW_RADIANS, up * ARROW_RADIANS)
+            self.changed = True
+            return
+        action = action_for(event.key, event.position)
+        if action is not None and not event.repeat and not event.control:
+            getattr(viewer_actions, action)(self, -1 if event.shift else 1)
+            self.changed = True
+
+    def _walk_key(self, event) -> bool:
+        """Obey a key of walking mode; return whether it was one."""
+        if event.key == "Escape":
+            viewer_actions.toggle_walking(self)
+            return True
+        if event.position in MOVES or event.position in LOOKS:
+            self.held_positions.add(event.position)
+            return True
+        return False
+
+    def _key_up(self, event) -> None:
+        self.held_positions.discard(event.position)
+        if event.key == "C":
+            self._unfreeze_culling()
+        if event.key.endswith("Shift"):
+            self.fast = False
+
+    def _button(self, event) -> None:
+        if self.walker is not None:
+            return
+        self.window.hold_mouse(event.down)
+        if not event.down:
+            self.drag = None
+        elif event.button == "left":
+            self.drag = "pan" if event.shift or event.control else "rotate"
+        else:
+            self.drag = {"middle": "dolly", "right": "pan"}[event.button]
+
+    def _motion(self, event) -> None:
+        height = self.studio.size[1]
+        if self.walker is not None:
+            self.walker.look(event.dx, event.dy)
+            self.walker.place(self.view)
+        elif self.drag == "rotate":
+            self.orbit.rotate(event.dx, event.dy, height)
+        elif self.drag == "pan":
+            self.orbit.pan(event.dx, event.dy, height)
+        elif self.drag == "dolly":
+            self.orbit.dolly_drag(event.dy)
+        else:
+            return
+        self.changed = True
+
+    def _wheel(self, event) -> None:
+        if self.walker is not None:
+            self.walker.change_speed(event.steps)
+            return
+        self.orbit.dolly(event.steps)
+        self.changed = True
+
+    def _redraw(self, event) -> None:
+        self.changed = True
+
+    def _unfreeze_culling(self) -> None:
+        self.studio.freeze_culling(None)
+        self.changed = True
+
+    def _release_keys(self, event) -> None:
+        self.held_positions.clear()
+        self._unfreeze_culling()
+        self.drag = None
+
+    def _dropped(self, event) -> None:
+        self.open(event.paths)
+
+    def _close(self, event) -> None:
+        self.running = False
+
+
+_HANDLERS = {
+    events.KeyDown: Viewer._key_down,
+    events.KeyUp: Viewer._key_up,
+    events.MouseButton: Viewer._button,
+    events.MouseMotion: Viewer._motion,
+    events.Wheel: Viewer._wheel,
+    events.Resized: Viewer._redraw,
+    events.Exposed: Viewer._redraw,
+    events.Restored: Viewer._redraw,
+    events.Minimised: Viewer._release_keys,
+    events.FocusLost: Viewer._release_keys,
+    events.FilesDropped: Viewer._dropped,
+    events.CloseRequested: Viewer._close,
+}
+
+
+def _reason(error: Exception) -> str:
+    return "out of memory" if isinstance(error, MemoryError) else str(error)

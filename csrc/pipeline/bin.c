@@ -37,6 +37,13 @@ int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles)
     return 1;
 }
 
+void e3d_records_free(e3d_record_set *set)
+{
+    e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins, &set->earlier};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        e3d_array_free(arrays[i]);
+}
+
 int e3d_records_reset(e3d_record_set *set, int32_t tiles)
 {
     set->records.count = set->corners.count = set->keys.count = 0;

@@ -19,7 +19,7 @@ static int find_blank(const e3d_context *context, e3d_worker *worker)
             return 0;
         if (e3d_tile_state_of(&context->tiles[tile]) == E3D_TILE_UNTOUCHED && !e3d_has_bins(context, tile)) {
             e3d_tile_set_state(&context->tiles[tile], E3D_TILE_CLEARED);
-            worker->blank = e3d_tile_at(context->view, tile);
+            worker->blank.tile = e3d_tile_at(context->view, tile);
             return 1;
         }
     }
@@ -28,15 +28,15 @@ static int find_blank(const e3d_context *context, e3d_worker *worker)
 
 void e3d_blank_begin(e3d_worker *worker)
 {
-    worker->blank = (e3d_tile){0};
-    worker->blanks = 1;
+    worker->blank.tile = (e3d_tile){0};
+    worker->blank.more = 1;
 }
 
 e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker)
 {
-    if (!worker->blank.height)
-        worker->blanks = worker->blanks && find_blank(context, worker);
-    return &worker->blank;
+    if (!worker->blank.tile.height)
+        worker->blank.more = worker->blank.more && find_blank(context, worker);
+    return &worker->blank.tile;
 }
 
 /* Rows of a tile that are all background. */
@@ -59,6 +59,6 @@ void e3d_blank_some(const e3d_context *context, e3d_worker *worker)
 
 void e3d_blank_rest(const e3d_context *context, e3d_worker *worker)
 {
-    while (worker->blanks || worker->blank.height)
+    while (worker->blank.more || worker->blank.tile.height)
         e3d_blank_some(context, worker);
 }

@@ -2,11 +2,16 @@
 #ifndef E3D_BLANK_H
 #define E3D_BLANK_H
 
-#include <stdint.h>
+#include "pipeline/view.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;
-typedef struct e3d_tile e3d_tile;
+
+/* A thread's memory: what is left of the tile that it is clearing, and whether there may be more. */
+typedef struct e3d_blank_state {
+    e3d_tile tile;
+    int more;
+} e3d_blank_state;
 
 /* Clears such tiles: some rows at a time, and at last what is left of all. */
 void e3d_blank_begin(e3d_worker *worker);

@@ -42,11 +42,11 @@ static void add_item(e3d_context *context, e3d_worker *worker, const e3d_draw_st
     }
     const e3d_box blocks = e3d_blocks_of(&item.view.samples);
     worker->counters.blocks += (int64_t)(blocks.x1 - blocks.x0 + 1) * (blocks.y1 - blocks.y0 + 1);
-    if (!e3d_array_reserve(&worker->items, worker->items.count + 1, sizeof item)) {
+    if (!e3d_array_reserve(&worker->cull.items, worker->cull.items.count + 1, sizeof item)) {
         worker->failed = 1;
         return;
     }
-    ((e3d_item *)worker->items.data)[worker->items.count++] = item;
+    ((e3d_item *)worker->cull.items.data)[worker->cull.items.count++] = item;
 }
 
 /* Groups [first, end) of the frame: draw after draw, instance after instance. */
@@ -74,15 +74,15 @@ static void cull_work(void *argument, int number)
 {
     e3d_context *context = argument;
     e3d_worker *worker = context->renderer->workers[number];
-    task *tasks = context->renderer->tasks.data;
+    task *tasks = context->renderer->cull.tasks.data;
     while (!atomic_load(&context->stop)) {
         int64_t at = atomic_fetch_add(&context->next, 1), first = at * GROUPS_A_TASK;
         if (first >= context->draws->groups)
             return;
         int64_t end = first + GROUPS_A_TASK < context->draws->groups ? first + GROUPS_A_TASK : context->draws->groups;
-        size_t before = worker->items.count;
+        size_t before = worker->cull.items.count;
         cull_groups(context, worker, first, end);
-        tasks[at] = (task){number, (int32_t)(worker->items.count - before), before};
+        tasks[at] = (task){number, (int32_t)(worker->cull.items.count - before), before};
     }
 }
 
@@ -104,11 +104,11 @@ static uint32_t bucket_of(float near)
 static int sort_items(e3d_context *context, int64_t task_count)
 {
     e3d_renderer *renderer = context->renderer;
-    const task *tasks = renderer->tasks.data;
+    const task *tasks = renderer->cull.tasks.data;
     uint32_t start[BUCKETS] = {0}, total = 0;
     for (int32_t w = 0; w < renderer->threads; w++) {
-        const e3d_item *items = renderer->workers[w]->items.data;
-        for (size_t i = 0; i < renderer->workers[w]->items.count; i++)
+        const e3d_item *items = renderer->workers[w]->cull.items.data;
+        for (size_t i = 0; i < renderer->workers[w]->cull.items.count; i++)
             start[bucket_of(items[i].view.near)]++;
     }
     for (int b = 0; b < BUCKETS; b++) {
@@ -116,11 +116,11 @@ static int sort_items(e3d_context *context, int64_t task_count)
         start[b] = total;
         total += count;
     }
-    if (!e3d_array_reserve(&renderer->items, (size_t)total + 1, sizeof(e3d_item)))
+    if (!e3d_array_reserve(&renderer->cull.items, (size_t)total + 1, sizeof(e3d_item)))
         return 0;
-    e3d_item *out = renderer->items.data;
+    e3d_item *out = renderer->cull.items.data;
     for (int64_t t = 0; t < task_count; t++) {
-        const e3d_item *items = renderer->workers[tasks[t].worker]->items.data;
+        const e3d_item *items = renderer->workers[tasks[t].worker]->cull.items.data;
         for (int32_t i = 0; i < tasks[t].count; i++) {
             const e3d_item *item = &items[tasks[t].first + i];
             out[start[bucket_of(item->view.near)]++] = *item;
@@ -135,14 +135,17 @@ int e3d_find_items(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
     int64_t task_count = (context->draws->groups + GROUPS_A_TASK - 1) / GROUPS_A_TASK;
-    if (!e3d_array_reserve(&renderer->tasks, (size_t)task_count + 1, sizeof(task)))
+    if (!e3d_array_reserve(&renderer->cull.tasks, (size_t)task_count + 1, sizeof(task)))
         return 0;
     for (int32_t w = 0; w < renderer->threads; w++)
-        renderer->workers[w]->items.count = 0;
+        renderer->workers[w]->cull.items.count = 0;
     atomic_store(&context->next, 0);
     e3d_pool_run(task_count > 1 ? renderer->threads : 1, cull_work, context);
-    for (int32_t w = 0; w < renderer->threads; w++)
-        if (renderer->workers[w]->failed)
-            return 0;
-    return sort_items(context, task_count);
+    return !e3d_any_failed(renderer) && sort_items(context, task_count);
+}
+
+void e3d_cull_free(e3d_cull_memory *memory)
+{
+    e3d_array_free(&memory->tasks);
+    e3d_array_free(&memory->items);
 }

@@ -16,6 +16,13 @@
 #include "pipeline/tile.h"
 #include "pipeline/view.h"
 
+void e3d_fragments_free(e3d_fragment_set *set)
+{
+    e3d_array *arrays[] = {&set->blocks, &set->bins, &set->earlier, &set->drawn};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        e3d_array_free(arrays[i]);
+}
+
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
 {
     set->drawn.count = 0;

@@ -35,6 +35,7 @@ static inline const e3d_fragment_block *e3d_next_fragments(const e3d_fragment_se
     return e3d_fragment_block_at(set, block->next);
 }
 
+void e3d_fragments_free(e3d_fragment_set *set);
 int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
 /* Whether a cluster more can have IDs. */
 int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker);

@@ -1,4 +1,4 @@
-/* What the stages of a frame share: the frame itself, the renderer, and each thread's own memory. Data flows one way: prepare ->
+/* A frame while it is drawn, the renderer that draws it, and its threads: sums of what the stages keep. Data flows one way: prepare ->
  * geometry (cull, transform, clip, setup, bin) -> tiles (raster, shade, resolve).
  */
 #ifndef E3D_FRAME_H
@@ -12,54 +12,53 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/records.h"
-#include "kernels/types/shading.h"
-#include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
+#include "pipeline/blank.h"
 #include "pipeline/counts.h"
+#include "pipeline/cull.h"
+#include "pipeline/depths.h"
 #include "pipeline/draws.h"
 #include "pipeline/fragments.h"
+#include "pipeline/geometry.h"
 #include "pipeline/history.h"
+#include "pipeline/late.h"
 #include "pipeline/lines.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
 #include "pipeline/records.h"
 #include "pipeline/resolve.h"
+#include "pipeline/rounds.h"
 #include "pipeline/share.h"
+#include "pipeline/slots.h"
 #include "pipeline/spans.h"
+#include "pipeline/surface.h"
 #include "pipeline/tile_state.h"
 #include "pipeline/view.h"
 
-typedef struct e3d_item e3d_item;
-typedef struct e3d_tile_depths e3d_tile_depths;
 typedef struct e3d_tile_memory e3d_tile_memory;
 
 /* Records are of the scene, or of the edges of a wireframe. */
 enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
 
+/* A thread: the memory of each stage, kept from frame to frame. */
 typedef struct e3d_worker {
     e3d_record_set pass[E3D_PASSES];
     e3d_fragment_set fragments;
-    _Alignas(64) e3d_vertices vertices[2]; /* of the cluster that is drawn, and of the next */
-    e3d_survivors survivors;
+    e3d_geometry_state geometry;
     e3d_tile_memory *tile;
     e3d_visible_tile *visible; /* of the tile that is being drawn */
     uint32_t number;           /* of this worker */
-    e3d_array slots, orders; /* uint32_t, where samples keep slots: the record ID of each, and its order */
-    e3d_array items;        /* e3d_item, as the groups come */
-    e3d_array pieces;       /* e3d_visible_piece of the tile */
-    e3d_array groups;       /* e3d_group of the tile */
-    e3d_array outputs;      /* int32_t or float: the tile's, one output after the other */
+    e3d_slots_state slots;
+    e3d_cull_state cull;
+    e3d_surface_state surface;
+    e3d_outputs_state outputs;
     e3d_counters counters;
-    e3d_spans_trial trial;
-    e3d_places taken[E3D_TO_DO];
-    e3d_pixel_rows late_drawn, late_blank; /* what is left to write of tiles: the last one, and one that nothing is in */
-    e3d_tile blank;         /* what is left of the one that is being cleared */
-    int blanks;             /* whether there may be more */
-    int64_t lap;            /* when the last stage of a tile ended (e3d_lap) */
-    int failed;             /* out of memory */
-    char padding[128];      /* no false sharing between workers, */
-    e3d_share share[E3D_TO_DO]; /* others take from it, too */
-    char more_padding[128];
+    e3d_spans_state spans;
+    e3d_late_state late;
+    e3d_blank_state blank;
+    int64_t lap; /* when the last stage of a tile ended (e3d_lap) */
+    int failed;  /* out of memory */
+    e3d_share_state share;
 } e3d_worker;
 
 struct e3d_renderer {
@@ -69,13 +68,11 @@ struct e3d_renderer {
     e3d_worker **workers;
     e3d_draws draws;
     e3d_view view;
-    e3d_array marks;            /* uint8_t of each instance: E3D_MARK_ */
-    e3d_array tasks, items;     /* e3d_item, near ones first */
+    e3d_cull_memory cull;
     e3d_histories histories;
-    e3d_array tile_progress;    /* e3d_tile_progress */
-    e3d_array tile_depths;      /* e3d_tile_depths */
-    e3d_visible_tile *kept;     /* over the rounds of a frame */
-    size_t kept_room;
+    e3d_kept_memory kept;
+    e3d_array marks;         /* uint8_t of each instance: E3D_MARK_ */
+    e3d_array tile_progress; /* e3d_tile_progress */
     int (*poll)(void *);
     void *poll_user;
 };
@@ -126,7 +123,14 @@ typedef struct e3d_context {
     int64_t last_poll;
 } e3d_context;
 
-int e3d_any_failed(const e3d_renderer *renderer);
+/* Whether memory was out for any thread. */
+static inline int e3d_any_failed(const e3d_renderer *renderer)
+{
+    for (int32_t w = 0; w < renderer->threads; w++)
+        if (renderer->workers[w]->failed)
+            return 1;
+    return 0;
+}
 
 /* Adds to a stage's time what has passed since the thread's last lap. */
 static inline void e3d_lap(e3d_worker *worker, int64_t *stage_ns)

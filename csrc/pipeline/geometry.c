@@ -180,7 +180,7 @@ static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint
 
 static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int tiny)
 {
-    uint64_t draw = w->worker->survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
+    uint64_t draw = w->worker->geometry.survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
     draw_some(w, cluster, indices, draw & ~both, tiny, culled_sign(w));
     draw_some(w, cluster, indices, both, tiny, 0);
 }
@@ -204,7 +204,7 @@ static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t on
 
 static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
 {
-    uint64_t small = w->worker->survivors.small;
+    uint64_t small = w->worker->geometry.survivors.small;
     if (w->draw->any_two_sided)
         small &= ~find_culled(w, indices, small & ~find_two_sided(w, cluster, small));
     e3d_drawn_cluster *drawn = small ? e3d_fragments_cluster(w->worker) : NULL;
@@ -248,7 +248,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     e3d_worker *worker = w->worker;
     int fragments = e3d_plans(w->context, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
-    e3d_survivors *s = &worker->survivors;
+    e3d_survivors *s = &worker->geometry.survivors;
     int count = kernels->setup(w->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
     worker->counters.triangles_rejected += cluster->triangles - count;
     fetch_records(w, __builtin_popcountll(s->draw));
@@ -411,14 +411,14 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
     int closely = w->context->round.tested && is_wide(&item->view.samples);
     unsigned left = !e3d_plans(w->context, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
     if (left)
-        transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->vertices[0]);
+        transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->geometry.vertices[0]);
     for (int turn = 0; left; left &= left - 1, turn ^= 1) {
         int k = __builtin_ctz(left);
         unsigned after = left & (left - 1);
         fetch_next(w, clusters, after & (after - 1));
         if (after) /* before this one is drawn: neither waits for the other */
-            transform_cluster(w, item, &clusters[__builtin_ctz(after)], &w->worker->vertices[!turn]);
-        w->vertices = &w->worker->vertices[turn];
+            transform_cluster(w, item, &clusters[__builtin_ctz(after)], &w->worker->geometry.vertices[!turn]);
+        w->vertices = &w->worker->geometry.vertices[turn];
         if (closely && vertices_are_hidden(w)) {
             fates[k] = E3D_FATE_OCCLUDED;
             shown &= ~(1u << k);

@@ -2,7 +2,16 @@
 #ifndef E3D_GEOMETRY_H
 #define E3D_GEOMETRY_H
 
+#include "kernels/types/records.h"
+#include "kernels/types/vertices.h"
+
 typedef struct e3d_context e3d_context;
+
+/* A thread's memory. */
+typedef struct e3d_geometry_state {
+    _Alignas(64) e3d_vertices vertices[2]; /* of the cluster that is drawn, and of the next */
+    e3d_survivors survivors;
+} e3d_geometry_state;
 
 void e3d_geometry(e3d_context *context);
 

@@ -32,11 +32,11 @@ static void write_some(const e3d_context *context, e3d_pixel_rows *rows, int som
 void e3d_late_add(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
     e3d_tile_memory *memory = worker->tile;
-    write_some(context, &worker->late_drawn, E3D_TILE);
-    if (rows_of(context, tile, memory->rgba, E3D_TILE * sizeof(uint32_t), &worker->late_drawn)) {
+    write_some(context, &worker->late.drawn, E3D_TILE);
+    if (rows_of(context, tile, memory->rgba, E3D_TILE * sizeof(uint32_t), &worker->late.drawn)) {
         memory->rgba = memory->pixels[memory->rgba == memory->pixels[0]];
     } else {
-        worker->late_drawn.count = 0;
+        worker->late.drawn.count = 0;
         e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
     }
 }
@@ -48,19 +48,19 @@ static void add_blank(const e3d_context *context, e3d_worker *worker)
     for (int k = 0; k < E3D_OUTPUTS; k++)
         if (context->outputs[k].target)
             return;
-    if (blank->height && rows_of(context, blank, context->background.row, 0, &worker->late_blank))
+    if (blank->height && rows_of(context, blank, context->background.row, 0, &worker->late.blank))
         blank->height = 0;
     else
-        worker->late_blank.count = 0;
+        worker->late.blank.count = 0;
 }
 
 e3d_pixel_rows *e3d_late_rows(const e3d_context *context, e3d_worker *worker)
 {
-    if (worker->late_drawn.count)
-        return &worker->late_drawn;
-    if (!worker->late_blank.count)
+    if (worker->late.drawn.count)
+        return &worker->late.drawn;
+    if (!worker->late.blank.count)
         add_blank(context, worker);
-    return worker->late_blank.count ? &worker->late_blank : NULL;
+    return worker->late.blank.count ? &worker->late.blank : NULL;
 }
 
 void e3d_late_some(const e3d_context *context, e3d_pixel_rows *rows)
@@ -70,6 +70,6 @@ void e3d_late_some(const e3d_context *context, e3d_pixel_rows *rows)
 
 void e3d_late_rest(const e3d_context *context, e3d_worker *worker)
 {
-    write_some(context, &worker->late_drawn, E3D_TILE);
-    write_some(context, &worker->late_blank, E3D_TILE);
+    write_some(context, &worker->late.drawn, E3D_TILE);
+    write_some(context, &worker->late.blank, E3D_TILE);
 }

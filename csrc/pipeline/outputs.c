@@ -43,7 +43,7 @@ int e3d_outputs_prepare(e3d_context *context)
         words += target ? (size_t)KINDS[k].channels * PLACES : 0;
     }
     for (int32_t w = 0; w < context->renderer->threads; w++)
-        if (!e3d_array_reserve(&context->renderer->workers[w]->outputs, words, sizeof(int32_t)))
+        if (!e3d_array_reserve(&context->renderer->workers[w]->outputs.words, words, sizeof(int32_t)))
             return 0;
     return 1;
 }
@@ -52,7 +52,7 @@ int e3d_outputs_prepare(e3d_context *context)
 static void *gathered(const e3d_context *context, const e3d_worker *worker, e3d_output_kind kind)
 {
     const e3d_output *output = &context->outputs[kind];
-    return output->target ? (int32_t *)worker->outputs.data + output->first : NULL;
+    return output->target ? (int32_t *)worker->outputs.words.data + output->first : NULL;
 }
 
 void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker)
@@ -170,8 +170,8 @@ static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
 static void put_ids(const e3d_context *context, const e3d_worker *worker, const int32_t *at)
 {
     const e3d_batch *batch = &worker->tile->batch;
-    const e3d_visible_piece *pieces = worker->pieces.data;
-    const e3d_group *groups = worker->groups.data;
+    const e3d_visible_piece *pieces = worker->surface.pieces.data;
+    const e3d_group *groups = worker->surface.groups.data;
     int32_t *triangles = gathered(context, worker, E3D_OUTPUT_TRIANGLE_ID);
     int32_t *objects = gathered(context, worker, E3D_OUTPUT_OBJECT_ID);
     int32_t *instances = gathered(context, worker, E3D_OUTPUT_INSTANCE_ID);

@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+#include "core/grow.h"
+
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;
 typedef struct e3d_tile e3d_tile;
@@ -12,6 +14,11 @@ typedef struct e3d_output {
     void *target; /* or NULL */
     size_t first; /* word in e3d_worker.outputs */
 } e3d_output;
+
+/* A thread's memory, of one tile. */
+typedef struct e3d_outputs_state {
+    e3d_array words; /* int32_t or float: one output after the other */
+} e3d_outputs_state;
 
 int e3d_outputs_prepare(e3d_context *context); /* 0 when memory is out */
 void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker);

@@ -38,4 +38,6 @@ static inline const e3d_bin_block *e3d_next_records(const e3d_record_set *set, c
     return e3d_bin_block_at(set, block->next);
 }
 
+void e3d_records_free(e3d_record_set *set);
+
 #endif

@@ -7,10 +7,15 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/visible.h"
+#include "pipeline/cull.h"
 #include "pipeline/draws.h"
+#include "pipeline/fragments.h"
 #include "pipeline/frame.h"
 #include "pipeline/history.h"
 #include "pipeline/records.h"
+#include "pipeline/rounds.h"
+#include "pipeline/slots.h"
+#include "pipeline/surface.h"
 #include "pipeline/tile.h"
 #include "pipeline/view.h"
 
@@ -35,22 +40,13 @@ static void destroy_worker(e3d_worker *worker)
 {
     if (!worker)
         return;
-    for (int p = 0; p < E3D_PASSES; p++) {
-        e3d_record_set *set = &worker->pass[p];
-        e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins, &set->earlier};
-        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-            e3d_array_free(arrays[i]);
-    }
-    e3d_array_free(&worker->fragments.blocks);
-    e3d_array_free(&worker->fragments.bins);
-    e3d_array_free(&worker->fragments.earlier);
-    e3d_array_free(&worker->fragments.drawn);
-    e3d_array_free(&worker->slots);
-    e3d_array_free(&worker->orders);
-    e3d_array_free(&worker->items);
-    e3d_array_free(&worker->pieces);
-    e3d_array_free(&worker->groups);
-    e3d_array_free(&worker->outputs);
+    for (int p = 0; p < E3D_PASSES; p++)
+        e3d_records_free(&worker->pass[p]);
+    e3d_fragments_free(&worker->fragments);
+    e3d_slots_free(&worker->slots);
+    e3d_array_free(&worker->cull.items);
+    e3d_surface_free(&worker->surface);
+    e3d_array_free(&worker->outputs.words);
     free(worker->tile);
     free(worker);
 }
@@ -89,11 +85,11 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     free(renderer->workers);
     e3d_draws_free(&renderer->draws);
     e3d_view_free(&renderer->view);
-    e3d_array *arrays[] = {&renderer->marks, &renderer->tasks, &renderer->items, &renderer->tile_progress, &renderer->tile_depths};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        e3d_array_free(arrays[i]);
+    e3d_cull_free(&renderer->cull);
     e3d_histories_free(&renderer->histories);
-    free(renderer->kept);
+    e3d_kept_free(&renderer->kept);
+    e3d_array_free(&renderer->marks);
+    e3d_array_free(&renderer->tile_progress);
     free(renderer);
 }
 
@@ -101,12 +97,4 @@ void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *us
 {
     renderer->poll = poll;
     renderer->poll_user = user;
-}
-
-int e3d_any_failed(const e3d_renderer *renderer)
-{
-    for (int32_t w = 0; w < renderer->threads; w++)
-        if (renderer->workers[w]->failed)
-            return 1;
-    return 0;
 }

@@ -31,40 +31,45 @@
 
 /* ---- memory ---- */
 
-static int reserve_tiles(e3d_renderer *renderer, size_t tiles)
+static int reserve_tiles(e3d_kept_memory *kept, size_t tiles)
 {
-    if (tiles <= renderer->kept_room)
+    if (tiles <= kept->room)
         return 1;
-    free(renderer->kept);
-    renderer->kept = NULL;
-    renderer->kept_room = 0;
-    renderer->kept = e3d_large_memory(tiles * sizeof(e3d_visible_tile));
-    if (!renderer->kept)
+    free(kept->tiles);
+    kept->room = 0;
+    kept->tiles = e3d_large_memory(tiles * sizeof(e3d_visible_tile));
+    if (!kept->tiles)
         return 0;
-    renderer->kept_room = tiles;
+    kept->room = tiles;
     return 1;
+}
+
+void e3d_kept_free(e3d_kept_memory *kept)
+{
+    free(kept->tiles);
+    e3d_array_free(&kept->depths);
 }
 
 e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height)
 {
+    e3d_kept_memory *kept = &renderer->kept;
     int64_t across = ((int64_t)width + E3D_TILE - 1) / E3D_TILE, down = ((int64_t)height + E3D_TILE - 1) / E3D_TILE;
     if (renderer->backend == E3D_BACKEND_SCALAR || (int64_t)width * height > E3D_MOST_KEPT_SAMPLES)
         return E3D_OK;
-    if (!reserve_tiles(renderer, (size_t)(across * down)))
+    if (!reserve_tiles(kept, (size_t)(across * down)))
         return E3D_OUT_OF_MEMORY;
-    memset(renderer->kept, 0, renderer->kept_room * sizeof *renderer->kept);
+    memset(kept->tiles, 0, kept->room * sizeof *kept->tiles);
     return E3D_OK;
 }
 
 static int begin(e3d_context *context)
 {
-    e3d_renderer *renderer = context->renderer;
+    e3d_kept_memory *kept = &context->renderer->kept;
     size_t tiles = (size_t)e3d_tile_count(context->view);
-    if (!reserve_tiles(renderer, tiles) ||
-        !e3d_array_reserve(&renderer->tile_depths, tiles, sizeof(e3d_tile_depths)))
+    if (!reserve_tiles(kept, tiles) || !e3d_array_reserve(&kept->depths, tiles, sizeof(e3d_tile_depths)))
         return 0;
-    context->kept = renderer->kept;
-    context->depths = renderer->tile_depths.data;
+    context->kept = kept->tiles;
+    context->depths = kept->depths.data;
     for (size_t t = 0; t < tiles; t++)
         e3d_depths_clear(&context->depths[t]);
     return 1;

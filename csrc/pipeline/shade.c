@@ -44,7 +44,7 @@ static uint32_t number_bytes(int32_t id) { return ((uint32_t)id + 1) * 0x9E3779B
 
 static void show_numbers(const e3d_frame *frame, const e3d_worker *worker, e3d_batch *batch)
 {
-    const e3d_visible_piece *pieces = worker->pieces.data;
+    const e3d_visible_piece *pieces = worker->surface.pieces.data;
     for (int i = 0; i < batch->count; i++) {
         const e3d_visible_piece *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
         if (frame->mode == E3D_MODE_RANDOM)
@@ -213,10 +213,10 @@ typedef struct stretch {
 /* The one that begins with piece `first`; the piece behind it in the chain. A single group has all pieces of the tile. */
 static int32_t find_stretch(const e3d_worker *worker, int32_t first, int32_t end, stretch *out)
 {
-    const e3d_visible_piece *pieces = worker->pieces.data;
+    const e3d_visible_piece *pieces = worker->surface.pieces.data;
     int32_t p = first;
-    if (worker->groups.count == 1) {
-        int32_t behind = end < 0 ? (int32_t)worker->pieces.count : end;
+    if (worker->surface.groups.count == 1) {
+        int32_t behind = end < 0 ? (int32_t)worker->surface.pieces.count : end;
         *out = (stretch){first, behind, pieces[first].first, pieces[behind - 1].end};
         return end;
     }
@@ -274,8 +274,8 @@ int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_ti
 {
     if (!e3d_find_pieces(context, worker))
         return 0;
-    const e3d_group *groups = worker->groups.data;
-    for (size_t g = 0; g < worker->groups.count; g++)
+    const e3d_group *groups = worker->surface.groups.data;
+    for (size_t g = 0; g < worker->surface.groups.count; g++)
         shade_group(context, worker, tile, &groups[g]);
     return 1;
 }

@@ -12,9 +12,9 @@ void e3d_share_tiles(e3d_context *context)
     for (int w = 0; w < threads; w++)
         for (int what = 0; what < E3D_TO_DO; what++) {
             e3d_worker *worker = context->renderer->workers[w];
-            atomic_store(&worker->share[what].next, tiles * w / threads);
-            worker->share[what].end = tiles * (w + 1) / threads;
-            worker->taken[what] = (e3d_places){0, 0};
+            atomic_store(&worker->share.of[what].next, tiles * w / threads);
+            worker->share.of[what].end = tiles * (w + 1) / threads;
+            worker->share.taken[what] = (e3d_places){0, 0};
         }
 }
 
@@ -25,11 +25,11 @@ static int take_more(const e3d_renderer *renderer, e3d_worker *worker, e3d_to_do
     enum { PARTS = 16 };
     int threads = renderer->threads;
     for (int k = 0, owner = (int)worker->number; k < threads; k++, owner = owner + 1 < threads ? owner + 1 : 0) {
-        e3d_share *from = &renderer->workers[owner]->share[what];
+        e3d_share *from = &renderer->workers[owner]->share.of[what];
         int64_t left = from->end - atomic_load(&from->next), some = 1 + left / PARTS;
         int64_t first = left > 0 ? atomic_fetch_add(&from->next, some) : from->end;
         if (first < from->end) {
-            worker->taken[what] = (e3d_places){first, first + some < from->end ? first + some : from->end};
+            worker->share.taken[what] = (e3d_places){first, first + some < from->end ? first + some : from->end};
             return 1;
         }
     }
@@ -38,7 +38,7 @@ static int take_more(const e3d_renderer *renderer, e3d_worker *worker, e3d_to_do
 
 int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what)
 {
-    e3d_places *taken = &worker->taken[what];
+    e3d_places *taken = &worker->share.taken[what];
     if (taken->next == taken->end && !take_more(context->renderer, worker, what))
         return -1;
     return taken->next++;

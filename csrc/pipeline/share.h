@@ -21,6 +21,14 @@ typedef struct e3d_places {
     int64_t next, end;
 } e3d_places;
 
+/* A thread's memory. Others take from its shares, too: the padding keeps them off the cache lines of the rest. */
+typedef struct e3d_share_state {
+    e3d_places taken[E3D_TO_DO];
+    char padding[128];
+    e3d_share of[E3D_TO_DO];
+    char more_padding[128];
+} e3d_share_state;
+
 /* All tiles are to be done, each by one worker. */
 void e3d_share_tiles(e3d_context *context);
 

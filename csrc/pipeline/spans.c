@@ -87,7 +87,7 @@ static int show_met(const e3d_context *context, e3d_tile_memory *memory)
 }
 
 /* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
-static void judge(e3d_spans_trial *trial, int pays)
+static void judge(e3d_spans_state *trial, int pays)
 {
     enum { MOST = 15 };
     trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1 : MOST;
@@ -97,15 +97,15 @@ static void judge(e3d_spans_trial *trial, int pays)
 int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number)
 {
     e3d_tile_memory *memory = worker->tile;
-    if (worker->trial.left > 0) {
-        worker->trial.left--;
+    if (worker->spans.left > 0) {
+        worker->spans.left--;
         return 0;
     }
     if (!are_few(context, number))
         return 0;
     begin(memory, tile);
     int shows = cover_records(context, memory, number) && (!meet(&memory->cover) || show_met(context, memory));
-    judge(&worker->trial, shows);
+    judge(&worker->spans, shows);
     return shows;
 }
 

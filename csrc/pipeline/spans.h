@@ -9,9 +9,9 @@ typedef struct e3d_worker e3d_worker;
 typedef struct e3d_tile e3d_tile;
 
 /* How many tiles go without spans since these did not pay, and how many of these are left. */
-typedef struct e3d_spans_trial {
+typedef struct e3d_spans_state {
     int32_t without, left;
-} e3d_spans_trial;
+} e3d_spans_state;
 
 /* Makes the list of what shows of few records; 0 where they are too large for that, or meet too much. */
 int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number);

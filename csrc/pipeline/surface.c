@@ -17,6 +17,12 @@
 #include "pipeline/surface.h"
 #include "pipeline/tile.h"
 
+void e3d_surface_free(e3d_surface_state *state)
+{
+    e3d_array_free(&state->pieces);
+    e3d_array_free(&state->groups);
+}
+
 /* ---- which primitive a piece is of ---- */
 
 /* The instance that was found last, and the order of its first primitive: mostly the next piece is of it, too. */
@@ -122,14 +128,14 @@ static int same_group(const e3d_group *a, const e3d_group *b)
 /* The group's number, or -1 when memory is out. */
 static int32_t number_group(e3d_worker *worker, const e3d_group *group)
 {
-    e3d_group *groups = worker->groups.data;
-    for (size_t g = worker->groups.count; g-- > 0;)
+    e3d_group *groups = worker->surface.groups.data;
+    for (size_t g = worker->surface.groups.count; g-- > 0;)
         if (same_group(&groups[g], group))
             return (int32_t)g;
-    if (!e3d_array_reserve(&worker->groups, worker->groups.count + 1, sizeof *group))
+    if (!e3d_array_reserve(&worker->surface.groups, worker->surface.groups.count + 1, sizeof *group))
         return -1;
-    ((e3d_group *)worker->groups.data)[worker->groups.count] = *group;
-    return (int32_t)worker->groups.count++;
+    ((e3d_group *)worker->surface.groups.data)[worker->surface.groups.count] = *group;
+    return (int32_t)worker->surface.groups.count++;
 }
 
 /* ---- the pieces of a tile ---- */
@@ -144,7 +150,7 @@ typedef struct group_finder {
 /* The group of a piece, whose last it becomes; 0 when memory is out. */
 static ALWAYS_INLINE int join_group(const e3d_context *context, e3d_worker *worker, int32_t number, group_finder *finder)
 {
-    e3d_visible_piece *pieces = worker->pieces.data, *piece = &pieces[number];
+    e3d_visible_piece *pieces = worker->surface.pieces.data, *piece = &pieces[number];
     int32_t id = group_id_of(piece);
     if (piece->draw != finder->draw || id != finder->id) {
         e3d_group group = group_of(context, piece->draw, id);
@@ -152,7 +158,7 @@ static ALWAYS_INLINE int join_group(const e3d_context *context, e3d_worker *work
         if (finder->group < 0)
             return 0;
     }
-    e3d_group *group = (e3d_group *)worker->groups.data + finder->group;
+    e3d_group *group = (e3d_group *)worker->surface.groups.data + finder->group;
     if (group->last < 0)
         group->first = number;
     else
@@ -200,7 +206,7 @@ static void find_primitives(const e3d_context *context, const e3d_shown_piece *o
 /* 0 when memory is out. */
 static int find_groups(const e3d_context *context, e3d_worker *worker, piece_range range, group_finder *finder)
 {
-    e3d_visible_piece *pieces = worker->pieces.data;
+    e3d_visible_piece *pieces = worker->surface.pieces.data;
     for (int32_t n = range.first; n < range.end; n++)
         find_vertices(&pieces[n]);
     for (int32_t n = range.first; n < range.end; n++)
@@ -224,17 +230,17 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
     group_finder group = {0};
     int32_t all = shown->pieces;
     shown->piece[all].first = shown->count;
-    worker->groups.count = 0;
-    if (!e3d_array_reserve(&worker->pieces, (size_t)all, sizeof(e3d_visible_piece)))
+    worker->surface.groups.count = 0;
+    if (!e3d_array_reserve(&worker->surface.pieces, (size_t)all, sizeof(e3d_visible_piece)))
         return 0;
-    e3d_visible_piece *pieces = worker->pieces.data;
+    e3d_visible_piece *pieces = worker->surface.pieces.data;
     for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
         find_named(&context->tables[E3D_PASS_SCENE], shown->piece, range_of(n, SOME, all), pieces);
         find_primitives(context, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
         if (!find_groups(context, worker, range_of(n - 2 * SOME, SOME, all), &group))
             return 0;
     }
-    worker->pieces.count = (size_t)all;
+    worker->surface.pieces.count = (size_t)all;
     return 1;
 }
 
@@ -371,9 +377,9 @@ static void set_texels(const e3d_group *group, e3d_surfaces *s)
 int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted)
 {
     enum { AHEAD = 24 };
-    const e3d_visible_piece *pieces = worker->pieces.data;
+    const e3d_visible_piece *pieces = worker->surface.pieces.data;
     e3d_surfaces *s = &worker->tile->surfaces;
-    int32_t p = first, last = (int32_t)worker->pieces.count - 1 - AHEAD;
+    int32_t p = first, last = (int32_t)worker->surface.pieces.count - 1 - AHEAD;
     for (int32_t i = first; i < first + AHEAD && i <= last && wanted & E3D_WANT_SURFACE; i++)
         fetch_vertices(&pieces[i], pieces[first].draw, wanted);
     s->count = s->matrices = s->irregular = s->projected = 0;
@@ -447,7 +453,7 @@ static void clear_positions(e3d_surfaces *s, int32_t n, int first)
 
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted)
 {
-    const e3d_visible_piece *pieces = worker->pieces.data;
+    const e3d_visible_piece *pieces = worker->surface.pieces.data;
     e3d_surfaces *s = &worker->tile->surfaces;
     for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
         s->matrix[n] = s->matrix[s->count - 1];

@@ -2,6 +2,7 @@
 #ifndef E3D_SURFACE_H
 #define E3D_SURFACE_H
 
+#include "core/grow.h"
 #include "e3d.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
@@ -30,6 +31,13 @@ typedef struct e3d_visible_piece {
     int32_t first, end;
 } e3d_visible_piece;
 
+/* A thread's memory, of one tile. */
+typedef struct e3d_surface_state {
+    e3d_array pieces; /* e3d_visible_piece */
+    e3d_array groups; /* e3d_group */
+} e3d_surface_state;
+
+void e3d_surface_free(e3d_surface_state *state);
 /* The pieces of what shows, chained by group; 0 when memory is out. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker);
 /* The surfaces of pieces of a group from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */

@@ -34,7 +34,7 @@ CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
 CPU_LACKS_IT = 3  # exit status of the timer
 TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}
 # What frames need beside the kernels, and of that what the kernels do.
-CORE = ["csrc/core/*.c", "csrc/pipeline/*.c", "csrc/reference/*.c"]
+CORE = ["csrc/core/*.c", "csrc/pipeline/*/*.c", "csrc/reference/*.c"]
 TABLES = ["core_encode_tables", "core_srgb_tables"]
 # Kernel -> its heading, and the element that a time is given for.
 KERNELS = {

@@ -1,8 +1,8 @@
-# The Cython mirror of csrc/pipeline/plan.h, for its test and its table in the docs.
+# The Cython mirror of csrc/pipeline/pass/plan.h, for its test and its table in the docs.
 
 from libc.stdint cimport uint64_t
 
-cdef extern from "pipeline/plan.h" nogil:
+cdef extern from "pipeline/pass/plan.h" nogil:
     ctypedef uint64_t e3d_plan
     ctypedef enum e3d_plan_item:
         E3D_PLAN_FIRST

@@ -38,7 +38,7 @@ def test_files_that_pages_name_exist(name):
 
 
 @pytest.mark.parametrize(
-    "pattern", ["csrc/pipeline/*.c", "csrc/kernels/generic/*.inl", "engine/[a-z]*.py"]
+    "pattern", ["csrc/pipeline/*/*.c", "csrc/kernels/generic/*.inl", "engine/[a-z]*.py"]
 )
 def test_the_architecture_names_every_file(pattern):
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")

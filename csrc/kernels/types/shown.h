@@ -59,4 +59,11 @@ typedef struct e3d_layers {
     int32_t contested, taken;         /* samples whose depths were compared; whether a later one was nearer */
 } e3d_layers;
 
+/* Begins a list of what shows, of runs or of samples. */
+static inline void e3d_shown_begin(e3d_shown *shown, int runs)
+{
+    shown->runs = runs;
+    shown->count = shown->pieces = 0;
+}
+
 #endif

@@ -1,0 +1,103 @@
+/* counts: what a frame submitted, and what became of it: nodes, clusters, triangles.
+ *
+ * In:  the workers' counters and the instances' marks, after the last tile.
+ * Out: e3d_stats.
+ */
+#include "e3d.h"
+#include "pipeline/frame/counts.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/counts.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/state/renderer.h"
+#include "pipeline/state/worker.h"
+
+void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
+{
+    int32_t last = -1;
+    int64_t nodes = 0;
+    stats->draws = frame->draw_count;
+    stats->clusters = stats->triangles = 0;
+    for (int32_t d = 0; d < frame->draw_count; d++) {
+        const e3d_draw *draw = &frame->draws[d];
+        stats->clusters += (int64_t)draw->mesh->cluster_count * draw->instances;
+        stats->triangles += (int64_t)draw->mesh->desc.faces_count * draw->instances;
+        if (draw->pose_kind == E3D_POSE_NODES)
+            nodes += draw->instances;
+        else if (draw->instances && draw->node_id != last) {
+            nodes++;
+            last = draw->node_id; /* runs of its instances follow each other */
+        }
+    }
+    stats->nodes_unoccluded = stats->nodes_drawn = nodes;
+    stats->clusters_in_frustum = stats->clusters_unoccluded = stats->clusters_drawn = stats->clusters;
+    stats->triangles_in_frustum = stats->triangles_unoccluded = stats->triangles_drawn = stats->triangles;
+}
+
+static int marks_of(const e3d_context *context, const e3d_turn *turn)
+{
+    const e3d_draw_state *state = &context->draws->states[turn->draw];
+    const uint8_t *marks = context->marks + state->instance_base + turn->instance;
+    int32_t instances = state->draw->pose_kind == E3D_POSE_NODES ? 1 : state->draw->instances;
+    int found = state->units && instances ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN : 0;
+    for (int32_t i = 0; i < instances && !(found & E3D_MARK_DRAWN); i++)
+        found |= marks[i];
+    return found;
+}
+
+/* A node may have several turns, one after the other. */
+static void count_nodes(const e3d_context *context, e3d_stats *stats)
+{
+    int marks = 0;
+    int32_t node = -1;
+    for (int32_t t = 0; t <= context->draws->turn_count; t++) {
+        const e3d_turn *turn = t < context->draws->turn_count ? &context->draws->turns[t] : NULL;
+        int32_t id = turn ? e3d_object_id(context->draws->states[turn->draw].draw, turn->instance) : -1;
+        if (!turn || id != node) {
+            stats->nodes_unoccluded += marks & E3D_MARK_UNOCCLUDED ? 1 : 0;
+            stats->nodes_drawn += marks & E3D_MARK_DRAWN ? 1 : 0;
+            marks = 0;
+            node = id;
+        }
+        marks |= turn ? marks_of(context, turn) : 0;
+    }
+}
+
+static void add_counters(e3d_stats *stats, const e3d_counters *c, int32_t threads)
+{
+    const int64_t *clusters = c->clusters, *triangles = c->triangles;
+    stats->clusters_drawn += clusters[E3D_FATE_DRAWN];
+    stats->clusters_unoccluded += clusters[E3D_FATE_DRAWN] + clusters[E3D_FATE_AWAY];
+    stats->clusters_occluded += clusters[E3D_FATE_OCCLUDED];
+    stats->clusters_culled += clusters[E3D_FATE_OUTSIDE] + clusters[E3D_FATE_AWAY];
+    stats->triangles_drawn += c->triangles_drawn;
+    stats->triangles_unoccluded += triangles[E3D_FATE_DRAWN] + triangles[E3D_FATE_AWAY];
+    stats->triangles_occluded += triangles[E3D_FATE_OCCLUDED];
+    stats->triangles_culled += triangles[E3D_FATE_OUTSIDE] + triangles[E3D_FATE_AWAY] + c->triangles_rejected;
+    stats->triangles_clipped += c->triangles_clipped;
+    stats->triangles_setup += c->records;
+    stats->bin_entries += c->bin_entries;
+    stats->pixels_shaded += c->shaded;
+    stats->ms_raster += (double)c->ns_raster * 1e-6 / threads;
+    stats->ms_shade += (double)c->ns_shade * 1e-6 / threads;
+    stats->ms_resolve += (double)c->ns_resolve * 1e-6 / threads;
+}
+
+void e3d_count(const e3d_context *context, e3d_stats *stats)
+{
+    const e3d_renderer *renderer = context->renderer;
+    e3d_count_submitted(context->frame, stats);
+    stats->instances = context->draws->instance_count;
+    stats->nodes_unoccluded = stats->nodes_drawn = 0;
+    stats->clusters_unoccluded = stats->clusters_drawn = stats->triangles_unoccluded = stats->triangles_drawn = 0;
+    for (int32_t w = 0; w < renderer->threads; w++)
+        add_counters(stats, &renderer->workers[w]->counters, renderer->threads);
+    stats->clusters_in_frustum = stats->clusters_unoccluded + stats->clusters_occluded;
+    stats->triangles_in_frustum = stats->triangles_unoccluded + stats->triangles_occluded;
+    count_nodes(context, stats);
+    stats->threads = renderer->threads;
+    stats->tiles = (int32_t)e3d_tile_count(context->view);
+    stats->backend = renderer->backend;
+    stats->plan = context->plan >> E3D_PLAN_FIRST;
+}

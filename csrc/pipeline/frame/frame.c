@@ -1,0 +1,131 @@
+/* A frame: prepare -> geometry (cull, transform, clip, setup, bin) -> tiles (raster, shade, resolve). */
+#include <string.h>
+
+#include "core/clock.h"
+#include "core/fpenv.h"
+#include "core/grow.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/frame/counts.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/counts.h"
+#include "pipeline/cull/cull.h"
+#include "pipeline/geometry/fragments.h"
+#include "pipeline/cull/history.h"
+#include "pipeline/geometry/order.h"
+#include "pipeline/state/renderer.h"
+#include "pipeline/state/worker.h"
+#include "pipeline/store/outputs.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/frame/prepare.h"
+#include "pipeline/frame/rounds.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/tile/tile.h"
+#include "reference/reference.h"
+
+/* ---- arguments ---- */
+
+static int poses_are_valid(const e3d_frame *f, const e3d_draw *draw)
+{
+    if (draw->pose_kind == E3D_POSE_NONE)
+        return draw->instances == 1;
+    if (draw->pose_kind == E3D_POSE_NODES)
+        return f->order && (!draw->instances || (draw->node_worlds && draw->node_ids));
+    return !draw->instances || draw->poses;
+}
+
+static int frame_is_valid(const e3d_frame *f)
+{
+    if (f->width < 1 || f->height < 1 || f->width > E3D_MAX_SIZE || f->height > E3D_MAX_SIZE ||
+        (f->samples_axis != 1 && f->samples_axis != 2 && f->samples_axis != 4))
+        return 0;
+    if (!(f->line_width > 0 && f->line_width <= 256) || !(f->point_size > 0 && f->point_size <= 256))
+        return 0;
+    if (f->draw_count < 0 || f->material_count < 0 || f->light_count < 0 ||
+        (f->order && f->order_count < 0))
+        return 0;
+    for (int32_t d = 0; d < f->draw_count; d++) {
+        const e3d_draw *draw = &f->draws[d];
+        if (!draw->mesh || draw->instances < 0 || !poses_are_valid(f, draw) || draw->material_base < 0 ||
+            (int64_t)draw->material_base + draw->mesh->material_most >= f->material_count)
+            return 0;
+    }
+    return 1;
+}
+
+/* ---- a frame ---- */
+
+static int reset_workers(e3d_context *context)
+{
+    e3d_renderer *renderer = context->renderer;
+    for (int32_t w = 0; w < renderer->threads; w++) {
+        e3d_worker *worker = renderer->workers[w];
+        memset(&worker->counters, 0, sizeof worker->counters);
+        worker->failed = 0;
+        if (!e3d_fragments_reset(&worker->fragments, (int32_t)e3d_tile_count(context->view)))
+            return 0;
+        for (int p = 0; p < E3D_PASSES; p++)
+            if (!e3d_records_reset(&worker->pass[p], (int32_t)e3d_tile_count(context->view)))
+                return 0;
+    }
+    return 1;
+}
+
+static e3d_status run(e3d_context *context, e3d_stats *stats)
+{
+    int64_t start = e3d_now_ns();
+    e3d_status status = e3d_prepare(context);
+    if (status != E3D_OK)
+        return status;
+    if (!reset_workers(context) || !e3d_outputs_prepare(context))
+        return E3D_OUT_OF_MEMORY;
+    if (!e3d_find_items(context))
+        return E3D_OUT_OF_MEMORY;
+    stats->ms_geometry = (double)(e3d_now_ns() - start) * 1e-6;
+    if (!e3d_rounds(context, stats) || (e3d_plans(context, E3D_PLAN_SORTS) && !e3d_sort_records(context)))
+        return E3D_OUT_OF_MEMORY;
+    e3d_tiles(context);
+    if (e3d_any_failed(context->renderer))
+        return E3D_OUT_OF_MEMORY;
+    e3d_count(context, stats);
+    if (stats->rounds > 1)
+        e3d_history_judge(context, stats);
+    stats->ms_total = (double)(e3d_now_ns() - start) * 1e-6;
+    return context->cancelled ? E3D_CANCELLED : E3D_OK;
+}
+
+static e3d_status run_pass(e3d_renderer *renderer, const e3d_pass *pass)
+{
+    e3d_stats unused, *stats = pass->stats ? pass->stats : &unused;
+    memset(stats, 0, sizeof *stats);
+    if (renderer->backend == E3D_BACKEND_SCALAR) {
+        e3d_status done = e3d_reference_render(pass->frame, pass->targets, stats);
+        e3d_count_submitted(pass->frame, stats);
+        return done;
+    }
+    e3d_context context = {.renderer = renderer, .kernels = renderer->kernels, .frame = pass->frame, .targets = pass->targets, .draws = &renderer->draws, .view = &renderer->view};
+    e3d_fpenv saved = e3d_fpenv_enter();
+    e3d_status status = run(&context, stats);
+    e3d_fpenv_leave(saved);
+    return status;
+}
+
+e3d_status e3d_render_passes(e3d_renderer *renderer, const e3d_pass *passes, int32_t count)
+{
+    e3d_status status = E3D_OK;
+    for (int32_t p = 0; p < count; p++)
+        if (!frame_is_valid(passes[p].frame))
+            return E3D_INVALID_ARGUMENT;
+    for (int32_t p = 0; p < count && status == E3D_OK; p++)
+        status = run_pass(renderer, &passes[p]);
+    return status;
+}
+
+e3d_status e3d_render(e3d_renderer *renderer, const e3d_frame *frame, const e3d_targets *targets,
+                      e3d_stats *stats)
+{
+    const e3d_pass pass = {frame, targets, stats};
+    return e3d_render_passes(renderer, &pass, 1);
+}

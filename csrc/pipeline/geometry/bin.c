@@ -1,0 +1,202 @@
+/* bin: records to the tiles that they may cover.
+ *
+ * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
+ * each thread's own; the raster's rule (R16) makes their order irrelevant.
+ */
+#include "core/grow.h"
+#include "core/limits.h"
+#include "kernels/coverage.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/records.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/fragments.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/records.h"
+#include "pipeline/state/renderer.h"
+#include "pipeline/state/worker.h"
+
+static void empty_bins(e3d_array *bins, int32_t tiles)
+{
+    e3d_bin *bin = bins->data;
+    for (int32_t t = 0; t < tiles; t++)
+        bin[t].first = bin[t].last = E3D_NO_BLOCK;
+}
+
+void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles)
+{
+    blocks->count = 0;
+    empty_bins(bins, tiles);
+}
+
+int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles)
+{
+    e3d_array kept = *bins;
+    *bins = *earlier;
+    *earlier = kept;
+    if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
+        return 0;
+    empty_bins(bins, tiles);
+    return 1;
+}
+
+void e3d_records_free(e3d_record_set *set)
+{
+    e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins, &set->earlier};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        e3d_array_free(arrays[i]);
+}
+
+int e3d_records_reset(e3d_record_set *set, int32_t tiles)
+{
+    set->records.count = set->corners.count = set->keys.count = 0;
+    if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
+        return 0;
+    e3d_bins_clear(&set->bins, &set->blocks, tiles);
+    return 1;
+}
+
+void e3d_tables_set(e3d_context *context)
+{
+    for (int pass = 0; pass < E3D_PASSES; pass++)
+        for (int32_t w = 0; w < context->renderer->threads; w++)
+            context->records[pass][w] = context->renderer->workers[w]->pass[pass].records.data;
+    for (int32_t w = 0; w < context->renderer->threads; w++)
+        context->drawn[w] = context->renderer->workers[w]->fragments.drawn.data;
+}
+
+/* An empty block at a chain's end; 0 when memory is out. */
+static int __attribute__((noinline)) add_block(e3d_array *array, e3d_bin *bin)
+{
+    if (!e3d_array_reserve(array, array->count + 1, sizeof(e3d_bin_block)))
+        return 0;
+    e3d_bin_block *blocks = array->data;
+    uint32_t fresh = (uint32_t)array->count++;
+    blocks[fresh].next = E3D_NO_BLOCK;
+    blocks[fresh].count = 0;
+    *(bin->last == E3D_NO_BLOCK ? &bin->first : &blocks[bin->last].next) = fresh;
+    bin->last = fresh;
+    return 1;
+}
+
+static inline int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
+{
+    const e3d_bin_block *blocks = set->blocks.data;
+    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&set->blocks, bin))
+        return 0;
+    e3d_bin_block *block = (e3d_bin_block *)set->blocks.data + bin->last;
+    block->id[block->count++] = id;
+    return 1;
+}
+
+/* Edge functions where they are greatest in a tile: one that is negative rejects it. And what the next tile changes. */
+typedef struct tile_edges {
+    int64_t most[3], across[3], down[3];
+} tile_edges;
+
+static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile_edges *out)
+{
+    for (int k = 0; k < 3; k++) {
+        e3d_edge edge = e3d_edge_at(record, k, x, y);
+        int64_t a = edge.a, b = edge.b;
+        out->most[k] = edge.e + (a > 0 ? a * (E3D_TILE - 1) : 0) + (b > 0 ? b * (E3D_TILE - 1) : 0);
+        out->across[k] = a * E3D_TILE;
+        out->down[k] = b * E3D_TILE;
+    }
+}
+
+/* To the tiles of a span that the record does not miss. Within the picture it meets each of a single row or column. (By itself, for
+ * with it the rest would have no registers left.) */
+static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
+                                              e3d_tile_span span, uint32_t id)
+{
+    e3d_bin *bins = set->bins.data;
+    int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
+    int32_t x1 = (int32_t)(span.last & 0xFFFF), y1 = (int32_t)(span.last >> 16);
+    tile_edges edges = {{0}, {0}, {0}};
+    if (x0 < x1 && y0 < y1)
+        find_tile_edges((const e3d_record *)set->records.data + number, x0 * E3D_TILE, y0 * E3D_TILE, &edges);
+    for (int32_t ty = y0; ty <= y1; ty++) {
+        int64_t most[3] = {edges.most[0], edges.most[1], edges.most[2]};
+        for (int32_t tx = x0; tx <= x1; tx++) {
+            int misses = (most[0] | most[1] | most[2]) < 0;
+            for (int k = 0; k < 3; k++)
+                most[k] += edges.across[k];
+            if (misses)
+                continue;
+            if (!push(set, &bins[(int64_t)ty * context->view->tiles_x + tx], id))
+                return 0;
+            worker->counters.bin_entries++;
+        }
+        for (int k = 0; k < 3; k++)
+            edges.most[k] += edges.down[k];
+    }
+    return 1;
+}
+
+static inline e3d_bin *bin_at(const e3d_context *context, e3d_record_set *set, uint32_t tile)
+{
+    return (e3d_bin *)set->bins.data + (int64_t)(tile >> 16) * context->view->tiles_x + (tile & 0xFFFF);
+}
+
+/* Most are in one tile, or in two side by side. */
+int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
+                    int count)
+{
+    int bits = context->tables[0].bits, entries = 0;
+    for (int i = 0; i < count; i++) {
+        uint32_t number = first + (uint32_t)i, id = number << bits | worker->number, apart = spans[i].last - spans[i].first;
+        if (apart > 1 && apart != 1 << 16) {
+            if (!bin_wide(context, worker, set, number, spans[i], id))
+                return 0;
+            continue;
+        }
+        if (!push(set, bin_at(context, set, spans[i].first), id) || (apart && !push(set, bin_at(context, set, spans[i].last), id)))
+            return 0;
+        entries += apart ? 2 : 1;
+    }
+    worker->counters.bin_entries += entries;
+    return 1;
+}
+
+int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
+{
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_worker *worker = context->renderer->workers[w];
+        if (e3d_first_block(&worker->pass[pass].bins, tile) != E3D_NO_BLOCK ||
+            (pass == E3D_PASS_SCENE && e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK))
+            return 1;
+    }
+    return 0;
+}
+
+int e3d_has_bins(const e3d_context *context, int64_t tile)
+{
+    return e3d_has_bin(context, E3D_PASS_SCENE, tile) || e3d_has_bin(context, E3D_PASS_WIRE, tile);
+}
+
+static uint32_t count_records(const e3d_record_set *set, int64_t tile)
+{
+    uint32_t count = 0;
+    for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+        count += block->count;
+    return count;
+}
+
+static uint32_t count_fragments(const e3d_fragment_set *set, int64_t tile)
+{
+    uint32_t count = 0;
+    for (const e3d_fragment_block *block = e3d_first_fragments(set, &set->bins, tile); block; block = e3d_next_fragments(set, block))
+        count += block->count;
+    return count;
+}
+
+e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile)
+{
+    e3d_entries entries = {0, 0};
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_worker *worker = context->renderer->workers[w];
+        entries.records += count_records(&worker->pass[E3D_PASS_SCENE], tile);
+        entries.fragments += count_fragments(&worker->fragments, tile);
+    }
+    return entries;
+}

@@ -1,0 +1,574 @@
+/* geometry: cluster by cluster, transform, clip, setup and bin.
+ *
+ * Items are groups of clusters, the near ones first. Threads take some of them at a time; each keeps its
+ * records and bins to itself.
+ */
+#include <string.h>
+
+#include "core/always_inline.h"
+#include "core/limits.h"
+#include "core/mesh.h"
+#include "core/pool.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/vertices.h"
+#include "kernels/types/visible.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/pass/boxes.h"
+#include "pipeline/geometry/clip.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/counts.h"
+#include "pipeline/cull/cull.h"
+#include "pipeline/cull/depths.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/geometry/fragments.h"
+#include "pipeline/geometry/geometry.h"
+#include "pipeline/geometry/lines.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/state/records.h"
+#include "pipeline/geometry/setup.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/state/renderer.h"
+#include "pipeline/state/worker.h"
+
+enum { TASKS_A_THREAD = 64, MOST_ITEMS_A_TASK = 32, UNITS_A_TASK = 8 };
+enum { LEAST_WORK = 4 }; /* items or tasks of units, that are worth a second thread */
+
+/* Where a thread stands: one instance of one draw. */
+typedef struct walker {
+    e3d_context *context;
+    e3d_worker *worker;
+    const e3d_draw_state *draw;
+    uint32_t number; /* of the instance */
+    const e3d_view_instance *instance;
+    uint32_t order; /* of the instance's first primitive */
+    const e3d_vertices *vertices; /* of the cluster that is drawn */
+    const e3d_cluster *next;      /* of the next item, */
+    unsigned next_left;           /* and those of them that are to be fetched: a bit each */
+} walker;
+
+/* ---- triangles ---- */
+
+static e3d_cull cull_of(const walker *w, int32_t face)
+{
+    const e3d_frame *frame = w->context->frame;
+    if (!w->draw->any_two_sided)
+        return frame->cull;
+    const e3d_mesh_desc *desc = &w->draw->mesh->desc;
+    int32_t material = w->draw->draw->material_base + (desc->material_ids ? desc->material_ids[face] : 0);
+    return frame->materials[material].two_sided ? E3D_CULL_NONE : frame->cull;
+}
+
+/* The sign of the area (screen, Y down) of what one-sided materials don't show: front faces have a negative one. */
+static int culled_sign(const walker *w)
+{
+    e3d_cull cull = w->context->frame->cull;
+    int sign = cull == E3D_CULL_NONE ? 0 : cull == E3D_CULL_BACK ? 1 : -1;
+    return w->instance->mirrored ? -sign : sign;
+}
+
+/* The one that setup may drop, whatever the material. */
+static int drop_sign(const walker *w) { return w->draw->any_two_sided ? 0 : culled_sign(w); }
+
+static e3d_primitive face_primitive(const walker *w, int32_t face)
+{
+    return (e3d_primitive){.order = w->order + (uint32_t)face,
+                           .pass = E3D_PASS_SCENE,
+                           .face = 1,
+                           .cull = cull_of(w, face),
+                           .mirrored = w->instance->mirrored};
+}
+
+/* With the key that painter's algorithm sorts by. */
+static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
+{
+    const e3d_vertices *v = w->vertices;
+    e3d_corner corner[3];
+    for (int k = 0; k < 3; k++) {
+        int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
+        corner[k] = (e3d_corner){v->sx[i], v->sy[i], v->zn[i], v->iw[i], {0, 0, 0}};
+    }
+    e3d_primitive primitive = face_primitive(w, w->draw->mesh->faces[cluster->first + triangle]);
+    int64_t before = w->worker->counters.records;
+    e3d_emit(w->context, w->worker, corner, &primitive);
+    w->worker->counters.triangles_drawn += w->worker->counters.records > before;
+}
+
+static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
+{
+    const e3d_vertices *v = w->vertices;
+    const e3d_viewport *viewport = &w->context->view->viewport;
+    float corner[3][4];
+    e3d_clip_vertex polygon[E3D_CLIP_MAX];
+    e3d_corner projected[E3D_CLIP_MAX];
+    int good[E3D_CLIP_MAX];
+    for (int k = 0; k < 3; k++) {
+        int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
+        corner[k][0] = v->x[i];
+        corner[k][1] = v->y[i];
+        corner[k][2] = v->z[i];
+        corner[k][3] = v->w[i];
+    }
+    int count = e3d_clip_triangle(corner, viewport, polygon);
+    w->worker->counters.triangles_clipped++;
+    int64_t before = w->worker->counters.records;
+    for (int i = 0; i < count; i++) {
+        good[i] = e3d_project(polygon[i].v, 1, viewport, &projected[i]);
+        for (int k = 0; k < 3; k++)
+            projected[i].c[k] = polygon[i].c[k];
+    }
+    e3d_primitive primitive = face_primitive(w, w->draw->mesh->faces[cluster->first + triangle]);
+    primitive.cut = 1;
+    for (int i = 1; i + 1 < count; i++)
+        if (good[0] && good[i] && good[i + 1]) {
+            const e3d_corner piece[3] = {projected[0], projected[i], projected[i + 1]};
+            e3d_emit(w->context, w->worker, piece, &primitive);
+        }
+    w->worker->counters.triangles_drawn += w->worker->counters.records > before;
+}
+
+static void draw_records(walker *w, const e3d_record_request *request)
+{
+    e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
+    if (!e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES)) {
+        w->worker->failed = 1;
+        return;
+    }
+    e3d_record *records = (e3d_record *)set->records.data + set->records.count;
+    int made = w->context->kernels->record(request, records, spans);
+    uint32_t number = (uint32_t)set->records.count;
+    set->records.count += (size_t)made;
+    w->worker->counters.records += made;
+    int step = w->context->round.tested ? 1 : made;
+    for (int i = 0; i < made; i += step) {
+        if (w->context->round.tested && e3d_record_is_hidden(w->context, &records[i]))
+            continue; /* its tiles may be finished */
+        w->worker->counters.triangles_drawn += step;
+        if (!e3d_bin_records(w->context, w->worker, set, number + (uint32_t)i, spans + i, step))
+            w->worker->failed = 1;
+    }
+}
+
+/* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them; those are dropped whose area has the sign
+ * `cull`. */
+static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int tiny, int cull)
+{
+    uint8_t list[E3D_CLUSTER_TRIANGLES + E3D_PAD];
+    int count = 0;
+    if (!triangles)
+        return;
+    for (uint64_t left = triangles; left; left &= left - 1)
+        list[count++] = (uint8_t)__builtin_ctzll(left);
+    memset(list + count, 0, E3D_PAD);
+    const e3d_record_request request = {.vertices = w->vertices, .indices = indices, .triangles = list,
+                                        .count = count, .tiny = tiny, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
+                                        .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->view->viewport};
+    draw_records(w, &request);
+}
+
+/* Those of two-sided materials. */
+static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint64_t triangles)
+{
+    uint64_t found = 0;
+    for (uint64_t left = triangles; left; left &= left - 1)
+        if (cull_of(w, w->draw->mesh->faces[cluster->first + __builtin_ctzll(left)]) == E3D_CULL_NONE)
+            found |= left & -left;
+    return found;
+}
+
+static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int tiny)
+{
+    uint64_t draw = w->worker->geometry.survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
+    draw_some(w, cluster, indices, draw & ~both, tiny, culled_sign(w));
+    draw_some(w, cluster, indices, both, tiny, 0);
+}
+
+/* The small triangles that are culled, where some materials are two-sided. */
+static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t one_sided)
+{
+    const e3d_vertices *v = w->vertices;
+    uint64_t found = 0;
+    for (uint64_t left = one_sided; left; left &= left - 1) {
+        int32_t x[3], y[3], triangle = __builtin_ctzll(left);
+        for (int k = 0; k < 3; k++) {
+            x[k] = v->sx[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
+            y[k] = v->sy[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
+        }
+        if ((e3d_doubled_area(x, y) < 0 ? -1 : 1) == culled_sign(w))
+            found |= left & -left;
+    }
+    return found;
+}
+
+static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+{
+    uint64_t small = w->worker->geometry.survivors.small;
+    if (w->draw->any_two_sided)
+        small &= ~find_culled(w, indices, small & ~find_two_sided(w, cluster, small));
+    e3d_drawn_cluster *drawn = small ? e3d_fragments_cluster(w->worker) : NULL;
+    if (!drawn)
+        return;
+    /* Written in place: a copy of the struct would load wider words than were just stored, which stores cannot forward. */
+    *drawn = (e3d_drawn_cluster){w->draw->mesh->faces + cluster->first, w->order, (int32_t)w->number,
+                                 (int32_t)(w->draw - w->context->draws->states), w->instance->mirrored};
+    e3d_fragments_add(w->context, w->worker, w->vertices, indices, small);
+}
+
+static void transform_cluster(const walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_vertices *out)
+{
+    const e3d_context *context = w->context;
+    if (w->draw->mesh->desc.components == 4)
+        context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->view->viewport, out);
+    else
+        context->kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &context->view->viewport,
+                                    item->view.state == E3D_BOX_INSIDE && !context->view->culling,
+                                    out);
+}
+
+/* Where the next records will lie, the last frame's were read by other threads: their lines are asked for ahead. */
+static void fetch_records(const walker *w, int count)
+{
+    e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    if (!count || !e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES))
+        return; /* whoever makes them asks again */
+    const e3d_record *next = (const e3d_record *)set->records.data + set->records.count;
+    _Static_assert(sizeof *next == 64, "a record is a line of the cache");
+    for (int i = 0; i < count; i++)
+        __builtin_prefetch(next + i, 1);
+}
+
+/* A cluster that is transformed. */
+static void draw_cluster(walker *w, const e3d_cluster *cluster)
+{
+    const e3d_mesh *mesh = w->draw->mesh;
+    const e3d_kernels *kernels = w->context->kernels;
+    const e3d_viewport *viewport = &w->context->view->viewport;
+    e3d_worker *worker = w->worker;
+    int fragments = e3d_plans(w->context, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
+    const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
+    e3d_survivors *s = &worker->geometry.survivors;
+    int count = kernels->setup(w->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
+    worker->counters.triangles_rejected += cluster->triangles - count;
+    fetch_records(w, __builtin_popcountll(s->draw));
+    if (s->small)
+        draw_small(w, cluster, indices);
+    int sorts = e3d_plans(w->context, E3D_PLAN_SORTS);
+    if (!sorts)
+        draw_triangles(w, cluster, indices, !fragments);
+    for (uint64_t left = sorts ? s->draw : 0; left; left &= left - 1)
+        draw_triangle(w, cluster, indices, __builtin_ctzll(left));
+    for (uint64_t left = s->clip; left; left &= left - 1)
+        draw_clipped(w, cluster, indices, __builtin_ctzll(left));
+}
+
+/* ---- items ---- */
+
+/* A bit for each cluster. */
+static unsigned find_away(const walker *w, const e3d_group_box *group)
+{
+    const e3d_context *context = w->context;
+    if (!e3d_plans(context, E3D_PLAN_FACES)) /* edges are drawn whichever way faces face */
+        return 0;
+    return context->kernels->face_away(&w->draw->mesh->clusters[group->first_cluster], group->clusters, &w->instance->facing,
+                                       drop_sign(w), w->instance->clip, &context->view->viewport);
+}
+
+/* Without what is drawn already: *view tells of a cluster that may show whether it must be tried against that. */
+static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster, int away, e3d_box_view *view)
+{
+    const float *clip = e3d_culling_matrix(w->context->view, w->number);
+    if (!cluster->any_finite)
+        return E3D_FATE_OUTSIDE;
+    if (away)
+        return item->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
+                   ? E3D_FATE_AWAY
+                   : E3D_FATE_OUTSIDE;
+    if (!w->context->round.tested && item->view.state == E3D_BOX_INSIDE)
+        return E3D_FATE_DRAWN;
+    e3d_view_box(&w->context->view->viewport, clip, cluster->lo, cluster->hi, view);
+    return view->state == E3D_BOX_OUTSIDE ? E3D_FATE_OUTSIDE : E3D_FATE_DRAWN;
+}
+
+/* The fates of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. What
+ * was seen faced the viewer, and is tried again in turn. */
+static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked,
+                           e3d_fate fates[E3D_GROUP_CLUSTERS])
+{
+    const e3d_context *context = w->context;
+    e3d_box_view views[E3D_GROUP_CLUSTERS];
+    unsigned shown = 0, away = context->round.choice == E3D_SEEN_ITEMS ? 0 : find_away(w, group);
+    for (unsigned left = asked; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        fates[k] = fate_of(w, item, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1, &views[k]);
+        shown |= (unsigned)(fates[k] == E3D_FATE_DRAWN) << k;
+        if (context->round.tested && fates[k] == E3D_FATE_DRAWN)
+            e3d_fetch_kept(context, &views[k]);
+    }
+    for (unsigned left = context->round.tested ? shown : 0; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        if (!e3d_is_hidden(context, &views[k]))
+            continue;
+        fates[k] = E3D_FATE_OCCLUDED;
+        shown &= ~(1u << k);
+    }
+    return shown;
+}
+
+/* Whether what is drawn hides all that the cluster's vertices enclose on the screen: less than its box does. */
+static int vertices_are_hidden(const walker *w)
+{
+    e3d_box_view view;
+    return e3d_view_vertices(&w->context->view->viewport, w->vertices, &view) && e3d_is_hidden(w->context, &view);
+}
+
+/* Of a smaller group, clusters are drawn in the time that a closer look takes. */
+static int is_wide(const e3d_box *samples)
+{
+    enum { WIDE = 48 };
+    return (samples->x1 - samples->x0) + (samples->y1 - samples->y0) > WIDE;
+}
+
+/* Threads may mark the same instance. */
+static void mark(walker *w, const e3d_item *item, e3d_fate fate)
+{
+    uint8_t *marks = &w->context->marks[item->instance];
+    uint8_t bits = fate == E3D_FATE_DRAWN        ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN
+                   : fate == E3D_FATE_AWAY ? E3D_MARK_UNOCCLUDED
+                                            : 0;
+    if (bits & ~__atomic_load_n(marks, __ATOMIC_RELAXED))
+        __atomic_fetch_or(marks, bits, __ATOMIC_RELAXED);
+}
+
+/* What a cluster is made of lies in memory cluster by cluster: the next one's, ahead of its use. */
+static ALWAYS_INLINE void fetch_cluster(const e3d_cluster *c, int32_t components)
+{
+    enum { LINE = 64 };
+    const char *from = (const char *)c->positions, *end = (const char *)e3d_cluster_indices(c, components) + 3 * E3D_CLUSTER_TRIANGLES;
+    for (; from < end; from += LINE)
+        __builtin_prefetch(from);
+}
+
+/* The next one of a group, or behind its last ones those of the next item: all at once would wait for each other. */
+static void fetch_next(walker *w, const e3d_cluster *clusters, unsigned left)
+{
+    const e3d_mesh *mesh = w->draw->mesh;
+    if (left) {
+        fetch_cluster(&clusters[__builtin_ctz(left)], mesh->desc.components);
+    } else if (w->next_left) {
+        fetch_cluster(&w->next[__builtin_ctz(w->next_left)], 3);
+        w->next_left &= w->next_left - 1;
+    }
+}
+
+static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_fate fate)
+{
+    w->worker->counters.clusters[fate]++;
+    w->worker->counters.triangles[fate] += cluster->triangles;
+    if (fate == E3D_FATE_DRAWN && !e3d_plans(w->context, E3D_PLAN_FACES))
+        w->worker->counters.triangles_drawn += cluster->triangles;
+    mark(w, item, fate);
+}
+
+/* Of a group that is hidden, without a look at each cluster where all count and are in the frustum. */
+static void count_hidden(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned counted)
+{
+    e3d_counters *counters = &w->worker->counters;
+    const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
+    const float *clip = e3d_culling_matrix(w->context->view, w->number);
+    int inside = item->view.state == E3D_BOX_INSIDE;
+    if (inside && counted == (1u << group->clusters) - 1) {
+        counters->clusters[E3D_FATE_OCCLUDED] += group->clusters;
+        counters->triangles[E3D_FATE_OCCLUDED] += group->triangles;
+        return;
+    }
+    for (unsigned left = counted; left; left &= left - 1) {
+        const e3d_cluster *cluster = &clusters[__builtin_ctz(left)];
+        int outside = !inside && e3d_box_state(clip, cluster->lo, cluster->hi) == E3D_BOX_OUTSIDE;
+        counters->clusters[outside ? E3D_FATE_OUTSIDE : E3D_FATE_OCCLUDED]++;
+        counters->triangles[outside ? E3D_FATE_OUTSIDE : E3D_FATE_OCCLUDED] += cluster->triangles;
+    }
+}
+
+/* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those that are in `asked`. Bit k is
+ * cluster k. */
+static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked, unsigned wanted)
+{
+    const e3d_mesh *mesh = w->draw->mesh;
+    const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
+    unsigned shown = asked;
+    e3d_fate fates[E3D_GROUP_CLUSTERS] = {E3D_FATE_DRAWN};
+    if (w->context->round.tested && e3d_is_hidden(w->context, &item->view)) {
+        count_hidden(w, item, group, asked & wanted);
+        return 0;
+    }
+    w->order = w->context->draws->instances[w->number].order;
+    if (!w->instance->ready)
+        e3d_view_finish_instance(w->context->view, w->context->draws, w->number);
+    if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE)
+        shown = find_fates(w, item, group, asked, fates);
+    int closely = w->context->round.tested && is_wide(&item->view.samples);
+    unsigned left = !e3d_plans(w->context, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
+    if (left)
+        transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->geometry.vertices[0]);
+    for (int turn = 0; left; left &= left - 1, turn ^= 1) {
+        int k = __builtin_ctz(left);
+        unsigned after = left & (left - 1);
+        fetch_next(w, clusters, after & (after - 1));
+        if (after) /* before this one is drawn: neither waits for the other */
+            transform_cluster(w, item, &clusters[__builtin_ctz(after)], &w->worker->geometry.vertices[!turn]);
+        w->vertices = &w->worker->geometry.vertices[turn];
+        if (closely && vertices_are_hidden(w)) {
+            fates[k] = E3D_FATE_OCCLUDED;
+            shown &= ~(1u << k);
+        } else if (wanted >> k & 1) {
+            draw_cluster(w, &clusters[k]);
+        }
+    }
+    for (unsigned left = asked & wanted; left; left &= left - 1)
+        count_cluster(w, item, &clusters[__builtin_ctz(left)], fates[__builtin_ctz(left)]);
+    return shown;
+}
+
+/* Clusters that the last frame saw are drawn without a test. A quarter of them is tested again in each frame, so that those that
+ * are hidden now drop out. */
+enum { FRAMES_A_TRIAL = 4 };
+
+/* Other threads may look at it meanwhile, to see what to fetch. */
+static void set_seen(const e3d_context *context, const e3d_item *item, unsigned seen)
+{
+    __atomic_store_n(&context->seen[item->unit], (uint8_t)seen, __ATOMIC_RELAXED);
+}
+
+static void run_item(walker *w, const e3d_item *item)
+{
+    e3d_context *context = w->context;
+    w->number = item->instance;
+    w->instance = &context->view->instances[item->instance];
+    w->draw = &context->draws->states[item->draw];
+    const e3d_group_box *group = &w->draw->mesh->groups[item->group];
+    unsigned all = (1u << group->clusters) - 1;
+    if (context->round.choice == E3D_ALL_ITEMS) {
+        unsigned shown = draw_group(w, item, group, all, all);
+        if (context->kept)
+            set_seen(context, item, shown);
+        return;
+    }
+    unsigned seen = context->seen[item->unit];
+    if (context->round.choice == E3D_SEEN_ITEMS) {
+        if (seen)
+            draw_group(w, item, group, seen, seen);
+        return;
+    }
+    int tried = context->view->history->doubts || (item->unit + context->view->history->trials) % FRAMES_A_TRIAL == 0;
+    unsigned trusted = tried ? 0 : seen;
+    if (trusted != all)
+        set_seen(context, item, trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));
+}
+
+/* ---- the walk ---- */
+
+/* What an item soon to come reads of the frame, anywhere in memory: few of those that did not show read their instance. */
+static void fetch_item(const e3d_context *context, const e3d_item *item)
+{
+    enum { LINE = 64 };
+    const char *seen = (const char *)&context->view->instances[item->instance];
+    if (context->round.choice == E3D_ALL_ITEMS || __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED))
+        for (size_t at = 0; at < sizeof(e3d_view_instance); at += LINE)
+            __builtin_prefetch(seen + at);
+    if (context->round.tested)
+        e3d_fetch_kept(context, &item->view);
+}
+
+/* What that reads itself. */
+static void fetch_seen(const e3d_context *context, const e3d_item *item)
+{
+    if (context->round.choice != E3D_ALL_ITEMS)
+        __builtin_prefetch(&context->seen[item->unit]);
+}
+
+/* The first two clusters of the next item that may be drawn, as far as one can tell yet: a bit each. What tells of all of them is
+ * fetched. */
+static unsigned find_next(walker *w, const e3d_item *item)
+{
+    const e3d_context *context = w->context;
+    const e3d_mesh *mesh = context->draws->states[item->draw].mesh;
+    size_t first = (size_t)item->group * E3D_GROUP_CLUSTERS, count = (size_t)mesh->cluster_count;
+    unsigned may = context->round.choice == E3D_ALL_ITEMS    ? ~0u
+                   : context->round.choice == E3D_SEEN_ITEMS ? __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED)
+                                                             : 0;
+    unsigned found = 0;
+    if (mesh->desc.components != 3 || count <= E3D_GROUP_CLUSTERS)
+        return 0;
+    w->next = &mesh->clusters[first];
+    for (size_t k = 0; k < E3D_GROUP_CLUSTERS && first + k < count; k++) {
+        __builtin_prefetch(&w->next[k]);
+        if (may >> k & 1 && !(found & (found - 1)))
+            found |= 1u << k;
+    }
+    return found;
+}
+
+static int64_t items_of(const e3d_round *round) { return round->end - round->first; }
+
+/* As many that threads seldom ask for more, and few enough that none waits long for another's last ones. */
+static int64_t items_a_task(const e3d_context *context)
+{
+    int64_t items = items_of(&context->round) / (TASKS_A_THREAD * context->renderer->threads);
+    return items < 1 ? 1 : items > MOST_ITEMS_A_TASK ? MOST_ITEMS_A_TASK : items;
+}
+
+static void walk_items(walker *w)
+{
+    enum { AHEAD = 6 };
+    e3d_context *context = w->context;
+    const e3d_round *round = &context->round;
+    int64_t task = items_a_task(context);
+    while (!w->worker->failed) {
+        int64_t first = round->first + atomic_fetch_add(&context->next, task);
+        if (first >= round->end)
+            return;
+        for (int64_t i = first; i < first + task && i < round->end; i++) {
+            if (i + 2 * AHEAD < round->end)
+                fetch_seen(context, &context->items[i + 2 * AHEAD]);
+            if (i + AHEAD < round->end)
+                fetch_item(context, &context->items[i + AHEAD]);
+            w->next_left = i + 1 < round->end ? find_next(w, &context->items[i + 1]) : 0;
+            run_item(w, &context->items[i]);
+        }
+    }
+}
+
+static void walk_units(e3d_context *context, e3d_worker *worker)
+{
+    while (!worker->failed) {
+        int64_t first = atomic_fetch_add(&context->next_unit, UNITS_A_TASK);
+        if (first >= context->draws->units)
+            return;
+        for (int64_t unit = first; unit < first + UNITS_A_TASK && unit < context->draws->units; unit++) {
+            const e3d_draw_state *draw = e3d_draw_of_unit(context->draws, unit);
+            int32_t instance = (int32_t)((unit - draw->unit_base) / draw->units);
+            e3d_draw_unit(context, worker, draw, instance, (int32_t)((unit - draw->unit_base) % draw->units));
+        }
+    }
+}
+
+static void geometry_work(void *argument, int number)
+{
+    e3d_context *context = argument;
+    walker w = {.context = context, .worker = context->renderer->workers[number]};
+    walk_items(&w);
+    e3d_fragments_flush(context, w.worker);
+    if (context->round.last)
+        walk_units(context, w.worker);
+}
+
+void e3d_geometry(e3d_context *context)
+{
+    int64_t work = items_of(&context->round) + context->draws->units / UNITS_A_TASK;
+    atomic_store(&context->next, 0);
+    atomic_store(&context->next_unit, 0);
+    e3d_pool_run(work > LEAST_WORK ? context->renderer->threads : 1, geometry_work, context);
+}

@@ -1,0 +1,168 @@
+/* geometry: lines, points and wireframe edges, each a parallelogram of two triangles (R6-R8, R11). */
+#include <math.h>
+
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/types/vertices.h"
+#include "pipeline/geometry/clip.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/geometry/lines.h"
+#include "pipeline/geometry/setup.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/worker.h"
+
+/* Where a thread stands: one instance of one draw. */
+typedef struct unit_walk {
+    e3d_context *context;
+    e3d_worker *worker;
+    const e3d_draw_state *draw;
+    const e3d_view_instance *instance;
+    uint32_t order; /* of the instance's first primitive */
+} unit_walk;
+
+/* R11 */
+e3d_line_style e3d_line_style_of(const e3d_frame *frame)
+{
+    float axis = (float)frame->samples_axis;
+    int32_t line = (int32_t)lrintf(frame->line_width * axis * 128.0f);
+    int32_t point = (int32_t)lrintf(frame->point_size * axis * 128.0f);
+    e3d_line_style style = {.half = line > 1 ? line : 1, .point_half = point > 1 ? point : 1, .wide = frame->line_width > 1.0f};
+    style.reach = style.wide ? (int32_t)lrint((double)style.half * sqrt(2.0)) : style.half;
+    return style;
+}
+
+static void position_of(const unit_walk *w, int32_t vertex, float out[4])
+{
+    const e3d_mesh_desc *desc = &w->draw->mesh->desc;
+    const float *p = desc->positions + (size_t)vertex * desc->components;
+    const float *m = w->instance->clip;
+    for (int r = 0; r < 4; r++)
+        out[r] = desc->components == 4
+                     ? p[r]
+                     : ((m[4 * r] * p[0] + m[4 * r + 1] * p[1]) + m[4 * r + 2] * p[2]) + m[4 * r + 3];
+}
+
+static void emit_quad(unit_walk *w, const e3d_corner q[4], uint32_t order, int pass)
+{
+    e3d_primitive primitive = {.order = order, .pass = pass, .cut = 1, .cull = E3D_CULL_NONE};
+    const e3d_corner first[3] = {q[0], q[1], q[2]}, second[3] = {q[0], q[2], q[3]};
+    e3d_emit(w->context, w->worker, first, &primitive);
+    e3d_emit(w->context, w->worker, second, &primitive);
+}
+
+static e3d_corner moved(e3d_corner c, int32_t x, int32_t y)
+{
+    c.x += x;
+    c.y += y;
+    return c;
+}
+
+static int32_t distance(int32_t a, int32_t b) { return a < b ? b - a : a - b; }
+
+/* How far a line of such extents reaches along its minor axis (R11). */
+static int32_t offset_of(const e3d_context *context, double dx, double dy)
+{
+    if (!context->lines.wide)
+        return context->lines.half;
+    return (int32_t)lrint((double)context->lines.half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
+}
+
+/* Of its ends on the screen. */
+static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int pass)
+{
+    int32_t across = distance(end[1].x, end[0].x), down = distance(end[1].y, end[0].y);
+    if (!across && !down)
+        return;
+    int32_t offset = offset_of(w->context, across, down), dx = across < down ? offset : 0, dy = across < down ? 0 : offset;
+    const e3d_corner quad[4] = {moved(end[0], -dx, -dy), moved(end[1], -dx, -dy),
+                                moved(end[1], dx, dy), moved(end[0], dx, dy)};
+    emit_quad(w, quad, order, pass);
+}
+
+static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int pass)
+{
+    const e3d_viewport *viewport = &w->context->view->viewport;
+    float v[2][4];
+    e3d_clip_vertex cut[2] = {{{0}, {1, 0, 0}}, {{0}, {0, 1, 0}}};
+    e3d_corner end[2];
+    position_of(w, ends[0], v[0]);
+    position_of(w, ends[1], v[1]);
+    int a = e3d_outcode(v[0], viewport), b = e3d_outcode(v[1], viewport);
+    if (((a | b) & E3D_NONFINITE) || (a & b & (E3D_NEAR | E3D_FAR)))
+        return;
+    for (int k = 0; k < 4; k++) {
+        cut[0].v[k] = v[0][k];
+        cut[1].v[k] = v[1][k];
+    }
+    int clipped = ((a | b) & E3D_CLIP) != 0;
+    if (clipped && !e3d_clip_line(v, viewport, cut))
+        return;
+    for (int i = 0; i < 2; i++) {
+        if (!e3d_project(cut[i].v, clipped, viewport, &end[i]))
+            return;
+        for (int k = 0; k < 3; k++)
+            end[i].c[k] = cut[i].c[k];
+        if (pass == E3D_PASS_WIRE)
+            end[i].zn = end[i].zn - E3D_WIRE_PULL;
+    }
+    draw_band(w, end, order, pass);
+}
+
+static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
+{
+    const e3d_viewport *viewport = &w->context->view->viewport;
+    float v[4];
+    e3d_corner c;
+    position_of(w, vertex, v);
+    if (e3d_outcode(v, viewport) & (E3D_NEAR | E3D_FAR | E3D_BEHIND | E3D_BEYOND_GUARD | E3D_NONFINITE))
+        return;
+    if (!e3d_project(v, 0, viewport, &c))
+        return;
+    c.c[0] = 1;
+    c.c[1] = c.c[2] = 0;
+    int32_t h = w->context->lines.point_half;
+    const e3d_corner quad[4] = {moved(c, -h, -h), moved(c, h, -h), moved(c, h, h), moved(c, -h, h)};
+    emit_quad(w, quad, order, E3D_PASS_SCENE);
+}
+
+static int32_t unit_end(int32_t unit, int32_t count)
+{
+    int32_t first = unit * E3D_LINES_A_UNIT;
+    return count - first < E3D_LINES_A_UNIT ? count : first + E3D_LINES_A_UNIT;
+}
+
+static void run_lines(unit_walk *w, int32_t unit)
+{
+    const e3d_mesh_desc *d = &w->draw->mesh->desc;
+    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->lines_count); i++)
+        draw_line(w, d->lines + 2 * (size_t)i, w->order + (uint32_t)(d->faces_count + i),
+                  E3D_PASS_SCENE);
+}
+
+static void run_points(unit_walk *w, int32_t unit)
+{
+    const e3d_mesh_desc *d = &w->draw->mesh->desc;
+    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->points_count); i++)
+        draw_point(w, d->points[i], w->order + (uint32_t)(d->faces_count + d->lines_count + i));
+}
+
+static void run_edges(unit_walk *w, int32_t unit)
+{
+    const e3d_mesh_desc *d = &w->draw->mesh->desc;
+    for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->edges_count); i++)
+        draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_PASS_WIRE);
+}
+
+void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
+                   int32_t unit)
+{
+    int64_t number = draw->instance_base + instance;
+    unit_walk w = {context, worker, draw, &context->view->instances[number], context->draws->instances[number].order};
+    if (unit < draw->line_units)
+        run_lines(&w, unit);
+    else if ((unit -= draw->line_units) < draw->point_units)
+        run_points(&w, unit);
+    else
+        run_edges(&w, unit - draw->point_units);
+}

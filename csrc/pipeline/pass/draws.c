@@ -1,0 +1,163 @@
+/* prepare: a frame's draws, instances and units of work, which are counted draw after draw, and their places in the order (R16). */
+#include "core/always_inline.h"
+#include "core/grow.h"
+#include "core/mesh.h"
+#include "e3d.h"
+#include "pipeline/pass/draws.h"
+
+/* ---- the table ---- */
+
+static int32_t units_of(int32_t count) { return (count + E3D_LINES_A_UNIT - 1) / E3D_LINES_A_UNIT; }
+
+static int has_two_sided(const e3d_frame *frame)
+{
+    for (int32_t m = 0; m < frame->material_count; m++)
+        if (frame->materials[m].two_sided)
+            return 1;
+    return 0;
+}
+
+static int64_t primitives_of(const e3d_mesh_desc *desc)
+{
+    return (int64_t)desc->faces_count + desc->lines_count + desc->points_count;
+}
+
+static e3d_draw_state state_of(const e3d_draw *draw, int edges)
+{
+    const e3d_mesh_desc *desc = &draw->mesh->desc;
+    e3d_draw_state s = {.draw = draw, .mesh = draw->mesh};
+    s.line_units = units_of(desc->lines_count);
+    s.point_units = units_of(desc->points_count);
+    s.edge_units = edges ? units_of(desc->edges_count) : 0;
+    s.units = s.line_units + s.point_units + s.edge_units;
+    s.primitives = (int32_t)primitives_of(desc);
+    return s;
+}
+
+static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edges)
+{
+    int64_t primitives = 0, instances = 0;
+    int two_sided = has_two_sided(frame);
+    draws->units = draws->groups = 0;
+    for (int32_t d = 0; d < frame->draw_count; d++) {
+        const e3d_draw *draw = &frame->draws[d];
+        int64_t all = primitives_of(&draw->mesh->desc);
+        if (all > INT32_MAX || primitives + all * draw->instances > INT32_MAX || instances + draw->instances > INT32_MAX)
+            return E3D_TOO_MANY_PRIMITIVES;
+        e3d_draw_state *s = &draws->states[d];
+        *s = state_of(draw, edges);
+        s->any_two_sided = two_sided;
+        s->instance_base = instances;
+        s->unit_base = draws->units;
+        s->group_base = draws->groups;
+        primitives += all * draw->instances;
+        instances += draw->instances;
+        draws->units += (int64_t)s->units * draw->instances;
+        draws->groups += (int64_t)draw->mesh->group_count * draw->instances;
+    }
+    draws->count = frame->draw_count;
+    draws->instance_count = (int32_t)instances;
+    return E3D_OK;
+}
+
+/* ---- the order ---- */
+
+/* Gives the next instances of a draw their place in the order; 0 if it has no more. */
+static int place_instances(e3d_draws *draws, e3d_draw_state *state, uint32_t order, int32_t count)
+{
+    if (state->placed + count > state->draw->instances)
+        return 0;
+    if (state->draw->pose_kind == E3D_POSE_NODES)
+        draws->instances[state->instance_base + state->placed].order = order;
+    state->order = order;
+    state->placed += count;
+    return 1;
+}
+
+static e3d_status place_draws(e3d_draws *draws, const e3d_frame *frame)
+{
+    uint32_t order = 0;
+    for (int32_t t = 0; t < draws->turn_count; t++) {
+        int32_t d = frame->order ? frame->order[t] : t;
+        if (d < 0 || d >= frame->draw_count)
+            return E3D_INVALID_ARGUMENT;
+        e3d_draw_state *state = &draws->states[d];
+        int32_t instances = state->draw->pose_kind == E3D_POSE_NODES ? 1 : state->draw->instances;
+        draws->turns[t] = (e3d_turn){order, d, state->placed};
+        if (!place_instances(draws, state, order, instances))
+            return E3D_INVALID_ARGUMENT;
+        order += (uint32_t)instances * (uint32_t)state->primitives;
+    }
+    for (int32_t d = 0; d < frame->draw_count; d++)
+        if (draws->states[d].placed != draws->states[d].draw->instances)
+            return E3D_INVALID_ARGUMENT;
+    return E3D_OK;
+}
+
+e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges)
+{
+    draws->turn_count = frame->order ? frame->order_count : frame->draw_count;
+    if (!e3d_array_reserve(&draws->state_memory, (size_t)frame->draw_count + 1, sizeof(e3d_draw_state)) ||
+        !e3d_array_reserve(&draws->turn_memory, (size_t)draws->turn_count + 1, sizeof(e3d_turn)))
+        return E3D_OUT_OF_MEMORY;
+    draws->states = draws->state_memory.data;
+    draws->turns = draws->turn_memory.data;
+    e3d_status status = count_draws(draws, frame, edges);
+    if (status != E3D_OK)
+        return status;
+    if (!e3d_array_reserve(&draws->instance_memory, (size_t)draws->instance_count + 1, sizeof(e3d_instance)))
+        return E3D_OUT_OF_MEMORY;
+    draws->instances = draws->instance_memory.data;
+    return place_draws(draws, frame);
+}
+
+void e3d_draws_free(e3d_draws *draws)
+{
+    e3d_array_free(&draws->state_memory);
+    e3d_array_free(&draws->instance_memory);
+    e3d_array_free(&draws->turn_memory);
+}
+
+/* ---- whose a number is ---- */
+
+/* Where number k of a table starts. */
+typedef int64_t (*start_of)(const e3d_draws *draws, int32_t k);
+
+/* The last of `count` that starts at or before a number; the first one does. */
+static ALWAYS_INLINE int32_t find_by_start(const e3d_draws *draws, start_of start, int32_t count, int64_t number)
+{
+    int32_t low = 0, high = count - 1;
+    while (low < high) {
+        int32_t middle = low + (high - low + 1) / 2;
+        if (start(draws, middle) <= number)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
+static int64_t first_instance(const e3d_draws *draws, int32_t k) { return draws->states[k].instance_base; }
+static int64_t first_unit(const e3d_draws *draws, int32_t k) { return draws->states[k].unit_base; }
+static int64_t first_group(const e3d_draws *draws, int32_t k) { return draws->states[k].group_base; }
+static int64_t first_order(const e3d_draws *draws, int32_t k) { return draws->turns[k].order; }
+
+const e3d_draw_state *e3d_draw_of_instance(const e3d_draws *draws, int64_t instance)
+{
+    return &draws->states[find_by_start(draws, first_instance, draws->count, instance)];
+}
+
+const e3d_draw_state *e3d_draw_of_unit(const e3d_draws *draws, int64_t unit)
+{
+    return &draws->states[find_by_start(draws, first_unit, draws->count, unit)];
+}
+
+const e3d_draw_state *e3d_draw_of_group(const e3d_draws *draws, int64_t group)
+{
+    return &draws->states[find_by_start(draws, first_group, draws->count, group)];
+}
+
+const e3d_turn *e3d_find_turn(const e3d_draws *draws, uint32_t order)
+{
+    return &draws->turns[find_by_start(draws, first_order, draws->turn_count, order)];
+}

@@ -1,0 +1,97 @@
+/* The plan of a frame: what is asked for, and from that, once, which ways its tiles take. */
+#ifndef E3D_PLAN_H
+#define E3D_PLAN_H
+
+#include <stdint.h>
+
+#include "e3d.h"
+
+/* Tiles of more samples than these are not kept over rounds: 8 bytes a sample. */
+#define E3D_MOST_KEPT_SAMPLES (1 << 25)
+
+/* What a frame may ask for: X(name, what it says). */
+#define E3D_ASKED_FOR(X)                                                               \
+    X(COLOR, "the colour output")                                                      \
+    X(NDC_DEPTH, "the output ndc_depth")                                               \
+    X(POSITIONS, "an output of positions or metric depths")                            \
+    X(NORMALS, "an output of normals")                                                 \
+    X(UVS, "the output uv")                                                            \
+    X(ALBEDO, "the output albedo")                                                     \
+    X(IDENTITIES, "an output of IDs or barycentric coordinates")                       \
+    X(LIT, "mode lit")                                                                 \
+    X(UNLIT, "mode unlit")                                                             \
+    X(DEPTH_MODE, "mode depth")                                                        \
+    X(NORMAL_MODE, "mode normal")                                                      \
+    X(OVERDRAW_MODE, "mode overdraw")                                                  \
+    X(LOCAL_LIGHT, "light that depends on the position: point lights or highlights")   \
+    X(MANY_LIGHTS, "more than 4 lights")                                               \
+    X(MANY_RANGES, "more than 4 lights of a finite range")                             \
+    X(WIREFRAME, "a wireframe, with or without the faces")                             \
+    X(WIRE_ONLY, "a wireframe without the faces")                                      \
+    X(HIDDEN_LINES, "that faces hide the edges behind them in a wireframe without them") \
+    X(LINES, "lines or points in a wireframe without the faces")                       \
+    X(ZBUFFER, "that the nearest surface shows")                                       \
+    X(FORWARD, "forward shading")                                                      \
+    X(SRGB, "the sRGB encoder")                                                        \
+    X(OCCLUSION, "that what is hidden is left out")                                    \
+    X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
+    X(HUGE, "more samples than tiles are kept for")
+
+/* What is done about it: X(name, what that is). */
+#define E3D_PLANNED(X)                                                                   \
+    X(COLORS, "visible samples get colours")                                             \
+    X(OUTPUTS, "visible samples get other outputs")                                      \
+    X(SHADES, "visible samples are shaded at all")                                       \
+    X(POSITION, "shading needs the position")                                            \
+    X(NORMAL, "shading needs the normal")                                                \
+    X(UV, "shading needs the texture coordinates")                                       \
+    X(BASE_COLOR, "shading needs the surface's own colour")                              \
+    X(FACES, "faces are drawn, not only counted")                                        \
+    X(SORTS, "records are sorted before they are binned, and the last one shows")        \
+    X(AT_ONCE, "each record is shaded at once, where it is the nearest so far")          \
+    X(SLOTS, "a tile draws record after record; its samples keep slots instead of IDs")  \
+    X(DEPTHS, "the depth of every sample is needed, not only the ID")                    \
+    X(FRAGMENTS, "micro-triangles go to the tiles as samples")                           \
+    X(LIGHT_BLOCKS, "samples are shaded in blocks of 32 x 32, each with its own lights") \
+    X(SPANS, "tiles of few records may be drawn without depths")                         \
+    X(LISTS, "tiles may list visible samples by record instead of by row")               \
+    X(PAINTS, "one kernel takes samples from the surface to the encoded pixel")          \
+    X(ROUNDS, "the frame may be drawn in rounds that test against the ones before")   \
+    X(FINISHES, "tiles may be finished in the first of two rounds")                      \
+    X(COUNTS_OVERDRAW, "faces are counted, sample by sample")                            \
+    X(EDGES, "the edges of faces are drawn")                                             \
+    X(EDGE_DEPTHS, "edges are tested against the depths of faces")                       \
+    X(ENCODES_SRGB, "colours go through the sRGB encoder")
+
+#define E3D_ASKED_NAME(name, text) E3D_ASKED_##name,
+#define E3D_PLAN_NAME(name, text) E3D_PLAN_##name,
+typedef enum e3d_plan_item {
+    E3D_ASKED_FOR(E3D_ASKED_NAME) E3D_PLANNED(E3D_PLAN_NAME) E3D_PLAN_ITEMS,
+    E3D_PLAN_FIRST = E3D_PLAN_COLORS, /* that isn't asked for, but planned */
+} e3d_plan_item;
+
+/* A bit for each item. */
+typedef uint64_t e3d_plan;
+
+static inline int e3d_plan_has(e3d_plan plan, e3d_plan_item item) { return (int)(plan >> item & 1); }
+
+/* An item is planned where a frame has all of some others and none of some more. Rules hold in their order; an item may have several. */
+typedef struct e3d_plan_rule {
+    e3d_plan_item item;
+    e3d_plan all, none;
+} e3d_plan_rule;
+
+extern const e3d_plan_rule E3D_PLAN_RULES[];
+extern const int E3D_PLAN_RULE_COUNT;
+
+e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets);
+/* What shading needs of each surface: E3D_WANT_POSITION, E3D_WANT_NORMAL, E3D_WANT_UV. */
+int e3d_plan_inputs(e3d_plan plan);
+/* An item's name, and what it says. */
+const char *e3d_plan_name(e3d_plan_item item);
+const char *e3d_plan_text(e3d_plan_item item);
+
+/* Whether a material's specular or emissive colour adds anything. */
+static inline int e3d_adds(const float color[3]) { return color[0] != 0.0f || color[1] != 0.0f || color[2] != 0.0f; }
+
+#endif

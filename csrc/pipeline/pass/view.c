@@ -1,0 +1,171 @@
+/* prepare: what depends on the eye: viewport, grid of tiles, lights, and each instance's clip matrix. */
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "core/grow.h"
+#include "core/limits.h"
+#include "core/mesh.h"
+#include "core/pool.h"
+#include "e3d.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/vertices.h"
+#include "pipeline/pass/boxes.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/facing.h"
+#include "pipeline/pass/matrices.h"
+#include "pipeline/pass/view.h"
+
+static float guard_factor(double half)
+{
+    double factor = 1;
+    while (factor * 2 <= E3D_GUARD / half)
+        factor *= 2;
+    return (float)factor;
+}
+
+static void find_viewport(e3d_view *view, const e3d_frame *frame)
+{
+    e3d_viewport *v = &view->viewport;
+    v->width = frame->width * frame->samples_axis;
+    v->height = frame->height * frame->samples_axis;
+    v->scale_x = 128.0f * (float)v->width;
+    v->scale_y = 128.0f * (float)v->height;
+    v->guard_x = guard_factor(v->width / 2.0);
+    v->guard_y = guard_factor(v->height / 2.0);
+    view->tiles_x = (v->width + E3D_TILE - 1) / E3D_TILE;
+    view->tiles_y = (v->height + E3D_TILE - 1) / E3D_TILE;
+}
+
+/* The lights' positions and ranges as the light kernel reads them, a vector of lights at a time. */
+static int find_lights(e3d_view *view, const e3d_frame *frame)
+{
+    e3d_lighting *lighting = &view->lighting;
+    size_t room = (size_t)frame->light_count + E3D_PAD;
+    if (!e3d_array_reserve(&view->reach_memory, 5 * room, sizeof(float)))
+        return 0;
+    float *rows = view->reach_memory.data;
+    for (int k = 0; k < 5; k++)
+        lighting->reach[k] = rows + (size_t)k * room;
+    for (size_t n = 0; n < room; n++) {
+        const e3d_light *light = n < (size_t)frame->light_count ? &frame->lights[n] : NULL;
+        int point = light && light->kind == E3D_LIGHT_POINT;
+        for (int k = 0; k < 3; k++)
+            rows[(size_t)k * room + n] = point ? light->position[k] : 0.0f;
+        rows[3 * room + n] = point ? light->range * light->range : NAN;
+        rows[4 * room + n] = 1.0f / rows[3 * room + n];
+    }
+    lighting->lights = frame->lights;
+    lighting->light_count = frame->light_count;
+    memcpy(lighting->ambient, frame->ambient, sizeof frame->ambient);
+    memcpy(lighting->clamp, frame->light_clamp, sizeof frame->light_clamp);
+    memcpy(lighting->eye, frame->eye, sizeof frame->eye);
+    return 1;
+}
+
+int e3d_view_prepare(e3d_view *view, const e3d_frame *frame)
+{
+    find_viewport(view, frame);
+    for (int k = 0; k < 12; k++)
+        view->rows[k] = (float)frame->view_from_world[k];
+    view->mirrors = e3d_mirrors(frame->view_from_world);
+    return find_lights(view, frame);
+}
+
+void e3d_view_free(e3d_view *view)
+{
+    e3d_array_free(&view->instance_memory);
+    e3d_array_free(&view->culling_memory);
+    e3d_array_free(&view->reach_memory);
+}
+
+/* ---- instances ---- */
+
+/* Of the world matrix in float64; the clip matrix is known. */
+static void finish(const e3d_view *view, const double world[16], e3d_instance *instance, e3d_view_instance *out)
+{
+    for (int k = 0; k < 12; k++)
+        instance->world[k] = (float)world[k];
+    out->mirrored = e3d_normal_matrix(world, instance->normal) != view->mirrors;
+    e3d_facing_prepare(&view->viewport, out->clip, &out->facing);
+    out->ready = 1;
+}
+
+void e3d_view_finish_instance(e3d_view *view, e3d_draws *draws, uint32_t number)
+{
+    double world[16];
+    e3d_instance *instance = &draws->instances[number];
+    const e3d_draw_state *state = &draws->states[instance->draw];
+    e3d_world_matrix(state->draw, (int32_t)(number - state->instance_base), world);
+    finish(view, world, instance, &view->instances[number]);
+}
+
+/* What all threads do with the instances. */
+typedef struct instances_job {
+    e3d_view *view;
+    e3d_draws *draws;
+    const e3d_frame *frame;
+    float (*culling)[16];
+    atomic_llong next;
+} instances_job;
+
+static void find_instance(const instances_job *job, const e3d_draw_state *state, int64_t number)
+{
+    const e3d_frame *frame = job->frame;
+    const e3d_draw *draw = state->draw;
+    const e3d_mesh *mesh = draw->mesh;
+    e3d_view_instance *out = &job->view->instances[number];
+    double world[16];
+    e3d_world_matrix(draw, (int32_t)(number - state->instance_base), world);
+    e3d_clip_matrix(frame->clip_from_world, world, out->clip);
+    if (job->culling)
+        e3d_clip_matrix(frame->frozen_clip_from_world, world, job->culling[number]);
+    const float *cull = job->culling ? job->culling[number] : out->clip;
+    int one = mesh->group_count == 1; /* whose box is tried soon, by one thread */
+    int later = one && (frame->culling == E3D_CULLING_ALL || frame->culling == E3D_CULLING_ALWAYS); /* if it isn't hidden */
+    out->shows = mesh->desc.components == 4 || frame->culling == E3D_CULLING_NONE ||
+                 (mesh->any_finite && (one || e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
+    out->ready = 0;
+    if (state->units || (out->shows && !later)) /* lines and points are wider than the box */
+        finish(job->view, world, &job->draws->instances[number], out);
+}
+
+enum { INSTANCES_A_TASK = 256 };
+
+static void instances_work(void *argument, int worker)
+{
+    instances_job *job = argument;
+    e3d_draws *draws = job->draws;
+    (void)worker;
+    for (;;) {
+        int64_t first = atomic_fetch_add(&job->next, INSTANCES_A_TASK);
+        if (first >= draws->instance_count)
+            return;
+        const e3d_draw_state *state = e3d_draw_of_instance(draws, first);
+        for (int64_t i = first; i < first + INSTANCES_A_TASK && i < draws->instance_count; i++) {
+            while (i >= state->instance_base + state->draw->instances)
+                state++;
+            draws->instances[i].draw = (int32_t)(state - draws->states);
+            if (state->draw->pose_kind != E3D_POSE_NODES)
+                draws->instances[i].order = state->order + (uint32_t)(i - state->instance_base) * (uint32_t)state->primitives;
+            find_instance(job, state, i);
+        }
+    }
+}
+
+int e3d_view_find_instances(e3d_view *view, e3d_draws *draws, const e3d_frame *frame, int threads)
+{
+    size_t room = (size_t)draws->instance_count + 1;
+    instances_job job = {.view = view, .draws = draws, .frame = frame};
+    if (!e3d_array_reserve(&view->instance_memory, room, sizeof(e3d_view_instance)))
+        return 0;
+    view->instances = view->instance_memory.data;
+    if (frame->frozen_clip_from_world) {
+        if (!e3d_array_reserve(&view->culling_memory, room, sizeof(float[16])))
+            return 0;
+        job.culling = view->culling_memory.data;
+    }
+    view->culling = (const float(*)[16])job.culling;
+    e3d_pool_run(draws->instance_count > 2 * INSTANCES_A_TASK ? threads : 1, instances_work, &job);
+    return 1;
+}

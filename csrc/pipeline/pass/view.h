@@ -1,0 +1,68 @@
+/* One eye: all of a pass that depends on where it is seen from. */
+#ifndef E3D_VIEW_H
+#define E3D_VIEW_H
+
+#include <stdint.h>
+
+#include "core/grow.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/vertices.h"
+#include "pipeline/pass/draws.h"
+
+typedef struct e3d_history e3d_history;
+
+/* An instance as the eye sees it (R1, R2). */
+typedef struct e3d_view_instance {
+    float clip[16];
+    int32_t shows;    /* its mesh's box may be in view */
+    int32_t ready;    /* not only its clip matrix is known */
+    int32_t mirrored; /* by its own matrix or by the camera's, not by both */
+    e3d_facing facing;
+} e3d_view_instance;
+
+/* A tile's place in the picture. */
+typedef struct e3d_tile {
+    int32_t x, y;          /* first sample */
+    int32_t width, height; /* samples inside the viewport */
+} e3d_tile;
+
+typedef struct e3d_view {
+    e3d_viewport viewport;
+    int32_t tiles_x, tiles_y; /* the grid of tiles */
+    float rows[12];           /* of view_from_world, f32 */
+    int mirrors;              /* the camera does: R2 */
+    e3d_lighting lighting;
+    e3d_history *history;
+    e3d_view_instance *instances;
+    const float (*culling)[16]; /* clip matrices of another view, whose frustum tells what is drawn; NULL: this one's does */
+    e3d_array instance_memory, culling_memory, reach_memory;
+} e3d_view;
+
+/* All but the instances; 0 when memory is out. */
+int e3d_view_prepare(e3d_view *view, const e3d_frame *frame);
+/* The instances of draws that have their places; 0 when memory is out. */
+int e3d_view_find_instances(e3d_view *view, e3d_draws *draws, const e3d_frame *frame, int threads);
+/* Finds what an instance is drawn with besides its clip matrix, here and in the draws. */
+void e3d_view_finish_instance(e3d_view *view, e3d_draws *draws, uint32_t number);
+void e3d_view_free(e3d_view *view);
+
+/* The clip matrix of the view that culls. */
+static inline const float *e3d_culling_matrix(const e3d_view *view, uint32_t instance)
+{
+    return view->culling ? view->culling[instance] : view->instances[instance].clip;
+}
+
+static inline int64_t e3d_tile_count(const e3d_view *view) { return (int64_t)view->tiles_x * view->tiles_y; }
+
+static inline e3d_tile e3d_tile_at(const e3d_view *view, int64_t number)
+{
+    e3d_tile tile = {.x = (int32_t)(number % view->tiles_x) * E3D_TILE, .y = (int32_t)(number / view->tiles_x) * E3D_TILE};
+    int32_t width = view->viewport.width - tile.x, height = view->viewport.height - tile.y;
+    tile.width = width < E3D_TILE ? width : E3D_TILE;
+    tile.height = height < E3D_TILE ? height : E3D_TILE;
+    return tile;
+}
+
+#endif

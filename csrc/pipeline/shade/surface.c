@@ -1,0 +1,477 @@
+/* shade, first half: the pieces that show in a tile, and what each brings to its samples (R3, R18, R20-R24). */
+#include <string.h>
+
+#include "core/always_inline.h"
+#include "core/grow.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/shade/surface.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/renderer.h"
+#include "pipeline/state/tile_memory.h"
+#include "pipeline/state/worker.h"
+
+void e3d_surface_free(e3d_surface_state *state)
+{
+    e3d_array_free(&state->pieces);
+    e3d_array_free(&state->groups);
+}
+
+/* ---- which primitive a piece is of ---- */
+
+/* The instance that was found last, and the order of its first primitive: mostly the next piece is of it, too. */
+typedef struct instance_finder {
+    const e3d_draw_state *draw;
+    uint32_t first;
+    int32_t instance;
+} instance_finder;
+
+static const float *corners_of(const e3d_context *context, uint32_t id, const e3d_record *record)
+{
+    const e3d_worker *owner = context->renderer->workers[id & ((1u << context->tables[E3D_PASS_SCENE].bits) - 1)];
+    return record->meta & E3D_RECORD_CUT ? (const float *)owner->pass[E3D_PASS_SCENE].corners.data +
+                                               9 * (size_t)(record->meta >> E3D_RECORD_SHIFT)
+                                         : NULL;
+}
+
+/* Of a piece of fragments, whose `local` is the triangle's number in its cluster so far. */
+static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder *finder, e3d_visible_piece *piece)
+{
+    const e3d_drawn_cluster *drawn = piece->drawn;
+    finder->draw = &context->draws->states[drawn->draw];
+    finder->first = drawn->order;
+    finder->instance = drawn->instance - (int32_t)finder->draw->instance_base;
+    piece->local = drawn->faces[piece->local];
+}
+
+static void find_primitive(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_piece *piece)
+{
+    uint32_t order = piece->record->order;
+    piece->corners = corners_of(context, id, piece->record);
+    if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
+        const e3d_turn *turn = e3d_find_turn(context->draws, order);
+        const e3d_draw_state *draw = &context->draws->states[turn->draw];
+        uint32_t primitives = (uint32_t)draw->primitives, instances = (order - turn->order) / primitives;
+        finder->draw = draw;
+        finder->instance = turn->instance + (int32_t)instances;
+        finder->first = turn->order + instances * primitives;
+    }
+    piece->local = (int32_t)(order - finder->first);
+}
+
+int32_t e3d_face_of(const e3d_visible_piece *piece)
+{
+    return piece->local < piece->draw->mesh->desc.faces_count ? piece->local : -1;
+}
+
+/* How many vertices the primitive has. */
+static int corners_count(const e3d_visible_piece *piece)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t line = piece->local - mesh->faces_count;
+    return line < 0 ? 3 : line < mesh->lines_count ? 2 : 1;
+}
+
+static ALWAYS_INLINE void find_vertices(e3d_visible_piece *piece)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t line = piece->local - mesh->faces_count;
+    if (line < 0)
+        memcpy(piece->vertex, mesh->faces + 3 * (size_t)piece->local, 3 * sizeof *piece->vertex);
+    else if (line < mesh->lines_count)
+        memcpy(piece->vertex, mesh->lines + 2 * (size_t)line, 2 * sizeof *piece->vertex);
+    else
+        piece->vertex[0] = mesh->points[line - mesh->lines_count];
+}
+
+/* ---- groups ---- */
+
+/* Material and kind of primitive: with the draw, all that the group depends on. */
+static int32_t group_id_of(const e3d_visible_piece *piece)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t face = e3d_face_of(piece);
+    return face < 0 ? -1 : piece->draw->mesh->material_most ? mesh->material_ids[face] : 0;
+}
+
+static e3d_group group_of(const e3d_context *context, const e3d_draw_state *state, int32_t id)
+{
+    const e3d_frame *frame = context->frame;
+    const e3d_draw *draw = state->draw;
+    const e3d_mesh_desc *mesh = &state->mesh->desc;
+    e3d_group g = {.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)],
+                   .face = id >= 0,
+                   .first = -1,
+                   .last = -1};
+    int flat = frame->normals == E3D_NORMALS_FLAT ||
+               (frame->normals == E3D_NORMALS_AUTO && g.material->flat);
+    g.flat = g.face && flat && mesh->face_normals;
+    g.textured = g.face && g.material->texture && mesh->uvs;
+    g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
+    g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
+    return g;
+}
+
+static int same_group(const e3d_group *a, const e3d_group *b)
+{
+    return a->material == b->material && a->face == b->face && a->flat == b->flat &&
+           a->textured == b->textured && a->by_vertex == b->by_vertex &&
+           a->by_instance == b->by_instance;
+}
+
+/* The group's number, or -1 when memory is out. */
+static int32_t number_group(e3d_worker *worker, const e3d_group *group)
+{
+    e3d_group *groups = worker->surface.groups.data;
+    for (size_t g = worker->surface.groups.count; g-- > 0;)
+        if (same_group(&groups[g], group))
+            return (int32_t)g;
+    if (!e3d_array_reserve(&worker->surface.groups, worker->surface.groups.count + 1, sizeof *group))
+        return -1;
+    ((e3d_group *)worker->surface.groups.data)[worker->surface.groups.count] = *group;
+    return (int32_t)worker->surface.groups.count++;
+}
+
+/* ---- the pieces of a tile ---- */
+
+/* The group that was found last: mostly the next piece is of it, too. */
+typedef struct group_finder {
+    const e3d_draw_state *draw;
+    int32_t id; /* as group_id_of counts them */
+    int32_t group;
+} group_finder;
+
+/* The group of a piece, whose last it becomes; 0 when memory is out. */
+static ALWAYS_INLINE int join_group(const e3d_context *context, e3d_worker *worker, int32_t number, group_finder *finder)
+{
+    e3d_visible_piece *pieces = worker->surface.pieces.data, *piece = &pieces[number];
+    int32_t id = group_id_of(piece);
+    if (piece->draw != finder->draw || id != finder->id) {
+        e3d_group group = group_of(context, piece->draw, id);
+        *finder = (group_finder){piece->draw, id, number_group(worker, &group)};
+        if (finder->group < 0)
+            return 0;
+    }
+    e3d_group *group = (e3d_group *)worker->surface.groups.data + finder->group;
+    if (group->last < 0)
+        group->first = number;
+    else
+        pieces[group->last].next = number;
+    group->last = number;
+    piece->group = finder->group;
+    return 1;
+}
+
+/* Some pieces of a tile, first to end - 1. */
+typedef struct piece_range {
+    int32_t first, end;
+} piece_range;
+
+/* What IDs stand for: a record, or a triangle of a cluster. */
+static void find_named(const e3d_record_table *table, const e3d_shown_piece *of, piece_range range, e3d_visible_piece *pieces)
+{
+    for (int32_t n = range.first; n < range.end; n++) {
+        pieces[n] = (e3d_visible_piece){.next = -1, .first = of[n].first, .end = of[n + 1].first};
+        if (of[n].id & E3D_FRAGMENT_ID) {
+            pieces[n].drawn = e3d_drawn_at(table, of[n].id, &pieces[n].local);
+            __builtin_prefetch(pieces[n].drawn->faces + pieces[n].local);
+        } else {
+            pieces[n].record = e3d_record_at(table, of[n].id);
+            __builtin_prefetch(pieces[n].record);
+        }
+    }
+}
+
+/* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
+static void find_primitives(const e3d_context *context, const e3d_shown_piece *of, piece_range range, instance_finder *finder,
+                            e3d_visible_piece *pieces)
+{
+    for (int32_t n = range.first; n < range.end; n++) {
+        if (pieces[n].drawn)
+            find_face(context, finder, &pieces[n]);
+        else
+            find_primitive(context, of[n].id, finder, &pieces[n]);
+        pieces[n].draw = finder->draw;
+        pieces[n].instance = finder->instance;
+        __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)pieces[n].local));
+    }
+}
+
+/* 0 when memory is out. */
+static int find_groups(const e3d_context *context, e3d_worker *worker, piece_range range, group_finder *finder)
+{
+    e3d_visible_piece *pieces = worker->surface.pieces.data;
+    for (int32_t n = range.first; n < range.end; n++)
+        find_vertices(&pieces[n]);
+    for (int32_t n = range.first; n < range.end; n++)
+        if (!join_group(context, worker, n, finder))
+            return 0;
+    return 1;
+}
+
+static piece_range range_of(int32_t first, int32_t count, int32_t all)
+{
+    return (piece_range){first < 0 ? 0 : first, first + count < all ? first + count : all};
+}
+
+/* A software pipeline over ranges of pieces: each stage prefetches what the next one reads a range later, from anywhere in memory. The
+ * stages' loops are short, so that an out-of-order processor overlaps several pieces. */
+int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
+{
+    enum { SOME = 32 };
+    e3d_shown *shown = &worker->tile->shown;
+    instance_finder instance = {0};
+    group_finder group = {0};
+    int32_t all = shown->pieces;
+    shown->piece[all].first = shown->count;
+    worker->surface.groups.count = 0;
+    if (!e3d_array_reserve(&worker->surface.pieces, (size_t)all, sizeof(e3d_visible_piece)))
+        return 0;
+    e3d_visible_piece *pieces = worker->surface.pieces.data;
+    for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
+        find_named(&context->tables[E3D_PASS_SCENE], shown->piece, range_of(n, SOME, all), pieces);
+        find_primitives(context, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
+        if (!find_groups(context, worker, range_of(n - 2 * SOME, SOME, all), &group))
+            return 0;
+    }
+    worker->surface.pieces.count = (size_t)all;
+    return 1;
+}
+
+/* ---- what a piece brings, for the surface kernel to work on ---- */
+
+static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n, int32_t instance)
+{
+    int again = n > 0 && s->instance[n - 1] == instance;
+    s->instance[n] = instance;
+    if (again) {
+        s->matrix[n] = s->matrix[n - 1];
+        return;
+    }
+    int32_t m = s->matrix[n] = s->matrices++;
+    for (int k = 0; k < 16; k++)
+        s->clip[k][m] = context->view->instances[instance].clip[k];
+    for (int k = 0; k < 12; k++)
+        s->world[k][m] = context->draws->instances[instance].world[k];
+    for (int k = 0; k < 9; k++)
+        s->normals[k][m] = context->draws->instances[instance].normal[k];
+}
+
+/* `out`: [component][vertex]; vertices that aren't there are 0. */
+static ALWAYS_INLINE void add_vectors(const float *from, size_t components, const int32_t vertex[3], int count,
+                                      e3d_surface_floats out[][3], int32_t n)
+{
+    for (size_t c = 0; c < components && count == 3; c++) {
+        out[c][0][n] = from[components * (size_t)vertex[0] + c];
+        out[c][1][n] = from[components * (size_t)vertex[1] + c];
+        out[c][2][n] = from[components * (size_t)vertex[2] + c];
+    }
+    for (int v = 0; v < 3 && count < 3; v++)
+        for (size_t c = 0; c < components; c++)
+            out[c][v][n] = v < count ? from[components * (size_t)vertex[v] + c] : 0.0f;
+}
+
+static void add_normals(const e3d_mesh_desc *mesh, int32_t face, int flat, const int32_t vertex[3], e3d_surfaces *s,
+                        int32_t n)
+{
+    if (!flat)
+        add_vectors(mesh->normals, 3, vertex, face < 0 || !mesh->normals ? 0 : 3, s->normal, n);
+    else
+        for (int c = 0; c < 3; c++)
+            s->normal[c][0][n] = mesh->face_normals[3 * (size_t)face + c];
+}
+
+/* R23 */
+static void value_of(const e3d_context *context, const uint8_t *u8, const float *f32, size_t index, float out[3])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = f32 ? f32[4 * index + c] : context->unorm8[u8[4 * index + c]];
+}
+
+static void add_colors(const e3d_context *context, const e3d_visible_piece *piece, const e3d_group *group,
+                       const int32_t vertex[3], int count, e3d_surfaces *s, int32_t n)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const e3d_draw *draw = piece->draw->draw;
+    for (int v = 0; v < 3 && group->by_vertex; v++) {
+        float value[3] = {0.0f, 0.0f, 0.0f};
+        if (v < count)
+            value_of(context, mesh->colors_u8, mesh->colors_f32, (size_t)vertex[v], value);
+        for (int c = 0; c < 3; c++)
+            s->color[c][v][n] = value[c];
+    }
+    if (group->by_instance) {
+        float value[3];
+        value_of(context, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance, value);
+        for (int c = 0; c < 3; c++)
+            s->instance_color[c][n] = value[c];
+    }
+}
+
+static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, int32_t n)
+{
+    for (int k = 0; k < 3; k++) {
+        s->x[k][n] = record->x[k];
+        s->y[k][n] = record->y[k];
+        s->iw[k][n] = record->iw[k];
+    }
+    s->swapped[n] = (record->meta & E3D_RECORD_SWAPPED) != 0;
+    s->back[n] = (record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
+}
+
+/* The next surface is that of a piece, without what e3d_find_surfaces adds. */
+static void add_surface(const e3d_context *context, const e3d_visible_piece *piece, const e3d_group *group, int wanted,
+                        e3d_surfaces *s)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const int32_t *vertex = piece->vertex;
+    int32_t n = s->count++, face = e3d_face_of(piece);
+    int count = corners_count(piece);
+    s->irregular += piece->corners || face < 0 || mesh->components == 4;
+    add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
+    s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
+    s->projected += piece->drawn != NULL;
+    if (!piece->drawn)
+        add_record(piece->record, face, s, n);
+    if (wanted & E3D_WANT_POSITION || piece->drawn)
+        add_vectors(mesh->positions, 3, vertex, mesh->components == 3 ? count : 0, s->position, n);
+    if (wanted & E3D_WANT_NORMAL)
+        add_normals(mesh, face, group->flat, vertex, s, n);
+    if (wanted & E3D_WANT_UV)
+        add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
+    if (e3d_plans(context, E3D_PLAN_BASE_COLOR))
+        add_colors(context, piece, group, vertex, count, s, n);
+}
+
+/* Ahead of their use: vertices are anywhere in memory. Only of a piece of this draw, whose face was asked for when it was found. */
+static ALWAYS_INLINE void fetch_vertices(const e3d_visible_piece *piece, const e3d_draw_state *draw, int wanted)
+{
+    const e3d_mesh_desc *mesh = &draw->mesh->desc;
+    if (piece->draw != draw)
+        return;
+    const int32_t *vertex = piece->vertex;
+    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *uvs = wanted & E3D_WANT_UV ? mesh->uvs : NULL;
+    for (int v = 0; v < 3; v++)
+        __builtin_prefetch(mesh->positions + 3 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && normals; v++)
+        __builtin_prefetch(normals + 3 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && uvs; v++)
+        __builtin_prefetch(uvs + 2 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && mesh->colors_u8; v++)
+        __builtin_prefetch(mesh->colors_u8 + 4 * (size_t)vertex[v]);
+}
+
+static void set_texels(const e3d_group *group, e3d_surfaces *s)
+{
+    const e3d_level *level = &e3d_texture_get_view(group->material->texture)->levels[0];
+    s->texels[0] = (float)level->width;
+    s->texels[1] = (float)level->height;
+}
+
+int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted)
+{
+    enum { AHEAD = 24 };
+    const e3d_visible_piece *pieces = worker->surface.pieces.data;
+    e3d_surfaces *s = &worker->tile->surfaces;
+    int32_t p = first, last = (int32_t)worker->surface.pieces.count - 1 - AHEAD;
+    for (int32_t i = first; i < first + AHEAD && i <= last && wanted & E3D_WANT_SURFACE; i++)
+        fetch_vertices(&pieces[i], pieces[first].draw, wanted);
+    s->count = s->matrices = s->irregular = s->projected = 0;
+    if (wanted & E3D_WANT_LEVEL)
+        set_texels(group, s);
+    for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
+        s->piece[s->count] = p;
+        if (!(wanted & E3D_WANT_SURFACE)) {
+            s->count++;
+            continue;
+        }
+        if (p <= last)
+            fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
+        add_surface(context, &pieces[p], group, wanted, s);
+    }
+    return p;
+}
+
+/* ---- what the kernel leaves to do ---- */
+
+/* R18 of a clipped piece, of a line or a point. */
+static void cut_planes(const e3d_context *context, const e3d_visible_piece *piece, e3d_surfaces *s, int32_t n)
+{
+    const e3d_record *r = piece->record;
+    const float *c = piece->corners;
+    e3d_box box = e3d_sample_box(r->x, r->y, &context->view->viewport);
+    double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
+    m = r->iw[1] > m ? r->iw[1] : m;
+    m = r->iw[2] > m ? r->iw[2] : m;
+    double rm = 1.0 / m;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int64_t a = r->y[i] - r->y[j], b = r->x[j] - r->x[i];
+        int64_t e = a * (256 * (int64_t)box.x0 + 128 - r->x[i]) +
+                    b * (256 * (int64_t)box.y0 + 128 - r->y[i]);
+        double q = r->iw[k] * rm;
+        plane[0][k] = ((double)e * ra) * q;
+        plane[1][k] = ((256.0 * (double)a) * ra) * q;
+        plane[2][k] = ((256.0 * (double)b) * ra) * q;
+    }
+    e3d_surface_floats *const rows[3] = {s->p, s->px, s->py};
+    for (int row = 0; row < 3; row++)
+        for (int j = 0; j < 3; j++)
+            rows[row][j][n] = (float)((plane[row][0] * c[j] + plane[row][1] * c[3 + j]) + plane[row][2] * c[6 + j]);
+}
+
+/* R25, of planes that were not the kernel's. */
+static void cut_slopes(e3d_surfaces *s, int32_t n)
+{
+    const e3d_surface_floats *const plane[3] = {s->p, s->px, s->py};
+    for (int k = 0; k < 2; k++) {
+        float a[3], sum[3];
+        for (int row = 0; row < 3; row++) {
+            const float w[3] = {plane[row][0][n], plane[row][1][n], plane[row][2][n]};
+            sum[row] = (w[0] + w[1]) + w[2];
+            a[row] = (w[0] * s->uv[k][0][n] + w[1] * s->uv[k][1][n]) + w[2] * s->uv[k][2][n];
+        }
+        s->slope[k][0][n] = (a[1] * sum[0] - a[0] * sum[1]) * s->texels[k];
+        s->slope[k][1][n] = (a[2] * sum[0] - a[0] * sum[2]) * s->texels[k];
+        s->slope[k][2][n] = (a[1] * sum[2] - a[2] * sum[1]) * s->texels[k];
+    }
+}
+
+/* Positions that don't exist are 0, wherever the matrix would move them. */
+static void clear_positions(e3d_surfaces *s, int32_t n, int first)
+{
+    for (int c = 0; c < 3; c++)
+        for (int v = first; v < 3; v++)
+            s->position[c][v][n] = 0.0f;
+}
+
+void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted)
+{
+    const e3d_visible_piece *pieces = worker->surface.pieces.data;
+    e3d_surfaces *s = &worker->tile->surfaces;
+    for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
+        s->matrix[n] = s->matrix[s->count - 1];
+    if (s->projected)
+        context->kernels->project(s, &context->view->viewport);
+    context->kernels->surface(s, tile->x, tile->y, wanted);
+    for (int32_t n = 0; n < s->count && s->irregular; n++) {
+        const e3d_visible_piece *piece = &pieces[s->piece[n]];
+        const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+        if (piece->corners)
+            cut_planes(context, piece, s, n);
+        if (piece->corners && wanted & E3D_WANT_LEVEL)
+            cut_slopes(s, n);
+        if (mesh->components == 4)
+            clear_positions(s, n, 0);
+        else if (e3d_face_of(piece) < 0)
+            clear_positions(s, n, corners_count(piece));
+    }
+}

@@ -1,0 +1,76 @@
+/* resolve: rows of the picture that are written while samples are shaded. Memory takes in a line now and then for nothing, but
+ * many at once hold up the core. A tile's rows wait until the next one is shaded; after them come those of blank tiles.
+ */
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/tile_memory.h"
+#include "pipeline/state/worker.h"
+#include "pipeline/store/blank.h"
+#include "pipeline/store/late.h"
+#include "pipeline/store/outputs.h"
+#include "pipeline/store/picture.h"
+
+static int rows_of(const e3d_context *context, const e3d_tile *tile, const uint32_t *from, size_t step, e3d_pixel_rows *out)
+{
+    return e3d_tile_rows(context, tile, context->targets->color, sizeof(uint32_t), from, step, out);
+}
+
+static void write_some(const e3d_context *context, e3d_pixel_rows *rows, int some)
+{
+    e3d_pixel_rows now = *rows;
+    if (!rows->count)
+        return;
+    now.count = some < rows->count ? some : rows->count;
+    context->kernels->stream(&now);
+    rows->to += (size_t)now.count * rows->pitch;
+    rows->from += (size_t)now.count * rows->step;
+    rows->count -= now.count;
+}
+
+void e3d_late_add(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_tile_memory *memory = worker->tile;
+    write_some(context, &worker->late.drawn, E3D_TILE);
+    if (rows_of(context, tile, memory->rgba, E3D_TILE * sizeof(uint32_t), &worker->late.drawn)) {
+        memory->rgba = memory->pixels[memory->rgba == memory->pixels[0]];
+    } else {
+        worker->late.drawn.count = 0;
+        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
+    }
+}
+
+/* Of the next blank tile, if colour is all that is written there. */
+static void add_blank(const e3d_context *context, e3d_worker *worker)
+{
+    e3d_tile *blank = e3d_blank_now(context, worker);
+    for (int k = 0; k < E3D_OUTPUTS; k++)
+        if (context->outputs[k].target)
+            return;
+    if (blank->height && rows_of(context, blank, context->background.row, 0, &worker->late.blank))
+        blank->height = 0;
+    else
+        worker->late.blank.count = 0;
+}
+
+e3d_pixel_rows *e3d_late_rows(const e3d_context *context, e3d_worker *worker)
+{
+    if (worker->late.drawn.count)
+        return &worker->late.drawn;
+    if (!worker->late.blank.count)
+        add_blank(context, worker);
+    return worker->late.blank.count ? &worker->late.blank : NULL;
+}
+
+void e3d_late_some(const e3d_context *context, e3d_pixel_rows *rows)
+{
+    write_some(context, rows, E3D_SOME_ROWS);
+}
+
+void e3d_late_rest(const e3d_context *context, e3d_worker *worker)
+{
+    write_some(context, &worker->late.drawn, E3D_TILE);
+    write_some(context, &worker->late.blank, E3D_TILE);
+}

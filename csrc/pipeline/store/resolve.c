@@ -1,0 +1,160 @@
+/* resolve: the tile's colours to the caller's picture, averaged where there are several samples (R33-R36). */
+#include "core/limits.h"
+#include "core/srgb_tables.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/tile_memory.h"
+#include "pipeline/state/worker.h"
+#include "pipeline/store/late.h"
+#include "pipeline/store/outputs.h"
+#include "pipeline/store/picture.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/store/resolve.h"
+
+static uint32_t encode_one(const e3d_context *context, const float color[3], float alpha)
+{
+    float planes[3][1 + E3D_PAD] = {{0}};
+    uint32_t rgba[1 + E3D_PAD];
+    for (int k = 0; k < 3; k++)
+        planes[k][0] = color[k];
+    context->kernels->encode(planes[0], planes[1], planes[2], 1, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), rgba);
+    return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
+}
+
+/* R33 of a pixel whose samples are alike. */
+static float mean_of(float value, int count)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < count; i++)
+        sum = sum + value;
+    return sum * (1.0f / (float)count);
+}
+
+static float unit(float v)
+{
+    v = v > 0.0f ? v : 0.0f;
+    return v < 1.0f ? v : 1.0f;
+}
+
+void e3d_resolve_prepare(e3d_context *context)
+{
+    const e3d_frame *frame = context->frame;
+    e3d_background *background = &context->background;
+    e3d_ink *line = &context->line;
+    int opaque = frame->background[3] > 0.5f;
+    float pixel[3];
+    for (int k = 0; k < 3; k++) {
+        background->color[k] = unit(frame->background[k]);
+        background->sample[k] = opaque ? background->color[k] : 0.0f;
+        line->sample[k] = unit(frame->line_color[k]);
+        pixel[k] = opaque ? mean_of(background->color[k], frame->samples_axis * frame->samples_axis) : background->color[k];
+    }
+    background->sample[3] = opaque;
+    line->sample[3] = 1.0f;
+    background->rgba = encode_one(context, pixel, frame->background[3]);
+    line->rgba = encode_one(context, frame->line_color, 1.0f);
+    for (int x = 0; x < E3D_TILE; x++)
+        background->row[x] = background->rgba;
+}
+
+static void fill_samples(const e3d_context *context, e3d_samples *samples)
+{
+    float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < E3D_TILE_SAMPLES; i++)
+            planes[k][i] = context->background.sample[k];
+}
+
+void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker)
+{
+    e3d_tile_memory *memory = worker->tile;
+    e3d_outputs_begin(context, worker);
+    if (!context->targets->color)
+        return;
+    if (context->frame->samples_axis > 1) {
+        fill_samples(context, &memory->samples);
+        return;
+    }
+    for (int i = 0; i < E3D_TILE_SAMPLES; i++)
+        memory->rgba[i] = context->background.rgba;
+}
+
+void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_outputs_again(context, worker, tile);
+    if (context->targets->color)
+        e3d_read_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
+}
+
+/* A sample's colour, clamped, and whether it counts; or the pixel that it is. */
+static void set_sample(const e3d_context *context, e3d_tile_memory *memory, int at, const float sample[4], uint32_t rgba)
+{
+    if (context->frame->samples_axis == 1) {
+        memory->rgba[at] = rgba;
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        memory->samples.color[k][at] = sample[k];
+    memory->samples.counts[at] = sample[3];
+}
+
+void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker)
+{
+    const e3d_batch *batch = &worker->tile->batch;
+    for (int i = 0; i < batch->count; i++)
+        set_sample(context, worker->tile, batch->sample[i], context->background.sample, context->background.rgba);
+}
+
+void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
+{
+    e3d_tile_memory *memory = worker->tile;
+    if (context->frame->samples_axis == 1)
+        context->kernels->put(&memory->batch, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), memory->rgba);
+    else
+        context->kernels->keep(&memory->batch, &memory->samples);
+}
+
+void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_tile_memory *memory = worker->tile;
+    for (int y = 0; y < tile->height; y++)
+        for (int x = 0; x < tile->width; x++) {
+            int at = y * E3D_TILE + x, count = memory->mark[at];
+            if (!count)
+                continue;
+            const uint8_t *c = E3D_OVERDRAW_RAMP[count < 15 ? count : 15];
+            const float sample[4] = {c[0] * E3D_UNORM8, c[1] * E3D_UNORM8, c[2] * E3D_UNORM8, 1.0f};
+            set_sample(context, memory, at, sample,
+                       c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | 0xFF000000u);
+        }
+}
+
+void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_tile_memory *memory = worker->tile;
+    for (int y = 0; y < tile->height; y++)
+        for (int x = 0; x < tile->width; x++)
+            if (memory->mark[y * E3D_TILE + x])
+                set_sample(context, memory, y * E3D_TILE + x, context->line.sample, context->line.rgba);
+}
+
+/* The pixels of several samples each, row by row, to where pixels of one sample are. */
+static void average(const e3d_context *context, e3d_tile_memory *memory, const e3d_tile *tile)
+{
+    int axis = context->frame->samples_axis;
+    for (int y = 0; y < tile->height / axis; y++)
+        context->kernels->average(&memory->samples, axis, y * axis, tile->width / axis, context->background.color, e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
+                                  memory->rgba + y * E3D_TILE);
+}
+
+void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+{
+    e3d_outputs_end(context, worker, tile);
+    if (!context->targets->color)
+        return;
+    if (context->frame->samples_axis > 1)
+        average(context, worker->tile, tile);
+    e3d_late_add(context, worker, tile);
+}

@@ -1,0 +1,120 @@
+/* raster without depths: few records of a tile are mostly neighbours that don't meet, and all that they cover shows; where some meet,
+ * most lie clearly behind others.
+ */
+#include <string.h>
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/shown.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/records.h"
+#include "pipeline/shade/runs.h"
+#include "pipeline/state/renderer.h"
+#include "pipeline/state/tile_memory.h"
+#include "pipeline/state/worker.h"
+#include "pipeline/tile/spans.h"
+
+/* Whether a tile has few records, and no fragments. Of many not all bins are looked through. */
+static int are_few(const e3d_context *context, int64_t tile)
+{
+    uint32_t count = 0;
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_worker *worker = context->renderer->workers[w];
+        const e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
+        if (e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK)
+            return 0;
+        for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+            if ((count += block->count) > E3D_MOST_COVERING)
+                return 0;
+    }
+    return 1;
+}
+
+/* Finds what the records of a tile's bins cover, and lists all of it; 0 where that is too much. */
+static int cover_records(const e3d_context *context, e3d_tile_memory *memory, int64_t tile)
+{
+    for (int32_t w = 0; w < context->renderer->threads; w++) {
+        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
+        for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+            if (!context->kernels->cover_records(&memory->cover, &context->tables[E3D_PASS_SCENE], block->id, (int)block->count,
+                                                 &memory->shown))
+                return 0;
+    }
+    return 1;
+}
+
+static void begin(e3d_tile_memory *memory, const e3d_tile *tile)
+{
+    e3d_cover *cover = &memory->cover;
+    cover->x = tile->x;
+    cover->y = tile->y;
+    cover->width = tile->width;
+    cover->height = tile->height;
+    cover->count = cover->used = 0;
+    memset(cover->once, 0, sizeof cover->once);
+    memset(cover->twice, 0, sizeof cover->twice);
+    e3d_shown_begin(&memory->shown, 1);
+}
+
+static int meet(const e3d_cover *cover)
+{
+    uint64_t twice = 0;
+    for (int y = 0; y < E3D_TILE; y++)
+        twice |= cover->twice[y];
+    return twice != 0;
+}
+
+/* By their nearest depths: none is negative, so the bits are in their order. */
+static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int count, uint16_t *sorted)
+{
+    for (int i = 0; i < count; i++) {
+        memory->runs[i].sample = numbers[i];
+        memcpy(&memory->runs[i].owner, &memory->cover.record[numbers[i]].record->zmin, sizeof(float));
+    }
+    const e3d_run *runs = e3d_sort_runs(memory->runs, memory->spare, count);
+    for (int i = 0; i < count; i++)
+        sorted[i] = runs[i].sample;
+}
+
+/* Makes the list of what shows where records meet; 0 where depths of all samples are found sooner. */
+static int show_met(const e3d_context *context, e3d_tile_memory *memory)
+{
+    const e3d_kernels *kernels = context->kernels;
+    uint16_t numbers[E3D_MOST_COVERING];
+    e3d_shown_begin(&memory->shown, 1);
+    int count = kernels->show_alone(&memory->cover, &memory->shown, numbers);
+    sort_by_depth(memory, numbers, count, numbers);
+    return kernels->show_layers(&memory->cover, &context->tables[E3D_PASS_SCENE], numbers, count, &memory->layers, &memory->shown);
+}
+
+/* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
+static void judge(e3d_spans_state *trial, int pays)
+{
+    enum { MOST = 15 };
+    trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1 : MOST;
+    trial->left = trial->without;
+}
+
+int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number)
+{
+    e3d_tile_memory *memory = worker->tile;
+    if (worker->spans.left > 0) {
+        worker->spans.left--;
+        return 0;
+    }
+    if (!are_few(context, number))
+        return 0;
+    begin(memory, tile);
+    int shows = cover_records(context, memory, number) && (!meet(&memory->cover) || show_met(context, memory));
+    judge(&worker->spans, shows);
+    return shows;
+}
+
+int e3d_spans_cover_all(const e3d_cover *cover)
+{
+    uint64_t row = ~(uint64_t)0 >> (E3D_TILE - cover->width), all = row;
+    for (int32_t y = 0; y < cover->height; y++)
+        all &= cover->once[y];
+    return all == row;
+}

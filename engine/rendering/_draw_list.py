@@ -307,15 +307,16 @@ class DrawList:
         self._flat[material] = material.flat_shading
         texture = material.texture
         self._note_texture(material, texture)
+        textures = {}
         if texture is not None:
-            texture = native_texture(texture, self._color_space)
+            textures["texture"] = native_texture(texture, self._color_space)
         self.native.set_material(
             index,
             shading_color(material.color, self._color_space),
             shading_color(material.specular, self._color_space),
             max(material.shininess, _SMALLEST_SHININESS),
             shading_color(material.emissive, self._color_space),
-            texture,
+            textures,
             number,
             material.two_sided,
             material.flat_shading,

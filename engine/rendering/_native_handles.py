@@ -40,8 +40,8 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     if made_of is None or not all(map(operator.is_, arrays.values(), made_of.values())):
         native = _make_mesh(arrays, threads)
         _meshes[mesh] = arrays, native
-    if needs.vertex_normals and not native.has_normals:
-        native.set_normals(mesh._derive("normals", arrays))
+    if needs.vertex_normals and "normals" not in native.attributes:
+        native.set_attribute("normals", mesh._derive("normals", arrays))
     if needs.face_normals and not native.has_face_normals:
         native.set_face_normals(mesh._derive("face_normals", arrays))
     if needs.edges and not native.has_edges:
@@ -50,14 +50,14 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
 
 def _make_mesh(arrays: dict, threads: int) -> NativeMesh:
+    attributes = {name: arrays[name] for name in ("uvs",) if arrays[name] is not None}
     colors = arrays["colors"]
-    eight_bit = colors is not None and colors.dtype == np.uint8
+    if colors is not None:
+        attributes["colors_u8" if colors.dtype == np.uint8 else "colors_f32"] = colors
     return NativeMesh(
         arrays["positions"],
         arrays["faces"],
-        uvs=arrays["uvs"],
-        colors_u8=colors if eight_bit else None,
-        colors_f32=None if eight_bit else colors,
+        attributes,
         material_ids=arrays["material_ids"],
         lines=arrays["lines"],
         points=arrays["points"],

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 # Every output: dtype and number of channels (0: no third axis).
 OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
-    cast(Output, name): (np.dtype(dtype), channels)
+    cast(Output, name): (np.dtype(dtype), channels if channels > 1 else 0)
     for name, (dtype, channels) in _native.OUTPUTS.items()
 }
 

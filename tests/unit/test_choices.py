@@ -26,7 +26,6 @@ ACCEPTED = {
     "Normals": native.NORMALS,
     "HiddenSurfaces": native.HIDDEN_SURFACES,
     "Culling": native.CULLINGS,
-    "Output": frame.OUTPUTS,
     "Filter": native.FILTERS,
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,
@@ -43,6 +42,12 @@ def test_a_type_lists_what_is_accepted(name):
 def test_every_type_is_compared():
     literals = {name for name, value in vars(choices).items() if "Literal[" in str(value)}
     assert literals == set(ACCEPTED)
+
+
+def test_outputs_are_those_of_the_core():
+    assert get_args(frame.Output) == tuple(frame.OUTPUTS)
+    properties = [name for name, value in vars(e3d.Frame).items() if type(value) is frame._Output]
+    assert properties == list(frame.OUTPUTS)
 
 
 def test_lists_of_modules_are_the_types():

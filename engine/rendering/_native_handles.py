@@ -13,8 +13,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from .._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
+from .._native.rasterizer import FILTERS, VERTEX_ATTRIBUTES, WRAPS, NativeMesh, NativeTexture
 from ..geometry.mesh import Mesh
+from ..geometry.vertex_attributes import vertex_attributes
 from ..materials.textures import Texture
 
 
@@ -50,19 +51,22 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
 
 def _make_mesh(arrays: dict, threads: int) -> NativeMesh:
-    attributes = {name: arrays[name] for name in ("uvs",) if arrays[name] is not None}
-    colors = arrays["colors"]
-    if colors is not None:
-        attributes["colors_u8" if colors.dtype == np.uint8 else "colors_f32"] = colors
+    held = {name: arrays[name] for name in vertex_attributes(Mesh) if arrays[name] is not None}
     return NativeMesh(
         arrays["positions"],
         arrays["faces"],
-        attributes,
+        {_core_name(name, array): array for name, array in held.items()},
         material_ids=arrays["material_ids"],
         lines=arrays["lines"],
         points=arrays["points"],
         threads=threads,
     )
+
+
+def _core_name(name: str, array: np.ndarray) -> str:
+    """What the core calls an attribute: by its type as well, where it may have several."""
+    kind = "u8" if array.dtype == np.uint8 else "f32"
+    return name if name in VERTEX_ATTRIBUTES else f"{name}_{kind}"
 
 
 def native_texture(texture: Texture, color_space: str) -> NativeTexture:

@@ -3,8 +3,8 @@
     python docs/make_plan.py            write it
     python docs/make_plan.py --check    exit with 1 if it is out of date
 
-In: the table of csrc/pipeline/pass/plan.c, as built, and the plans of frames that are drawn here. Out:
-one Markdown page, the same on every machine. A test keeps it up to date.
+In: the table of csrc/pipeline/pass/plan.c, as built, and the plans of frames that are drawn here.
+Out: one Markdown page, the same on every machine. A test keeps it up to date.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """The values that arguments with few choices take, as types: editors complete them.
 
-Each is written once, here; what a module accepts at run time is the same list, which a test checks.
+Each is written once, here (outputs are in rendering/frame.py); what a module accepts at run time is
+the same list, which a test checks.
 The command line has its choices from here as well, and prints its help without loading NumPy.
 """
 
@@ -23,23 +24,6 @@ Shading = Literal["deferred", "forward"]
 Normals = Literal["auto", "smooth", "flat"]
 HiddenSurfaces = Literal["zbuffer", "painter", "none"]
 Culling = Literal["all", "frustum", "none", "always"]
-Output = Literal[
-    "color",
-    "depth",
-    "ndc_depth",
-    "triangle_id",
-    "object_id",
-    "instance_id",
-    "material_id",
-    "albedo",
-    "normal",
-    "position",
-    "world_normal",
-    "world_position",
-    "uv",
-    "barycentric",
-]
-
 Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window"]

@@ -95,7 +95,23 @@ void e3d_mesh_destroy(e3d_mesh *mesh)
     free(mesh);
 }
 
-void e3d_mesh_set_normals(e3d_mesh *mesh, const float *normals) { mesh->desc.normals = normals; }
+void e3d_mesh_desc_set(e3d_mesh_desc *desc, e3d_vertex_attribute attribute, const void *array)
+{
+    switch (attribute) {
+#define SET(attribute, name, ...) \
+    case attribute: desc->name = array; return;
+        E3D_EACH_VERTEX_ATTRIBUTE(SET)
+    case E3D_VERTEX_ATTRIBUTES: return;
+    }
+}
+
+#define FORMAT(attribute, name, type, channels) {#name, channels, sizeof(type), (type)0.5f != 0},
+const e3d_array_format E3D_VERTEX_FORMATS[E3D_VERTEX_ATTRIBUTES] = {E3D_EACH_VERTEX_ATTRIBUTE(FORMAT)};
+
+void e3d_mesh_set_attribute(e3d_mesh *mesh, e3d_vertex_attribute attribute, const void *array)
+{
+    e3d_mesh_desc_set(&mesh->desc, attribute, array);
+}
 
 void e3d_mesh_set_face_normals(e3d_mesh *mesh, const float *face_normals)
 {

@@ -23,4 +23,4 @@ void *e3d_targets_get(const e3d_targets *targets, e3d_output_kind output)
 }
 
 #define FORMAT(output, name, type, channels, ...) {#name, channels, sizeof(type), (type)0.5f != 0},
-const e3d_output_format E3D_OUTPUT_FORMATS[E3D_OUTPUTS] = {E3D_EACH_OUTPUT(FORMAT)};
+const e3d_array_format E3D_OUTPUT_FORMATS[E3D_OUTPUTS] = {E3D_EACH_OUTPUT(FORMAT)};

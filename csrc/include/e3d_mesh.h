@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "e3d_options.h"
 #include "e3d_status.h"
 
 #ifdef __cplusplus
@@ -13,6 +14,18 @@ extern "C" {
 
 typedef struct e3d_mesh e3d_mesh;
 
+/* What vertices carry beside a position: X(ENUMERATOR, name, type of a channel, channels). All are optional; colours are of
+ * one type. */
+#define E3D_EACH_VERTEX_ATTRIBUTE(X)                          \
+    X(E3D_VERTEX_NORMALS, normals, float, 3)                  \
+    X(E3D_VERTEX_UVS, uvs, float, 2) /* origin bottom-left */ \
+    X(E3D_VERTEX_COLORS_U8, colors_u8, uint8_t, 4)            \
+    X(E3D_VERTEX_COLORS_F32, colors_f32, float, 4) /* linear */
+
+typedef enum e3d_vertex_attribute { E3D_EACH_VERTEX_ATTRIBUTE(E3D_ENUMERATOR) E3D_VERTEX_ATTRIBUTES } e3d_vertex_attribute;
+
+extern const e3d_array_format E3D_VERTEX_FORMATS[E3D_VERTEX_ATTRIBUTES];
+
 /* Borrowed arrays; a NULL optional array means "none". Indices must be in range (checked). */
 typedef struct e3d_mesh_desc {
     const float *positions;       /* (vertices, components) object space, or clip space if 4 */
@@ -20,11 +33,9 @@ typedef struct e3d_mesh_desc {
     int32_t vertices;
     const int32_t *faces;         /* (faces_count, 3) */
     int32_t faces_count;
-    const float *normals;         /* (vertices, 3) or NULL */
+#define E3D_VERTEX_ARRAY(enumerator, name, type, ...) const type *name;
+    E3D_EACH_VERTEX_ATTRIBUTE(E3D_VERTEX_ARRAY) /* (vertices, channels) or NULL */
     const float *face_normals;    /* (faces_count, 3) or NULL: needed only for flat shading */
-    const float *uvs;             /* (vertices, 2) or NULL, origin bottom-left */
-    const uint8_t *colors_u8;     /* (vertices, 4) or NULL; at most one of u8 and f32 */
-    const float *colors_f32;      /* (vertices, 4) or NULL, linear */
     const int32_t *material_ids;  /* (faces_count,) or NULL: all 0 */
     const int32_t *lines;         /* (lines_count, 2) */
     int32_t lines_count;
@@ -37,8 +48,9 @@ typedef struct e3d_mesh_desc {
 /* On up to `threads` threads (0 is e3d_thread_count()), which change nothing of the mesh. */
 e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out);
 void e3d_mesh_destroy(e3d_mesh *mesh);
+void e3d_mesh_desc_set(e3d_mesh_desc *desc, e3d_vertex_attribute attribute, const void *array);
 /* Arrays that are made only when a picture needs them. */
-void e3d_mesh_set_normals(e3d_mesh *mesh, const float *normals);
+void e3d_mesh_set_attribute(e3d_mesh *mesh, e3d_vertex_attribute attribute, const void *array);
 void e3d_mesh_set_face_normals(e3d_mesh *mesh, const float *face_normals);
 e3d_status e3d_mesh_set_edges(e3d_mesh *mesh, const int32_t *edges, int32_t count);
 const e3d_mesh_desc *e3d_mesh_view(const e3d_mesh *mesh);

@@ -22,6 +22,7 @@ typedef enum e3d_option {
     E3D_OPTION_MODE,
     E3D_OPTION_NORMALS,
     E3D_OPTION_SHADING,
+    E3D_OPTION_TEXTURE_SLOT,
     E3D_OPTION_WIREFRAME,
     E3D_OPTION_WRAP,
     E3D_OPTIONS
@@ -29,6 +30,13 @@ typedef enum e3d_option {
 
 /* The name of a value; NULL behind the last, and where there is no such value. */
 const char *e3d_option_name(e3d_option option, int32_t value);
+
+/* What an array of an output or of vertices holds. */
+typedef struct e3d_array_format {
+    const char *name;
+    int32_t channels;
+    int32_t bytes, is_float; /* of a channel */
+} e3d_array_format;
 
 #ifdef __cplusplus
 }

@@ -42,13 +42,7 @@ typedef struct e3d_targets {
 void e3d_targets_set(e3d_targets *targets, e3d_output_kind output, void *pixels);
 void *e3d_targets_get(const e3d_targets *targets, e3d_output_kind output);
 
-typedef struct e3d_output_format {
-    const char *name;
-    int32_t channels;
-    int32_t bytes, is_float; /* of a channel */
-} e3d_output_format;
-
-extern const e3d_output_format E3D_OUTPUT_FORMATS[E3D_OUTPUTS];
+extern const e3d_array_format E3D_OUTPUT_FORMATS[E3D_OUTPUTS];
 
 #ifdef __cplusplus
 }

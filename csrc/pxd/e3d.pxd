@@ -22,10 +22,17 @@ cdef extern from "e3d.h" nogil:
         E3D_OPTION_MODE
         E3D_OPTION_NORMALS
         E3D_OPTION_SHADING
+        E3D_OPTION_TEXTURE_SLOT
         E3D_OPTION_WIREFRAME
         E3D_OPTION_WRAP
 
     const char *e3d_option_name(e3d_option option, int32_t value)
+
+    ctypedef struct e3d_array_format:
+        const char *name
+        int32_t channels
+        int32_t bytes
+        int32_t is_float
 
     ctypedef enum e3d_backend:
         pass
@@ -40,17 +47,18 @@ cdef extern from "e3d.h" nogil:
     ctypedef struct e3d_mesh:
         pass
 
+    ctypedef enum e3d_vertex_attribute:
+        E3D_VERTEX_ATTRIBUTES
+
+    const e3d_array_format E3D_VERTEX_FORMATS[]
+
     ctypedef struct e3d_mesh_desc:
         const float *positions
         int32_t components
         int32_t vertices
         const int32_t *faces
         int32_t faces_count
-        const float *normals
         const float *face_normals
-        const float *uvs
-        const uint8_t *colors_u8
-        const float *colors_f32
         const int32_t *material_ids
         const int32_t *lines
         int32_t lines_count
@@ -61,7 +69,8 @@ cdef extern from "e3d.h" nogil:
 
     e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out)
     void e3d_mesh_destroy(e3d_mesh *mesh)
-    void e3d_mesh_set_normals(e3d_mesh *mesh, const float *normals)
+    void e3d_mesh_desc_set(e3d_mesh_desc *desc, e3d_vertex_attribute attribute, const void *array)
+    void e3d_mesh_set_attribute(e3d_mesh *mesh, e3d_vertex_attribute attribute, const void *array)
     void e3d_mesh_set_face_normals(e3d_mesh *mesh, const float *face_normals)
     e3d_status e3d_mesh_set_edges(e3d_mesh *mesh, const int32_t *edges, int32_t count)
     int e3d_bound_points(const float *points, int64_t count, float lo[3], float hi[3])
@@ -85,10 +94,15 @@ cdef extern from "e3d.h" nogil:
         float specular[3]
         float shininess
         float emissive[3]
-        const e3d_texture *texture
         int32_t id
         int32_t two_sided
         int32_t flat
+
+    ctypedef enum e3d_texture_slot:
+        pass
+
+    void e3d_material_set_texture(e3d_material *material, e3d_texture_slot slot,
+                                  const e3d_texture *texture)
 
     ctypedef enum e3d_light_kind:
         E3D_LIGHT_DIRECTIONAL
@@ -191,13 +205,7 @@ cdef extern from "e3d.h" nogil:
 
     void e3d_targets_set(e3d_targets *targets, e3d_output_kind output, void *pixels)
 
-    ctypedef struct e3d_output_format:
-        const char *name
-        int32_t channels
-        int32_t bytes
-        int32_t is_float
-
-    const e3d_output_format E3D_OUTPUT_FORMATS[]
+    const e3d_array_format E3D_OUTPUT_FORMATS[]
 
     ctypedef struct e3d_stats:
         int64_t draws

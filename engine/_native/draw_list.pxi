@@ -170,10 +170,10 @@ cdef class NativeDrawList:
         self.borrowed[index] = self.borrowed[index][0], (poses, colors_u8, colors_f32, ids)
 
     def set_material(
-        self, int index, color, specular, float shininess, emissive, NativeTexture texture, int32_t id,
+        self, int index, color, specular, float shininess, emissive, dict textures not None, int32_t id,
         bint two_sided, bint flat,
     ):
-        """Say what a material is, or the next one."""
+        """Say what a material is, or the next one; textures by the names of `TEXTURE_SLOTS`."""
         require(0 <= index <= self.material_count, "no such material")
         self.materials = <e3d_material *>grown(
             self.materials, self.material_count, &self.material_capacity, sizeof(e3d_material)
@@ -184,9 +184,9 @@ cdef class NativeDrawList:
         copy_vector(material.specular, specular, 3)
         copy_vector(material.emissive, emissive, 3)
         material.shininess = shininess
-        if texture is not None:
-            material.texture = texture.handle
-        self.textures[index] = texture
+        for slot, texture in textures.items():
+            e3d_material_set_texture(material, TEXTURE_SLOTS[slot], (<NativeTexture?>texture).handle)
+        self.textures[index] = textures
         material.id = id
         material.two_sided = two_sided
         material.flat = flat

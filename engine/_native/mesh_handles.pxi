@@ -3,22 +3,41 @@
 # In:  C-contiguous arrays, which are checked here and held for as long as the core reads them.
 # Out: handles that a draw list borrows.
 
+cdef const void *rows_of(array, int number, int count, list held) except? NULL:
+    """The rows of an array of vertex attribute `number`, which `held` keeps; NULL if there are none."""
+    cdef const e3d_array_format *format = &E3D_VERTEX_FORMATS[number]
+    cdef const float[:, ::1] floats
+    cdef const uint8_t[:, ::1] octets
+    if format.is_float:
+        floats = array
+        rows, columns = floats.shape[0], floats.shape[1]
+        held.append(floats)
+    else:
+        octets = array
+        rows, columns = octets.shape[0], octets.shape[1]
+        held.append(octets)
+    require(rows == count and columns == format.channels,
+            f"{format.name.decode()} must be (vertices, {format.channels})")
+    if count == 0:
+        return NULL
+    return <const void *>&floats[0, 0] if format.is_float else <const void *>&octets[0, 0]
+
+
 cdef class NativeMesh:
     """A mesh of the core. It borrows the arrays given, which must never change."""
 
     cdef e3d_mesh *handle
     cdef list borrowed
-    cdef readonly bint has_normals, has_face_normals, has_edges
+    cdef readonly set attributes  # their names
+    cdef readonly bint has_face_normals, has_edges
     cdef int32_t vertices, faces_count
 
     def __cinit__(
         self,
         const float[:, ::1] positions not None,
         const int32_t[:, ::1] faces not None,
+        dict attributes not None,
         *,
-        const float[:, ::1] uvs=None,
-        const uint8_t[:, ::1] colors_u8=None,
-        const float[:, ::1] colors_f32=None,
         const int32_t[::1] material_ids=None,
         const int32_t[:, ::1] lines=None,
         const int32_t[::1] points=None,
@@ -29,7 +48,8 @@ cdef class NativeMesh:
         cdef int32_t count = <int32_t>positions.shape[0]
         require(positions.shape[1] in (3, 4), "positions must have 3 or 4 columns")
         require(faces.shape[1] == 3, "faces must have 3 columns")
-        self.borrowed = [positions, faces, uvs, colors_u8, colors_f32, material_ids, lines, points]
+        self.borrowed = [positions, faces, material_ids, lines, points]
+        self.attributes = set(attributes)
         self.vertices = desc.vertices = count
         desc.components = <int32_t>positions.shape[1]
         self.faces_count = desc.faces_count = <int32_t>faces.shape[0]
@@ -37,15 +57,9 @@ cdef class NativeMesh:
             desc.positions = &positions[0, 0]
         if desc.faces_count:
             desc.faces = &faces[0, 0]
-        if uvs is not None and count:
-            require(uvs.shape[0] == count and uvs.shape[1] == 2, "uvs must be (vertices, 2)")
-            desc.uvs = &uvs[0, 0]
-        if colors_u8 is not None and count:
-            require(colors_u8.shape[0] == count and colors_u8.shape[1] == 4, "colors: (vertices, 4)")
-            desc.colors_u8 = &colors_u8[0, 0]
-        elif colors_f32 is not None and count:
-            require(colors_f32.shape[0] == count and colors_f32.shape[1] == 4, "colors: (vertices, 4)")
-            desc.colors_f32 = &colors_f32[0, 0]
+        for name, array in attributes.items():
+            number = VERTEX_NUMBERS[name]
+            e3d_mesh_desc_set(&desc, number, rows_of(array, number, count, self.borrowed))
         if material_ids is not None and desc.faces_count:
             require(material_ids.shape[0] == desc.faces_count, "material_ids must be (faces,)")
             desc.material_ids = &material_ids[0]
@@ -67,14 +81,15 @@ cdef class NativeMesh:
 
     # The first array stays: a thread may be drawing by it when another brings its own.
 
-    def set_normals(self, const float[:, ::1] normals not None):
-        require(normals.shape[0] == self.vertices and normals.shape[1] == 3, "normals: (vertices, 3)")
-        if self.has_normals:
+    def set_attribute(self, str name, array):
+        """Add an array of `VERTEX_ATTRIBUTES`."""
+        number = VERTEX_NUMBERS[name]
+        if name in self.attributes:
             return
-        if self.vertices:
-            e3d_mesh_set_normals(self.handle, &normals[0, 0])
-        self.borrowed.append(normals)
-        self.has_normals = True
+        e3d_mesh_set_attribute(
+            self.handle, number, rows_of(array, number, self.vertices, self.borrowed)
+        )
+        self.attributes.add(name)
 
     def set_face_normals(self, const float[:, ::1] normals not None):
         require(

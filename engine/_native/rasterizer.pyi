@@ -21,9 +21,11 @@ WIREFRAMES: dict[str | None, int]
 HIDDEN_SURFACES: dict[str, int]
 CULLINGS: dict[str, int]
 SHADINGS: dict[str, int]
+TEXTURE_SLOTS: dict[str, int]
 NORMALS: dict[str, int]
 BACKENDS: dict[str, int]
 OUTPUTS: dict[str, tuple[str, int]]
+VERTEX_ATTRIBUTES: dict[str, tuple[str, int]]
 
 def backend_available(backend: int) -> bool: ...
 def best_backend() -> int: ...
@@ -31,23 +33,21 @@ def thread_count() -> int: ...
 def bound_points(points: _Floats) -> tuple[list[float], list[float]]: ...
 
 class NativeMesh:
-    has_normals: bool
+    attributes: set[str]
     has_face_normals: bool
     has_edges: bool
     def __init__(
         self,
         positions: _Floats,
         faces: _Integers,
+        attributes: dict[str, _Floats | _Bytes],
         *,
-        uvs: _Floats | None = None,
-        colors_u8: _Bytes | None = None,
-        colors_f32: _Floats | None = None,
         material_ids: _Integers | None = None,
         lines: _Integers | None = None,
         points: _Integers | None = None,
         threads: int = 0,
     ) -> None: ...
-    def set_normals(self, normals: _Floats) -> None: ...
+    def set_attribute(self, name: str, array: _Floats | _Bytes) -> None: ...
     def set_face_normals(self, normals: _Floats) -> None: ...
     def set_edges(self, edges: _Integers) -> None: ...
 
@@ -91,7 +91,7 @@ class NativeDrawList:
         specular: Sequence[float] | _Floats,
         shininess: float,
         emissive: Sequence[float] | _Floats,
-        texture: NativeTexture | None,
+        textures: dict[str, NativeTexture],
         id: int,
         two_sided: bool,
         flat: bool,

@@ -39,6 +39,7 @@ HIDDEN_SURFACES = values_of(E3D_OPTION_HIDDEN)
 MODES = values_of(E3D_OPTION_MODE)
 NORMALS = values_of(E3D_OPTION_NORMALS)
 SHADINGS = values_of(E3D_OPTION_SHADING)
+TEXTURE_SLOTS = values_of(E3D_OPTION_TEXTURE_SLOT)
 WIREFRAMES = {
     None if name == "none" else name: value
     for name, value in values_of(E3D_OPTION_WIREFRAME).items()
@@ -48,16 +49,20 @@ WRAPS = values_of(E3D_OPTION_WRAP)
 BACKENDS = values_of(E3D_OPTION_BACKEND)
 
 
-cdef output_format(const e3d_output_format *format):
-    dtype = "float32" if format.is_float else "uint8" if format.bytes == 1 else "int32"
-    return dtype, format.channels if format.channels > 1 else 0
+cdef dict formats_of(const e3d_array_format *formats, int count):
+    """Of each array by its name the dtype and the number of channels."""
+    found = {}
+    for k in range(count):
+        dtype = "float32" if formats[k].is_float else "uint8" if formats[k].bytes == 1 else "int32"
+        found[formats[k].name.decode()] = dtype, formats[k].channels
+    return found
 
 
-cdef dict OUTPUT_NUMBERS = {E3D_OUTPUT_FORMATS[k].name.decode(): k for k in range(E3D_OUTPUTS)}
-# Of each output the dtype and the number of channels (0: no third axis).
-OUTPUTS = {
-    name: output_format(&E3D_OUTPUT_FORMATS[number]) for name, number in OUTPUT_NUMBERS.items()
-}
+OUTPUTS = formats_of(E3D_OUTPUT_FORMATS, E3D_OUTPUTS)
+VERTEX_ATTRIBUTES = formats_of(E3D_VERTEX_FORMATS, E3D_VERTEX_ATTRIBUTES)
+# The number of each, as the core counts them.
+cdef dict OUTPUT_NUMBERS = {name: number for number, name in enumerate(OUTPUTS)}
+cdef dict VERTEX_NUMBERS = {name: number for number, name in enumerate(VERTEX_ATTRIBUTES)}
 
 # Seconds of a frame between two looks at the pending signals: Ctrl-C feels immediate, and a busy
 # interpreter in another thread is not asked for the GIL more often than that.
@@ -356,7 +361,7 @@ cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height)
     return 0
 
 
-cdef void *pixels_of(array, const e3d_output_format *format, int width, int height) except NULL:
+cdef void *pixels_of(array, const e3d_array_format *format, int width, int height) except NULL:
     if format.bytes == 1:
         return bytes_of(array, width, height)
     if format.channels > 1:

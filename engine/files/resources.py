@@ -19,7 +19,7 @@ from ..geometry.mesh import Mesh
 from ..loaders import load_mesh, load_texture
 from ..loaders.linked_files import found_files
 from ..loaders.open_files import unreadable
-from ..materials.material import Material
+from ..materials.material import Material, textures_of
 from ..materials.textures import Texture
 from .stamps import FileState
 
@@ -165,8 +165,8 @@ class Resources:
     def _keep(self, key: tuple, thing, loaded: _Loaded):
         """The object of what was read: this one, or one that is there already."""
         for material in thing.materials if isinstance(thing, Mesh) else ():
-            if material.texture is not None:
-                material.texture = self._same(material.texture, count=False)
+            for slot, texture in textures_of(material).items():
+                setattr(material, slot, self._same(texture, count=False))
         thing = self._same(thing)
         loaded.versions = _versions(thing)
         self._files[key] = loaded
@@ -207,7 +207,7 @@ class _Loaded:
 def _versions(thing) -> tuple:
     """What is another once somebody has changed the thing."""
     materials = thing.materials if isinstance(thing, Mesh) else ()
-    textures = (material.texture for material in materials if material.texture is not None)
+    textures = (texture for material in materials for texture in textures_of(material).values())
     return tuple(part.version for part in (thing, *materials, *textures))
 
 
@@ -248,8 +248,8 @@ def _content(thing) -> tuple:
 def _material_content(material: Material) -> tuple:
     numbers = material.specular, material.shininess, material.emissive, material.two_sided
     look = material.color, *numbers, material.flat_shading, material.name
-    texture = None if material.texture is None else _content(material.texture)
-    return (*map(repr, look), repr(material.extras), texture)
+    textures = tuple((slot, _content(texture)) for slot, texture in textures_of(material).items())
+    return (*map(repr, look), repr(material.extras), textures)
 
 
 def _become(thing, fresh) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import InvalidArgumentError
 from ..materials.colors import srgb_to_linear_table
 from ..materials.material import Material
+from .vertex_attributes import VertexAttribute, attributes_of, vertex_attributes
 
 
 def concatenate(mesh_type: type, meshes: list, name: str):
@@ -26,8 +27,6 @@ def concatenate(mesh_type: type, meshes: list, name: str):
         np.concatenate([mesh.positions for mesh in meshes]),
         _moved(meshes, starts, "faces"),
         normals=_joined_normals(meshes),
-        uvs=_joined_uvs(meshes),
-        colors=_joined_colors(meshes),
         materials=materials,
         material_ids=material_ids,
         lines=_moved(meshes, starts, "lines"),
@@ -35,6 +34,7 @@ def concatenate(mesh_type: type, meshes: list, name: str):
         edge_visible=_joined_edge_flags(meshes),
         position_ids=_joined_position_ids(meshes),
         name=name,
+        **_joined_attributes(meshes),
     )
     joined._groups = _joined_groups(meshes)
     joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
@@ -66,30 +66,32 @@ def _joined_normals(meshes):
     return np.concatenate([mesh.normals for mesh in meshes])
 
 
-def _joined_uvs(meshes):
-    if all(mesh.uvs is None for mesh in meshes):
-        return None
-    return np.concatenate(
-        [np.zeros((len(m.positions), 2), np.float32) if m.uvs is None else m.uvs for m in meshes]
-    )
+def _joined_attributes(meshes) -> dict[str, np.ndarray]:
+    """Those that some of the meshes have."""
+    held = [attributes_of(mesh) for mesh in meshes]
+    counts = [len(mesh.positions) for mesh in meshes]
+    return {
+        name: _joined_attribute(attribute, [arrays.get(name) for arrays in held], counts)
+        for name, attribute in vertex_attributes(type(meshes[0])).items()
+        if any(name in arrays for arrays in held)
+    }
 
 
-def _joined_colors(meshes):
+def _joined_attribute(attribute: VertexAttribute, arrays: list, counts: list[int]) -> np.ndarray:
     """Bytes stay bytes; beside floats they become linear light."""
-    if all(mesh.colors is None for mesh in meshes):
-        return None
-    given = [mesh.colors for mesh in meshes if mesh.colors is not None]
-    as_bytes = all(colors.dtype == np.uint8 for colors in given)
-    dtype, white = (np.uint8, 255) if as_bytes else (np.float32, 1)
-    parts = []
-    for mesh in meshes:
-        colors = mesh.colors
-        if colors is None:
-            colors = np.full((len(mesh.positions), 4), white, dtype)
-        elif not as_bytes and colors.dtype == np.uint8:
-            colors = _linear_from_bytes(colors)
-        parts.append(colors)
-    return np.concatenate(parts)
+    given = [array for array in arrays if array is not None]
+    if len({array.dtype for array in given}) > 1:
+        arrays = [
+            _linear_from_bytes(array) if array is not None and array.dtype == np.uint8 else array
+            for array in arrays
+        ]
+        given = [array for array in arrays if array is not None]
+    return np.concatenate(
+        [
+            attribute.filler(count, given[0]) if array is None else array
+            for array, count in zip(arrays, counts, strict=True)
+        ]
+    )
 
 
 def _linear_from_bytes(colors: np.ndarray) -> np.ndarray:

@@ -37,13 +37,15 @@ from ._arrays import (
     check_vectors3,
     require_range,
 )
+from .vertex_attributes import VertexAttribute, vertex_attributes
 
 _Floats: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.float32]]
 _Integers: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.int32]]
 _OptionalFloats: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.float32] | None]
 _OptionalIntegers: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.int32] | None]
 _OptionalFlags: TypeAlias = ArrayAttribute[ArrayLike | None, NDArray[np.bool_] | None]
-_OptionalColors: TypeAlias = ArrayAttribute[
+_VertexFloats: TypeAlias = VertexAttribute[ArrayLike | None, NDArray[np.float32] | None]
+_VertexColors: TypeAlias = VertexAttribute[
     ArrayLike | None, NDArray[np.uint8] | NDArray[np.float32] | None
 ]
 
@@ -103,8 +105,8 @@ class Mesh(Closed):
     warnings: list[str]
     positions: _Floats = ArrayAttribute(check_vectors3)
     faces: _Integers = ArrayAttribute(check_triples)
-    uvs: _OptionalFloats = ArrayAttribute(check_vectors2, optional=True)
-    colors: _OptionalColors = ArrayAttribute(check_colors, optional=True)
+    uvs: _VertexFloats = VertexAttribute(check_vectors2, fill=0)
+    colors: _VertexColors = VertexAttribute(check_colors, fill=1)
     material_ids: _Integers = ArrayAttribute(check_indices)
     lines: _Integers = ArrayAttribute(check_pairs)
     points: _Integers = ArrayAttribute(check_indices)
@@ -341,7 +343,7 @@ class Mesh(Closed):
 
 def _check_new_positions(positions: np.ndarray, others: dict) -> None:
     count = len(positions)
-    for what in ("_given_normals", "uvs", "colors", "position_ids"):
+    for what in ("_given_normals", *vertex_attributes(Mesh), "position_ids"):
         other = others.get(what)
         if other is not None and len(other) != count:
             raise InvalidArgumentError(

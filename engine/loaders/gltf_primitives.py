@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry.mesh import Mesh
+from ..geometry.vertex_attributes import vertex_attributes
 from .gltf_buffers import GltfBuffers
 from .gltf_file import GltfFile
 from .gltf_materials import GltfMaterials
@@ -108,7 +109,7 @@ class GltfPrimitives:
 
 def _keep(geometry: IndexedGeometry, chosen: np.ndarray) -> None:
     """Leave only some vertices, in this order."""
-    for name in ("positions", "normals", "uvs", "colors"):
+    for name in ("positions", "normals", *vertex_attributes(Mesh)):
         array = getattr(geometry, name)
         if array is not None:
             setattr(geometry, name, array[chosen])

@@ -13,6 +13,7 @@ import numpy as np
 
 from .._native import loaders as native
 from ..geometry.mesh import Mesh
+from ..geometry.vertex_attributes import vertex_attributes
 from .smoothing import join_seams
 from .welding import number_rows
 
@@ -61,38 +62,39 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
     if not len(corners) and not len(lines):
         return Mesh(
             geometry.positions,
-            normals=geometry.normals,
-            uvs=geometry.uvs,
-            colors=geometry.colors,
             points=np.arange(count),
             name=name,
+            **_chosen(geometry, _ALL),
         )
     of_corner = _corner_attributes(geometry)
     faces, vertices, first_corner = _split(corners, of_corner, count)
     vertex_of, vertices, added = _vertices_for(lines.ravel(), vertices, count)
-    positions, normals, uvs, colors = (
-        array if array is None or vertices is _ALL else array[vertices]
-        for array in (geometry.positions, geometry.normals, geometry.uvs, geometry.colors)
-    )
-    if "uvs" in of_corner:
-        uvs = _padded(of_corner["uvs"][first_corner], added, 0)
-    if "colors" in of_corner:
-        white = 255 if of_corner["colors"].dtype == np.uint8 else 1
-        colors = _padded(of_corner["colors"][first_corner], added, white)
+    attributes = _chosen(geometry, vertices)
+    for attribute, rows in of_corner.items():
+        filler = vertex_attributes(Mesh)[attribute].filler(added, rows)
+        attributes[attribute] = np.concatenate([rows[first_corner], filler])
     mesh = Mesh(
-        positions,
+        _rows(geometry.positions, vertices),
         faces,
-        normals=normals,
-        uvs=uvs,
-        colors=colors,
         lines=vertex_of.reshape(-1, 2),
         edge_visible=geometry.edge_visible,
         position_ids=_position_ids(geometry, vertices, bool(of_corner)),
         name=name,
+        **attributes,
     )
     if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)
     return mesh
+
+
+def _chosen(geometry: IndexedGeometry, vertices) -> dict[str, np.ndarray]:
+    """What some vertices carry beside positions, as parameters of a mesh."""
+    given = {name: getattr(geometry, name) for name in ("normals", *vertex_attributes(Mesh))}
+    return {name: _rows(array, vertices) for name, array in given.items() if array is not None}
+
+
+def _rows(array: np.ndarray, vertices) -> np.ndarray:
+    return array if vertices is _ALL else array[vertices]
 
 
 def _position_ids(geometry: IndexedGeometry, vertices: np.ndarray, is_split: bool):
@@ -140,8 +142,3 @@ def _vertices_for(used: np.ndarray, vertices: np.ndarray, count: int):
     lacking = np.unique(used[vertex_of[used] < 0])
     vertex_of[lacking] = len(vertices) + np.arange(len(lacking), dtype=np.int32)
     return vertex_of[used], np.concatenate([vertices, lacking]), len(lacking)
-
-
-def _padded(rows: np.ndarray, added: int, value) -> np.ndarray:
-    """Rows with some more of one value at the end."""
-    return np.concatenate([rows, np.full((added, *rows.shape[1:]), value, rows.dtype)])

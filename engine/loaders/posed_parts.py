@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
 from ..geometry.normals import unit_vectors
+from ..geometry.vertex_attributes import attributes_of
 from ..linalg import normal_matrix, transform_directions, transform_points
 from .documents import DocumentObject
 from .sources import Source
@@ -93,8 +94,6 @@ def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
         transform_points(pose, mesh.positions),
         mesh.faces[:, order],
         normals=normals,
-        uvs=mesh.uvs,
-        colors=mesh.colors,
         materials=mesh.materials,
         material_ids=mesh.material_ids,
         lines=mesh.lines,
@@ -102,6 +101,7 @@ def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
         edge_visible=visible,
         position_ids=mesh.position_ids,
         name=mesh.name,
+        **attributes_of(mesh),
     )
 
 

@@ -29,6 +29,13 @@ def _check_texture(value: Texture | None, what: str) -> Texture | None:
     return value
 
 
+class TextureSlot(CheckedAttribute[Texture | None, Texture | None]):
+    """A texture of a material; the core lists them in csrc/include/e3d_material.h."""
+
+    def __init__(self) -> None:
+        super().__init__(_check_texture)
+
+
 def _check_dict(value: dict[str, Any], what: str) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise InvalidArgumentError(f"{what} must be a dict: {type(value).__name__}")
@@ -70,7 +77,7 @@ class Material(Closed):
 
     version: int
     color: ColorAttribute = CheckedAttribute(check_color)
-    texture: CheckedAttribute[Texture | None, Texture | None] = CheckedAttribute(_check_texture)
+    texture: TextureSlot = TextureSlot()
     specular: ColorAttribute = CheckedAttribute(check_color)
     shininess: NumberAttribute = CheckedAttribute(not_negative)
     emissive: ColorAttribute = CheckedAttribute(check_color)
@@ -114,12 +121,23 @@ class Material(Closed):
         return f"Material(name={self.name!r}, color={self.color}{texture})"
 
 
+TEXTURE_SLOTS: tuple[str, ...] = tuple(
+    name for name, value in vars(Material).items() if isinstance(value, TextureSlot)
+)
+
+
+def textures_of(material: Material) -> dict[str, Texture]:
+    """Return the textures that a material has, by slot."""
+    held = {slot: getattr(material, slot) for slot in TEXTURE_SLOTS}
+    return {slot: texture for slot, texture in held.items() if texture is not None}
+
+
 def says_something(material: Material) -> bool:
     """Return whether anything of a material but its name differs from a default one.
 
     Its facets and sides do not count: an STL file sets them without a word on materials.
     """
-    return material.texture is not None or _words(material) != _DEFAULT_WORDS
+    return bool(textures_of(material)) or _words(material) != _DEFAULT_WORDS
 
 
 def _words(material: Material) -> tuple:

@@ -16,7 +16,7 @@ from .._native.rasterizer import NativeDrawList
 from .._support.dirty_tracking import Watch
 from ..geometry.mesh import Mesh
 from ..materials.display_colors import shading_color
-from ..materials.material import Material
+from ..materials.material import Material, textures_of
 from ..materials.textures import Texture
 from ..scene.instances import InstancedMesh
 from ..scene.node_arrays import NodeArrays
@@ -58,7 +58,7 @@ class DrawList:
         self._changed: list = []  # of what is watched, since the list was made
         self._materials: dict[Material, list[tuple[int, int]]] = {}  # where they are, as whose
         self._flat: dict[Material, bool] = {}  # which normals they asked for
-        self._textured: dict[Material, Texture] = {}
+        self._textured: dict[Material, set[Texture]] = {}
         self._users: dict[Texture, set[Material]] = {}
         self._bases: dict[tuple[int, ...], int] = {}  # where materials begin, by their ids
         self._material_lists: list[list[Material]] = []  # the meshes' own, by number of the object
@@ -305,34 +305,32 @@ class DrawList:
     def _set_material(self, index: int, material: Material, number: int) -> None:
         self._watch.add(material)
         self._flat[material] = material.flat_shading
-        texture = material.texture
-        self._note_texture(material, texture)
-        if texture is not None:
-            texture = native_texture(texture, self._color_space)
+        textures = textures_of(material)
+        self._note_textures(material, set(textures.values()))
         self.native.set_material(
             index,
             shading_color(material.color, self._color_space),
             shading_color(material.specular, self._color_space),
             max(material.shininess, _SMALLEST_SHININESS),
             shading_color(material.emissive, self._color_space),
-            texture,
+            {slot: native_texture(textures[slot], self._color_space) for slot in textures},
             number,
             material.two_sided,
             material.flat_shading,
         )
 
-    def _note_texture(self, material: Material, texture: Texture | None) -> None:
-        """Look at the texture of a material, and no longer at one that no material has now."""
-        before = self._textured.pop(material, None)
-        if before is not None and before is not texture:
-            self._users[before].discard(material)
-            if not self._users[before]:
-                del self._users[before]
-                self._watch.remove(before)
-        if texture is not None:
+    def _note_textures(self, material: Material, textures: set[Texture]) -> None:
+        """Look at the textures of a material, and no longer at those that no material has now."""
+        for gone in self._textured.pop(material, set()) - textures:
+            self._users[gone].discard(material)
+            if not self._users[gone]:
+                del self._users[gone]
+                self._watch.remove(gone)
+        for texture in textures:
             self._watch.add(texture)
-            self._textured[material] = texture
             self._users.setdefault(texture, set()).add(material)
+        if textures:
+            self._textured[material] = textures
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:

@@ -13,8 +13,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from .._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
+from .._native.rasterizer import FILTERS, VERTEX_ATTRIBUTES, WRAPS, NativeMesh, NativeTexture
 from ..geometry.mesh import Mesh
+from ..geometry.vertex_attributes import vertex_attributes
 from ..materials.textures import Texture
 
 
@@ -40,8 +41,8 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     if made_of is None or not all(map(operator.is_, arrays.values(), made_of.values())):
         native = _make_mesh(arrays, threads)
         _meshes[mesh] = arrays, native
-    if needs.vertex_normals and not native.has_normals:
-        native.set_normals(mesh._derive("normals", arrays))
+    if needs.vertex_normals and "normals" not in native.attributes:
+        native.set_attribute("normals", mesh._derive("normals", arrays))
     if needs.face_normals and not native.has_face_normals:
         native.set_face_normals(mesh._derive("face_normals", arrays))
     if needs.edges and not native.has_edges:
@@ -50,19 +51,22 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
 
 def _make_mesh(arrays: dict, threads: int) -> NativeMesh:
-    colors = arrays["colors"]
-    eight_bit = colors is not None and colors.dtype == np.uint8
+    held = {name: arrays[name] for name in vertex_attributes(Mesh) if arrays[name] is not None}
     return NativeMesh(
         arrays["positions"],
         arrays["faces"],
-        uvs=arrays["uvs"],
-        colors_u8=colors if eight_bit else None,
-        colors_f32=None if eight_bit else colors,
+        {_core_name(name, array): array for name, array in held.items()},
         material_ids=arrays["material_ids"],
         lines=arrays["lines"],
         points=arrays["points"],
         threads=threads,
     )
+
+
+def _core_name(name: str, array: np.ndarray) -> str:
+    """What the core calls an attribute: by its type as well, where it may have several."""
+    kind = "u8" if array.dtype == np.uint8 else "f32"
+    return name if name in VERTEX_ATTRIBUTES else f"{name}_{kind}"
 
 
 def native_texture(texture: Texture, color_space: str) -> NativeTexture:

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import io
 import os
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast, overload
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native import rasterizer as _native
 from .._native.images import encode_png
-from ..choices import ImageFormat, Output
+from ..choices import ImageFormat
 from ..errors import InvalidArgumentError, MissingOutputError
 from ..files.atomic_write import atomic_write, checked_path
 from ..files.picture_mark import TGA_MARK
@@ -26,9 +26,26 @@ if TYPE_CHECKING:
 
     from ..canvas import Canvas
 
-# Every output: dtype and number of channels (0: no third axis).
+# What a frame may hold, for type checkers. `Frame` has a property of each.
+Output = Literal[
+    "color",
+    "depth",
+    "ndc_depth",
+    "triangle_id",
+    "object_id",
+    "instance_id",
+    "material_id",
+    "albedo",
+    "normal",
+    "position",
+    "world_normal",
+    "world_position",
+    "uv",
+    "barycentric",
+]
+# Their dtypes and numbers of channels (0: no third axis), as the core lists them.
 OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
-    cast(Output, name): (np.dtype(dtype), channels)
+    cast(Output, name): (np.dtype(dtype), channels if channels > 1 else 0)
     for name, (dtype, channels) in _native.OUTPUTS.items()
 }
 

@@ -20,13 +20,12 @@ from ..choices import (
     HiddenSurfaces,
     Mode,
     Normals,
-    Output,
     Shading,
     Wireframe,
 )
 from ..errors import InvalidArgumentError
 from ..materials.colors import check_color
-from .frame import OUTPUTS
+from .frame import OUTPUTS, Output
 
 if TYPE_CHECKING:
     from ._view import CameraChoice

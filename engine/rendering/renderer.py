@@ -24,7 +24,6 @@ from ..choices import (
     HiddenSurfaces,
     Mode,
     Normals,
-    Output,
     Samples,
     Shading,
     Wireframe,
@@ -39,7 +38,7 @@ from ._output_pool import OutputPool
 from ._turn import RendererTurn
 from ._view import CameraChoice, View, find_camera
 from .backend_selection import resolve_backend, resolve_threads
-from .frame import OUTPUTS, Frame
+from .frame import OUTPUTS, Frame, Output
 from .framing import frame_scene
 from .options import WHITE, RenderKeywords, RenderOptions, either
 

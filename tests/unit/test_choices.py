@@ -9,7 +9,9 @@ import pytest
 import engine3d as e3d
 from engine3d import choices
 from engine3d._native import rasterizer as native
+from engine3d.geometry.vertex_attributes import vertex_attributes
 from engine3d.materials import colors, textures
+from engine3d.materials.material import TEXTURE_SLOTS
 from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
@@ -26,7 +28,6 @@ ACCEPTED = {
     "Normals": native.NORMALS,
     "HiddenSurfaces": native.HIDDEN_SURFACES,
     "Culling": native.CULLINGS,
-    "Output": frame.OUTPUTS,
     "Filter": native.FILTERS,
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,
@@ -43,6 +44,21 @@ def test_a_type_lists_what_is_accepted(name):
 def test_every_type_is_compared():
     literals = {name for name, value in vars(choices).items() if "Literal[" in str(value)}
     assert literals == set(ACCEPTED)
+
+
+def test_outputs_are_those_of_the_core():
+    assert get_args(frame.Output) == tuple(frame.OUTPUTS)
+    properties = [name for name, value in vars(e3d.Frame).items() if type(value) is frame._Output]
+    assert properties == list(frame.OUTPUTS)
+
+
+def test_what_vertices_carry_is_what_the_core_knows():
+    core = {name.removesuffix("_u8").removesuffix("_f32") for name in native.VERTEX_ATTRIBUTES}
+    assert {"normals", *vertex_attributes(e3d.Mesh)} == core
+
+
+def test_the_textures_of_materials_are_those_of_the_core():
+    assert list(TEXTURE_SLOTS) == list(native.TEXTURE_SLOTS)
 
 
 def test_lists_of_modules_are_the_types():

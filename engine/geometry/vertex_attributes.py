@@ -1,0 +1,48 @@
+"""What vertices carry beside positions and normals: attributes of `Mesh`, each listed there once.
+
+In: a type of meshes, or a mesh. Out: what is known of each attribute, or its arrays. Whatever
+copies, joins or draws meshes takes all of them. The core lists them in csrc/include/e3d_mesh.h.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ._arrays import ArrayAttribute, Given, Kept
+
+
+class VertexAttribute(ArrayAttribute[Given, Kept]):
+    """An array that may be there, with a row for each vertex.
+
+    Parameters
+    ----------
+    check : callable
+    fill : float
+        What vertices have where others of the mesh have something; of bytes, 255 is 1.
+    """
+
+    def __init__(self, check: Callable[[Any, str], Any], *, fill: float) -> None:
+        super().__init__(check, optional=True)
+        self._fill = fill
+
+    def filler(self, count: int, like: np.ndarray) -> np.ndarray:
+        """Return rows for vertices that have nothing, of the kind that others have."""
+        one = 255 if like.dtype == np.uint8 else 1
+        return np.full((count, *like.shape[1:]), self._fill * one, like.dtype)
+
+
+@functools.cache
+def vertex_attributes(mesh_type: type) -> dict[str, VertexAttribute]:
+    """Return the attributes by name."""
+    members = [item for cls in mesh_type.__mro__ for item in vars(cls).items()]
+    return {name: value for name, value in members if isinstance(value, VertexAttribute)}
+
+
+def attributes_of(mesh) -> dict[str, np.ndarray]:
+    """Return the arrays that a mesh has, as parameters of another."""
+    held = {name: mesh._arrays[name] for name in vertex_attributes(type(mesh))}
+    return {name: array for name, array in held.items() if array is not None}

@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 import pytest
-from display.scripted_window import ScriptedWindow
+from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d.viewer import input as events

@@ -14,7 +14,9 @@ import statistics
 import sys
 import time
 
-from engine3d.benchmarking import line_chart, measuring, report, workloads
+import line_chart
+
+from engine3d.benchmarking import measuring, report, workloads
 
 SIZE = (1280, 720)
 SIDES = (1, 2, 3, 6, 10, 18, 32, 56, 100, 178, 316)

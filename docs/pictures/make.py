@@ -23,7 +23,7 @@ from engine3d import linalg
 from engine3d.demos import load_demo
 from engine3d.viewer.open_model import open_model
 from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import Studio
+from engine3d.viewer.view_renderer import ViewRenderer
 from engine3d.viewer.walking import controller
 
 FOLDER = Path(__file__).resolve().parent
@@ -160,29 +160,31 @@ def scenes() -> np.ndarray:
     """Three of the scenes of ``--scene``: point lights, the edges of a cube, its faces."""
     tiles = []
     for name, time in (("shapes", 1.1), ("edges", 0.9), ("faces", 2.1)):
-        with Studio(load_demo(name), Settings(look={}), (420, 280), samples=SAMPLES) as studio:
-            tiles.append((f"--scene {name}", studio.draw(studio.view(), time).color))
+        with ViewRenderer(
+            load_demo(name), Settings(appearance={}), (420, 280), samples=SAMPLES
+        ) as view_renderer:
+            tiles.append((f"--scene {name}", view_renderer.draw(view_renderer.view(), time).color))
     return sheet(tiles, 3)
 
 
 def viewer() -> np.ndarray:
     """What the viewer's window shows: a model with its edges, grid, axes, what the file holds."""
-    settings = Settings(look={"wireframe": "overlay"}, grid=True, axes=True, metadata=True)
-    subject = open_model(MODELS / "train.asc")
-    with Studio(subject, settings, (1260, 600), samples=SAMPLES) as studio:
-        return studio.draw(studio.view()).color
+    settings = Settings(appearance={"wireframe": "overlay"}, grid=True, axes=True, metadata=True)
+    viewed = open_model(MODELS / "train.asc")
+    with ViewRenderer(viewed, settings, (1260, 600), samples=SAMPLES) as view_renderer:
+        return view_renderer.draw(view_renderer.view()).color
 
 
 def city() -> np.ndarray:
     """The city as one who walks sees it, and from above."""
     tiles = []
     size = (630, 354)
-    with Studio(load_demo("city"), Settings(look={}), size, samples=4) as studio:
+    with ViewRenderer(load_demo("city"), Settings(appearance={}), size, samples=4) as view_renderer:
         for caption, walks in (("--camera fps", True), ("--scene city", False)):
-            view = studio.view()
+            view = view_renderer.view()
             if walks:
-                controller(studio, view).place(view)
-            tiles.append((caption, studio.draw(view, 1.0).color))
+                controller(view_renderer, view).place(view)
+            tiles.append((caption, view_renderer.draw(view, 1.0).color))
     return sheet(tiles, 2)
 
 

@@ -70,7 +70,7 @@ def join_values(arguments: list[str]) -> list[str]:
 # Groups of options
 
 
-def add_subject(parser) -> None:
+def add_viewed_scene(parser) -> None:
     """Add what to show."""
     group = parser.add_argument_group("what to show")
     group.add_argument(
@@ -166,7 +166,7 @@ def add_picture(parser) -> None:
     )
 
 
-def add_look(parser) -> None:
+def add_appearance(parser) -> None:
     """Add how surfaces and lines are drawn."""
     group = parser.add_argument_group("look")
     group.add_argument("--mode", choices=MODES, help="what the pixels show")
@@ -391,7 +391,7 @@ def settings(args: argparse.Namespace):
         raise UsageError(f"--unlit does not go with --mode {args.mode}")
     if args.edges and args.wireframe == "only":
         raise UsageError("--edges does not go with --wireframe only")
-    look = {
+    appearance = {
         "mode": "unlit" if args.unlit else args.mode,
         "wireframe": "overlay" if args.edges else args.wireframe,
         "cull": args.cull,
@@ -404,7 +404,7 @@ def settings(args: argparse.Namespace):
         "point_size": args.point_size,
     }
     return Settings(
-        look={name: value for name, value in look.items() if value is not None},
+        appearance={name: value for name, value in appearance.items() if value is not None},
         up=args.up,
         background=args.background_color,
         light_position=args.light_position,
@@ -416,34 +416,34 @@ def settings(args: argparse.Namespace):
     )
 
 
-def place_view(args: argparse.Namespace, studio, *, turns: bool = True):
-    """Return the studio's view of its subject, as the camera options say.
+def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
+    """Return the first view of the scene, as the camera options say.
 
-    Where they leave it open, all of the subject shows: however it turns, or filling the picture.
+    Where they leave it open, all of the scene shows: however it turns, or filling the picture.
     """
     if args.camera_view_angle is None:
-        view = studio.view()
+        view = view_renderer.view()
     else:
-        view = studio.view(math.radians(args.camera_view_angle))
+        view = view_renderer.view(math.radians(args.camera_view_angle))
     view.orthographic = args.camera_orthographic
     if args.camera_view_up is not None:
         view.up = args.camera_view_up
     if args.camera_position is not None:
         if args.camera_position == args.camera_focal_point:
             raise UsageError("--camera-position and --camera-focal-point are the same")
-        view.look_from(args.camera_position, args.camera_focal_point or studio.bounds.center)
+        view.look_from(args.camera_position, args.camera_focal_point or view_renderer.bounds.center)
     view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
     view.elevation += math.radians(args.camera_elevation_angle or 0.0)
     if args.camera_position is None:
-        (studio.frame if turns else studio.fill)(view)
+        (view_renderer.frame if turns else view_renderer.fill)(view)
         if args.camera_focal_point is not None:
             view.target[:] = args.camera_focal_point
     view.distance /= args.camera_zoom_factor or 1.0
     return view
 
 
-def subject(args: argparse.Namespace, default_scene: str | None = None):
-    """Return the `Subject` that the options name; ``default_scene`` if they name none."""
+def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
+    """Return the `ViewedScene` that the options name; ``default_scene`` if they name none."""
     if args.models and args.scene is not None:
         raise UsageError("give a MODEL or --scene, not both")
     if args.side_by_side and len(args.models) < 2:

@@ -80,7 +80,7 @@ def _add_run(commands) -> None:
         allow_abbrev=False,
     )
     command.set_defaults(load_command=_load_run)
-    options.add_subject(command)
+    options.add_viewed_scene(command)
     options.add_run(command)
     _add_shared(command)
 
@@ -94,14 +94,14 @@ def _add_render(commands) -> None:
         allow_abbrev=False,
     )
     command.set_defaults(load_command=_load_render)
-    options.add_subject(command)
+    options.add_viewed_scene(command)
     options.add_render(command)
     _add_shared(command)
 
 
 def _add_shared(command) -> None:
     options.add_picture(command)
-    options.add_look(command)
+    options.add_appearance(command)
     options.add_light(command)
     options.add_camera(command)
 

@@ -6,7 +6,7 @@ import argparse
 
 from ..files.animation_files import save_animation
 from ..viewer import headless
-from ..viewer.view_renderer import Studio
+from ..viewer.view_renderer import ViewRenderer
 from . import options
 from .outputs import (
     STANDARD_OUTPUT,
@@ -27,11 +27,11 @@ def render(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     _check(args)
     report = Report(args.verbose)
-    subject = options.subject(args)
-    report.loaded(subject)
+    viewed = options.viewed_scene(args)
+    report.loaded(viewed)
     settings = options.settings(args)
-    with Studio(
-        subject,
+    with ViewRenderer(
+        viewed,
         settings,
         args.resolution or DEFAULT_SIZE,
         backend=args.backend,
@@ -39,13 +39,13 @@ def render(args: argparse.Namespace) -> int:
         samples=args.samples or 1,
         transparent=args.no_background,
         report=report.frame if args.verbose else None,
-    ) as studio:
-        view = options.place_view(args, studio, turns=args.turntable is not None)
+    ) as view_renderer:
+        view = options.place_view(args, view_renderer, turns=args.turntable is not None)
         if args.turntable is not None:
-            _write_turntable(args, studio, view)
+            _write_turntable(args, view_renderer, view)
             return 0
-        frame = studio.draw(view)
-        report.drawn(studio, frame)
+        frame = view_renderer.draw(view)
+        report.drawn(view_renderer, frame)
     _write_picture(args, frame)
     return _compare(args, frame.color)
 
@@ -69,10 +69,10 @@ def _check(args: argparse.Namespace) -> None:
     check_picture(args.output, transparent=args.no_background, series="--turntable N")
 
 
-def _write_turntable(args: argparse.Namespace, studio: Studio, view) -> None:
+def _write_turntable(args: argparse.Namespace, view_renderer: ViewRenderer, view) -> None:
     count = args.turntable
-    pictures = with_progress(headless.turntable(studio, view, count), count, "rendering")
-    save_animation(pictures, args.output, headless.seconds_a_frame(studio, count))
+    pictures = with_progress(headless.turntable(view_renderer, view, count), count, "rendering")
+    save_animation(pictures, args.output, headless.seconds_a_frame(view_renderer, count))
 
 
 def _write_picture(args: argparse.Namespace, frame) -> None:

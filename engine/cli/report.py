@@ -30,10 +30,10 @@ class Report:
                 f"[{time.perf_counter() - self._start:7.3f} s] {printable(text)}", file=sys.stderr
             )
 
-    def loaded(self, subject) -> None:
+    def loaded(self, viewed) -> None:
         """Say what is shown."""
-        details = ", ".join(" ".join(line.split()) for line in subject.details)
-        self.line(f"loaded {subject.path or subject.title}" + (f": {details}" if details else ""))
+        details = ", ".join(" ".join(line.split()) for line in viewed.details)
+        self.line(f"loaded {viewed.path or viewed.title}" + (f": {details}" if details else ""))
 
     def frame(self, frame) -> None:
         """Say how much of the scene a frame had to draw, and how long it took."""
@@ -41,12 +41,12 @@ class Report:
         milliseconds = frame.stats["ms_total"]
         self.line(f"frame {self._frames}: {milliseconds:.1f} ms; {count_line(frame.stats)}")
 
-    def drawn(self, studio, frame) -> None:
+    def drawn(self, view_renderer, frame) -> None:
         """Say what drew a frame, and the frame's statistics."""
         if not self._verbose:
             return
-        width, height = studio.size
-        self.line(f"drew {width}x{height} with {studio.renderer.backend}")
+        width, height = view_renderer.size
+        self.line(f"drew {width}x{height} with {view_renderer.renderer.backend}")
         for name, value in frame.stats.items():
             print(
                 f"            {name:<24} {value:.3f}"

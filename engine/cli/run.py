@@ -8,7 +8,7 @@ from pathlib import Path
 from ..errors import DisplayError
 from ..files.animation_files import numbered_path, save_animation
 from ..viewer import headless
-from ..viewer.view_renderer import Studio
+from ..viewer.view_renderer import ViewRenderer
 from ..viewer.walking import controller
 from . import options
 from .inputs import STANDARD_INPUT
@@ -29,15 +29,15 @@ def run(args: argparse.Namespace) -> int:
     _check(args)
     report = Report(args.verbose)
     reason = None if args.headless else _missing_screen()
-    subject = options.subject(args, default_scene="default")
-    report.loaded(subject)
+    viewed = options.viewed_scene(args, default_scene="default")
+    report.loaded(viewed)
     if not args.headless and reason is None:
         try:
-            _show(args, subject, report)
+            _show(args, viewed, report)
             return 0
         except DisplayError as error:
             reason = str(error)
-    return _write(args, subject, reason, report)
+    return _write(args, viewed, reason, report)
 
 
 def _check(args: argparse.Namespace) -> None:
@@ -66,9 +66,11 @@ def _missing_screen() -> str | None:
     return None
 
 
-def _studio(args: argparse.Namespace, subject, size, samples: int, report: Report) -> Studio:
-    return Studio(
-        subject,
+def _view_renderer(
+    args: argparse.Namespace, viewed, size, samples: int, report: Report
+) -> ViewRenderer:
+    return ViewRenderer(
+        viewed,
         options.settings(args),
         args.resolution or size,
         backend=args.backend,
@@ -78,7 +80,7 @@ def _studio(args: argparse.Namespace, subject, size, samples: int, report: Repor
     )
 
 
-def _show(args: argparse.Namespace, subject, report: Report) -> None:
+def _show(args: argparse.Namespace, viewed, report: Report) -> None:
     """Open a window and stay until it closes."""
     from ..viewer.model_files import ModelFiles
     from ..viewer.viewer import Viewer
@@ -86,46 +88,46 @@ def _show(args: argparse.Namespace, subject, report: Report) -> None:
 
     size = args.resolution or WINDOW_SIZE
     with (
-        Window(f"{subject.title} - engine3d", *size, vsync=args.vsync) as window,
-        _studio(args, subject, size, 1, report) as studio,
+        Window(f"{viewed.title} - engine3d", *size, vsync=args.vsync) as window,
+        _view_renderer(args, viewed, size, 1, report) as view_renderer,
     ):
         viewer = Viewer(
-            studio,
+            view_renderer,
             window,
-            view=options.place_view(args, studio),
+            view=options.place_view(args, view_renderer),
             walking=args.camera == "fps",
             playing=args.animate,
             statistics=args.fps,
             files=ModelFiles(args.models, watch=args.watch, **options.opening(args)),
         )
-        still = subject.update is not None and not viewer.playing
+        still = viewed.update is not None and not viewer.playing
         viewer.say("H: help" + ("; Space: play" if still else ""))
         viewer.run(args.frames)
 
 
-def _write(args: argparse.Namespace, subject, reason: str | None, report: Report) -> int:
+def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report) -> int:
     """Write an animation instead, and say where; ``reason`` tells why no window opened."""
     count = args.frames or FILE_FRAMES
-    path = Path(args.output) if args.output else _new_path(subject, count)
+    path = Path(args.output) if args.output else _new_path(viewed, count)
     if reason is not None:
         remark(f"{reason}: rendering a turntable to {path} instead")
-    with _studio(args, subject, FILE_SIZE, FILE_SAMPLES, report) as studio:
-        view = options.place_view(args, studio)
+    with _view_renderer(args, viewed, FILE_SIZE, FILE_SAMPLES, report) as view_renderer:
+        view = options.place_view(args, view_renderer)
         walks = args.camera == "fps"
         if count == 1:
             if walks:
-                controller(studio, view).place(view)
-            studio.draw(view).save(path)
+                controller(view_renderer, view).place(view)
+            view_renderer.draw(view).save(path)
         else:
-            pictures = (headless.walk if walks else headless.animation)(studio, view, count)
+            pictures = (headless.walk if walks else headless.animation)(view_renderer, view, count)
             pictures = with_progress(pictures, count, "rendering")
-            save_animation(pictures, path, headless.seconds_a_frame(studio, count))
+            save_animation(pictures, path, headless.seconds_a_frame(view_renderer, count))
     if reason is None and args.output is None:
         remark(f"wrote {path}")
     return 0
 
 
-def _new_path(subject, count: int) -> Path:
+def _new_path(viewed, count: int) -> Path:
     """Return the name of a file that is not there yet, in the current folder."""
-    stem = f"{Path(subject.title).stem}-turntable"
+    stem = f"{Path(viewed.title).stem}-turntable"
     return numbered_path(Path(), stem, ".png" if count == 1 else ".gif")

@@ -1,4 +1,4 @@
-"""The scenes that ``--scene`` names, each a function that makes a `Subject`.
+"""The scenes that ``--scene`` names, each a function that makes a `ViewedScene`.
 
 Nothing loads until a scene is asked for. A scene is made anew every time: what one caller changes
 no other sees.
@@ -38,7 +38,7 @@ def load_demo(name: str, **options):
 
     Returns
     -------
-    Subject
+    ViewedScene
 
     Raises
     ------

@@ -11,7 +11,7 @@ from ..navigation import NavigationGrid, Walker
 from ..primitives import box
 from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import Subject
+from ..viewer.viewed_scene import ViewedScene
 from ..worlds import World
 from ..worlds import city as make_city
 from .city_lights import LIGHTS, PERIOD, Lamps, Traffic
@@ -28,7 +28,7 @@ WALK_RADIUS = 160.0
 NEAREST = 0.1
 
 
-def city(triangles: int | None = None) -> Subject:
+def city(triangles: int | None = None) -> ViewedScene:
     """Return a city of about as many triangles, half a million if left out."""
     town = make_city(TRIANGLES if triangles is None else triangles)
     scene = Scene(BACKGROUND, ambient=(0.11, 0.13, 0.20))
@@ -40,7 +40,7 @@ def city(triangles: int | None = None) -> Subject:
     traffic.drive(0.0)
     lamps.follow(np.zeros(3))
     size = (2.0 * VIEW_RADIUS, 40.0, 2.0 * VIEW_RADIUS)
-    return Subject(
+    return ViewedScene(
         scene,
         "city",
         azimuth=math.radians(32.0),

@@ -13,7 +13,7 @@ from .. import linalg
 from ..geometry.mesh import Mesh
 from ..primitives import box
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import Subject
+from ..viewer.viewed_scene import ViewedScene
 
 BACKGROUND = (18, 20, 26)
 SPIN_SECONDS = 8.0
@@ -28,22 +28,22 @@ LINE_WIDTH = 3.0
 _EDGES = [(a, a | bit) for a in range(8) for bit in (1, 2, 4) if not a & bit]
 
 
-def vertices() -> Subject:
+def vertices() -> ViewedScene:
     """Return the cube as eight points."""
     return _spinning("vertices", [_corners(points=np.arange(8))])
 
 
-def edges() -> Subject:
+def edges() -> ViewedScene:
     """Return the cube as twelve lines."""
     return _spinning("edges", [_corners(lines=_EDGES)])
 
 
-def faces() -> Subject:
+def faces() -> ViewedScene:
     """Return the cube as six faces."""
     return _spinning("faces", [_solid()])
 
 
-def cycle() -> Subject:
+def cycle() -> ViewedScene:
     """Return the cube as points, then lines, then faces, over and over."""
     meshes = [_corners(points=np.arange(8)), _corners(lines=_EDGES), _solid()]
     return _spinning("cube", meshes)
@@ -69,8 +69,8 @@ def _corner_colors(positions) -> np.ndarray:
     return colors
 
 
-def _spinning(name: str, meshes: list[Mesh]) -> Subject:
-    """Return a subject that spins the meshes and shows them in turn."""
+def _spinning(name: str, meshes: list[Mesh]) -> ViewedScene:
+    """Return a scene that spins the meshes and shows them in turn."""
     scene = Scene(BACKGROUND)
     nodes = [scene.add(mesh, name=name) for mesh in meshes]
     period = SPIN_SECONDS if len(nodes) == 1 else SHARE_SECONDS * len(nodes)
@@ -85,7 +85,7 @@ def _spinning(name: str, meshes: list[Mesh]) -> Subject:
             node.visible = len(nodes) == 1 or index == shown
             node.rotation = rotation
 
-    return Subject(
+    return ViewedScene(
         scene,
         name,
         azimuth=0.0,
@@ -94,5 +94,5 @@ def _spinning(name: str, meshes: list[Mesh]) -> Subject:
         period=period,
         plays=True,
         focus=box(SWEPT_SIZE).positions.astype(np.float64),
-        look={"point_size": POINT_SIZE, "line_width": LINE_WIDTH},
+        appearance={"point_size": POINT_SIZE, "line_width": LINE_WIDTH},
     )

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..scene.lights import DirectionalLight
 from ..viewer.open_model import open_model
-from ..viewer.viewed_scene import Subject
+from ..viewer.viewed_scene import ViewedScene
 
 SHOWCASE_MODEL = "island.obj"
 SKY = (142, 178, 204)
@@ -16,30 +16,30 @@ TEXTURED_MODEL = "teapot.obj"
 ASC_MODEL = "train.asc"
 
 
-def showcase() -> Subject:
+def showcase() -> ViewedScene:
     """Return the scene that shows when none is named: an island by day, turning slowly."""
-    subject = data_model(SHOWCASE_MODEL)
-    scene = subject.scene
+    viewed = data_model(SHOWCASE_MODEL)
+    scene = viewed.scene
     scene.background = SKY
     scene.ambient = (0.20, 0.23, 0.27)
     scene.add(DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.95))
     scene.add(DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18))
-    subject.title = "default"
-    subject.plays = True
-    subject.period = SHOWCASE_SECONDS
-    return subject
+    viewed.title = "default"
+    viewed.plays = True
+    viewed.period = SHOWCASE_SECONDS
+    return viewed
 
 
-def textured() -> Subject:
+def textured() -> ViewedScene:
     """Return a model with a texture."""
     return data_model(TEXTURED_MODEL)
 
 
-def asc() -> Subject:
+def asc() -> ViewedScene:
     """Return a model of several objects from an .asc file."""
     return data_model(ASC_MODEL)
 
 
-def data_model(name: str) -> Subject:
+def data_model(name: str) -> ViewedScene:
     """Return a model of `engine3d.data` by its file name."""
     return open_model(Path(str(files("engine3d.data"))) / "models" / name)

@@ -16,7 +16,7 @@ from ..materials.textures import Texture
 from ..primitives import box, icosphere, plane, uv_sphere
 from ..scene.lights import DirectionalLight, PointLight
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import Subject
+from ..viewer.viewed_scene import ViewedScene
 
 BACKGROUND = (14, 16, 22)
 PERIOD = 10.0
@@ -29,7 +29,7 @@ FLOOR_SIZE = 9.0
 FLOOR_SQUARES = 18
 
 
-def shapes() -> Subject:
+def shapes() -> ViewedScene:
     """Return the scene."""
     scene = Scene(BACKGROUND, ambient=(0.04, 0.04, 0.05))
     scene.add(floor(FLOOR_SIZE, FLOOR_SQUARES), name="floor")
@@ -53,7 +53,7 @@ def shapes() -> Subject:
             )
 
     update(0.0)
-    return Subject(
+    return ViewedScene(
         scene,
         "shapes",
         update=update,

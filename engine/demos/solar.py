@@ -20,7 +20,7 @@ from ..primitives import uv_sphere
 from ..scene.animation import Animator
 from ..scene.lights import PointLight
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import Subject
+from ..viewer.viewed_scene import ViewedScene
 
 BACKGROUND = (4, 5, 10)
 MONTH = 18.0  # seconds
@@ -35,7 +35,7 @@ CRATERS = 160
 MOON_SIZE = 256, 128
 
 
-def solar() -> Subject:
+def solar() -> ViewedScene:
     """Return the scene."""
     scene = Scene(BACKGROUND, ambient=(0.03, 0.03, 0.04))
     scene.add(_stars(), name="stars")
@@ -58,7 +58,7 @@ def solar() -> Subject:
     )  # twice, for the Moon to come round against the year
     animator.seek(0.0)
     reach = EARTH_ORBIT + MOON_ORBIT
-    return Subject(
+    return ViewedScene(
         scene,
         "solar",
         update=animator.seek,
@@ -74,7 +74,7 @@ def solar() -> Subject:
                 for z in (-reach, reach)
             ]
         ),
-        look={"point_size": 2.0},
+        appearance={"point_size": 2.0},
     )
 
 

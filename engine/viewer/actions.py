@@ -23,29 +23,29 @@ ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
 def cycle_wireframe(viewer, step: int) -> None:
     """Next of: no wireframe, over the faces, alone."""
-    look = viewer.studio.look
-    look.wireframe = following(look.wireframe, WIREFRAMES, step)
-    viewer.say(f"wireframe: {look.wireframe or 'off'}")
+    appearance = viewer.view_renderer.appearance
+    appearance.wireframe = following(appearance.wireframe, WIREFRAMES, step)
+    viewer.say(f"wireframe: {appearance.wireframe or 'off'}")
 
 
 def toggle_edges(viewer, step: int) -> None:
     """Edges over the faces, or not."""
-    look = viewer.studio.look
-    look.wireframe = None if look.wireframe == "overlay" else "overlay"
-    viewer.say(f"edges: {'on' if look.wireframe else 'off'}")
+    appearance = viewer.view_renderer.appearance
+    appearance.wireframe = None if appearance.wireframe == "overlay" else "overlay"
+    viewer.say(f"edges: {'on' if appearance.wireframe else 'off'}")
 
 
 def cycle_mode(viewer, step: int) -> None:
     """Next drawing mode."""
-    look = viewer.studio.look
-    look.mode = following(look.mode, MODES, step)
-    viewer.say(f"mode: {look.mode}")
+    appearance = viewer.view_renderer.appearance
+    appearance.mode = following(appearance.mode, MODES, step)
+    viewer.say(f"mode: {appearance.mode}")
 
 
 def _toggle_mode(viewer, mode: str) -> None:
-    look = viewer.studio.look
-    look.mode = "lit" if look.mode == mode else mode
-    viewer.say(f"mode: {look.mode}")
+    appearance = viewer.view_renderer.appearance
+    appearance.mode = "lit" if appearance.mode == mode else mode
+    viewer.say(f"mode: {appearance.mode}")
 
 
 def toggle_normals_mode(viewer, step: int) -> None:
@@ -60,45 +60,45 @@ def toggle_unlit(viewer, step: int) -> None:
 
 def toggle_flat(viewer, step: int) -> None:
     """One normal per face, or smooth normals."""
-    look = viewer.studio.look
-    look.normals = "smooth" if look.normals == "flat" else "flat"
-    viewer.say(f"normals: {look.normals}")
+    appearance = viewer.view_renderer.appearance
+    appearance.normals = "smooth" if appearance.normals == "flat" else "flat"
+    viewer.say(f"normals: {appearance.normals}")
 
 
 def cycle_cull(viewer, step: int) -> None:
     """Next of the faces to leave out: back, front, none."""
-    look = viewer.studio.look
-    look.cull = following(look.cull, CULLS, step)
-    viewer.say(f"cull: {look.cull}")
+    appearance = viewer.view_renderer.appearance
+    appearance.cull = following(appearance.cull, CULLS, step)
+    viewer.say(f"cull: {appearance.cull}")
 
 
 def cycle_hidden_surfaces(viewer, step: int) -> None:
     """Next way to remove hidden surfaces."""
-    look = viewer.studio.look
-    look.hidden_surfaces = following(look.hidden_surfaces, HIDDEN_SURFACES, step)
-    viewer.say(f"hidden surfaces: {look.hidden_surfaces}")
+    appearance = viewer.view_renderer.appearance
+    appearance.hidden_surfaces = following(appearance.hidden_surfaces, HIDDEN_SURFACES, step)
+    viewer.say(f"hidden surfaces: {appearance.hidden_surfaces}")
 
 
 def cycle_lights(viewer, step: int) -> None:
     """Next lights."""
-    lighting = viewer.studio.lighting
+    lighting = viewer.view_renderer.lighting
     lighting.choose(following(lighting.name, lighting.names, step))
     viewer.say(f"lights: {lighting.name}")
 
 
 def cycle_samples(viewer, step: int) -> None:
     """Next number of samples per pixel."""
-    samples = following(viewer.studio.samples, SAMPLES, step)
-    viewer.studio.resample(samples)
+    samples = following(viewer.view_renderer.samples, SAMPLES, step)
+    viewer.view_renderer.resample(samples)
     viewer.say(f"samples per pixel: {samples}")
 
 
 def _scale_lines(viewer, factor: float) -> None:
-    look = viewer.studio.look
+    appearance = viewer.view_renderer.appearance
     low, high = LINE_WIDTHS
-    look.line_width = min(high, max(low, look.line_width * factor))
-    look.point_size = min(high, max(low, viewer.studio.point_size * factor))
-    viewer.say(f"line width: {look.line_width:g}, point size: {look.point_size:g}")
+    appearance.line_width = min(high, max(low, appearance.line_width * factor))
+    appearance.point_size = min(high, max(low, viewer.view_renderer.point_size * factor))
+    viewer.say(f"line width: {appearance.line_width:g}, point size: {appearance.point_size:g}")
 
 
 def widen_lines(viewer, step: int) -> None:
@@ -115,7 +115,7 @@ def _look_along(viewer, azimuth: float, elevation: float) -> None:
     if viewer.walker is not None:
         toggle_walking(viewer)
     viewer.view.azimuth, viewer.view.elevation = azimuth, elevation
-    viewer.studio.frame(viewer.view)
+    viewer.view_renderer.frame(viewer.view)
 
 
 def view_front(viewer, step: int) -> None:
@@ -156,7 +156,7 @@ def reset_view(viewer, step: int = 1) -> None:
 def toggle_walking(viewer, step: int = 1) -> None:
     """Walk, or orbit again; the picture stays where it is."""
     if viewer.walker is None:
-        viewer.walker = controller(viewer.studio, viewer.view)
+        viewer.walker = controller(viewer.view_renderer, viewer.view)
         viewer.walker.place(viewer.view)
         viewer.say("walking: WASD, mouse or arrows to look; Tab or Esc to leave")
     else:
@@ -170,7 +170,7 @@ def toggle_walking(viewer, step: int = 1) -> None:
 
 def freeze_culling(viewer, step: int) -> None:
     """Draw what shows from here, and nothing more, until the key comes up."""
-    viewer.studio.freeze_culling(viewer.view)
+    viewer.view_renderer.freeze_culling(viewer.view)
     viewer.say("culling as from here, while C is held")
 
 
@@ -182,12 +182,12 @@ def toggle_playing(viewer, step: int) -> None:
 
 def toggle_grid(viewer, step: int) -> None:
     """A grid under the scene, or none."""
-    viewer.studio.show_grid(not viewer.studio.settings.grid)
+    viewer.view_renderer.show_grid(not viewer.view_renderer.settings.grid)
 
 
 def toggle_axes(viewer, step: int) -> None:
     """The axes in the corner, or none."""
-    viewer.studio.settings.axes = not viewer.studio.settings.axes
+    viewer.view_renderer.settings.axes = not viewer.view_renderer.settings.axes
 
 
 def toggle_statistics(viewer, step: int) -> None:
@@ -197,7 +197,7 @@ def toggle_statistics(viewer, step: int) -> None:
 
 def toggle_metadata(viewer, step: int) -> None:
     """What the file holds, or nothing."""
-    viewer.studio.settings.metadata = not viewer.studio.settings.metadata
+    viewer.view_renderer.settings.metadata = not viewer.view_renderer.settings.metadata
 
 
 def toggle_help(viewer, step: int) -> None:
@@ -214,9 +214,11 @@ def toggle_fullscreen(viewer, step: int) -> None:
 
 def save_screenshot(viewer, step: int) -> None:
     """Write the frame, without help and messages, to a numbered PNG in the current folder."""
-    path = numbered_path(Path.cwd(), f"{Path(viewer.studio.subject.title).stem}-screenshot", ".png")
+    path = numbered_path(
+        Path.cwd(), f"{Path(viewer.view_renderer.viewed.title).stem}-screenshot", ".png"
+    )
     try:
-        viewer.studio.draw(viewer.view, viewer.time).save(path)
+        viewer.view_renderer.draw(viewer.view, viewer.time).save(path)
     except OSError as error:
         viewer.say(str(error))
         return

@@ -31,7 +31,7 @@ _LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
 @dataclass
-class Look:
+class Appearance:
     """The drawing options of one frame; the fields are those of `Renderer.render`.
 
     ``line_color`` is (r, g, b), integers 0 to 255, sRGB; None is dark over faces, and without them

@@ -1,8 +1,8 @@
 """Frames without a screen: turntables and animations, one RGBA array after another.
 
-In: a `Studio` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays. But for a walk
-they loop without a jump: the subject's own animation over its period or, without one, a turn of the
-camera.
+In: a `ViewRenderer` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays. But
+for a walk they loop without a jump: the scene's own animation over its period or, without one, a
+turn of the camera.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .view_renderer import Studio
+from .view_renderer import ViewRenderer
 from .viewpoint import Viewpoint
 from .walking import controller
 
@@ -23,37 +23,37 @@ LONGEST_FRAME = 0.1
 TURN_SECONDS = 0.3
 
 
-def seconds_a_frame(studio: Studio, count: int) -> float:
+def seconds_a_frame(view_renderer: ViewRenderer, count: int) -> float:
     """Return how long each of ``count`` pictures of one period shows."""
-    seconds = studio.subject.period / count
+    seconds = view_renderer.viewed.period / count
     return min(LONGEST_FRAME, max(SHORTEST_FRAME, seconds))
 
 
-def turntable(studio: Studio, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
-    """Yield ``count`` pictures of one turn of the camera round the subject."""
+def turntable(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
+    """Yield ``count`` pictures of one turn of the camera round the scene."""
     for index in range(count):
         turned = view.copy()
         turned.azimuth = view.azimuth + 2 * math.pi * index / count
-        yield studio.draw(turned).color
+        yield view_renderer.draw(turned).color
 
 
-def animation(studio: Studio, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
-    """Yield ``count`` pictures of the subject's animation, or of a turntable if it has none."""
-    if studio.subject.update is None:
-        yield from turntable(studio, view, count)
+def animation(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
+    """Yield ``count`` pictures of the scene's animation, or of a turntable if it has none."""
+    if view_renderer.viewed.update is None:
+        yield from turntable(view_renderer, view, count)
         return
     for index in range(count):
-        yield studio.draw(view, studio.subject.period * index / count).color
+        yield view_renderer.draw(view, view_renderer.viewed.period * index / count).color
 
 
-def walk(studio: Studio, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
+def walk(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
     """Yield ``count`` pictures of somebody who walks ahead, and turns right where the way ends."""
-    seconds = seconds_a_frame(studio, count)
-    walker = controller(studio, view)
+    seconds = seconds_a_frame(view_renderer, count)
+    walker = controller(view_renderer, view)
     view = view.copy()
     for index in range(count):
         walker.place(view)
-        yield studio.draw(view, index * seconds % studio.subject.period).color
+        yield view_renderer.draw(view, index * seconds % view_renderer.viewed.period).color
         before = walker.position
         walker.walk({"W"}, seconds)
         ahead = walker.position - before

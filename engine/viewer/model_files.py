@@ -1,7 +1,7 @@
 """The model files that the viewer shows: what opens them again, and what has become of them.
 
-In: paths, and how the command line said to open them. Out: subjects; whether files were written or
-went away meanwhile.
+In: paths, and how the command line said to open them. Out: scenes to view; whether files were
+written or went away meanwhile.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import os
 from collections.abc import Sequence
 
 from .open_models import open_models
-from .viewed_scene import Subject
+from .viewed_scene import ViewedScene
 from .watch import FileWatch
 
 
@@ -47,14 +47,14 @@ class ModelFiles:
         self.paths = tuple(paths)
         self._files = [FileWatch(path) for path in self.paths] if self._watches else []
 
-    def replace(self, paths: Sequence) -> Subject:
+    def replace(self, paths: Sequence) -> ViewedScene:
         """Open other files, which take the place of these if they can be read."""
-        subject = open_models(paths, **self._always)
+        viewed = open_models(paths, **self._always)
         self._options = {}
         self._follow(paths)
-        return subject
+        return viewed
 
-    def reload(self) -> Subject:
+    def reload(self) -> ViewedScene:
         """Open the same files again, as they were opened first."""
         return open_models(self.paths, **self._always, **self._options)
 

@@ -1,6 +1,6 @@
-"""A model file, opened as a `Subject`.
+"""A model file, opened as a `ViewedScene`.
 
-In: a path, and a texture or a colour for what the file leaves without. Out: a subject with a
+In: a path, and a texture or a colour for what the file leaves without. Out: a scene with a
 neutral background, the up direction usual for the format, and the file's counts and warnings.
 """
 
@@ -13,14 +13,14 @@ from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
 from ..scene.loading import scene_from_document
-from .viewed_scene import Subject
+from .viewed_scene import ViewedScene
 
 #: Formats whose models, by custom, stand on the XY plane.
 Z_UP_FORMATS = ("asc", "stl")
 BACKGROUND = (43, 46, 53)
 
 
-def open_model(path, *, texture=None, color=None, progress=None, companion=None) -> Subject:
+def open_model(path, *, texture=None, color=None, progress=None, companion=None) -> ViewedScene:
     """Load a file to look at.
 
     Parameters
@@ -38,7 +38,7 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
 
     Returns
     -------
-    Subject
+    ViewedScene
 
     Raises
     ------
@@ -55,7 +55,7 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     scene = scene_from_document(document)
     scene.background = BACKGROUND
-    return Subject(
+    return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",

@@ -1,6 +1,6 @@
-"""Several model files, opened as one `Subject`.
+"""Several model files, opened as one `ViewedScene`.
 
-In: paths. Out: a subject with all of the models, where their files place them or side by side.
+In: paths. Out: a scene with all of the models, where their files place them or side by side.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight, PointLight
 from ..scene.scene import Scene
 from .open_model import open_model
-from .viewed_scene import Subject
+from .viewed_scene import ViewedScene
 from .viewpoint import UP_DIRECTIONS, home_axes
 
 #: Room between models that stand side by side, as a share of the widest.
@@ -29,7 +29,7 @@ _SHOWN = (Mesh, InstancedMesh, DirectionalLight, PointLight)
 
 def open_models(
     paths: Sequence, *, side_by_side: bool = False, up: str | None = None, **options
-) -> Subject:
+) -> ViewedScene:
     """Load files to look at together.
 
     Parameters
@@ -46,69 +46,69 @@ def open_models(
 
     Returns
     -------
-    Subject
+    ViewedScene
 
     Raises
     ------
     FileFormatError, FileAccessError
         One of the files cannot be read.
     """
-    subjects = [open_model(path, **options) for path in paths]
-    if len(subjects) == 1:
-        return subjects[0]
-    for subject in subjects:
-        subject.up = up or subject.up
-    first = subjects[0]
-    scene = Scene(first.scene.background, _brightest(subjects))
-    poses = _row(subjects) if side_by_side else _own_places(subjects)
-    for subject, pose in zip(subjects, poses, strict=True):
-        _add(scene, subject, pose)
-    return Subject(
+    viewed_scenes = [open_model(path, **options) for path in paths]
+    if len(viewed_scenes) == 1:
+        return viewed_scenes[0]
+    for viewed in viewed_scenes:
+        viewed.up = up or viewed.up
+    first = viewed_scenes[0]
+    scene = Scene(first.scene.background, _brightest(viewed_scenes))
+    poses = _row(viewed_scenes) if side_by_side else _own_places(viewed_scenes)
+    for viewed, pose in zip(viewed_scenes, poses, strict=True):
+        _add(scene, viewed, pose)
+    return ViewedScene(
         scene,
-        ", ".join(subject.title for subject in subjects),
+        ", ".join(viewed.title for viewed in viewed_scenes),
         up=first.up,
-        details=[line for one in subjects for line in (one.title, *one.details)],
-        warnings=[f"{one.title}: {line}" for one in subjects for line in one.warnings],
+        details=[line for one in viewed_scenes for line in (one.title, *one.details)],
+        warnings=[f"{one.title}: {line}" for one in viewed_scenes for line in one.warnings],
     )
 
 
-def _brightest(subjects: list[Subject]) -> tuple[float, ...]:
+def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:
     """Return the ambient light that is enough for each of the models."""
-    return tuple(np.max([subject.scene.ambient for subject in subjects], axis=0).tolist())
+    return tuple(np.max([viewed.scene.ambient for viewed in viewed_scenes], axis=0).tolist())
 
 
-def _add(scene: Scene, subject: Subject, pose: np.ndarray) -> None:
-    """Add what a subject's scene shows, as children of a node that bears its name."""
-    group = scene.add(name=subject.title, pose=pose)
-    for node in subject.scene.nodes:
+def _add(scene: Scene, viewed: ViewedScene, pose: np.ndarray) -> None:
+    """Add what another scene shows, as children of a node that bears its name."""
+    group = scene.add(name=viewed.title, pose=pose)
+    for node in viewed.scene.nodes:
         if isinstance(node.object, _SHOWN) and node.shown:
             scene.add(node.object, name=node.name, pose=node.world_pose, parent=group)
 
 
-def _own_places(subjects: list[Subject]) -> list[np.ndarray]:
-    first = subjects[0]
-    for subject in subjects[1:]:
-        if subject.up != first.up:
+def _own_places(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:
+    first = viewed_scenes[0]
+    for viewed in viewed_scenes[1:]:
+        if viewed.up != first.up:
             _warn(
-                f"{subject.title} counts {subject.up} as up, {first.title} {first.up}: both keep "
+                f"{viewed.title} counts {viewed.up} as up, {first.title} {first.up}: both keep "
                 "their coordinates (--side-by-side stands them upright)"
             )
-    return [np.eye(4)] * len(subjects)
+    return [np.eye(4)] * len(viewed_scenes)
 
 
-def _row(subjects: list[Subject]) -> list[np.ndarray]:
+def _row(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:
     """Return the poses that stand the models in a row; the first one's up is up."""
-    right, up, back = home_axes(UP_DIRECTIONS[subjects[0].up])
+    right, up, back = home_axes(UP_DIRECTIONS[viewed_scenes[0].up])
     poses, boxes = [], []
-    for subject in subjects:
+    for viewed in viewed_scenes:
         turn = np.eye(4)
-        own = home_axes(UP_DIRECTIONS[subject.up])
+        own = home_axes(UP_DIRECTIONS[viewed.up])
         pairs = zip((right, up, back), own, strict=True)
         turn[:3, :3] = sum(to[:, np.newaxis] * axis for to, axis in pairs)
         poses.append(turn)
-        boxes.append(_box(subject, turn, np.stack([right, up, back])))
+        boxes.append(_box(viewed, turn, np.stack([right, up, back])))
     widths = [float(high[0] - low[0]) for low, high in boxes]
-    _compare_sizes(subjects, boxes)
+    _compare_sizes(viewed_scenes, boxes)
     gap, place = GAP * max(widths), 0.0
     for pose, (low, high), width in zip(poses, boxes, widths, strict=True):
         shift = right * (place - low[0]) - up * low[1] - back * ((low[2] + high[2]) / 2)
@@ -117,23 +117,23 @@ def _row(subjects: list[Subject]) -> list[np.ndarray]:
     return poses
 
 
-def _box(subject: Subject, turn: np.ndarray, axes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _box(viewed: ViewedScene, turn: np.ndarray, axes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return how far a turned model reaches along right, up and back: low and high."""
-    low, high = subject.scene.bounds
+    low, high = viewed.scene.bounds
     corners = np.array([[(low, high)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)])
     points = linalg.transform_points(turn, corners)
     along = np.stack([linalg.dot(points, axis) for axis in axes], axis=1)
     return along.min(axis=0), along.max(axis=0)
 
 
-def _compare_sizes(subjects: list[Subject], boxes) -> None:
+def _compare_sizes(viewed_scenes: list[ViewedScene], boxes) -> None:
     """Warn of models so different in size that one of them hardly shows."""
     sizes = [float((high - low).max()) for low, high in boxes]
     small, large = sizes.index(min(sizes)), sizes.index(max(sizes))
     if sizes[large] > ALIKE * sizes[small]:
         _warn(
-            f"{subjects[large].title} is more than {ALIKE:g} times as large as "
-            f"{subjects[small].title}: side by side, that one hardly shows"
+            f"{viewed_scenes[large].title} is more than {ALIKE:g} times as large as "
+            f"{viewed_scenes[small].title}: side by side, that one hardly shows"
         )
 
 

@@ -1,6 +1,6 @@
 """What the user asked for on the command line, whatever is shown.
 
-Plain data: the command line fills it in, `Studio` applies it to each subject.
+Plain data: the command line fills it in, `ViewRenderer` applies it to each scene.
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ from dataclasses import dataclass
 
 @dataclass
 class Settings:
-    """What the user asked for, whatever the subject; None leaves it to the subject.
+    """What the user asked for, whatever the scene; None leaves it to the scene.
 
     Attributes
     ----------
-    look : dict
-        Fields of `Look` that were given.
+    appearance : dict
+        Fields of `Appearance` that were given.
     up : str or None
         A key of `viewpoint.UP_DIRECTIONS`.
     background : (3,) tuple of int or None
@@ -30,7 +30,7 @@ class Settings:
         Factor on the size of texts; None chooses by the screen and the picture.
     """
 
-    look: dict
+    appearance: dict
     up: str | None = None
     background: tuple[int, int, int] | None = None
     light_position: tuple[float, float, float] | None = None

@@ -1,6 +1,7 @@
-"""A subject, lit and drawn: what the window, the turntable and the still picture have in common.
+"""A scene, lit and drawn: what the window, the turntable and the still picture have in common.
 
-In: a `Subject`, a size, a `Look`, a `Viewpoint`. Out: a `Frame`, with guides and text drawn on it.
+In: a `ViewedScene`, a size, an `Appearance`, a `Viewpoint`. Out: a `Frame`, with a grid and text
+drawn on it.
 """
 
 from __future__ import annotations
@@ -10,21 +11,21 @@ import numpy as np
 from .. import linalg
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
-from .appearance import Look, count_points, point_size
+from .appearance import Appearance, count_points, point_size
 from .grid_lines import grid
 from .lighting import Lighting, PlacedLight
 from .scene_bounds import turning_outline
 from .settings import Settings
-from .viewed_scene import Subject
+from .viewed_scene import ViewedScene
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
 
 
-class Studio:
+class ViewRenderer:
     """Holds a renderer and what it draws.
 
     Parameters
     ----------
-    subject : Subject
+    viewed : ViewedScene
         What to draw first; `show` changes it.
     settings : Settings
         What the user asked for.
@@ -45,7 +46,7 @@ class Studio:
 
     def __init__(
         self,
-        subject: Subject,
+        viewed: ViewedScene,
         settings: Settings,
         size: tuple[int, int],
         *,
@@ -64,46 +65,46 @@ class Studio:
         self.screen_scale = 1
         self.renderer = self._make_renderer()
         self.settings = settings
-        self.show(subject)
+        self.show(viewed)
 
     def _make_renderer(self) -> Renderer:
         return Renderer(*self.size, samples=self.samples, **self._options)
 
-    def show(self, subject: Subject, *, keep_look: bool = False) -> None:
-        """Draw another subject from now on.
+    def show(self, viewed: ViewedScene, *, keep_appearance: bool = False) -> None:
+        """Draw another scene from now on.
 
         Parameters
         ----------
-        subject : Subject
+        viewed : ViewedScene
             What to draw.
-        keep_look : bool
+        keep_appearance : bool
             Draw it as the last one was drawn, in the same lights.
         """
         settings = self.settings
-        self.subject = subject
-        lights = self.lighting.name if keep_look else ""
-        if not keep_look:
-            self.look = Look(**(subject.look | settings.look))
-        self.bounds = subject.bounds
-        self.up = settings.up or subject.up
+        self.viewed = viewed
+        lights = self.lighting.name if keep_appearance else ""
+        if not keep_appearance:
+            self.appearance = Appearance(**(viewed.appearance | settings.appearance))
+        self.bounds = viewed.bounds
+        self.up = settings.up or viewed.up
         # Before the grid, which is no part of what the first view shows.
-        self._outline = subject.focus
+        self._outline = viewed.focus
         if self._outline is None:
-            self._outline = turning_outline(subject.scene, UP_DIRECTIONS[self.up])
-        self._support = support_of_scene(subject.scene) if subject.focus is None else None
+            self._outline = turning_outline(viewed.scene, UP_DIRECTIONS[self.up])
+        self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
         self._grid = None
-        self._points = count_points(subject.scene)
+        self._points = count_points(viewed.scene)
         if self._transparent:
-            subject.scene.background = None
+            viewed.scene.background = None
         elif settings.background is not None:
-            subject.scene.background = settings.background
+            viewed.scene.background = settings.background
         self.lighting = self._light()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
         self.show_grid(settings.grid)
 
     def _light(self) -> Lighting | PlacedLight:
-        scene, settings = self.subject.scene, self.settings
+        scene, settings = self.viewed.scene, self.settings
         intensity = settings.light_intensity
         if settings.light_position is not None:
             return PlacedLight(scene, settings.light_position, self.bounds, intensity)
@@ -113,18 +114,18 @@ class Studio:
         """Draw a grid under the scene, or not."""
         self.settings.grid = shown
         if shown and self._grid is None:
-            scene = self.subject.scene
+            scene = self.viewed.scene
             lines = grid(self._lowest(), self.bounds, UP_DIRECTIONS[self.up])
             self._grid = scene.add(lines, name="grid")
         if self._grid is not None:
             self._grid.visible = shown
 
     def _lowest(self) -> float:
-        """Return how low the subject reaches along the up direction, however it moves."""
+        """Return how low the scene reaches along the up direction, however it moves."""
         up = UP_DIRECTIONS[self.up]
-        if self.subject.update is not None:
+        if self.viewed.update is not None:
             return float(linalg.dot(self.bounds.center, up)) - self.bounds.radius
-        return float(linalg.dot(self.subject.scene.bounds, up).min())
+        return float(linalg.dot(self.viewed.scene.bounds, up).min())
 
     def resize(self, width: int, height: int) -> None:
         """Draw frames of another size from now on."""
@@ -144,20 +145,20 @@ class Studio:
         return self.size[0] / self.size[1]
 
     def view(self, yfov: float = DEFAULT_YFOV) -> Viewpoint:
-        """Return the first view of the subject, with a vertical field of view in radians."""
-        subject, up = self.subject, UP_DIRECTIONS[self.up]
-        view = Viewpoint(np.zeros(3), 1.0, subject.azimuth, subject.elevation, up, yfov)
+        """Return the first view of the scene, with a vertical field of view in radians."""
+        viewed, up = self.viewed, UP_DIRECTIONS[self.up]
+        view = Viewpoint(np.zeros(3), 1.0, viewed.azimuth, viewed.elevation, up, yfov)
         self.frame(view)
         return view
 
     def frame(self, view: Viewpoint) -> None:
-        """Move a view along its direction to where all of the subject shows."""
+        """Move a view along its direction to where all of the scene shows."""
         view.frame(self._outline, self.aspect)
 
     def fill(self, view: Viewpoint) -> None:
-        """Move a view to where the subject, as it first stands, fills the picture.
+        """Move a view to where the scene, as it first stands, fills the picture.
 
-        That is nearer than `frame`, which leaves room for the subject to turn.
+        That is nearer than `frame`, which leaves room for the scene to turn.
         """
         if self._support is None:
             self.frame(view)
@@ -166,17 +167,17 @@ class Studio:
 
     def draw(self, view: Viewpoint, time: float = 0.0):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""
-        if self.subject.update is not None:
-            self.subject.update(time)
+        if self.viewed.update is not None:
+            self.viewed.update(time)
         pose = view.pose()
         self.lighting.follow(pose)
-        if self.subject.follow is not None:
-            self.subject.follow(pose[:3, 3])
+        if self.viewed.follow is not None:
+            self.viewed.follow(pose[:3, 3])
         frame = self.renderer.render(
-            self.subject.scene,
+            self.viewed.scene,
             (self._camera(view), pose),
             culling_camera=self._culling_camera,
-            **self.look.arguments(self.subject.scene.background, self.point_size),
+            **self.appearance.arguments(self.viewed.scene.background, self.point_size),
         )
         if self.settings.axes or self.settings.metadata:
             self._draw_overlays(frame.canvas(), view)
@@ -187,14 +188,14 @@ class Studio:
     @property
     def point_size(self) -> float:
         """How large points are, in pixels."""
-        if self.look.point_size is not None:
-            return self.look.point_size
+        if self.appearance.point_size is not None:
+            return self.appearance.point_size
         return point_size(self._points, self.size)
 
     def _camera(self, view: Viewpoint):
-        clearance = self.subject.clearance
+        clearance = self.viewed.clearance
         free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
-        return view.camera(self._clip_bounds(), self.subject.nearest, free)
+        return view.camera(self._clip_bounds(), self.viewed.nearest, free)
 
     def freeze_culling(self, view: Viewpoint | None) -> None:
         """Draw only what this view shows, wherever it is seen from; None: what each frame shows."""
@@ -217,20 +218,20 @@ class Studio:
 
     def _clip_bounds(self) -> Sphere:
         """Return what the clip planes must enclose: animated parts and the grid included."""
-        margin = 1.0 if self.subject.update is None else 1.6
+        margin = 1.0 if self.viewed.update is None else 1.6
         if self.settings.grid:
             margin = max(margin, 3.2)
         return self.bounds._replace(radius=self.bounds.radius * margin)
 
     def metadata(self) -> list[str]:
-        """Return what the subject's file holds, line by line."""
-        return [self.subject.title, *self.subject.details]
+        """Return what the scene's file holds, line by line."""
+        return [self.viewed.title, *self.viewed.details]
 
     def close(self) -> None:
         """Free the renderer's buffers."""
         self.renderer.close()
 
-    def __enter__(self) -> Studio:
+    def __enter__(self) -> ViewRenderer:
         return self
 
     def __exit__(self, *exception) -> None:

@@ -25,7 +25,7 @@ TURN_SECONDS = 6.0
 
 
 @dataclass
-class Subject:
+class ViewedScene:
     """A scene to look at.
 
     Attributes
@@ -47,8 +47,8 @@ class Subject:
         Whether it moves from the start.
     focus : (N, 3) ndarray of float64 or None
         Points that the first view shows, in world space; by default all of the scene.
-    look : dict
-        Fields of `Look` that this scene wants unless the user says otherwise.
+    appearance : dict
+        Fields of `Appearance` that this scene wants unless the user says otherwise.
     follow : callable or None
         Called with the camera's position, (3,) float64 in world space, before a frame.
     walker : callable or None
@@ -77,7 +77,7 @@ class Subject:
     period: float = TURN_SECONDS
     plays: bool = False
     focus: np.ndarray | None = None
-    look: dict = field(default_factory=dict)
+    appearance: dict = field(default_factory=dict)
     follow: Callable[[np.ndarray], None] | None = None
     walker: Callable[[], Walker] | None = None
     gaze: tuple[float, float] = (0.0, 0.0)

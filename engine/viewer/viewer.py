@@ -1,6 +1,6 @@
 """The viewer's loop: events in, frames out, as long as the window is open.
 
-In: a `Studio` and a `Window` (or anything with its methods). Out: frames on the screen.
+In: a `ViewRenderer` and a `Window` (or anything with its methods). Out: frames on the screen.
 A frame is drawn only when something changed, moves or is walked through; otherwise the loop sleeps
 until the next event, and it does nothing at all while the window is minimised.
 """
@@ -20,7 +20,7 @@ from .keymap import ORBIT_ARROWS, action_for
 from .model_files import ModelFiles
 from .orbit import OrbitController
 from .overlay import draw_block, statistics_lines
-from .view_renderer import Studio
+from .view_renderer import ViewRenderer
 from .viewpoint import Sphere
 
 #: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
@@ -37,11 +37,11 @@ ARROW_RADIANS = math.radians(7.5)
 
 
 class Viewer:
-    """Shows a studio's subject in a window and lets the user turn it.
+    """Shows a scene in a window and lets the user turn it.
 
     Parameters
     ----------
-    studio : Studio
+    view_renderer : ViewRenderer
         Draws the frames.
     window : Window
         Shows them and brings the events.
@@ -50,16 +50,16 @@ class Viewer:
     walking : bool
         Start with the walking camera.
     playing : bool, optional
-        Whether to move from the start; by default as the subject likes.
+        Whether to move from the start; by default as the scene likes.
     statistics : bool
         Show statistics from the start.
     files : ModelFiles, optional
-        Where the subject came from: it is loaded again when they change, if they are watched.
+        Where the scene came from: it is loaded again when they change, if they are watched.
     """
 
     def __init__(
         self,
-        studio: Studio,
+        view_renderer: ViewRenderer,
         window,
         *,
         view=None,
@@ -68,15 +68,15 @@ class Viewer:
         statistics: bool = False,
         files: ModelFiles | None = None,
     ):
-        self.studio = studio
+        self.view_renderer = view_renderer
         self.window = window
-        studio.screen_scale = window.scale
-        self.first_view = view or studio.view()
+        view_renderer.screen_scale = window.scale
+        self.first_view = view or view_renderer.view()
         self.view = self.first_view.copy()
         self.orbit = OrbitController(self.view)
         self.walker: FpsController | None = None
         self.time = 0.0
-        self.playing = studio.subject.plays if playing is None else playing
+        self.playing = view_renderer.viewed.plays if playing is None else playing
         self.show_help = False
         self.help_page = 0
         self.help_pages = 1
@@ -147,19 +147,19 @@ class Viewer:
             self._reload()
 
     def _play(self, seconds: float) -> None:
-        subject = self.studio.subject
+        viewed = self.view_renderer.viewed
         self.changed = True
-        self.time = (self.time + seconds) % subject.period
-        if subject.update is None and self.walker is None and self.drag is None:
-            self.orbit.turn(2 * math.pi * seconds / subject.period, 0.0)
+        self.time = (self.time + seconds) % viewed.period
+        if viewed.update is None and self.walker is None and self.drag is None:
+            self.orbit.turn(2 * math.pi * seconds / viewed.period, 0.0)
 
     def draw(self) -> None:
         """Draw one frame, its overlays, and show it."""
         start = clock.monotonic()
         width, height = self.window.size
-        self.studio.resize(width, height)
+        self.view_renderer.resize(width, height)
         self.changed = False
-        self.frame = self.studio.draw(self.view, self.time)
+        self.frame = self.view_renderer.draw(self.view, self.time)
         self._draw_overlays()
         drawn = clock.monotonic()
         self.window.present(self.frame.color)
@@ -170,7 +170,7 @@ class Viewer:
         if not (self.show_help or self.show_statistics or messages):
             return
         canvas = self.frame.canvas()
-        scale = self.studio.text_scale(canvas)
+        scale = self.view_renderer.text_scale(canvas)
         if self.show_help:
             self.help_pages = draw_help(canvas, self.help_page, scale)
         elif self.show_statistics:
@@ -178,11 +178,11 @@ class Viewer:
         draw_block(canvas, messages, corner="bottom", scale=scale)
 
     def _statistics(self) -> list[str]:
-        studio = self.studio
+        view_renderer = self.view_renderer
         return statistics_lines(
             self.frame_times.seconds,
-            studio.size,
-            studio.samples,
+            view_renderer.size,
+            view_renderer.samples,
             self.frame.stats,
         )
 
@@ -192,7 +192,7 @@ class Viewer:
         if now < self._title_due and not idle:
             return
         self._title_due = now + TITLE_SECONDS
-        parts = (self.studio.subject.title, "engine3d", self.frame_times.text(idle))
+        parts = (self.view_renderer.viewed.title, "engine3d", self.frame_times.text(idle))
         title = printable(" - ".join(filter(None, parts)))
         if title != self._title:
             self._title = title
@@ -208,16 +208,16 @@ class Viewer:
     def open(self, paths) -> None:
         """Show other files; where one cannot be read, what is there stays, and why is said."""
         try:
-            subject = self._files.replace(paths)
+            viewed = self._files.replace(paths)
         except (Engine3DError, MemoryError) as error:
             self.say(_reason(error))
             return
-        self._show(subject)
+        self._show(viewed)
         self.time = 0.0
-        self.playing = subject.plays
-        self.first_view = self.studio.view()
+        self.playing = viewed.plays
+        self.first_view = self.view_renderer.view()
         viewer_actions.reset_view(self)
-        self.say(subject.warnings[0] if subject.warnings else f"opened {subject.title}")
+        self.say(viewed.warnings[0] if viewed.warnings else f"opened {viewed.title}")
 
     def _reload(self) -> None:
         """Show the files as they are now; what is wrong with them is said until they are whole."""
@@ -226,20 +226,20 @@ class Viewer:
             self._trouble = printable(f"{', '.join(missing)} is not there: this is what it was")
             return
         try:
-            subject = self._files.reload()
+            viewed = self._files.reload()
         except (Engine3DError, MemoryError) as error:
             self._trouble = printable(_reason(error))
             return
-        before = self.studio.bounds
-        self._show(subject, keep_look=True)
-        said = subject.warnings[0] if subject.warnings else f"loaded {subject.title} again"
+        before = self.view_renderer.bounds
+        self._show(viewed, keep_appearance=True)
+        said = viewed.warnings[0] if viewed.warnings else f"loaded {viewed.title} again"
         if not self._in_view(before):
             said += "; it was out of view"
             self._frame_again()
         self.say(said)
 
-    def _show(self, subject, *, keep_look: bool = False) -> None:
-        self.studio.show(subject, keep_look=keep_look)
+    def _show(self, viewed, *, keep_appearance: bool = False) -> None:
+        self.view_renderer.show(viewed, keep_appearance=keep_appearance)
         self._trouble = ""
         self._title_due = 0.0
 
@@ -248,13 +248,13 @@ class Viewer:
         if self.walker is not None:
             viewer_actions.toggle_walking(self)
         for view in (self.view, self.first_view):
-            self.studio.frame(view)
+            self.view_renderer.frame(view)
 
     def _in_view(self, before: Sphere) -> bool:
-        """Return whether the subject, which had other bounds before, is still worth looking at."""
-        now = self.studio.bounds
+        """Return whether the scene, which had other bounds before, is still worth looking at."""
+        now = self.view_renderer.bounds
         alike = 1 / ALIKE < now.radius / before.radius < ALIKE
-        return alike and self.view.sees(now, self.studio.aspect)
+        return alike and self.view.sees(now, self.view_renderer.aspect)
 
     # Events
 
@@ -307,7 +307,7 @@ class Viewer:
             self.drag = {"middle": "dolly", "right": "pan"}[event.button]
 
     def _motion(self, event) -> None:
-        height = self.studio.size[1]
+        height = self.view_renderer.size[1]
         if self.walker is not None:
             self.walker.look(event.dx, event.dy)
             self.walker.place(self.view)
@@ -332,7 +332,7 @@ class Viewer:
         self.changed = True
 
     def _unfreeze_culling(self) -> None:
-        self.studio.freeze_culling(None)
+        self.view_renderer.freeze_culling(None)
         self.changed = True
 
     def _release_keys(self, event) -> None:

@@ -1,6 +1,6 @@
 """The walking controller on the ground: one walks where the scene lets one, at the height of eyes.
 
-In: a `Walker` of the subject, keys and the mouse as in `fps`. Out: a camera position that is never
+In: a `Walker` of the scene, keys and the mouse as in `fps`. Out: a camera position that is never
 in a wall, over water or beside the grid. Steps are climbed smoothly. Y is up.
 """
 
@@ -16,7 +16,7 @@ from .fps import FpsController
 from .viewpoint import Sphere, Viewpoint
 
 if TYPE_CHECKING:
-    from .view_renderer import Studio
+    from .view_renderer import ViewRenderer
 
 #: Metres a second.
 WALKING_SPEED = 3.5
@@ -64,9 +64,9 @@ class GroundController(FpsController):
         return moved
 
 
-def controller(studio: Studio, view: Viewpoint) -> FpsController:
-    """Return what walks in the studio's subject: on its ground, or flying where there is none."""
-    subject = studio.subject
-    if subject.walker is None:
-        return FpsController(view, studio.bounds)
-    return GroundController(view, studio.bounds, subject.walker(), subject.gaze)
+def controller(view_renderer: ViewRenderer, view: Viewpoint) -> FpsController:
+    """Return what walks in the scene: on its ground, or flying where there is none."""
+    viewed = view_renderer.viewed
+    if viewed.walker is None:
+        return FpsController(view, view_renderer.bounds)
+    return GroundController(view, view_renderer.bounds, viewed.walker(), viewed.gaze)

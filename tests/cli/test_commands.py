@@ -83,7 +83,7 @@ def test_turntable(model, tmp_path, suffix):
         assert image.n_frames == 5
 
 
-def test_look_options_change_the_picture(model, tmp_path):
+def test_appearance_options_change_the_picture(model, tmp_path):
     def draw(*arguments):
         path = tmp_path / "out.png"
         size = ["--resolution", "160x120"]
@@ -263,8 +263,8 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
 @pytest.mark.parametrize(
     ("arguments", "work"),
     [
-        (["render", "--scene", "cube", "-o", "no/a.png"], "options.subject"),
-        (["run", "--scene", "cube", "--headless", "-o", "no/a.gif"], "options.subject"),
+        (["render", "--scene", "cube", "-o", "no/a.png"], "options.viewed_scene"),
+        (["run", "--scene", "cube", "--headless", "-o", "no/a.gif"], "options.viewed_scene"),
         (["convert", "square.obj", "no/a.ply"], "convert.load_mesh"),
         (["city", "no/a.obj"], "city.make_city"),
         (["bench", "--json", "no/a.json"], "bench.workloads.make"),

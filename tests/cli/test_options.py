@@ -112,18 +112,18 @@ def test_choices_are_those_of_the_display_package():
     assert tuple(UP_DIRECTIONS) == values.UPS
     assert options.SCENES == DEMO_NAMES
     parser = argparse.ArgumentParser()
-    options.add_look(parser)
+    options.add_appearance(parser)
     choices = {action.dest: action.choices for action in parser._actions}
     assert choices["cull"] == CULLS
     assert choices["hidden_surfaces"] == HIDDEN_SURFACES
 
 
 def test_settings_hold_only_what_was_given():
-    assert options.settings(parse("render", "a.obj", "-o", "a.png")).look == {}
+    assert options.settings(parse("render", "a.obj", "-o", "a.png")).appearance == {}
     given = options.settings(
         parse("run", "a.obj", "--edges", "--unlit", "--flat", "--line-width", "2.5", "-gxm")
     )
-    assert given.look == {
+    assert given.appearance == {
         "mode": "unlit",
         "wireframe": "overlay",
         "normals": "flat",

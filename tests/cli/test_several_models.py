@@ -69,8 +69,8 @@ def test_models_of_other_axes_stand_upright_side_by_side(tmp_path):
     box.save(tmp_path / "y.ply")
     turned = e3d.box((1.0, 2.0, 3.0))
     turned.save(tmp_path / "z.stl")
-    subject = open_models([tmp_path / "y.ply", tmp_path / "z.stl"], side_by_side=True)
-    nodes = [node for node in subject.scene.nodes if node.object is not None]
+    viewed = open_models([tmp_path / "y.ply", tmp_path / "z.stl"], side_by_side=True)
+    nodes = [node for node in viewed.scene.nodes if node.object is not None]
     for node in nodes:
         low, high = node.bounds
         np.testing.assert_allclose(high - low, (1, 3, 2), atol=1e-6)

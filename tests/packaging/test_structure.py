@@ -6,6 +6,7 @@ C is read by regular expressions, which suffices for the one style of this proje
 """
 
 import ast
+import functools
 import re
 from collections import Counter, defaultdict
 from pathlib import Path, PurePosixPath
@@ -13,6 +14,7 @@ from typing import Literal, get_args, get_origin
 
 import pytest
 
+import engine3d
 from engine3d import choices
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -279,6 +281,7 @@ def python_modules():
 MODULES = python_modules()
 
 
+@functools.cache
 def imported_by(name):
     """The modules of engine/ that one imports, at once or in a function."""
     tree = ast.parse(MODULES[name].read_text(encoding="utf-8"))
@@ -301,6 +304,31 @@ def test_modules_import_each_other_in_no_circle():
     for importer, imported in backward:
         assert imported in graph[importer], "it is gone: delete it from the list"
         assert importer in reachable(rest, imported), "it closes no circle: delete it from the list"
+
+
+# Packages that tell by an underscore which of their modules nobody else needs. In the others, which
+# offer what their __init__ lists or a command runs, all modules are their own business.
+PACKAGES = {"files", "geometry", "lod", "materials", "navigation", "rendering", "scene", "spatial"}
+
+
+def outsiders(name):
+    """The modules that import one, but for those of its package; its __init__ counts as one."""
+    package = name.rpartition(".")[0]
+    importers = {other for other in MODULES if name in imported_by(other)}
+    return {other for other in importers if not other.startswith(f"{package}.")}
+
+
+@pytest.mark.parametrize("package", sorted(PACKAGES))
+def test_an_underscore_tells_what_a_package_keeps_to_itself(package):
+    names = [name for name in MODULES if name.rpartition(".")[0] == package]
+    offered = {name for name in names if name in engine3d._PUBLIC.values() or outsiders(name)}
+    assert len(names) >= 3
+    assert {name for name in names if "._" not in name} == offered
+
+
+def test_the_top_of_the_package_holds_no_helpers():
+    top = {name for name, path in MODULES.items() if path.parent == ROOT / "engine"}
+    assert top == {"", "__main__", "canvas", "choices", "errors", "start", "version"}
 
 
 def module_lists(path):

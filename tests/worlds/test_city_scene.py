@@ -8,31 +8,31 @@ import pytest
 import engine3d as e3d
 from engine3d.demos import load_demo
 from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import Studio
+from engine3d.viewer.view_renderer import ViewRenderer
 from engine3d.viewer.walking import controller
 
 SIZE = (480, 270)
 
 
 @pytest.fixture(scope="module")
-def studio():
-    with Studio(load_demo("city"), Settings({}), SIZE) as studio:
-        yield studio
+def view_renderer():
+    with ViewRenderer(load_demo("city"), Settings({}), SIZE) as view_renderer:
+        yield view_renderer
 
 
-def view_from(studio, elevation, distance):
-    view = studio.view()
+def view_from(view_renderer, elevation, distance):
+    view = view_renderer.view()
     view.elevation = math.radians(elevation)
     view.distance *= distance
     return view
 
 
-def draw(studio, view, znear=None, outputs=("color",)):
-    camera = studio._camera(view)
+def draw(view_renderer, view, znear=None, outputs=("color",)):
+    camera = view_renderer._camera(view)
     if znear is not None:
         camera = e3d.PerspectiveCamera(view.yfov, znear=znear, zfar=camera.zfar)
     with e3d.Renderer(*SIZE) as renderer:
-        return renderer.render(studio.subject.scene, (camera, view.pose()), outputs=outputs)
+        return renderer.render(view_renderer.viewed.scene, (camera, view.pose()), outputs=outputs)
 
 
 @pytest.mark.parametrize("triangles", [20_000, 100_000, 400_000])
@@ -42,64 +42,66 @@ def test_256_lights_shine_in_cities_of_all_sizes(triangles):
     assert len(lights) == 256 and all(node.shown for node in lights)
 
 
-def test_the_city_stands_still_until_it_is_played(studio):
-    assert not studio.subject.plays and studio.subject.update is not None
+def test_the_city_stands_still_until_it_is_played(view_renderer):
+    assert not view_renderer.viewed.plays and view_renderer.viewed.update is not None
 
 
 @pytest.mark.parametrize(("elevation", "distance"), [(24, 1.0), (40, 1.5), (60, 1.0), (90, 1.5)])
-def test_markings_are_whole_from_above(studio, elevation, distance):
+def test_markings_are_whole_from_above(view_renderer, elevation, distance):
     """What shows is what shows where depths are told apart far better than they need be."""
-    view = view_from(studio, elevation, distance)
+    view = view_from(view_renderer, elevation, distance)
     outputs = ("triangle_id", "object_id", "depth")
-    seen = draw(studio, view, outputs=outputs)
+    seen = draw(view_renderer, view, outputs=outputs)
     nearest = float(seen.depth[seen.depth > 0].min())
-    exact = draw(studio, view, znear=0.99 * nearest, outputs=outputs)
+    exact = draw(view_renderer, view, znear=0.99 * nearest, outputs=outputs)
     differs = (seen.triangle_id != exact.triangle_id) | (seen.object_id != exact.object_id)
     assert differs.mean() < 2e-4
 
 
-def test_the_near_plane_cuts_nothing_off(studio):
+def test_the_near_plane_cuts_nothing_off(view_renderer):
     """Wherever one flies, over the roofs and among them."""
     random = np.random.default_rng(0)
     far = 0
     for _ in range(40):
-        view = view_from(studio, random.uniform(2, 90), random.uniform(0.05, 1.2))
+        view = view_from(view_renderer, random.uniform(2, 90), random.uniform(0.05, 1.2))
         view.azimuth = random.uniform(-math.pi, math.pi)
         view.target = view.target + random.uniform(-150, 150, 3) * (1, 0, 1)
-        znear = studio._camera(view).znear
-        depth = draw(studio, view, znear=0.05, outputs=("depth",)).depth
+        znear = view_renderer._camera(view).znear
+        depth = draw(view_renderer, view, znear=0.05, outputs=("depth",)).depth
         assert depth[depth > 0].min() >= znear or znear <= 0.1
         far += znear > 20.0
     assert far > 10
 
 
-def test_lamps_do_not_pop(studio):
+def test_lamps_do_not_pop(view_renderer):
     """One degree of turning changes lamps that shine, but no pixel by more than a little."""
     worst = 0
-    view = view_from(studio, 24, 1.0)
+    view = view_from(view_renderer, 24, 1.0)
     for _ in range(24):
         turned = view.copy()
         turned.azimuth += math.radians(1.0)
         pictures = []
         for eye in (view, turned):
-            studio.subject.follow(eye.position())
-            pictures.append(draw(studio, turned).color.astype(int))
+            view_renderer.viewed.follow(eye.position())
+            pictures.append(draw(view_renderer, turned).color.astype(int))
         worst = max(worst, int(abs(pictures[1] - pictures[0]).max()))
         view = turned
     assert 0 < worst <= 16
 
 
-def test_what_shines_depends_on_the_place_alone(studio):
-    eyes = [view_from(studio, 24, distance).position() for distance in (0.3, 0.6, 0.3)]
+def test_what_shines_depends_on_the_place_alone(view_renderer):
+    eyes = [view_from(view_renderer, 24, distance).position() for distance in (0.3, 0.6, 0.3)]
     found = []
     for eye in eyes:
-        studio.subject.follow(eye)
-        lights = [n for n in studio.subject.scene.nodes if isinstance(n.object, e3d.PointLight)]
+        view_renderer.viewed.follow(eye)
+        lights = [
+            n for n in view_renderer.viewed.scene.nodes if isinstance(n.object, e3d.PointLight)
+        ]
         found.append([(*node.world_pose[:3, 3], node.object.intensity) for node in lights])
     assert found[0] == found[2] != found[1]
 
 
-def test_one_who_walks_sees_what_is_near(studio):
-    view = studio.view()
-    controller(studio, view).place(view)
-    assert studio._camera(view).znear == 0.1
+def test_one_who_walks_sees_what_is_near(view_renderer):
+    view = view_renderer.view()
+    controller(view_renderer, view).place(view)
+    assert view_renderer._camera(view).znear == 0.1

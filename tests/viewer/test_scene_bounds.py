@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from display.projection import project
+from viewer.projection import project
 
 import engine3d as e3d
 from engine3d.viewer.scene_bounds import bounding_sphere, turning_outline

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from canvas_oracles import blended
+from canvas.oracles import blended
 
 from engine3d.canvas import Canvas
 from engine3d.errors import InvalidArgumentError

@@ -12,8 +12,8 @@ import pytest
 import engine3d as e3d
 from engine3d.viewer import input as events
 from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import Studio
-from engine3d.viewer.viewed_scene import Subject
+from engine3d.viewer.view_renderer import ViewRenderer
+from engine3d.viewer.viewed_scene import ViewedScene
 from engine3d.viewer.viewer import Viewer
 from engine3d.viewer.window import Window, _is_opengl_on_the_cpu, find_screen, load_sdl
 
@@ -89,8 +89,8 @@ def test_a_resize_is_reported(window):
 def test_a_viewer_draws_turns_and_quits(window):
     scene = e3d.Scene((10, 20, 30))
     scene.add(e3d.box())
-    studio = Studio(Subject(scene, "box"), Settings({}), window.size)
-    viewer = Viewer(studio, window)
+    view_renderer = ViewRenderer(ViewedScene(scene, "box"), Settings({}), window.size)
+    viewer = Viewer(view_renderer, window)
     push(sdl2.SDL_MOUSEBUTTONDOWN, button__button=sdl2.SDL_BUTTON_LEFT)
     push(sdl2.SDL_MOUSEMOTION, motion__xrel=20, motion__yrel=5)
     viewer.run(frames=1)

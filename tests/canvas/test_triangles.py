@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from canvas_oracles import convex_masks, snapped
+from canvas.oracles import convex_masks, snapped
 
 from engine3d.canvas import Canvas
 

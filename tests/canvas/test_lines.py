@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from canvas_oracles import convex_masks, line_mask, thick_line_corners
+from canvas.oracles import convex_masks, line_mask, thick_line_corners
 
 from engine3d.canvas import Canvas
 

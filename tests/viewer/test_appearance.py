@@ -6,8 +6,8 @@ import pytest
 import engine3d as e3d
 from engine3d.viewer.appearance import contrasting, point_size
 from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import Studio
-from engine3d.viewer.viewed_scene import Subject
+from engine3d.viewer.view_renderer import ViewRenderer
+from engine3d.viewer.viewed_scene import ViewedScene
 
 
 def luminance(color):
@@ -29,8 +29,10 @@ def luminance(color):
 def test_lines_alone_contrast_with_the_background(background):
     scene = e3d.Scene(background)
     scene.add(e3d.box())
-    with Studio(Subject(scene, "box"), Settings({"wireframe": "only"}), (160, 120)) as studio:
-        picture = studio.draw(studio.view()).color[..., :3]
+    with ViewRenderer(
+        ViewedScene(scene, "box"), Settings({"wireframe": "only"}), (160, 120)
+    ) as view_renderer:
+        picture = view_renderer.draw(view_renderer.view()).color[..., :3]
     behind = picture[0, 0]
     lines = np.unique(picture[(picture != behind).any(axis=2)], axis=0)
     assert len(lines) == 1
@@ -42,8 +44,8 @@ def test_a_line_colour_that_was_given_stays():
     scene = e3d.Scene((255, 255, 255))
     scene.add(e3d.box())
     settings = Settings({"wireframe": "only", "line_color": (250, 250, 250)})
-    with Studio(Subject(scene, "box"), settings, (160, 120)) as studio:
-        picture = studio.draw(studio.view()).color[..., :3]
+    with ViewRenderer(ViewedScene(scene, "box"), settings, (160, 120)) as view_renderer:
+        picture = view_renderer.draw(view_renderer.view()).color[..., :3]
     assert set(np.unique(picture)) == {250, 255}
     assert contrasting(None) == contrasting((0, 0, 0))
 
@@ -57,10 +59,10 @@ def cloud(count):
     return scene
 
 
-def covered(scene, size, look):
-    with Studio(Subject(scene, "cloud"), Settings(look), size) as studio:
-        picture = studio.draw(studio.view()).color[..., :3]
-        return float((picture != 0).any(axis=2).mean()), studio.point_size
+def covered(scene, size, appearance):
+    with ViewRenderer(ViewedScene(scene, "cloud"), Settings(appearance), size) as view_renderer:
+        picture = view_renderer.draw(view_renderer.view()).color[..., :3]
+        return float((picture != 0).any(axis=2).mean()), view_renderer.point_size
 
 
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720), (2560, 1440)])

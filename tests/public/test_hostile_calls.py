@@ -3,7 +3,7 @@
 import warnings
 
 import pytest
-from hostile_calls import CALLS, wrong_values
+from public.hostile_calls import CALLS, wrong_values
 
 import engine3d as e3d
 

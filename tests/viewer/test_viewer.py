@@ -6,14 +6,14 @@ import time
 
 import numpy as np
 import pytest
-from display.scripted_window import ScriptedWindow
+from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d.viewer import input as events
 from engine3d.viewer.keymap import BINDINGS
 from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import Studio
-from engine3d.viewer.viewed_scene import Subject
+from engine3d.viewer.view_renderer import ViewRenderer
+from engine3d.viewer.viewed_scene import ViewedScene
 from engine3d.viewer.viewer import Viewer
 
 SIZE = (160, 120)
@@ -23,21 +23,21 @@ def key(name, **modifiers):
     return events.KeyDown(name, name, **modifiers)
 
 
-def make_subject(**options):
+def make_viewed_scene(**options):
     scene = e3d.Scene((10, 20, 30))
     scene.add(e3d.torus(0.5, 0.2, (24, 12)), name="torus")
-    return Subject(scene, "torus.obj", **options)
+    return ViewedScene(scene, "torus.obj", **options)
 
 
-def make_viewer(script=(), subject=None, **options):
-    studio = Studio(subject or make_subject(), Settings({}), SIZE)
+def make_viewer(script=(), viewed=None, **options):
+    view_renderer = ViewRenderer(viewed or make_viewed_scene(), Settings({}), SIZE)
     window = ScriptedWindow(script, SIZE)
-    return Viewer(studio, window, **options), window
+    return Viewer(view_renderer, window, **options), window
 
 
-def play(*script, subject=None, **options):
+def play(*script, viewed=None, **options):
     """Run a viewer through a script of events, one a turn of the loop; return it and the window."""
-    viewer, window = make_viewer([[event] for event in script], subject, **options)
+    viewer, window = make_viewer([[event] for event in script], viewed, **options)
     viewer.run()
     return viewer, window
 
@@ -58,46 +58,46 @@ def test_nothing_is_drawn_while_nothing_changes():
     assert len(window.shown) == 1
 
 
-def test_a_playing_subject_is_drawn_every_turn_and_space_pauses_it():
+def test_a_playing_scene_is_drawn_every_turn_and_space_pauses_it():
     nothing = events.KeyUp("B", "B")
-    viewer, window = play(nothing, nothing, nothing, subject=make_subject(plays=True))
+    viewer, window = play(nothing, nothing, nothing, viewed=make_viewed_scene(plays=True))
     assert len(window.shown) == 3
     assert viewer.view.azimuth != viewer.first_view.azimuth
-    viewer, _ = play(key("Space"), subject=make_subject(plays=True))
+    viewer, _ = play(key("Space"), viewed=make_viewed_scene(plays=True))
     assert not viewer.playing
 
 
-def test_an_animated_subject_is_updated_with_the_time():
+def test_an_animated_scene_is_updated_with_the_time():
     times = []
-    subject = make_subject(update=times.append, period=2.0, plays=True)
-    viewer, _ = play(*[events.Exposed()] * 4, subject=subject)
+    viewed = make_viewed_scene(update=times.append, period=2.0, plays=True)
+    viewer, _ = play(*[events.Exposed()] * 4, viewed=viewed)
     assert times == sorted(times)
     assert viewer.view.azimuth == viewer.first_view.azimuth
 
 
 def test_nothing_is_drawn_while_minimised():
-    viewer, window = make_viewer([[events.Exposed()]] * 3, make_subject(plays=True))
+    viewer, window = make_viewer([[events.Exposed()]] * 3, make_viewed_scene(plays=True))
     window.minimised = True
     viewer.run()
     assert window.shown == []
 
 
 def test_frames_limit_the_loop():
-    viewer, window = make_viewer([[]] * 100, make_subject(plays=True))
+    viewer, window = make_viewer([[]] * 100, make_viewed_scene(plays=True))
     viewer.run(frames=5)
     assert len(window.shown) == 5
 
 
 @pytest.mark.parametrize("plays", [True, False])
 def test_as_many_frames_as_asked_for_are_shown_though_nothing_moves(plays):
-    viewer, window = make_viewer([[]] * 100, make_subject(plays=plays))
+    viewer, window = make_viewer([[]] * 100, make_viewed_scene(plays=plays))
     viewer.run(frames=3)
     assert len(window.shown) == 3
     assert len(window._script) == 97
 
 
 def test_the_title_has_the_name_and_what_frames_take():
-    viewer, window = make_viewer([[]] * 400, make_subject(plays=True))
+    viewer, window = make_viewer([[]] * 400, make_viewed_scene(plays=True))
     viewer.run(frames=300)
     assert re.fullmatch(r"torus.obj - engine3d - \d+\.\d ms, \d+ fps", window.titles[0])
 
@@ -106,7 +106,7 @@ def test_the_title_tells_what_recent_frames_take_and_that_nothing_moves(monkeypa
     """The first frames are slow; what moves later is fast, and then comes to rest."""
     now = [100.0]
     monkeypatch.setattr("time.monotonic", lambda: now[0])
-    viewer, window = make_viewer(subject=make_subject(plays=True))
+    viewer, window = make_viewer(viewed=make_viewed_scene(plays=True))
     take = [0.125]
     window.present = lambda pixels: now.__setitem__(0, now[0] + take[0])
 
@@ -128,7 +128,7 @@ def test_the_title_tells_what_recent_frames_take_and_that_nothing_moves(monkeypa
 def test_the_title_names_what_is_shown(tmp_path):
     path = tmp_path / "triangle.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    viewer, window = make_viewer([[]] * 3, make_subject(plays=True))
+    viewer, window = make_viewer([[]] * 3, make_viewed_scene(plays=True))
     viewer.run(frames=3)
     viewer.handle(events.FilesDropped((str(path),)))
     viewer.playing = True
@@ -192,30 +192,30 @@ def test_digits_choose_views(name, azimuth, elevation):
     assert (viewer.view.azimuth, viewer.view.elevation) == (azimuth, elevation)
 
 
-def test_the_look_follows_the_keys():
+def test_the_appearance_follows_the_keys():
     viewer, _ = play(key("W"))
-    assert viewer.studio.look.wireframe == "overlay"
+    assert viewer.view_renderer.appearance.wireframe == "overlay"
     viewer, _ = play(key("W"), key("W"), key("W"))
-    assert viewer.studio.look.wireframe is None
+    assert viewer.view_renderer.appearance.wireframe is None
     viewer, _ = play(key("E"), key("N"), key("F"), key("B"), key("5"), key("+"))
-    look = viewer.studio.look
-    assert look.wireframe == "overlay"
-    assert look.mode == "normal"
-    assert look.normals == "flat"
-    assert look.cull == "front"
-    assert look.line_width == 2.0
+    appearance = viewer.view_renderer.appearance
+    assert appearance.wireframe == "overlay"
+    assert appearance.mode == "normal"
+    assert appearance.normals == "flat"
+    assert appearance.cull == "front"
+    assert appearance.line_width == 2.0
     assert viewer.view.orthographic
     viewer, _ = play(key("M", shift=True))
-    assert viewer.studio.look.mode == "overdraw"
+    assert viewer.view_renderer.appearance.mode == "overdraw"
 
 
 def test_lights_go_round():
     viewer, _ = make_viewer()
-    names = viewer.studio.lighting.names
+    names = viewer.view_renderer.lighting.names
     viewer, _ = play(key("L"))
-    assert viewer.studio.lighting.name == names[1]
+    assert viewer.view_renderer.lighting.name == names[1]
     viewer, _ = play(*[key("L")] * len(names))
-    assert viewer.studio.lighting.name == names[0]
+    assert viewer.view_renderer.lighting.name == names[0]
 
 
 @pytest.mark.parametrize("binding", BINDINGS, ids=lambda binding: binding.action)
@@ -227,7 +227,7 @@ def test_every_key_draws_a_frame_and_twice_is_fine(binding, tmp_path, monkeypatc
 
 def test_keys_with_control_and_repeats_do_nothing():
     viewer, _ = play(key("W", control=True), key("W", repeat=True))
-    assert viewer.studio.look.wireframe is None
+    assert viewer.view_renderer.appearance.wireframe is None
 
 
 def test_help_statistics_and_messages_are_drawn_over_the_picture():
@@ -273,7 +273,7 @@ def test_walking_keys_are_let_go_when_the_focus_is_lost():
 def test_letters_that_do_not_walk_still_act_while_walking():
     viewer, _ = make_viewer(walking=True)
     viewer.handle(key("G"))
-    assert viewer.studio.settings.grid
+    assert viewer.view_renderer.settings.grid
 
 
 def test_arrows_look_while_walking():
@@ -287,17 +287,17 @@ def test_arrows_look_while_walking():
 
 def test_culling_is_frozen_while_c_is_held():
     viewer, _ = make_viewer(walking=True)
-    seen = viewer.studio.draw(viewer.view).color
+    seen = viewer.view_renderer.draw(viewer.view).color
     viewer.handle(key("C"))
-    np.testing.assert_array_equal(viewer.studio.draw(viewer.view).color, seen)
-    draw = viewer.studio.renderer.render
+    np.testing.assert_array_equal(viewer.view_renderer.draw(viewer.view).color, seen)
+    draw = viewer.view_renderer.renderer.render
     calls = []
 
     def render(*arguments, **options):
         calls.append(options["culling_camera"])
         return draw(*arguments, **options)
 
-    viewer.studio.renderer.render = render
+    viewer.view_renderer.renderer.render = render
     viewer.draw()
     viewer.handle(events.KeyUp("C", "C"))
     assert viewer.changed
@@ -338,14 +338,14 @@ def test_a_dropped_file_opens(tmp_path):
     path = tmp_path / "triangle.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     viewer, window = play(events.FilesDropped((str(path),)), events.Exposed())
-    assert viewer.studio.subject.title == "triangle.obj"
+    assert viewer.view_renderer.viewed.title == "triangle.obj"
 
 
 def test_a_dropped_file_that_cannot_be_read_leaves_the_picture(tmp_path):
     path = tmp_path / "broken.obj"
     path.write_text("v 0 0\nf 1 2 3\n")
     viewer, _ = play(events.FilesDropped((str(path),)))
-    assert viewer.studio.subject.title == "torus.obj"
+    assert viewer.view_renderer.viewed.title == "torus.obj"
 
 
 def test_a_watched_file_is_loaded_again(tmp_path, monkeypatch):
@@ -356,14 +356,14 @@ def test_a_watched_file_is_loaded_again(tmp_path, monkeypatch):
     monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)
     path = tmp_path / "shape.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    viewer, _ = make_viewer(subject=open_model(path), files=ModelFiles([path], watch=True))
+    viewer, _ = make_viewer(viewed=open_model(path), files=ModelFiles([path], watch=True))
     viewer.handle(key("N"))
     path.write_text("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 0\nf 1 2 3\nf 2 4 3\n")
     for _ in range(3):
         viewer.advance(0.01)
-    meshes = [node.object for node in viewer.studio.subject.scene.nodes]
+    meshes = [node.object for node in viewer.view_renderer.viewed.scene.nodes]
     assert [len(mesh.faces) for mesh in meshes if isinstance(mesh, e3d.Mesh)] == [2]
-    assert viewer.studio.look.mode == "normal"
+    assert viewer.view_renderer.appearance.mode == "normal"
 
 
 TRIANGLE = "v {0} 0 0\nv {1} 0 0\nv {0} 1 0\nf 1 2 3\n"
@@ -379,7 +379,7 @@ def watching(tmp_path, monkeypatch, *names, **options):
     for path in paths:
         path.write_text(TRIANGLE.format(0, 1))
     files = ModelFiles(paths, watch=True, **options)
-    viewer, window = make_viewer(subject=files.reload(), files=files)
+    viewer, window = make_viewer(viewed=files.reload(), files=files)
     return viewer, window, paths
 
 
@@ -391,7 +391,7 @@ def look(viewer):
 
 
 def faces(viewer):
-    meshes = [node.object for node in viewer.studio.subject.scene.nodes]
+    meshes = [node.object for node in viewer.view_renderer.viewed.scene.nodes]
     return [len(mesh.faces) for mesh in meshes if isinstance(mesh, e3d.Mesh)]
 
 
@@ -430,17 +430,17 @@ def test_a_watched_model_that_leaves_the_view_is_framed(tmp_path, monkeypatch, l
     look(viewer)
     assert (viewer.view.distance != before.distance) == framed
     assert viewer.view.azimuth == before.azimuth
-    assert viewer.view.sees(viewer.studio.bounds, viewer.studio.aspect)
+    assert viewer.view.sees(viewer.view_renderer.bounds, viewer.view_renderer.aspect)
     if framed:
         viewer.handle(key("R"))
-        assert viewer.view.sees(viewer.studio.bounds, viewer.studio.aspect)
+        assert viewer.view.sees(viewer.view_renderer.bounds, viewer.view_renderer.aspect)
 
 
 def test_a_watched_model_keeps_its_colour(tmp_path, monkeypatch):
     viewer, _, (path,) = watching(tmp_path, monkeypatch, "shape.obj", color=(255, 0, 0))
     path.write_text(TRIANGLE.format(0, 1) + "f 1 3 2\n")
     look(viewer)
-    nodes = viewer.studio.subject.scene.nodes
+    nodes = viewer.view_renderer.viewed.scene.nodes
     (mesh,) = (node.object for node in nodes if isinstance(node.object, e3d.Mesh))
     assert len(mesh.faces) == 2
     assert tuple(mesh.materials[0].color) == (255, 0, 0)
@@ -452,13 +452,13 @@ def test_files_that_are_dropped_together_show_together(tmp_path):
         path.write_text(TRIANGLE.format(place, place + 1))
     viewer, window = make_viewer()
     viewer.open([str(path) for path in paths[:2]])
-    assert viewer.studio.subject.title == "a.obj, b.obj"
+    assert viewer.view_renderer.viewed.title == "a.obj, b.obj"
     assert faces(viewer) == [1, 1]
-    low, high = viewer.studio.subject.scene.bounds
+    low, high = viewer.view_renderer.viewed.scene.bounds
     assert (low[0], high[0]) == (0, 4)
     paths[2].write_text("v 0 0\n")
     viewer.open([str(path) for path in paths])
-    assert viewer.studio.subject.title == "a.obj, b.obj"
+    assert viewer.view_renderer.viewed.title == "a.obj, b.obj"
     assert "broken.obj:1: " in viewer._message
 
 
@@ -484,8 +484,8 @@ def test_texts_are_as_large_as_the_screen_is_fine():
         viewer, window = make_viewer([])
         window.size = (800, 600)
         window.scale = screen
-        studio = Studio(make_subject(), Settings({}, ui_scale=given), window.size)
-        viewer = Viewer(studio, window)
+        view_renderer = ViewRenderer(make_viewed_scene(), Settings({}, ui_scale=given), window.size)
+        viewer = Viewer(view_renderer, window)
         viewer.draw()
         plain = window.shown[-1]
         viewer.say("hello")

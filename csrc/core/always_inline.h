@@ -1,5 +1,5 @@
-/* Functions that a compiler may not leave as calls: what is known to the caller then shapes them, and GCC drops calls of
- * functions that only fetch memory ahead.
+/* Functions that must be inlined: constants of the caller specialise them, and GCC drops a call of a function that does nothing but
+ * prefetch.
  */
 #ifndef E3D_ALWAYS_INLINE_H
 #define E3D_ALWAYS_INLINE_H

@@ -9,9 +9,9 @@
 #include "core/vectors.h"
 #include "e3d.h"
 
-enum { RUN = 128, ROWS = 3 }; /* points; vectors in four of them, whose lanes keep to one axis each */
+enum { RUN = 128, ROWS = 3 }; /* points; vectors for four points, so that each lane keeps to one axis */
 
-/* Whether all of a run are finite, and then their box. */
+/* Finds the box of a run of points; 0 if one of them isn't finite. */
 static int bound_run(const float *p, float lo[3], float hi[3])
 {
     float4 least[ROWS], most[ROWS];

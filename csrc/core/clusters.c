@@ -2,9 +2,10 @@
  *
  * In:  a checked mesh description.
  * Out: clusters with their boxes, cones of normals and own positions; groups of neighbouring clusters.
- * Always: the same arrays give the same clusters: ordered triangles (face_order.c) are cut into chunks, whoever builds which.
- *      Corners at the same place share a vertex: what a cluster is for, the position alone decides. A cluster's positions
- *      are structure of arrays, padded with its first vertex, and its chunk's are one block of memory.
+ * Always: the same arrays give the same clusters on any number of threads: ordered triangles (face_order.c) are cut into
+ *      chunks of a fixed size, and each chunk is built by itself. Corners at the same place share a vertex, since geometry
+ *      needs the position alone. A cluster's positions are structure of arrays, padded with its first vertex; a chunk's are one
+ *      block of memory.
  */
 #include "core/clusters.h"
 
@@ -22,11 +23,11 @@ enum {
     /* All clusters hold at least 42 triangles (126 / 3), except for the last of a chunk. */
     LEAST_FACES = (E3D_CLUSTER_VERTICES - 2) / 3,
     INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4, /* the room that a cluster's indices take */
-    PLACES = 512, /* of a hash table of at most 128 positions */
+    PLACES = 512, /* slots of the hash table of at most 128 positions */
     RECENT = 256  /* vertices of the mesh whose members are remembered */
 };
 
-/* A position; places are the same where their bits are. */
+/* A position. Two are the same place if their bits are equal. */
 typedef union place {
     float at[4];
     float4 all;
@@ -40,25 +41,25 @@ typedef struct corner {
 
 typedef struct building {
     e3d_mesh *mesh;
-    e3d_cluster *clusters; /* of each chunk the first `counts`, `bound` apart */
+    e3d_cluster *clusters; /* `bound` for each chunk, which uses the first counts[chunk] of them */
     int32_t *counts;
     int32_t bound, chunks;
     atomic_int next, failed;
 } building;
 
-/* A thread's own. */
+/* A thread's own memory. */
 typedef struct builder {
     const e3d_mesh_desc *desc;
-    e3d_cluster *now;                          /* where the cluster goes that is being built */
-    float *data;                               /* of a chunk's clusters */
+    e3d_cluster *now;                          /* the cluster that is being built */
+    float *data;                               /* positions and indices of the chunk's clusters */
     size_t used;
     place members[E3D_CLUSTER_VERTICES];
     uint8_t indices[3 * E3D_CLUSTER_TRIANGLES];
-    uint8_t local[PLACES];                     /* index of a member + 1, 0: free */
+    uint8_t local[PLACES];                     /* slots of the hash table: index of a member + 1, or 0 */
     struct {
         int32_t vertex;
         uint8_t member;
-    } recent[RECENT];                          /* by the vertex's number */
+    } recent[RECENT];                          /* a cache before the hash table, by the vertex's number */
 } builder;
 
 /* ---- one cluster ---- */
@@ -79,7 +80,7 @@ static uint32_t hash_of(place p)
     return (uint32_t)((p.bits[0] * 0x9E3779B97F4A7C15u + p.bits[1] * 0xC2B2AE3D27D4EB4Fu) >> 55);
 }
 
-/* The index of the member at this place, which becomes one if it isn't. */
+/* The index of the member at a place; where there is none, it is added. */
 static inline uint8_t find_member(builder *b, place p)
 {
     uint32_t at = hash_of(p);
@@ -157,7 +158,7 @@ static void close_cluster(builder *b)
 
 /* ---- a chunk of them ---- */
 
-/* The corners of faces that may lie far apart: fetched side by side, so that none waits for another. */
+/* Loads the corners of faces in two loops of independent loads: corners lie anywhere in memory, and their cache misses overlap. */
 static void fetch(const e3d_mesh_desc *d, const int32_t *faces, int32_t count, corner out[][3])
 {
     for (int32_t i = 0; i < count; i++)
@@ -296,8 +297,8 @@ int e3d_clusters_build(e3d_mesh *mesh, int threads)
     mesh->faces = e3d_large_memory(((size_t)d->faces_count + E3D_CLUSTER_TRIANGLES) * sizeof *mesh->faces);
     if (!mesh->faces)
         return 0;
-    memset(mesh->faces + d->faces_count, 0, E3D_CLUSTER_TRIANGLES * sizeof *mesh->faces); /* whole vectors are read */
-    if (d->components == 4 || d->faces_count <= E3D_CLUSTER_TRIANGLES) { /* one cluster, or drawn once */
+    memset(mesh->faces + d->faces_count, 0, E3D_CLUSTER_TRIANGLES * sizeof *mesh->faces); /* padding: whole vectors are read */
+    if (d->components == 4 || d->faces_count <= E3D_CLUSTER_TRIANGLES) { /* one cluster, or a clip-space mesh, which is drawn once */
         for (int32_t f = 0; f < d->faces_count; f++)
             mesh->faces[f] = f;
     } else {

@@ -56,7 +56,7 @@ static int has_fp16(void)
 int e3d_cpu_looks_ahead(void)
 {
 #ifdef E3D_HAVE_X86
-    static atomic_int known = -1; /* asking takes long in a virtual machine */
+    static atomic_int known = -1; /* CPUID traps in a virtual machine, which takes long */
     int ahead = atomic_load_explicit(&known, memory_order_relaxed);
     if (ahead < 0) {
         ahead = has_fp16();

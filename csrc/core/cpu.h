@@ -2,8 +2,8 @@
 #ifndef E3D_CORE_CPU_H
 #define E3D_CORE_CPU_H
 
-/* Whether it looks ahead far enough to overlap the long loops of some samples with those of the next: Intel's since Sapphire Rapids
- * do, which are told by AVX512-FP16. */
+/* Whether the out-of-order window is large enough to overlap a long loop body with the next iteration's. That of Intel's processors
+ * since Sapphire Rapids is, which AVX512-FP16 identifies. On Zen 4 two short loops are faster: 2.86 instead of 3.04 ms a frame. */
 int e3d_cpu_looks_ahead(void);
 
 #endif

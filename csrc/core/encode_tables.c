@@ -1,4 +1,4 @@
-/* The table of encode_tables.h; the last pieces are never asked for. */
+/* The table of encode_tables.h; the last pieces only fill it up, and no colour reaches them. */
 #include "core/encode_tables.h"
 
 const int32_t ENCODE_CURVE[ENCODE_PIECES] = {

@@ -56,7 +56,7 @@ static void gather(const e3d_mesh_desc *d, int32_t first, int count, e3d_triangl
         }
 }
 
-/* Bits of v, two places apart. */
+/* Spreads the bits of v, with two free places after each. */
 static inline int4 spread(int4 v)
 {
     v = (v | v << 16) & 0x030000FF;
@@ -101,7 +101,7 @@ static inline int4 key_of(const order *o, const e3d_triangles *triangles, int t)
     return ((cell >> fine) << SIDE_BITS | side_of(&areas)) << fine | (cell & ((1 << fine) - 1));
 }
 
-/* The end of the range that begins there. */
+/* Where the range that begins with a face ends. */
 static int32_t range_end(const order *o, int32_t first)
 {
     return o->range_faces < o->desc->faces_count - first ? first + o->range_faces : o->desc->faces_count;
@@ -129,7 +129,7 @@ static void key_range(void *argument, int range)
 
 /* ---- sorting ---- */
 
-/* Counts of each bucket in each range become the places where these go. */
+/* Turns the counts of each bucket in each range into the places where its faces go. */
 static void place_buckets(order *o)
 {
     uint32_t total = 0;
@@ -152,7 +152,7 @@ static void scatter_range(void *argument, int range)
         o->sorted[start[o->keys[i].key >> o->low_bits]++] = o->keys[i];
 }
 
-/* One pass of a stable radix sort; of the last only the faces are kept. */
+/* One pass of a stable radix sort; the last pass writes only the faces. */
 static void sort_digit(const keyed *from, keyed *to, int32_t *faces, uint32_t count, int shift)
 {
     uint32_t start[DIGITS] = {0}, total = 0;
@@ -205,7 +205,7 @@ static int compare_floats(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Where most of the faces are, by the corners of some: the others are in the cells at the border. */
+/* Finds the box of most faces by the corners of some of them; the other faces go into the cells at its border. */
 static void find_middle(const e3d_mesh_desc *d, float lo[3], float hi[3])
 {
     enum { SAMPLES = 1024, BEYOND = 32 }; /* one in so many may be farther out, on either side */
@@ -227,7 +227,7 @@ static void find_middle(const e3d_mesh_desc *d, float lo[3], float hi[3])
     }
 }
 
-/* A box within the given one: it may leave out what lies far from most of the mesh. */
+/* Shrinks a box to where most of the mesh is: a single vertex a million units away would put all faces into one cell. */
 static void leave_out_far(const e3d_mesh_desc *d, float lo[3], float hi[3])
 {
     enum { FAR = 8 };

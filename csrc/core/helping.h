@@ -3,7 +3,7 @@
  * In:  of each job, the time that its threads had of their CPUs, and the time that passed.
  * Out: whether the next one is better done alone.
  * Where other programs use the CPUs, a thread that loses its own amid a tile holds up the whole job, so that two may get less
- * done than one. It is measured: what a way of working gets of the CPUs in the time that passes, whatever the jobs are.
+ * done than one. So each way of working is measured by the CPU time that it gets per time that passes, whatever the jobs are.
  */
 #ifndef E3D_HELPING_H
 #define E3D_HELPING_H
@@ -24,8 +24,8 @@ typedef struct e3d_helping {
     int64_t try_at, pause; /* when the other way is tried again, and how long it was until then */
 } e3d_helping;
 
-/* Nothing is tried as long as helpers get much done, or plainly more than the caller would go on to do meanwhile. Alone is chosen
- * for what is plainly better only. */
+/* To work alone is not tried while helpers get much done, or plainly more than the caller would do meanwhile. It is chosen only
+ * where it is plainly better. */
 #define E3D_MUCH 0.7
 #define E3D_PLAINLY_MORE 1.2
 #define E3D_PLAINLY_BETTER 1.1
@@ -35,7 +35,7 @@ static inline int e3d_helping_pays(const e3d_helping *h)
     return h->rate[0] >= E3D_MUCH || h->rate[0] >= E3D_PLAINLY_MORE * h->share;
 }
 
-/* The next way, after a measurement of this one. The longer it stays the same, the seldomer the other is tried. */
+/* Chooses the next way after a measurement of this one. The longer it stays the same, the seldomer the other is tried. */
 static inline void e3d_helping_choose(e3d_helping *h, int64_t now)
 {
     enum { SHORTEST_NS = 200000000 };
@@ -52,7 +52,7 @@ static inline void e3d_helping_choose(e3d_helping *h, int64_t now)
     }
 }
 
-/* After a job. */
+/* Takes note of a job that is over. */
 static inline void e3d_helping_note(e3d_helping *h, const e3d_job_times *job, int64_t now)
 {
     enum { HELPED_NS = 50000000, ALONE_NS = 150000000 }; /* a scheduler takes its time to move others */

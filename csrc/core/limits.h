@@ -10,18 +10,18 @@
 
 enum {
     E3D_TILE_SHIFT = 6,
-    E3D_TILE = 1 << E3D_TILE_SHIFT, /* samples a side: a tile's depths and slots fill half an L1 cache */
+    E3D_TILE = 1 << E3D_TILE_SHIFT, /* samples a side: a tile's depths and IDs take 32 KB, about a first-level data cache */
     E3D_TILE_SAMPLES = E3D_TILE * E3D_TILE,
     E3D_BLOCK = 8,               /* samples a side: what the hierarchical depth bounds */
     E3D_SUBPIXEL = 256,          /* positions are snapped to 1/256 sample */
     E3D_GUARD = 32768,           /* samples from the viewport's centre to the guard band */
     E3D_MAX_POINT_SAMPLES = 1024, /* point size, or line width across: 256 pixels of 4 samples */
-    E3D_MAX_LINE_SAMPLES = 1449, /* of a column or row that a line covers: at 45 degrees its width times the root of 2 */
+    E3D_MAX_LINE_SAMPLES = 1449, /* samples of a column or row that a line covers: at 45 degrees its width times the root of 2 */
     E3D_CLUSTER_TRIANGLES = 64,  /* a cluster's triangles and vertices: 8-bit local indices */
     E3D_CLUSTER_VERTICES = 128,
     E3D_GROUP_CLUSTERS = 8,      /* clusters that are culled together first */
-    E3D_FEW_LIGHTS = 4,          /* more are left out where they don't reach */
-    E3D_PAD = 16,                /* elements past the end of what is read or written vector by vector: they mean nothing */
+    E3D_FEW_LIGHTS = 4,          /* of more lights, those that don't reach a batch are left out */
+    E3D_PAD = 16,                /* elements past the end of what is read or written vector by vector; their values mean nothing */
     E3D_MAX_THREADS = 256
 };
 
@@ -29,7 +29,7 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
                    (long long)(E3D_TILE - 1) * E3D_SUBPIXEL * 2 * (2 * E3D_GUARD + E3D_MAX_POINT_SAMPLES) < (1LL << 31),
                "edge functions of a tile fit 32-bit lanes");
 
-#define E3D_W_MIN 0x1p-20f      /* behind this the eye is too near: clipped away */
+#define E3D_W_MIN 0x1p-20f      /* a vertex with less w is too near to the eye: it is clipped away */
 /* z_ndc by which wireframe edges are pulled towards the viewer: some times what rounding may part an edge
  * from its own face (the face's slope is R36's affair); more would let hidden edges show through. */
 #define E3D_WIRE_PULL 0x1p-18f
@@ -39,7 +39,7 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_UNORM15_BLENDED 0x1.0002p-23f /* 1 / (32767 * 256): a weight of 256 */
 #define E3D_UNORM8_BLENDED 0x1.03060ap-24f /* 1 / 255^3: two weights of 255 each */
 
-#define E3D_LEAST_WEIGHT 0x1p-64f /* of the first corner: the weights of R19 never are all 0 */
-#define E3D_LEAST_LENGTH2 0x1p-126f /* R22: of which the root has an inverse */
+#define E3D_LEAST_WEIGHT 0x1p-64f /* the least weight of the first corner, so that those of R19 are never all 0 */
+#define E3D_LEAST_LENGTH2 0x1p-126f /* R22: the least squared length whose root has a finite inverse */
 
 #endif

@@ -17,7 +17,7 @@ static int indices_fit(const int32_t *indices, size_t count, int32_t vertices)
     return signs >= 0;
 }
 
-/* Negative if one is. */
+/* The greatest material ID; negative if any is. */
 static int32_t greatest_material(const e3d_mesh_desc *d)
 {
     int32_t most = 0, signs = 0;

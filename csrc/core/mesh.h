@@ -5,18 +5,18 @@
 #include "core/limits.h"
 #include "e3d.h"
 
-/* Up to 64 triangles over up to 128 vertices, with their own copy of the positions: a line of the cache. */
+/* Up to 64 triangles over up to 128 vertices, with their own copy of the positions; the struct is one cache line. */
 typedef struct e3d_cluster {
     const float *positions; /* x[stride], y[stride], z[stride] (, w[stride]), then three planes of E3D_CLUSTER_TRIANGLES local
                              * indices, uint8_t */
-    int32_t first; /* of its triangles in the mesh's `faces` */
+    int32_t first; /* its first triangle in the mesh's `faces` */
     uint8_t triangles, vertices;
-    uint8_t stride;       /* vertices rounded up to 16: planes of positions are this far apart */
+    uint8_t stride;       /* vertices rounded up to 16: how far apart the planes of positions are */
     uint8_t any_finite;
     float lo[3], hi[3];   /* AABB, object space; finite vertices only */
-    float axis[3];        /* of a cone that holds the unit normals of all its triangles, object space */
+    float axis[3];        /* of the cone that holds the unit normals of all its triangles, object space */
     float cosine;         /* of half the cone's opening */
-    float altitude;       /* the least one of a triangle; 0: there is no cone */
+    float altitude;       /* the least altitude of its triangles; 0: there is no cone */
     float radius;         /* of a sphere around the box, where there is a cone */
 } e3d_cluster;
 
@@ -27,7 +27,7 @@ static inline const uint8_t *e3d_cluster_indices(const e3d_cluster *c, int32_t c
     return (const uint8_t *)(c->positions + components * c->stride);
 }
 
-/* Neighbouring clusters, which are culled together first. */
+/* A group: neighbouring clusters that are culled together first. */
 typedef struct e3d_group_box {
     float lo[3], hi[3];
     int32_t any_finite;
@@ -39,9 +39,9 @@ struct e3d_mesh {
     e3d_cluster *clusters;
     int32_t cluster_count, group_count;
     e3d_group_box *groups;
-    float **blocks;    /* positions and indices of the clusters of a chunk of faces each */
+    float **blocks;    /* one for each chunk of faces: positions and indices of its clusters */
     int32_t block_count;
-    int32_t *faces;    /* of the clusters' triangles, one cluster after the other */
+    int32_t *faces;    /* the faces of the clusters' triangles, cluster after cluster */
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */
     int32_t any_finite;
     int32_t material_most; /* the greatest material ID; 0 without faces */

@@ -1,10 +1,10 @@
 /* The process's one thread pool: made at the first frame, remade after a fork.
  *
- * Threads sleep on a condition between jobs, but only once they have watched for the next one as long as waking takes: a
- * frame is several jobs. While frames follow each other closely, and nobody else wants the CPU, they watch from one to the
- * next. Who has not come when the caller has nothing left to do is not waited for: there is nothing left.
- * A second caller does not wait: it works alone, which cannot deadlock and gives the same picture. So does the owner as long
- * as helpers are waited for more than they help.
+ * Helpers sleep on a condition variable between jobs. A frame is several jobs, so before they sleep they watch for the next one
+ * (they spin) for about as long as waking up takes: a small picture takes 6 % less time. While frames follow each other closely,
+ * and nobody else wants the CPU, they watch from one frame to the next. A helper that has not come when the caller runs out of
+ * work is not waited for. A second caller does not wait for the pool: it works alone, which cannot deadlock and gives the same
+ * picture. So does the owner as long as helpers are waited for more than they help (helping.h).
  */
 #include "core/pool.h"
 
@@ -31,16 +31,16 @@ static struct {
     pthread_mutex_t lock;  /* guards what follows */
     pthread_cond_t start, done;
     int threads;           /* made so far, without the caller */
-    int called;            /* helpers, to the last job, */
-    int wanted, running;   /* that may still join it: none once it is over; that are at work */
-    int64_t used;          /* CPU time that they have had for it */
+    int called;            /* helpers, to the last job */
+    int wanted, running;   /* helpers that may still join it (none once it is over); that are at work */
+    int64_t used;          /* the CPU time of those that have returned */
     unsigned long job;
     void (*work)(void *, int);
     void *argument;
     e3d_helping helping;   /* the owner's */
-    atomic_int watches;    /* there is a CPU for each thread */
-    atomic_ulong posted;   /* the last job, once nobody holds the lock for it */
-    atomic_ulong finished; /* the last one that was over before its helpers had returned, and now they have */
+    atomic_int watches;    /* whether threads spin: there is a CPU for each */
+    atomic_ulong posted;   /* the last job, set after the lock is free: whoever spins on it finds it so */
+    atomic_ulong finished; /* the last job whose last helper returned after it was over: the caller spins on it */
 } pool = {.owner = PTHREAD_MUTEX_INITIALIZER,
           .lock = PTHREAD_MUTEX_INITIALIZER,
           .start = PTHREAD_COND_INITIALIZER,
@@ -49,7 +49,7 @@ static struct {
 static pthread_once_t fork_guard = PTHREAD_ONCE_INIT;
 static _Thread_local int owning; /* the pool */
 
-/* A job that runs is not waited for: it may itself wait for the thread that forks, or be this thread's own. */
+/* A fork does not wait for a running job, which may itself wait for the thread that forks, or be that thread's own. */
 static void before_fork(void) { pthread_mutex_lock(&pool.lock); }
 
 static void in_parent(void) { pthread_mutex_unlock(&pool.lock); }
@@ -72,7 +72,7 @@ enum {
     SLICE_NS = 500000  /* for how long another thread has the CPU, at least, once the scheduler gives it away */
 };
 
-/* Until the number is this job's, or for so long. */
+/* Spins until the number reaches a job's, but not for longer than `patience` nanoseconds. */
 static void watch(const atomic_ulong *number, unsigned long job, int64_t patience)
 {
     if (!atomic_load(&pool.watches))
@@ -84,12 +84,12 @@ static void watch(const atomic_ulong *number, unsigned long job, int64_t patienc
 /* For how long a thread watches for the next job. */
 typedef struct patience {
     int64_t ns;
-    int64_t began;      /* to watch */
-    int64_t came, used; /* the last job, and what the thread had had of the CPU by then */
-    int wary;           /* for so many jobs: watching took a CPU from others, or was in vain */
+    int64_t began;      /* when it began to watch */
+    int64_t came, used; /* when the last job came, and the thread's CPU time then */
+    int wary;           /* for how many jobs it watches briefly: watching took a CPU from others */
 } patience;
 
-/* When a job has come. Those that come at once are of the same frame. */
+/* Sets the patience when a job has come. One that comes at once is of the same frame, and changes nothing. */
 static void learn_patience(patience *p)
 {
     enum { WARY_JOBS = 256 };
@@ -104,7 +104,7 @@ static void learn_patience(patience *p)
     p->used = used;
 }
 
-/* Holding the lock: until there is a job to join after the one that was seen; its number. */
+/* Waits, with the lock held, for a job to join after the one that was seen; returns its number. */
 static unsigned long await_job(int worker, unsigned long seen)
 {
     while (pool.job == seen || worker > pool.wanted) {
@@ -173,7 +173,7 @@ static void make_helpers(int wanted)
     pthread_sigmask(SIG_SETMASK, &saved, NULL);
 }
 
-/* The job is over, but for those who are at work; the CPU time that helpers have had for it. */
+/* Ends the job, and waits for the helpers that are at work; returns the CPU time of all helpers. */
 static int64_t await_helpers(void)
 {
     pthread_mutex_lock(&pool.lock);
@@ -205,7 +205,7 @@ static void post_job(int helpers, void (*work)(void *, int), void *argument)
     atomic_store(&pool.posted, pool.job);
 }
 
-/* As the pool's owner. */
+/* Runs a job as the pool's owner. */
 static void run_job(int helpers, void (*work)(void *, int), void *argument)
 {
     int64_t began = e3d_now_ns(), used = e3d_thread_ns();

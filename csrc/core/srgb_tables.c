@@ -1,4 +1,4 @@
-/* The one table of srgb_tables.h that kernels gather from, and so that must not be copied to each file. */
+/* The thresholds of srgb_tables.h: a kilobyte, once rather than in each file that includes the header. */
 #include "core/srgb_tables.h"
 
 const float SRGB_THRESHOLDS[256] = {

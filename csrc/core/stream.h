@@ -1,4 +1,4 @@
-/* Writing past the caches, 16 bytes at a time. */
+/* Non-temporal stores: they pass the caches, 16 bytes at a time. */
 #ifndef E3D_STREAM_H
 #define E3D_STREAM_H
 
@@ -18,7 +18,7 @@ static inline void e3d_stream(void *to, const void *from, size_t bytes)
         _mm_stream_si128((__m128i *)((char *)to + at), _mm_loadu_si128((const __m128i *)((const char *)from + at)));
 }
 
-/* Before other threads are told of what was streamed. */
+/* Fences non-temporal stores: to be called before other threads are told of them. */
 static inline void e3d_stream_end(void) { _mm_sfence(); }
 
 #else

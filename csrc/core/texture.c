@@ -76,7 +76,7 @@ static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode
     }
 }
 
-/* Of texels of 15 bits. */
+/* Averages a level of 15-bit texels to the next coarser one (R28). */
 static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_level *coarse)
 {
     for (int32_t y = 0; y < coarse->height; y++) {
@@ -125,7 +125,7 @@ static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t wi
     }
 }
 
-/* 8-bit texels as what blends them takes them. */
+/* Makes 8-bit texels signed, as the kernels multiply them. */
 static void make_signed(e3d_texture *texture, size_t bytes)
 {
     for (size_t i = 0; i < bytes; i++)

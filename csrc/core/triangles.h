@@ -11,12 +11,13 @@ typedef struct e3d_triangles {
 } e3d_triangles;
 
 typedef struct e3d_areas {
-    float4 normal[3]; /* twice the area, along the normal */
+    float4 normal[3]; /* its length is twice the area */
     float4 square;    /* of twice the area */
-    float4 longest;   /* edge, squared */
+    float4 longest;   /* the longest edge, squared */
 } e3d_areas;
 
-/* Of triangles t to t + 3, multiplied by `scale` first. What float32 cannot square comes out as infinite or NaN. */
+/* The areas of triangles t to t + 3, whose edges are multiplied by `scale` first. What float32 cannot square becomes infinite or
+ * NaN. */
 static inline e3d_areas e3d_areas_of(const e3d_triangles *in, int t, float scale)
 {
     e3d_areas out;

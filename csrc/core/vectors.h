@@ -12,10 +12,10 @@ typedef float float4 __attribute__((vector_size(16)));
 typedef int32_t int4 __attribute__((vector_size(16)));
 
 static inline float4 splat(float v) { return (float4){v, v, v, v}; }
-/* mask: all bits or none. */
+/* a where the mask's lane has all bits, b where it has none. */
 static inline int4 choose_bits(int4 mask, int4 a, int4 b) { return (mask & a) | (~mask & b); }
 static inline float4 choose(int4 mask, float4 a, float4 b) { return (float4)choose_bits(mask, (int4)a, (int4)b); }
-/* a < b ? a : b, and a > b ? a : b: one instruction where there is one that says just this. */
+/* a < b ? a : b and a > b ? a : b. SSE's minimum and maximum are exactly these, NaNs included. */
 #if defined(__SSE2__)
 static inline float4 less_of(float4 a, float4 b) { return (float4)_mm_min_ps((__m128)a, (__m128)b); }
 static inline float4 more_of(float4 a, float4 b) { return (float4)_mm_max_ps((__m128)a, (__m128)b); }
@@ -23,7 +23,7 @@ static inline float4 more_of(float4 a, float4 b) { return (float4)_mm_max_ps((__
 static inline float4 less_of(float4 a, float4 b) { return choose(a < b, a, b); }
 static inline float4 more_of(float4 a, float4 b) { return choose(a > b, a, b); }
 #endif
-/* A bit a lane of a mask. */
+/* A bit for each lane of a mask (movemask). */
 #if defined(__SSE2__)
 static inline int lanes_of(int4 mask) { return _mm_movemask_ps((__m128)mask); }
 #else

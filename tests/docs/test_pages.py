@@ -30,13 +30,24 @@ def test_links_lead_somewhere(page):
             assert (page.parent / path).exists(), target
 
 
-@pytest.mark.parametrize("name", ["architecture.md", "hacking.md", "canvas.md"])
+@pytest.mark.parametrize("name", ["architecture.md", "rasteriser.md", "hacking.md", "canvas.md"])
 def test_files_that_pages_name_exist(name):
     names = FILE_NAME.findall((ROOT / "docs" / name).read_text(encoding="utf-8"))
     assert names
     for file in names:
         if "NAME" not in file:
             assert any((folder / file).exists() for folder in FOLDERS), f"{name}: {file}"
+
+
+def test_what_the_page_of_the_rasteriser_names_exists():
+    text = (ROOT / "docs" / "rasteriser.md").read_text(encoding="utf-8")
+    names = set(re.findall(r"`(\w*_\w+)`", text))
+    sources = [path for path in (ROOT / "csrc").rglob("*") if path.suffix in (".c", ".h", ".inl")]
+    words = set(re.findall(r"\w+", " ".join(path.read_text(encoding="utf-8") for path in sources)))
+    plan = re.findall(r"^    X\((\w+)", (ROOT / "csrc/pipeline/plan.h").read_text(), re.M)
+    missing = names - words - {item.lower() for item in plan}
+    assert len(names) > 50
+    assert not missing, "renamed or gone: say so in docs/rasteriser.md"
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@
 
 enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES, E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };
 
-/* Small triangles of some clusters, with area and a sample in their boxes: snapped corners, and the ID of the fragments. (Arrays
- * are whole lines of the cache, as those of e3d_vertices.) */
+/* Micro-triangles of several clusters that wait to become fragments: each has an area, and a sample in its box. Every array fills
+ * whole cache lines, so that no vector is split across two. */
 typedef int32_t e3d_small_words[E3D_SMALLS + E3D_PAD];
 typedef struct e3d_small_triangles {
     e3d_small_words x[3], y[3], id;
@@ -19,14 +19,14 @@ typedef struct e3d_small_triangles {
     int32_t count;
 } e3d_small_triangles;
 
-/* A chain of blocks; without any, both are E3D_NO_BLOCK. */
+/* A chain of blocks: the numbers of the first and the last, or E3D_NO_BLOCK twice. */
 enum { E3D_NO_BLOCK = 0xFFFFFFFFu };
 typedef struct e3d_bin {
     uint32_t first, last;
 } e3d_bin;
 
-/* What they cover, sample by sample: fragments of one tile, in order of arrival. A whole vector is written, so that the last
- * block of a bin takes none where there is less room than that. */
+/* Fragments of one tile, in the order in which they were made. Kernels store whole vectors, so a block is full once it has less
+ * room than one. */
 enum { E3D_BLOCK_FRAGMENTS = 127 };
 typedef struct e3d_fragment_block {
     uint32_t next, count;
@@ -37,14 +37,16 @@ typedef struct e3d_fragment_block {
 
 _Static_assert(sizeof(e3d_fragment_block) % 64 == 0, "blocks are whole cache lines");
 
-/* Blocks in use, and one bin for each tile. There is room for as many blocks more as fragments of E3D_SMALLS triangles take. */
+/* The blocks in use, and a bin for each tile. The caller has made room for the blocks that E3D_SMALLS triangles may need
+ * (e3d_fragment_blocks_most). */
 typedef struct e3d_fragment_bins {
     e3d_fragment_block *blocks;
     e3d_bin *bins;
     uint32_t count;
-    int32_t fragments, triangles; /* made; triangles that they are of */
+    int32_t fragments, triangles; /* how many were made, and of how many triangles */
 } e3d_fragment_bins;
 
+/* The most new blocks for the fragments of E3D_SMALLS triangles: one begun in each tile that they can reach, and full ones. */
 static inline size_t e3d_fragment_blocks_most(size_t tiles)
 {
     return (tiles < E3D_MOST_FRAGMENTS ? tiles : E3D_MOST_FRAGMENTS) + E3D_MOST_FRAGMENTS / (E3D_BLOCK_FRAGMENTS - E3D_PAD);

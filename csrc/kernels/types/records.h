@@ -7,25 +7,25 @@
 #include "core/limits.h"
 #include "kernels/types/vertices.h"
 
-/* Triangles of a cluster that may show, a bit each: `small` become fragments, where these are asked for, `draw` records, and
- * `clip` need clipping first. None that covers a sample is missing; of the others, those go that have no sample in their box,
- * or face the wrong way as far as 32 bits tell. */
+/* The triangles of a cluster that may show, a bit each: `small` ones become fragments where the plan has these, `draw` ones become
+ * records, `clip` ones are clipped first. Every triangle that covers a sample is among them. Triangles are left out if their box
+ * has no sample, or if they face the wrong way and 32 bits hold their area. */
 typedef struct e3d_survivors {
     uint64_t draw, small, clip;
 } e3d_survivors;
 
 _Static_assert(E3D_CLUSTER_TRIANGLES == 64, "a bit for each triangle of a cluster");
 
-/* Small are boxes of so many samples a side, and sides of so many steps at most: 32 bits hold their edge functions. */
+/* The limits of a micro-triangle: samples a side of its box, and 1/256 samples along an axis. Its edge functions fit 32 bits. */
 enum { E3D_SMALL = 4, E3D_SMALL_REACH = 16383 };
 
-/* What setup leaves of a piece of a primitive, ready for any tile: a cache line. */
+/* A set-up triangle: all that raster and shading need of one piece of a primitive, in one cache line. */
 typedef struct e3d_record {
-    int32_t x[3], y[3]; /* snapped, counter-clockwise in R9's sense */
+    int32_t x[3], y[3]; /* snapped, and exchanged where needed (R9): the area is positive */
     float z0, gx, gy, zmin, zmax;
     float iw[3];
     uint32_t order;
-    uint32_t meta; /* flags, and above E3D_RECORD_SHIFT the corners' number or the cover */
+    uint32_t meta; /* flags; above E3D_RECORD_SHIFT the number of the corners' barycentrics, or the cover */
 } e3d_record;
 
 _Static_assert(sizeof(e3d_record) == 64, "a record is a cache line");
@@ -35,24 +35,24 @@ enum {
     E3D_RECORD_SWAPPED = 2, /* vertices 1 and 2 were exchanged (R9) */
     E3D_RECORD_CUT = 4,     /* has corner barycentrics */
     E3D_RECORD_FACE = 8,
-    E3D_RECORD_TINY = 16,   /* a box of at most 2 x 2 samples: bit 2 * row + column tells which are covered */
+    E3D_RECORD_TINY = 16,   /* its box has at most 2 x 2 samples: it covers those whose bit 2 * row + column is set */
     E3D_RECORD_SHIFT = 5
 };
 
-/* Triangles of a cluster, to become records. */
+/* The triangles of a cluster that are to become records. */
 typedef struct e3d_record_request {
     const e3d_vertices *vertices;
     const uint8_t *indices;   /* three planes of E3D_CLUSTER_TRIANGLES */
-    const uint8_t *triangles; /* `count` of the cluster; E3D_PAD more are read and must be less than 64 */
+    const uint8_t *triangles; /* `count` numbers of triangles; whole vectors are read, so E3D_PAD more must be less than 64 */
     int count;
-    int tiny;                 /* those of at most 2 x 2 samples are told from the others: without cover, they are left out */
-    int cull, mirrored;       /* sign of the area to drop, as for setup; front faces are the mirrored ones */
-    uint32_t order;           /* of the mesh's first face */
-    const int32_t *faces;     /* of the cluster's triangles */
+    int tiny;                 /* find the cover of triangles of at most 2 x 2 samples, and leave out those that cover none */
+    int cull, mirrored;       /* sign of the area to drop, as for setup; front faces turn the other way */
+    uint32_t order;           /* of the instance's first face */
+    const int32_t *faces;     /* the face of each triangle of the cluster */
     const e3d_viewport *viewport;
 } e3d_record_request;
 
-/* Tiles that a record's box touches: row << 16 | column, inclusive. */
+/* The rectangle of tiles that a record's box touches: row << 16 | column of the first and of the last. */
 typedef struct e3d_tile_span {
     uint32_t first, last;
 } e3d_tile_span;

@@ -13,17 +13,18 @@ enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 typedef float e3d_surface_floats[E3D_BATCH_SURFACES + E3D_PAD];
 typedef int32_t e3d_surface_words[E3D_BATCH_SURFACES + E3D_PAD];
 
-/* What visible pieces bring to their samples, one an element. (All arrays of this and of e3d_batch are whole lines of the
- * cache, where the structs are aligned to one: vectors that lie across two take twice as long.) */
+/* What visible pieces bring to their samples: one element each, as structure of arrays. Every array of this struct and of e3d_batch
+ * fills whole cache lines, since a vector that is split across two takes twice as long to load. */
 typedef struct e3d_surfaces {
-    e3d_surface_words project;     /* 0: from a record; else `project` finds x, y, iw, swapped and back; 1, or 3 in a mirrored instance */
+    e3d_surface_words project;     /* 0: it has a record; else kernel_project finds its corners: 1, mirrored 3 */
     e3d_surface_words x[3], y[3];  /* corners after R9 */
     e3d_surface_floats iw[3];
     e3d_surface_words swapped;     /* not 0: R9 exchanged vertices 1 and 2 */
-    e3d_surface_words matrix;      /* number of its matrices: ascends by 1 at most; its last is repeated over the pad */
-    e3d_surface_floats clip[16], world[12], normals[9]; /* matrices of R1 and R2, one an element */
-    e3d_surface_floats position[3][3]; /* [component][vertex]: object space, then world */
-    e3d_surface_floats normal[3][3];   /* likewise, then turned where the face looks away; flat: vertex 0 has the face's */
+    e3d_surface_words matrix;      /* number of its matrices; rises by at most 1 from element to element, so that a
+                                    * vector's lie side by side; the last is repeated over the pad */
+    e3d_surface_floats clip[16], world[12], normals[9]; /* of R1 and R2, one instance an element */
+    e3d_surface_floats position[3][3]; /* [component][vertex]: in object space, then in world space */
+    e3d_surface_floats normal[3][3];   /* likewise, then negated where the face looks away; flat: vertex 0 has the face's normal */
     e3d_surface_floats uv[2][3];
     e3d_surface_floats color[3][3];    /* [component][vertex] */
     e3d_surface_floats instance_color[3];
@@ -31,41 +32,41 @@ typedef struct e3d_surfaces {
     e3d_surface_floats p[3], px[3], py[3]; /* barycentric planes, R18 */
     e3d_surface_floats base_x, base_y;     /* relative to the tile's first sample */
     e3d_surface_floats slope[2][3]; /* [coordinate]: along, down and turn of R25 */
-    e3d_surface_words piece, instance; /* whose they are; the kernels don't read it */
+    e3d_surface_words piece, instance; /* which piece and which instance it is of; the kernels don't read these */
     int32_t count, matrices;
-    int32_t irregular;             /* how many are clipped, or not of a face of three-component vertices */
-    int32_t projected;             /* how many have no record */
-    float texels[2];               /* of E3D_WANT_LEVEL: the size of their texture */
+    int32_t irregular;             /* how many surface.c must finish: clipped pieces, lines, points, clip-space meshes */
+    int32_t projected;             /* how many have no record, so that `project` has work to do */
+    float texels[2];               /* the size of the texture, for E3D_WANT_LEVEL */
 } e3d_surfaces;
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 
-/* Samples of one material on their way to a colour. Each but the first is of the same surface as the one before it or of
- * the next. Up to a multiple of E3D_PAD `sample` and `surface` repeat the last: whole vectors read them. */
+/* Samples of one material on their way to a colour, in the order of their surfaces: each is of the same surface as the one before,
+ * or of the next surface. Whole vectors are read, so `sample` and `surface` repeat their last up to a multiple of E3D_PAD. */
 typedef struct e3d_batch {
     int32_t sample[E3D_BATCH + E3D_PAD];  /* y * E3D_TILE + x in the tile */
     int32_t surface[E3D_BATCH + E3D_PAD]; /* its element of e3d_surfaces */
-    int32_t steps[E3D_BATCH + E3D_PAD];   /* take_runs's: 0 before and after */
-    e3d_lane_array weight[3], r; /* of R19 */
+    int32_t steps[E3D_BATCH + E3D_PAD];   /* scratch of take_runs: all 0 before and after */
+    e3d_lane_array weight[3], r; /* P_k and r of R19 */
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3];
     int count;
 } e3d_batch;
 
-/* What interpolation fills. */
+/* What shading needs of a group's samples, and so what interpolation fills. */
 enum {
     E3D_WANT_POSITION = 1,
     E3D_WANT_NORMAL = 2,
     E3D_WANT_UV = 4,
-    E3D_WANT_FLAT = 8, /* with E3D_WANT_NORMAL: of the face */
-    E3D_WANT_LEVEL = 16, /* lod of R26, of as many levels as there could be */
-    E3D_WANT_SURFACE = 32, /* any of these */
-    E3D_WANT_WEIGHTS = 64  /* and r */
+    E3D_WANT_FLAT = 8, /* with E3D_WANT_NORMAL: the face's normal, not the vertices' */
+    E3D_WANT_LEVEL = 16, /* lod of R26, not yet limited to the levels of the texture */
+    E3D_WANT_SURFACE = 32, /* anything of the surface at all */
+    E3D_WANT_WEIGHTS = 64  /* weight and r */
 };
 
-/* `reach`: of each light, and E3D_PAD more, its position, the square of its range (a NaN where nothing is out of it) and 1
- * over that square. */
+/* `reach` has five rows of a number a light, and E3D_PAD more: x, y and z of its position, the square of its range (a NaN for
+ * directional lights, which reach everything), and 1 over that square. */
 typedef struct e3d_lighting {
     const e3d_light *lights;
     int light_count;
@@ -75,11 +76,11 @@ typedef struct e3d_lighting {
 
 /* A tile's samples, where there are several a pixel. */
 typedef struct e3d_samples {
-    float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* clamped, or 0 where one doesn't count */
+    float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* clamped; 0 where the sample doesn't count */
     float counts[E3D_TILE_SAMPLES + E3D_PAD];   /* 1, or 0 where a transparent background shows */
 } e3d_samples;
 
-/* Rows of pixels: `count`, of so many bytes, and how far one begins from the other. */
+/* Rows of pixels to copy: `count` rows of `bytes`. `to` moves by `pitch` from one row to the next, `from` by `step`. */
 typedef struct e3d_pixel_rows {
     char *to;
     const char *from;
@@ -87,7 +88,7 @@ typedef struct e3d_pixel_rows {
     int count;
 } e3d_pixel_rows;
 
-/* How the samples of a batch become pixels. */
+/* How the kernel `paint` turns the samples of a batch into pixels. */
 typedef struct e3d_paint {
     int wanted;                      /* E3D_WANT_* */
     const e3d_texture_view *texture; /* may be NULL */
@@ -99,7 +100,7 @@ typedef struct e3d_paint {
     int srgb;
     int looks_ahead;      /* what e3d_cpu_looks_ahead says */
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
-    e3d_pixel_rows *meanwhile; /* NULL, or rows to stream as far as that goes: what is left of them stays */
+    e3d_pixel_rows *meanwhile; /* NULL, or rows that are streamed meanwhile; the kernel leaves here what it did not get to */
 } e3d_paint;
 
 #endif

@@ -1,4 +1,4 @@
-/* What shows in a tile, as runs or samples, and how that is found of few records. */
+/* The list of what shows in a tile, and what finds it without depths where records are few. */
 #ifndef E3D_KERNELS_SHOWN_H
 #define E3D_KERNELS_SHOWN_H
 
@@ -7,56 +7,56 @@
 #include "core/limits.h"
 #include "kernels/types/records.h"
 
-/* Neighbouring samples of one row of a tile that show the same: a slot or an ID; when they are sorted, a piece. */
+/* Neighbouring samples of one row of a tile that show the same owner, a slot or an ID. */
 typedef struct e3d_run {
     int32_t owner;
     uint16_t sample, length;
 } e3d_run;
 
-/* A piece that shows in a tile: its ID, and its first sample in the list, or its first run. */
+/* A piece that shows in a tile: its ID, and where its samples or runs begin in the list. */
 typedef struct e3d_shown_piece {
     uint32_t id;
     int32_t first;
 } e3d_shown_piece;
 
-/* What shows in a tile, piece after piece: samples, or runs. */
+/* What shows in a tile, piece after piece, as samples or as runs. */
 typedef struct e3d_shown {
-    int32_t sample[E3D_TILE_SAMPLES + 2 * E3D_PAD]; /* y * E3D_TILE + x; of a run the first, and its length << E3D_RUN_LENGTH */
-    int32_t of[E3D_TILE_SAMPLES + 2 * E3D_PAD];     /* whose: the piece's number */
+    int32_t sample[E3D_TILE_SAMPLES + 2 * E3D_PAD]; /* y * E3D_TILE + x; a run: its first sample | its length << E3D_RUN_LENGTH */
+    int32_t of[E3D_TILE_SAMPLES + 2 * E3D_PAD];     /* the number of its piece */
     e3d_shown_piece piece[E3D_TILE_SAMPLES + 1];
-    int32_t count, pieces; /* of samples or runs, and of pieces */
-    int runs;              /* not samples */
+    int32_t count, pieces; /* how many samples or runs, and how many pieces */
+    int runs;              /* whether `sample` has runs */
 } e3d_shown;
 
 enum { E3D_RUN_LENGTH = 16 };
 
-/* A record of a tile, the rows of its box there, and the place of the first one's span. */
+/* A record in a tile: the rows of its box, and where their spans begin in e3d_cover.span. */
 typedef struct e3d_covering {
     const e3d_record *record;
     uint32_t id;
     int32_t y0, y1, at;
 } e3d_covering;
 
-/* What the records of a tile cover, hidden or not. */
+/* What the records of a tile cover, hidden or not, row by row (spans.inl). */
 enum { E3D_MOST_COVERING = 256, E3D_COVER_ROWS = 8192 };
 typedef struct e3d_cover {
-    int32_t x, y, width, height;                             /* of the tile: its first sample, and samples inside the viewport */
-    int32_t count, used;                                     /* of the records, and of the spans */
-    uint64_t once[E3D_TILE + E3D_PAD], twice[E3D_TILE + E3D_PAD]; /* samples of each row that one covers, and more than one */
+    int32_t x, y, width, height;                             /* the tile's first sample, and its size inside the viewport */
+    int32_t count, used;                                     /* how many records there are, and spans in use */
+    uint64_t once[E3D_TILE + E3D_PAD], twice[E3D_TILE + E3D_PAD]; /* a bit a sample: some record covers it; several do */
     e3d_covering record[E3D_MOST_COVERING];
-    int32_t span[E3D_COVER_ROWS + E3D_PAD]; /* of each row of each record a run, perhaps of length 0 */
+    int32_t span[E3D_COVER_ROWS + E3D_PAD]; /* for each row of each record a run, perhaps of length 0 */
 } e3d_cover;
 
-/* Of records that meet, some after the other, the samples that are left to each. */
+/* Overlapping records from near to far: for each row, the samples that nearer records leave to each (layers.inl). */
 typedef struct e3d_layers {
-    uint64_t covered[E3D_TILE + E3D_PAD], hidden[E3D_TILE + E3D_PAD]; /* by those so far; by those that aren't open */
-    uint64_t left[E3D_COVER_ROWS + E3D_PAD];                          /* of each span */
+    uint64_t covered[E3D_TILE + E3D_PAD], hidden[E3D_TILE + E3D_PAD]; /* by any record so far; by closed ones */
+    uint64_t left[E3D_COVER_ROWS + E3D_PAD];                          /* for each span, the samples that are left to its record */
     struct {
         float zmax;
         int32_t number;
-    } open[E3D_MOST_COVERING]; /* records that may reach behind the nearest depths of the next ones */
-    int32_t opened;            /* how many */
-    int32_t contested, taken;         /* samples whose depths were compared; whether a later one was nearer */
+    } open[E3D_MOST_COVERING]; /* the active set: records that may reach behind the nearest depth of the next one */
+    int32_t opened;            /* how many are open */
+    int32_t contested, taken;         /* samples compared by depth so far; whether a later record won any */
 } e3d_layers;
 
 /* Begins a list of what shows, of runs or of samples. */

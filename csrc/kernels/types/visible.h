@@ -7,31 +7,31 @@
 #include "core/limits.h"
 #include "kernels/types/records.h"
 
-/* A piece in one tile: edge functions at the tile's first sample, floor(E / 256) with the top-left rule
- * inside; an edge that the whole tile satisfies is all zero. */
+/* A piece in one tile. e, a, b are its edge functions at the tile's first sample, floor(E / 256) with the top-left rule included;
+ * an edge with the whole tile on its inner side is all 0. */
 typedef struct e3d_piece {
     int32_t e[3], a[3], b[3];
-    int32_t x0, y0, x1, y1;  /* box in the tile, inclusive */
+    int32_t x0, y0, x1, y1;  /* its box in the tile, inclusive */
     float z0, gx, gy, zmin, zmax;
-    int32_t base_x, base_y;  /* of the depth plane, relative to the tile's first sample */
+    int32_t base_x, base_y;  /* the base of the depth plane, from the tile's first sample */
     uint32_t slot, order;
 } e3d_piece;
 
 enum { E3D_NO_SLOT = -1 };
 
-/* What an empty sample's depth is: z < this exactly when z <= 1 (R15). */
+/* The depth of an empty sample: z is less than it exactly when z <= 1 (R15). */
 #define E3D_BEYOND_FAR 0x1.000002p0f
 
-/* A cluster that has fragments, of one instance. */
+/* A cluster of one instance that has fragments: what their IDs lead to. */
 typedef struct e3d_drawn_cluster {
-    const int32_t *faces; /* of its triangles */
+    const int32_t *faces; /* the face of each of its triangles */
     uint32_t order;       /* of the instance's first face */
-    int32_t instance, draw; /* in the frame */
+    int32_t instance, draw; /* their numbers in the frame */
     int32_t mirrored;
 } e3d_drawn_cluster;
 
-/* The records of a frame: those of worker w at records[w], under the IDs number << bits | w; and the clusters of the fragments,
- * whose triangles have the IDs E3D_FRAGMENT_ID | (64 * number + triangle) << bits | w. */
+/* Where IDs lead to. Record n of worker w has the ID n << bits | w; triangle t of its drawn cluster n has the ID
+ * E3D_FRAGMENT_ID | (64 * n + t) << bits | w. */
 typedef struct e3d_record_table {
     const e3d_record *const *records;
     const e3d_drawn_cluster *const *drawn;
@@ -52,7 +52,7 @@ static inline const e3d_drawn_cluster *e3d_drawn_at(const e3d_record_table *tabl
     return table->drawn[id & ((1u << table->bits) - 1)] + number / E3D_CLUSTER_TRIANGLES;
 }
 
-/* The order of the primitive that an ID is of. */
+/* The order of the primitive that an ID stands for. */
 static inline uint32_t e3d_order_at(const e3d_record_table *table, uint32_t id)
 {
     if (!(id & E3D_FRAGMENT_ID))
@@ -64,9 +64,9 @@ static inline uint32_t e3d_order_at(const e3d_record_table *table, uint32_t id)
 
 enum { E3D_TILE_BLOCKS = E3D_TILE_SAMPLES / 64 };
 
-/* The visible surface of a tile, and of its blocks of 8 x 8 samples, row by row. A noted block is covered whole by one
- * record (or none: ID -1), and its samples are not written yet. zmin and zmax bound a block's depths; the zmax of a
- * stale one is too large. */
+/* The visible surface of a tile: depth and ID of each sample, and bounds of each block of 8 x 8 samples, row by row. A noted block
+ * shows one record everywhere (or nothing: ID -1), and its samples are not written yet. zmin and zmax bound a block's depths; zmax
+ * of a stale block is too large, since samples were written after it was measured. */
 typedef struct e3d_visible_tile {
     float z[E3D_TILE_SAMPLES + E3D_PAD];
     int32_t id[E3D_TILE_SAMPLES + E3D_PAD];
@@ -79,7 +79,7 @@ typedef struct e3d_visible_tile {
 typedef struct e3d_tile_buffers {
     float *z;               /* E3D_TILE_SAMPLES, 64-byte aligned */
     int32_t *slot;          /* or counts, or marks */
-    const uint32_t *orders; /* order of each slot: ties of depth */
+    const uint32_t *orders; /* the order of each slot, for ties of depth */
 } e3d_tile_buffers;
 
 #endif

@@ -44,7 +44,7 @@ def test_what_the_page_of_the_rasteriser_names_exists():
     names = set(re.findall(r"`(\w*_\w+)`", text))
     sources = [path for path in (ROOT / "csrc").rglob("*") if path.suffix in (".c", ".h", ".inl")]
     words = set(re.findall(r"\w+", " ".join(path.read_text(encoding="utf-8") for path in sources)))
-    plan = re.findall(r"^    X\((\w+)", (ROOT / "csrc/pipeline/plan.h").read_text(), re.M)
+    plan = re.findall(r"^    X\((\w+)", (ROOT / "csrc/pipeline/pass/plan.h").read_text(), re.M)
     missing = names - words - {item.lower() for item in plan}
     assert len(names) > 50
     assert not missing, "renamed or gone: say so in docs/rasteriser.md"

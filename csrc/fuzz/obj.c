@@ -4,6 +4,7 @@
  * so are its faces, once welded.
  */
 #include "e3d_obj.h"
+#include "e3d_rows.h"
 #include "fuzz/input.h"
 
 static void read_in_pieces(const uint8_t *bytes, size_t size, e3d_obj *obj)

@@ -1,7 +1,7 @@
 /* cull: which groups of clusters may show, from the nearest to the farthest.
  *
  * In:  the frame's instances, and the boxes of their meshes' groups.
- * Out: items, sorted by the depth of their nearest corner, in an order that no thread's timing changes.
+ * Out: candidates, sorted by the depth of their nearest corner, in an order that no thread's timing changes.
  */
 #include <string.h>
 
@@ -28,46 +28,46 @@ typedef struct task {
     size_t first;
 } task;
 
-static void add_item(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, uint32_t number,
-                     int32_t group, int64_t unit)
+static void add_candidate(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, uint32_t number,
+                     int32_t group, int64_t group_number)
 {
     const e3d_group_box *box = &draw->mesh->groups[group];
-    e3d_item item = {number, (uint32_t)group, (int32_t)(draw - context->draws->states), (int32_t)unit,
+    e3d_candidate candidate = {number, (uint32_t)group, (int32_t)(draw - context->draws->states), (int32_t)group_number,
                      {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
-        e3d_view_box(&context->view->viewport, e3d_culling_matrix(context->view, number), box->lo, box->hi, &item.view);
-    if (bounded && context->frame->culling != E3D_CULLING_NONE && (!box->any_finite || item.view.state == E3D_BOX_OUTSIDE)) {
-        worker->counters.clusters[E3D_FATE_OUTSIDE] += box->clusters;
-        worker->counters.triangles[E3D_FATE_OUTSIDE] += box->triangles;
+        e3d_view_box(&context->view->viewport, e3d_culling_matrix(context->view, number), box->lo, box->hi, &candidate.view);
+    if (bounded && context->frame->culling != E3D_CULLING_NONE && (!box->any_finite || candidate.view.state == E3D_BOX_OUTSIDE)) {
+        worker->counters.clusters[E3D_RESULT_OUTSIDE] += box->clusters;
+        worker->counters.triangles[E3D_RESULT_OUTSIDE] += box->triangles;
         return;
     }
-    const e3d_box blocks = e3d_blocks_of(&item.view.samples);
+    const e3d_box blocks = e3d_blocks_of(&candidate.view.samples);
     worker->counters.blocks += (int64_t)(blocks.x1 - blocks.x0 + 1) * (blocks.y1 - blocks.y0 + 1);
-    if (!e3d_array_reserve(&worker->cull.items, worker->cull.items.count + 1, sizeof item)) {
+    if (!e3d_array_reserve(&worker->cull.candidates, worker->cull.candidates.count + 1, sizeof candidate)) {
         worker->failed = 1;
         return;
     }
-    ((e3d_item *)worker->cull.items.data)[worker->cull.items.count++] = item;
+    ((e3d_candidate *)worker->cull.candidates.data)[worker->cull.candidates.count++] = candidate;
 }
 
 /* Groups [first, end) of the frame: draw after draw, instance after instance. */
 static void cull_groups(e3d_context *context, e3d_worker *worker, int64_t first, int64_t end)
 {
     const e3d_draw_state *draw = e3d_draw_of_group(context->draws, first);
-    for (int64_t unit = first; unit < end;) {
-        while (unit >= draw->group_base + (int64_t)draw->mesh->group_count * draw->draw->instances)
+    for (int64_t group_number = first; group_number < end;) {
+        while (group_number >= draw->group_base + (int64_t)draw->mesh->group_count * draw->draw->instances)
             draw++;
         int32_t groups = draw->mesh->group_count;
-        int64_t within = unit - draw->group_base;
+        int64_t within = group_number - draw->group_base;
         uint32_t number = (uint32_t)(draw->instance_base + within / groups);
         int32_t group = (int32_t)(within % groups);
-        for (; group < groups && unit < end; group++, unit++)
+        for (; group < groups && group_number < end; group++, group_number++)
             if (context->view->instances[number].shows)
-                add_item(context, worker, draw, number, group, unit);
+                add_candidate(context, worker, draw, number, group, group_number);
             else {
-                worker->counters.clusters[E3D_FATE_OUTSIDE] += draw->mesh->groups[group].clusters;
-                worker->counters.triangles[E3D_FATE_OUTSIDE] += draw->mesh->groups[group].triangles;
+                worker->counters.clusters[E3D_RESULT_OUTSIDE] += draw->mesh->groups[group].clusters;
+                worker->counters.triangles[E3D_RESULT_OUTSIDE] += draw->mesh->groups[group].triangles;
             }
     }
 }
@@ -82,9 +82,9 @@ static void cull_work(void *argument, int number)
         if (first >= context->draws->groups)
             return;
         int64_t end = first + GROUPS_A_TASK < context->draws->groups ? first + GROUPS_A_TASK : context->draws->groups;
-        size_t before = worker->cull.items.count;
+        size_t before = worker->cull.candidates.count;
         cull_groups(context, worker, first, end);
-        tasks[at] = (task){number, (int32_t)(worker->cull.items.count - before), before};
+        tasks[at] = (task){number, (int32_t)(worker->cull.candidates.count - before), before};
     }
 }
 
@@ -103,51 +103,51 @@ static uint32_t bucket_of(float near)
     return bits < most ? most - bits < BUCKETS ? most - bits : BUCKETS - 1 : 0;
 }
 
-static int sort_items(e3d_context *context, int64_t task_count)
+static int sort_candidates(e3d_context *context, int64_t task_count)
 {
     e3d_renderer *renderer = context->renderer;
     const task *tasks = renderer->cull.tasks.data;
     uint32_t start[BUCKETS] = {0}, total = 0;
     for (int32_t w = 0; w < renderer->threads; w++) {
-        const e3d_item *items = renderer->workers[w]->cull.items.data;
-        for (size_t i = 0; i < renderer->workers[w]->cull.items.count; i++)
-            start[bucket_of(items[i].view.near)]++;
+        const e3d_candidate *candidates = renderer->workers[w]->cull.candidates.data;
+        for (size_t i = 0; i < renderer->workers[w]->cull.candidates.count; i++)
+            start[bucket_of(candidates[i].view.near)]++;
     }
     for (int b = 0; b < BUCKETS; b++) {
         uint32_t count = start[b];
         start[b] = total;
         total += count;
     }
-    if (!e3d_array_reserve(&renderer->cull.items, (size_t)total + 1, sizeof(e3d_item)))
+    if (!e3d_array_reserve(&renderer->cull.candidates, (size_t)total + 1, sizeof(e3d_candidate)))
         return 0;
-    e3d_item *out = renderer->cull.items.data;
+    e3d_candidate *out = renderer->cull.candidates.data;
     for (int64_t t = 0; t < task_count; t++) {
-        const e3d_item *items = renderer->workers[tasks[t].worker]->cull.items.data;
+        const e3d_candidate *candidates = renderer->workers[tasks[t].worker]->cull.candidates.data;
         for (int32_t i = 0; i < tasks[t].count; i++) {
-            const e3d_item *item = &items[tasks[t].first + i];
-            out[start[bucket_of(item->view.near)]++] = *item;
+            const e3d_candidate *candidate = &candidates[tasks[t].first + i];
+            out[start[bucket_of(candidate->view.near)]++] = *candidate;
         }
     }
-    context->items = out;
-    context->item_count = total;
+    context->candidates = out;
+    context->candidate_count = total;
     return 1;
 }
 
-int e3d_find_items(e3d_context *context)
+int e3d_find_candidates(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
     int64_t task_count = (context->draws->groups + GROUPS_A_TASK - 1) / GROUPS_A_TASK;
     if (!e3d_array_reserve(&renderer->cull.tasks, (size_t)task_count + 1, sizeof(task)))
         return 0;
     for (int32_t w = 0; w < renderer->threads; w++)
-        renderer->workers[w]->cull.items.count = 0;
+        renderer->workers[w]->cull.candidates.count = 0;
     atomic_store(&context->next, 0);
     e3d_pool_run(task_count > 1 ? renderer->threads : 1, cull_work, context);
-    return !e3d_any_failed(renderer) && sort_items(context, task_count);
+    return !e3d_any_failed(renderer) && sort_candidates(context, task_count);
 }
 
 void e3d_cull_free(e3d_cull_memory *memory)
 {
     e3d_array_free(&memory->tasks);
-    e3d_array_free(&memory->items);
+    e3d_array_free(&memory->candidates);
 }

@@ -70,12 +70,12 @@ e3d_history *e3d_history_of(e3d_histories *histories, int64_t view)
 
 /* ---- what the last frame showed ---- */
 
-static e3d_history_row row_of(const e3d_context *context, const e3d_turn *turn)
+static e3d_history_row row_of(const e3d_context *context, const e3d_order_entry *entry)
 {
-    const e3d_draw_state *state = &context->draws->states[turn->draw];
+    const e3d_draw_state *state = &context->draws->states[entry->draw];
     const e3d_draw *draw = state->draw;
-    int32_t groups = state->mesh->group_count, node = e3d_object_id(draw, turn->instance);
-    int64_t base = state->group_base + (int64_t)turn->instance * groups;
+    int32_t groups = state->mesh->group_count, node = e3d_object_id(draw, entry->instance);
+    int64_t base = state->group_base + (int64_t)entry->instance * groups;
     if (draw->pose_kind == E3D_POSE_NODES)
         return (e3d_history_row){state->mesh, base, node, 0, 1, groups};
     return (e3d_history_row){state->mesh, base, node, draw->first_instance, draw->instances, groups};
@@ -122,7 +122,7 @@ static void exchange(e3d_array *a, e3d_array *b)
 int e3d_history_remember(e3d_context *context)
 {
     e3d_history *history = context->view->history;
-    size_t count = (size_t)context->draws->turn_count, groups = (size_t)context->draws->groups;
+    size_t count = (size_t)context->draws->order_count, groups = (size_t)context->draws->groups;
     exchange(&history->rows, &history->rows_before);
     exchange(&history->seen, &history->seen_before);
     history->trials++;
@@ -132,7 +132,7 @@ int e3d_history_remember(e3d_context *context)
         return -1;
     e3d_history_row *rows = history->rows.data;
     for (size_t d = 0; d < count; d++)
-        rows[d] = row_of(context, &context->draws->turns[d]);
+        rows[d] = row_of(context, &context->draws->order[d]);
     memset(history->seen.data, 0, groups);
     history->rows.count = count;
     history->seen.count = groups;
@@ -147,16 +147,16 @@ int e3d_history_remember(e3d_context *context)
 /* Where little is hidden, rounds are tried again about once a second, at 60 frames a second. */
 enum { FRAMES_BETWEEN_TRIALS = 64 };
 
-int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t items)
+int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t candidates)
 {
     e3d_backoff *backoff = &history->backoff;
-    if (backoff->frames_left > 0 && 2 * covered <= 3 * backoff->covered && 2 * items <= 3 * backoff->items) {
+    if (backoff->frames_left > 0 && 2 * covered <= 3 * backoff->covered && 2 * candidates <= 3 * backoff->candidates) {
         backoff->frames_left--;
         history->rows.count = 0; /* the scene will look otherwise when the next trial comes */
         return 1;
     }
     backoff->covered = covered;
-    backoff->items = items;
+    backoff->candidates = candidates;
     return 0;
 }
 
@@ -164,8 +164,8 @@ int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t items)
 static int64_t count_seen(const e3d_context *context)
 {
     int64_t seen = 0;
-    for (int64_t unit = 0; unit < context->draws->groups; unit++)
-        seen += __builtin_popcount(context->seen[unit]);
+    for (int64_t group = 0; group < context->draws->groups; group++)
+        seen += __builtin_popcount(context->seen[group]);
     return seen;
 }
 

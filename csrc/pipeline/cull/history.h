@@ -8,23 +8,23 @@
 
 typedef struct e3d_context e3d_context;
 
-/* A turn of a frame, as the next frame finds it again. */
+/* An entry of a frame's order, as the next frame finds it again. */
 typedef struct e3d_history_row {
     const e3d_mesh *mesh;
     int64_t base; /* of its groups */
     int32_t node, first, instances, groups;
 } e3d_history_row;
 
-/* Rounds did not pay: so many frames still go without, unless items or the blocks that they cover are half as many again. */
+/* Rounds did not pay: so many frames still go without, unless candidates or the blocks that they cover are half as many again. */
 typedef struct e3d_backoff {
     int32_t frames_left;
-    int64_t covered, items; /* when they were last tried */
+    int64_t covered, candidates; /* when they were last tried */
 } e3d_backoff;
 
 typedef struct e3d_history {
     int64_t view;  /* e3d_frame.view */
     uint64_t used; /* e3d_histories.frames when it was, or 0: never */
-    e3d_array rows, rows_before; /* e3d_history_row of each turn: what `seen` and `seen_before` are of */
+    e3d_array rows, rows_before; /* e3d_history_row of each entry: what `seen` and `seen_before` are of */
     e3d_array seen_before;
     e3d_array seen;  /* uint8_t for each group of the frame: bit k tells whether cluster k showed when it was last tried */
     uint32_t trials; /* of what was seen; grows with each frame that remembers */
@@ -49,7 +49,7 @@ e3d_history *e3d_history_of(e3d_histories *histories, int64_t view);
 /* Finds what the view's last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
 int e3d_history_remember(e3d_context *context);
 /* Whether this frame goes without rounds since they did not pay. */
-int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t items);
+int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t candidates);
 /* After a frame of several rounds: the next ones go without where little was hidden. */
 void e3d_history_judge(const e3d_context *context, const e3d_stats *stats);
 

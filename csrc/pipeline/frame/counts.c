@@ -35,10 +35,10 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
     stats->triangles_in_frustum = stats->triangles_unoccluded = stats->triangles_drawn = stats->triangles;
 }
 
-static int marks_of(const e3d_context *context, const e3d_turn *turn)
+static int marks_of(const e3d_context *context, const e3d_order_entry *entry)
 {
-    const e3d_draw_state *state = &context->draws->states[turn->draw];
-    const uint8_t *marks = context->marks + state->instance_base + turn->instance;
+    const e3d_draw_state *state = &context->draws->states[entry->draw];
+    const uint8_t *marks = context->marks + state->instance_base + entry->instance;
     int32_t instances = state->draw->pose_kind == E3D_POSE_NODES ? 1 : state->draw->instances;
     int found = state->units && instances ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN : 0;
     for (int32_t i = 0; i < instances && !(found & E3D_MARK_DRAWN); i++)
@@ -46,35 +46,35 @@ static int marks_of(const e3d_context *context, const e3d_turn *turn)
     return found;
 }
 
-/* A node may have several turns, one after the other. */
+/* A node may have several entries, one after the other. */
 static void count_nodes(const e3d_context *context, e3d_stats *stats)
 {
     int marks = 0;
     int32_t node = -1;
-    for (int32_t t = 0; t <= context->draws->turn_count; t++) {
-        const e3d_turn *turn = t < context->draws->turn_count ? &context->draws->turns[t] : NULL;
-        int32_t id = turn ? e3d_object_id(context->draws->states[turn->draw].draw, turn->instance) : -1;
-        if (!turn || id != node) {
+    for (int32_t t = 0; t <= context->draws->order_count; t++) {
+        const e3d_order_entry *entry = t < context->draws->order_count ? &context->draws->order[t] : NULL;
+        int32_t id = entry ? e3d_object_id(context->draws->states[entry->draw].draw, entry->instance) : -1;
+        if (!entry || id != node) {
             stats->nodes_unoccluded += marks & E3D_MARK_UNOCCLUDED ? 1 : 0;
             stats->nodes_drawn += marks & E3D_MARK_DRAWN ? 1 : 0;
             marks = 0;
             node = id;
         }
-        marks |= turn ? marks_of(context, turn) : 0;
+        marks |= entry ? marks_of(context, entry) : 0;
     }
 }
 
 static void add_counters(e3d_stats *stats, const e3d_counters *c, int32_t threads)
 {
     const int64_t *clusters = c->clusters, *triangles = c->triangles;
-    stats->clusters_drawn += clusters[E3D_FATE_DRAWN];
-    stats->clusters_unoccluded += clusters[E3D_FATE_DRAWN] + clusters[E3D_FATE_AWAY];
-    stats->clusters_occluded += clusters[E3D_FATE_OCCLUDED];
-    stats->clusters_culled += clusters[E3D_FATE_OUTSIDE] + clusters[E3D_FATE_AWAY];
+    stats->clusters_drawn += clusters[E3D_RESULT_DRAWN];
+    stats->clusters_unoccluded += clusters[E3D_RESULT_DRAWN] + clusters[E3D_RESULT_BACKFACING];
+    stats->clusters_occluded += clusters[E3D_RESULT_OCCLUDED];
+    stats->clusters_culled += clusters[E3D_RESULT_OUTSIDE] + clusters[E3D_RESULT_BACKFACING];
     stats->triangles_drawn += c->triangles_drawn;
-    stats->triangles_unoccluded += triangles[E3D_FATE_DRAWN] + triangles[E3D_FATE_AWAY];
-    stats->triangles_occluded += triangles[E3D_FATE_OCCLUDED];
-    stats->triangles_culled += triangles[E3D_FATE_OUTSIDE] + triangles[E3D_FATE_AWAY] + c->triangles_rejected;
+    stats->triangles_unoccluded += triangles[E3D_RESULT_DRAWN] + triangles[E3D_RESULT_BACKFACING];
+    stats->triangles_occluded += triangles[E3D_RESULT_OCCLUDED];
+    stats->triangles_culled += triangles[E3D_RESULT_OUTSIDE] + triangles[E3D_RESULT_BACKFACING] + c->triangles_rejected;
     stats->triangles_clipped += c->triangles_clipped;
     stats->triangles_setup += c->records;
     stats->bin_entries += c->bin_entries;

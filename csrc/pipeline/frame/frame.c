@@ -66,8 +66,8 @@ static int reset_workers(e3d_context *context)
         worker->failed = 0;
         if (!e3d_fragments_reset(&worker->fragments, (int32_t)e3d_tile_count(context->view)))
             return 0;
-        for (int p = 0; p < E3D_PASSES; p++)
-            if (!e3d_records_reset(&worker->pass[p], (int32_t)e3d_tile_count(context->view)))
+        for (int p = 0; p < E3D_SETS; p++)
+            if (!e3d_records_reset(&worker->sets[p], (int32_t)e3d_tile_count(context->view)))
                 return 0;
     }
     return 1;
@@ -81,7 +81,7 @@ static e3d_status run(e3d_context *context, e3d_stats *stats)
         return status;
     if (!reset_workers(context) || !e3d_outputs_prepare(context))
         return E3D_OUT_OF_MEMORY;
-    if (!e3d_find_items(context))
+    if (!e3d_find_candidates(context))
         return E3D_OUT_OF_MEMORY;
     stats->ms_geometry = (double)(e3d_now_ns() - start) * 1e-6;
     if (!e3d_rounds(context, stats) || (e3d_plans(context, E3D_PLAN_SORTS) && !e3d_sort_records(context)))

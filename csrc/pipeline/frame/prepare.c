@@ -37,8 +37,8 @@ static void prepare_tables(e3d_context *context)
     int bits = 0;
     while ((1 << bits) < context->renderer->threads)
         bits++;
-    for (int pass = 0; pass < E3D_PASSES; pass++)
-        context->tables[pass] = (e3d_record_table){context->records[pass], context->drawn, bits};
+    for (int which = 0; which < E3D_SETS; which++)
+        context->tables[which] = (e3d_record_table){context->records[which], context->drawn, bits};
     for (int c = 0; c < 256; c++)
         context->unorm8[c] = (float)(context->frame->decode_srgb ? SRGB_TO_LINEAR16[c] : c * 257) * E3D_UNORM16;
 }

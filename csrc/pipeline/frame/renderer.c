@@ -42,11 +42,11 @@ static void destroy_worker(e3d_worker *worker)
 {
     if (!worker)
         return;
-    for (int p = 0; p < E3D_PASSES; p++)
-        e3d_records_free(&worker->pass[p]);
+    for (int p = 0; p < E3D_SETS; p++)
+        e3d_records_free(&worker->sets[p]);
     e3d_fragments_free(&worker->fragments);
     e3d_slots_free(&worker->slots);
-    e3d_array_free(&worker->cull.items);
+    e3d_array_free(&worker->cull.candidates);
     e3d_surface_free(&worker->surface);
     e3d_array_free(&worker->outputs.words);
     free(worker->tile);

@@ -1,6 +1,6 @@
 /* rounds: what the nearest clusters cover is drawn first, so that clusters behind it are left out.
  *
- * In:  the frame's items, from near to far, and what the view's last frames showed.
+ * In:  the frame's candidates, from near to far, and what the view's last frames showed.
  * Out: bins, for e3d_tiles(); tiles that are kept or drawn already, by their state.
  * Always: the picture does not depend on the rounds. After each of them the farthest depths of its tiles are noted (depths.c).
  */
@@ -25,7 +25,7 @@
 #include "pipeline/frame/rounds.h"
 #include "pipeline/state/renderer.h"
 #include "pipeline/state/worker.h"
-#include "pipeline/store/share.h"
+#include "pipeline/store/queue.h"
 #include "pipeline/state/tile_state.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/tile/tile.h"
@@ -102,7 +102,7 @@ static void keep_work(void *argument, int number)
         int64_t tile = e3d_take_tile(context, worker, E3D_TO_DRAW);
         if (tile < 0)
             return;
-        if (e3d_has_bin(context, E3D_PASS_SCENE, tile))
+        if (e3d_has_bin(context, E3D_SET_SCENE, tile))
             keep_tile(context, worker, tile);
     }
 }
@@ -113,10 +113,10 @@ static int keep_tiles(e3d_context *context)
     e3d_renderer *renderer = context->renderer;
     int32_t tiles = (int32_t)e3d_tile_count(context->view);
     e3d_tables_set(context);
-    e3d_share_tiles(context);
+    e3d_queue_tiles(context);
     e3d_pool_run(renderer->threads, keep_work, context);
     for (int32_t w = 0; w < renderer->threads; w++) {
-        e3d_record_set *records = &renderer->workers[w]->pass[E3D_PASS_SCENE];
+        e3d_record_set *records = &renderer->workers[w]->sets[E3D_SET_SCENE];
         e3d_fragment_set *fragments = &renderer->workers[w]->fragments;
         e3d_bins_clear(&records->bins, &records->blocks, tiles);
         e3d_bins_clear(&fragments->bins, &fragments->blocks, tiles);
@@ -132,7 +132,7 @@ static int finish_tiles(e3d_context *context)
     int32_t tiles = (int32_t)e3d_tile_count(context->view);
     e3d_tiles(context);
     for (int32_t w = 0; w < renderer->threads; w++) {
-        e3d_record_set *records = &renderer->workers[w]->pass[E3D_PASS_SCENE];
+        e3d_record_set *records = &renderer->workers[w]->sets[E3D_SET_SCENE];
         e3d_fragment_set *fragments = &renderer->workers[w]->fragments;
         records->earlier_records = records->records.count;
         fragments->earlier_drawn = fragments->drawn.count;
@@ -142,7 +142,7 @@ static int finish_tiles(e3d_context *context)
     return 1;
 }
 
-/* Draws some of the items; 0 when memory is out. */
+/* Draws some of the candidates; 0 when memory is out. */
 static int draw_round(e3d_context *context, e3d_stats *stats, e3d_round round)
 {
     int64_t start = e3d_now_ns();
@@ -155,19 +155,19 @@ static int draw_round(e3d_context *context, e3d_stats *stats, e3d_round round)
 
 /* ---- which rounds ---- */
 
-/* Whether rounds may pay: many items, which cover the picture more than once. */
+/* Whether rounds may pay: many candidates, which cover the picture more than once. */
 static int pay(const e3d_context *context)
 {
     int64_t samples = (int64_t)context->view->viewport.width * context->view->viewport.height, covered = 0;
     if (!e3d_plans(context, E3D_PLAN_ROUNDS))
         return 0;
     if (context->frame->culling == E3D_CULLING_ALWAYS)
-        return context->item_count > 1;
-    if (context->item_count < 64)
+        return context->candidate_count > 1;
+    if (context->candidate_count < 64)
         return 0;
     for (int32_t w = 0; w < context->renderer->threads; w++)
         covered += context->renderer->workers[w]->counters.blocks;
-    return !e3d_history_backs_off(context->view->history, covered, context->item_count) && covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
+    return !e3d_history_backs_off(context->view->history, covered, context->candidate_count) && covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 
 /* Whether most tiles can be drawn to their end with what the last frames showed: shading a tile while it lies in the caches pays
@@ -182,26 +182,26 @@ static int64_t count_changed_tiles(const e3d_context *context)
 {
     int64_t changed = 0;
     for (int64_t tile = 0; tile < e3d_tile_count(context->view); tile++)
-        changed += e3d_has_bin(context, E3D_PASS_SCENE, tile);
+        changed += e3d_has_bin(context, E3D_SET_SCENE, tile);
     return changed;
 }
 
 /* What the last frames showed, then what came into view since. */
 static int draw_remembered(e3d_context *context, e3d_stats *stats)
 {
-    int64_t end = context->item_count;
-    e3d_round seen = {.choice = E3D_SEEN_ITEMS, .end = end, .finishes = finish_early(context)};
-    e3d_round unseen = {.choice = E3D_UNSEEN_ITEMS, .end = end, .tested = 1, .last = 1};
+    int64_t end = context->candidate_count;
+    e3d_round seen = {.choice = E3D_SEEN_CANDIDATES, .end = end, .finishes = finish_early(context)};
+    e3d_round unseen = {.choice = E3D_UNSEEN_CANDIDATES, .end = end, .tested = 1, .last = 1};
     if (!draw_round(context, stats, seen) || !draw_round(context, stats, unseen))
         return 0;
     context->view->history->tiles_changed = count_changed_tiles(context);
     return 1;
 }
 
-/* The nearest part of the items, then twice as many again and again. */
+/* The nearest part of the candidates, then twice as many again and again. */
 static int draw_from_near_to_far(e3d_context *context, e3d_stats *stats)
 {
-    int64_t count = context->item_count, done = 0;
+    int64_t count = context->candidate_count, done = 0;
     for (int64_t end = count / 32 + 1; 2 * end < count; end *= 2) {
         if (!draw_round(context, stats, (e3d_round){.first = done, .end = end, .tested = done > 0}))
             return 0;
@@ -213,7 +213,7 @@ static int draw_from_near_to_far(e3d_context *context, e3d_stats *stats)
 int e3d_rounds(e3d_context *context, e3d_stats *stats)
 {
     if (!pay(context) || !begin(context))
-        return draw_round(context, stats, (e3d_round){.end = context->item_count, .last = 1});
+        return draw_round(context, stats, (e3d_round){.end = context->candidate_count, .last = 1});
     int remembered = e3d_history_remember(context);
     if (remembered < 0)
         return 0;

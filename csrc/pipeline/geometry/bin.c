@@ -57,9 +57,9 @@ int e3d_records_reset(e3d_record_set *set, int32_t tiles)
 
 void e3d_tables_set(e3d_context *context)
 {
-    for (int pass = 0; pass < E3D_PASSES; pass++)
+    for (int which = 0; which < E3D_SETS; which++)
         for (int32_t w = 0; w < context->renderer->threads; w++)
-            context->records[pass][w] = context->renderer->workers[w]->pass[pass].records.data;
+            context->records[which][w] = context->renderer->workers[w]->sets[which].records.data;
     for (int32_t w = 0; w < context->renderer->threads; w++)
         context->drawn[w] = context->renderer->workers[w]->fragments.drawn.data;
 }
@@ -158,12 +158,12 @@ int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_s
     return 1;
 }
 
-int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
+int e3d_has_bin(const e3d_context *context, int which, int64_t tile)
 {
     for (int32_t w = 0; w < context->renderer->threads; w++) {
         const e3d_worker *worker = context->renderer->workers[w];
-        if (e3d_first_block(&worker->pass[pass].bins, tile) != E3D_NO_BLOCK ||
-            (pass == E3D_PASS_SCENE && e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK))
+        if (e3d_first_block(&worker->sets[which].bins, tile) != E3D_NO_BLOCK ||
+            (which == E3D_SET_SCENE && e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK))
             return 1;
     }
     return 0;
@@ -171,7 +171,7 @@ int e3d_has_bin(const e3d_context *context, int pass, int64_t tile)
 
 int e3d_has_bins(const e3d_context *context, int64_t tile)
 {
-    return e3d_has_bin(context, E3D_PASS_SCENE, tile) || e3d_has_bin(context, E3D_PASS_WIRE, tile);
+    return e3d_has_bin(context, E3D_SET_SCENE, tile) || e3d_has_bin(context, E3D_SET_EDGES, tile);
 }
 
 static uint32_t count_records(const e3d_record_set *set, int64_t tile)
@@ -195,7 +195,7 @@ e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile)
     e3d_entries entries = {0, 0};
     for (int32_t w = 0; w < context->renderer->threads; w++) {
         const e3d_worker *worker = context->renderer->workers[w];
-        entries.records += count_records(&worker->pass[E3D_PASS_SCENE], tile);
+        entries.records += count_records(&worker->sets[E3D_SET_SCENE], tile);
         entries.fragments += count_fragments(&worker->fragments, tile);
     }
     return entries;

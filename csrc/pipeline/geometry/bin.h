@@ -27,8 +27,8 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 }
 
 /* Whether any thread has a record or a fragment for the tile. */
-int e3d_has_bin(const e3d_context *context, int pass, int64_t tile);
-/* The same of any pass. */
+int e3d_has_bin(const e3d_context *context, int which, int64_t tile);
+/* The same of both sets. */
 int e3d_has_bins(const e3d_context *context, int64_t tile);
 /* How many a tile's bins of the scene hold. */
 typedef struct e3d_entries {

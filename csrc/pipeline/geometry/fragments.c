@@ -38,7 +38,7 @@ int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles)
 
 int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker)
 {
-    return worker->fragments.drawn.count < (size_t)E3D_FRAGMENT_ID / E3D_CLUSTER_TRIANGLES >> context->tables[E3D_PASS_SCENE].bits;
+    return worker->fragments.drawn.count < (size_t)E3D_FRAGMENT_ID / E3D_CLUSTER_TRIANGLES >> context->tables[E3D_SET_SCENE].bits;
 }
 
 e3d_drawn_cluster *e3d_fragments_cluster(e3d_worker *worker)
@@ -54,7 +54,7 @@ e3d_drawn_cluster *e3d_fragments_cluster(e3d_worker *worker)
 static int32_t first_id(const e3d_context *context, const e3d_worker *worker)
 {
     int32_t number = (int32_t)(worker->fragments.drawn.count - 1) * E3D_CLUSTER_TRIANGLES;
-    return E3D_FRAGMENT_ID | number << context->tables[E3D_PASS_SCENE].bits | (int32_t)worker->number;
+    return E3D_FRAGMENT_ID | number << context->tables[E3D_SET_SCENE].bits | (int32_t)worker->number;
 }
 
 void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_vertices *vertices, const uint8_t *indices,
@@ -63,7 +63,7 @@ void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d
     e3d_fragment_set *set = &worker->fragments;
     if (set->triangles.count > E3D_SMALLS - E3D_CLUSTER_TRIANGLES)
         e3d_fragments_flush(context, worker);
-    context->kernels->add_small(vertices, indices, triangles, first_id(context, worker), context->tables[E3D_PASS_SCENE].bits,
+    context->kernels->add_small(vertices, indices, triangles, first_id(context, worker), context->tables[E3D_SET_SCENE].bits,
                                 &set->triangles);
 }
 
@@ -106,7 +106,7 @@ void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set,
         next = e3d_next_fragments(set, block);
         if (next)
             fetch_block(next);
-        context->kernels->raster_fragments(visible, &context->tables[E3D_PASS_SCENE], block);
+        context->kernels->raster_fragments(visible, &context->tables[E3D_SET_SCENE], block);
     }
 }
 

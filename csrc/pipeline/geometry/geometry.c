@@ -33,8 +33,8 @@
 #include "pipeline/state/renderer.h"
 #include "pipeline/state/worker.h"
 
-enum { TASKS_A_THREAD = 64, MOST_ITEMS_A_TASK = 32, UNITS_A_TASK = 8 };
-enum { LEAST_WORK = 4 }; /* items or tasks of units, that are worth a second thread */
+enum { TASKS_A_THREAD = 64, MOST_CANDIDATES_A_TASK = 32, UNITS_A_TASK = 8 };
+enum { LEAST_WORK = 4 }; /* candidates or tasks of units, that are worth a second thread */
 
 /* Where a thread stands: one instance of one draw. */
 typedef struct walker {
@@ -45,7 +45,7 @@ typedef struct walker {
     const e3d_view_instance *instance;
     uint32_t order; /* of the instance's first primitive */
     const e3d_vertices *vertices; /* of the cluster that is drawn */
-    const e3d_cluster *next;      /* of the next item, */
+    const e3d_cluster *next;      /* of the next candidate, */
     unsigned next_left;           /* and those of them that are to be fetched: a bit each */
 } walker;
 
@@ -75,7 +75,7 @@ static int drop_sign(const walker *w) { return w->draw->any_two_sided ? 0 : cull
 static e3d_primitive face_primitive(const walker *w, int32_t face)
 {
     return (e3d_primitive){.order = w->order + (uint32_t)face,
-                           .pass = E3D_PASS_SCENE,
+                           .set = E3D_SET_SCENE,
                            .face = 1,
                            .cull = cull_of(w, face),
                            .mirrored = w->instance->mirrored};
@@ -131,7 +131,7 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
 
 static void draw_records(walker *w, const e3d_record_request *request)
 {
-    e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    e3d_record_set *set = &w->worker->sets[E3D_SET_SCENE];
     e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
     if (!e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES)) {
         w->worker->failed = 1;
@@ -217,21 +217,21 @@ static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *ind
     e3d_fragments_add(w->context, w->worker, w->vertices, indices, small);
 }
 
-static void transform_cluster(const walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_vertices *out)
+static void transform_cluster(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, e3d_vertices *out)
 {
     const e3d_context *context = w->context;
     if (w->draw->mesh->desc.components == 4)
         context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->view->viewport, out);
     else
         context->kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &context->view->viewport,
-                                    item->view.state == E3D_BOX_INSIDE && !context->view->culling,
+                                    candidate->view.state == E3D_BOX_INSIDE && !context->view->culling,
                                     out);
 }
 
 /* Where the next records will lie, the last frame's were read by other threads: their lines are asked for ahead. */
 static void fetch_records(const walker *w, int count)
 {
-    e3d_record_set *set = &w->worker->pass[E3D_PASS_SCENE];
+    e3d_record_set *set = &w->worker->sets[E3D_SET_SCENE];
     if (!count || !e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES))
         return; /* whoever makes them asks again */
     const e3d_record *next = (const e3d_record *)set->records.data + set->records.count;
@@ -264,7 +264,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
         draw_clipped(w, cluster, indices, __builtin_ctzll(left));
 }
 
-/* ---- items ---- */
+/* ---- candidates ---- */
 
 /* A bit for each cluster. */
 static unsigned find_away(const walker *w, const e3d_group_box *group)
@@ -277,41 +277,41 @@ static unsigned find_away(const walker *w, const e3d_group_box *group)
 }
 
 /* Without what is drawn already: *view tells of a cluster that may show whether it must be tried against that. */
-static e3d_fate fate_of(const walker *w, const e3d_item *item, const e3d_cluster *cluster, int away, e3d_box_view *view)
+static e3d_cull_result result_of(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
     const float *clip = e3d_culling_matrix(w->context->view, w->number);
     if (!cluster->any_finite)
-        return E3D_FATE_OUTSIDE;
+        return E3D_RESULT_OUTSIDE;
     if (away)
-        return item->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
-                   ? E3D_FATE_AWAY
-                   : E3D_FATE_OUTSIDE;
-    if (!w->context->round.tested && item->view.state == E3D_BOX_INSIDE)
-        return E3D_FATE_DRAWN;
+        return candidate->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
+                   ? E3D_RESULT_BACKFACING
+                   : E3D_RESULT_OUTSIDE;
+    if (!w->context->round.tested && candidate->view.state == E3D_BOX_INSIDE)
+        return E3D_RESULT_DRAWN;
     e3d_view_box(&w->context->view->viewport, clip, cluster->lo, cluster->hi, view);
-    return view->state == E3D_BOX_OUTSIDE ? E3D_FATE_OUTSIDE : E3D_FATE_DRAWN;
+    return view->state == E3D_BOX_OUTSIDE ? E3D_RESULT_OUTSIDE : E3D_RESULT_DRAWN;
 }
 
-/* The fates of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. What
+/* The results of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. What
  * was seen faced the viewer, and is tried again in turn. */
-static unsigned find_fates(const walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked,
-                           e3d_fate fates[E3D_GROUP_CLUSTERS])
+static unsigned find_results(const walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked,
+                           e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
     const e3d_context *context = w->context;
     e3d_box_view views[E3D_GROUP_CLUSTERS];
-    unsigned shown = 0, away = context->round.choice == E3D_SEEN_ITEMS ? 0 : find_away(w, group);
+    unsigned shown = 0, away = context->round.choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
     for (unsigned left = asked; left; left &= left - 1) {
         int k = __builtin_ctz(left);
-        fates[k] = fate_of(w, item, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1, &views[k]);
-        shown |= (unsigned)(fates[k] == E3D_FATE_DRAWN) << k;
-        if (context->round.tested && fates[k] == E3D_FATE_DRAWN)
+        results[k] = result_of(w, candidate, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1, &views[k]);
+        shown |= (unsigned)(results[k] == E3D_RESULT_DRAWN) << k;
+        if (context->round.tested && results[k] == E3D_RESULT_DRAWN)
             e3d_fetch_kept(context, &views[k]);
     }
     for (unsigned left = context->round.tested ? shown : 0; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         if (!e3d_is_hidden(context, &views[k]))
             continue;
-        fates[k] = E3D_FATE_OCCLUDED;
+        results[k] = E3D_RESULT_OCCLUDED;
         shown &= ~(1u << k);
     }
     return shown;
@@ -332,11 +332,11 @@ static int is_wide(const e3d_box *samples)
 }
 
 /* Threads may mark the same instance. */
-static void mark(walker *w, const e3d_item *item, e3d_fate fate)
+static void mark(walker *w, const e3d_candidate *candidate, e3d_cull_result result)
 {
-    uint8_t *marks = &w->context->marks[item->instance];
-    uint8_t bits = fate == E3D_FATE_DRAWN        ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN
-                   : fate == E3D_FATE_AWAY ? E3D_MARK_UNOCCLUDED
+    uint8_t *marks = &w->context->marks[candidate->instance];
+    uint8_t bits = result == E3D_RESULT_DRAWN        ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN
+                   : result == E3D_RESULT_BACKFACING ? E3D_MARK_UNOCCLUDED
                                             : 0;
     if (bits & ~__atomic_load_n(marks, __ATOMIC_RELAXED))
         __atomic_fetch_or(marks, bits, __ATOMIC_RELAXED);
@@ -351,7 +351,7 @@ static ALWAYS_INLINE void fetch_cluster(const e3d_cluster *c, int32_t components
         __builtin_prefetch(from);
 }
 
-/* The next one of a group, or behind its last ones those of the next item: all at once would wait for each other. */
+/* The next one of a group, or behind its last ones those of the next candidate: all at once would wait for each other. */
 static void fetch_next(walker *w, const e3d_cluster *clusters, unsigned left)
 {
     const e3d_mesh *mesh = w->draw->mesh;
@@ -363,72 +363,72 @@ static void fetch_next(walker *w, const e3d_cluster *clusters, unsigned left)
     }
 }
 
-static void count_cluster(walker *w, const e3d_item *item, const e3d_cluster *cluster, e3d_fate fate)
+static void count_cluster(walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, e3d_cull_result result)
 {
-    w->worker->counters.clusters[fate]++;
-    w->worker->counters.triangles[fate] += cluster->triangles;
-    if (fate == E3D_FATE_DRAWN && !e3d_plans(w->context, E3D_PLAN_FACES))
+    w->worker->counters.clusters[result]++;
+    w->worker->counters.triangles[result] += cluster->triangles;
+    if (result == E3D_RESULT_DRAWN && !e3d_plans(w->context, E3D_PLAN_FACES))
         w->worker->counters.triangles_drawn += cluster->triangles;
-    mark(w, item, fate);
+    mark(w, candidate, result);
 }
 
 /* Of a group that is hidden, without a look at each cluster where all count and are in the frustum. */
-static void count_hidden(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned counted)
+static void count_hidden(walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned counted)
 {
     e3d_counters *counters = &w->worker->counters;
     const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
     const float *clip = e3d_culling_matrix(w->context->view, w->number);
-    int inside = item->view.state == E3D_BOX_INSIDE;
+    int inside = candidate->view.state == E3D_BOX_INSIDE;
     if (inside && counted == (1u << group->clusters) - 1) {
-        counters->clusters[E3D_FATE_OCCLUDED] += group->clusters;
-        counters->triangles[E3D_FATE_OCCLUDED] += group->triangles;
+        counters->clusters[E3D_RESULT_OCCLUDED] += group->clusters;
+        counters->triangles[E3D_RESULT_OCCLUDED] += group->triangles;
         return;
     }
     for (unsigned left = counted; left; left &= left - 1) {
         const e3d_cluster *cluster = &clusters[__builtin_ctz(left)];
         int outside = !inside && e3d_box_state(clip, cluster->lo, cluster->hi) == E3D_BOX_OUTSIDE;
-        counters->clusters[outside ? E3D_FATE_OUTSIDE : E3D_FATE_OCCLUDED]++;
-        counters->triangles[outside ? E3D_FATE_OUTSIDE : E3D_FATE_OCCLUDED] += cluster->triangles;
+        counters->clusters[outside ? E3D_RESULT_OUTSIDE : E3D_RESULT_OCCLUDED]++;
+        counters->triangles[outside ? E3D_RESULT_OUTSIDE : E3D_RESULT_OCCLUDED] += cluster->triangles;
     }
 }
 
 /* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those that are in `asked`. Bit k is
  * cluster k. */
-static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box *group, unsigned asked, unsigned wanted)
+static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked, unsigned wanted)
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
     unsigned shown = asked;
-    e3d_fate fates[E3D_GROUP_CLUSTERS] = {E3D_FATE_DRAWN};
-    if (w->context->round.tested && e3d_is_hidden(w->context, &item->view)) {
-        count_hidden(w, item, group, asked & wanted);
+    e3d_cull_result results[E3D_GROUP_CLUSTERS] = {E3D_RESULT_DRAWN};
+    if (w->context->round.tested && e3d_is_hidden(w->context, &candidate->view)) {
+        count_hidden(w, candidate, group, asked & wanted);
         return 0;
     }
     w->order = w->context->draws->instances[w->number].order;
     if (!w->instance->ready)
         e3d_view_finish_instance(w->context->view, w->context->draws, w->number);
     if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE)
-        shown = find_fates(w, item, group, asked, fates);
-    int closely = w->context->round.tested && is_wide(&item->view.samples);
+        shown = find_results(w, candidate, group, asked, results);
+    int closely = w->context->round.tested && is_wide(&candidate->view.samples);
     unsigned left = !e3d_plans(w->context, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
     if (left)
-        transform_cluster(w, item, &clusters[__builtin_ctz(left)], &w->worker->geometry.vertices[0]);
-    for (int turn = 0; left; left &= left - 1, turn ^= 1) {
+        transform_cluster(w, candidate, &clusters[__builtin_ctz(left)], &w->worker->geometry.vertices[0]);
+    for (int side = 0; left; left &= left - 1, side ^= 1) {
         int k = __builtin_ctz(left);
         unsigned after = left & (left - 1);
         fetch_next(w, clusters, after & (after - 1));
         if (after) /* before this one is drawn: neither waits for the other */
-            transform_cluster(w, item, &clusters[__builtin_ctz(after)], &w->worker->geometry.vertices[!turn]);
-        w->vertices = &w->worker->geometry.vertices[turn];
+            transform_cluster(w, candidate, &clusters[__builtin_ctz(after)], &w->worker->geometry.vertices[!side]);
+        w->vertices = &w->worker->geometry.vertices[side];
         if (closely && vertices_are_hidden(w)) {
-            fates[k] = E3D_FATE_OCCLUDED;
+            results[k] = E3D_RESULT_OCCLUDED;
             shown &= ~(1u << k);
         } else if (wanted >> k & 1) {
             draw_cluster(w, &clusters[k]);
         }
     }
     for (unsigned left = asked & wanted; left; left &= left - 1)
-        count_cluster(w, item, &clusters[__builtin_ctz(left)], fates[__builtin_ctz(left)]);
+        count_cluster(w, candidate, &clusters[__builtin_ctz(left)], results[__builtin_ctz(left)]);
     return shown;
 }
 
@@ -437,67 +437,67 @@ static unsigned draw_group(walker *w, const e3d_item *item, const e3d_group_box 
 enum { FRAMES_A_TRIAL = 4 };
 
 /* Other threads may look at it meanwhile, to see what to fetch. */
-static void set_seen(const e3d_context *context, const e3d_item *item, unsigned seen)
+static void set_seen(const e3d_context *context, const e3d_candidate *candidate, unsigned seen)
 {
-    __atomic_store_n(&context->seen[item->unit], (uint8_t)seen, __ATOMIC_RELAXED);
+    __atomic_store_n(&context->seen[candidate->number], (uint8_t)seen, __ATOMIC_RELAXED);
 }
 
-static void run_item(walker *w, const e3d_item *item)
+static void visit_candidate(walker *w, const e3d_candidate *candidate)
 {
     e3d_context *context = w->context;
-    w->number = item->instance;
-    w->instance = &context->view->instances[item->instance];
-    w->draw = &context->draws->states[item->draw];
-    const e3d_group_box *group = &w->draw->mesh->groups[item->group];
+    w->number = candidate->instance;
+    w->instance = &context->view->instances[candidate->instance];
+    w->draw = &context->draws->states[candidate->draw];
+    const e3d_group_box *group = &w->draw->mesh->groups[candidate->group];
     unsigned all = (1u << group->clusters) - 1;
-    if (context->round.choice == E3D_ALL_ITEMS) {
-        unsigned shown = draw_group(w, item, group, all, all);
+    if (context->round.choice == E3D_ALL_CANDIDATES) {
+        unsigned shown = draw_group(w, candidate, group, all, all);
         if (context->kept)
-            set_seen(context, item, shown);
+            set_seen(context, candidate, shown);
         return;
     }
-    unsigned seen = context->seen[item->unit];
-    if (context->round.choice == E3D_SEEN_ITEMS) {
+    unsigned seen = context->seen[candidate->number];
+    if (context->round.choice == E3D_SEEN_CANDIDATES) {
         if (seen)
-            draw_group(w, item, group, seen, seen);
+            draw_group(w, candidate, group, seen, seen);
         return;
     }
-    int tried = context->view->history->doubts || (item->unit + context->view->history->trials) % FRAMES_A_TRIAL == 0;
+    int tried = context->view->history->doubts || (candidate->number + context->view->history->trials) % FRAMES_A_TRIAL == 0;
     unsigned trusted = tried ? 0 : seen;
     if (trusted != all)
-        set_seen(context, item, trusted | draw_group(w, item, group, all & ~trusted, all & ~seen));
+        set_seen(context, candidate, trusted | draw_group(w, candidate, group, all & ~trusted, all & ~seen));
 }
 
 /* ---- the walk ---- */
 
-/* What an item soon to come reads of the frame, anywhere in memory: few of those that did not show read their instance. */
-static void fetch_item(const e3d_context *context, const e3d_item *item)
+/* What a candidate soon to come reads of the frame, anywhere in memory: few of those that did not show read their instance. */
+static void fetch_candidate(const e3d_context *context, const e3d_candidate *candidate)
 {
     enum { LINE = 64 };
-    const char *seen = (const char *)&context->view->instances[item->instance];
-    if (context->round.choice == E3D_ALL_ITEMS || __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED))
+    const char *seen = (const char *)&context->view->instances[candidate->instance];
+    if (context->round.choice == E3D_ALL_CANDIDATES || __atomic_load_n(&context->seen[candidate->number], __ATOMIC_RELAXED))
         for (size_t at = 0; at < sizeof(e3d_view_instance); at += LINE)
             __builtin_prefetch(seen + at);
     if (context->round.tested)
-        e3d_fetch_kept(context, &item->view);
+        e3d_fetch_kept(context, &candidate->view);
 }
 
 /* What that reads itself. */
-static void fetch_seen(const e3d_context *context, const e3d_item *item)
+static void fetch_seen(const e3d_context *context, const e3d_candidate *candidate)
 {
-    if (context->round.choice != E3D_ALL_ITEMS)
-        __builtin_prefetch(&context->seen[item->unit]);
+    if (context->round.choice != E3D_ALL_CANDIDATES)
+        __builtin_prefetch(&context->seen[candidate->number]);
 }
 
-/* The first two clusters of the next item that may be drawn, as far as one can tell yet: a bit each. What tells of all of them is
+/* The first two clusters of the next candidate that may be drawn, as far as one can tell yet: a bit each. What tells of all of them is
  * fetched. */
-static unsigned find_next(walker *w, const e3d_item *item)
+static unsigned find_next(walker *w, const e3d_candidate *candidate)
 {
     const e3d_context *context = w->context;
-    const e3d_mesh *mesh = context->draws->states[item->draw].mesh;
-    size_t first = (size_t)item->group * E3D_GROUP_CLUSTERS, count = (size_t)mesh->cluster_count;
-    unsigned may = context->round.choice == E3D_ALL_ITEMS    ? ~0u
-                   : context->round.choice == E3D_SEEN_ITEMS ? __atomic_load_n(&context->seen[item->unit], __ATOMIC_RELAXED)
+    const e3d_mesh *mesh = context->draws->states[candidate->draw].mesh;
+    size_t first = (size_t)candidate->group * E3D_GROUP_CLUSTERS, count = (size_t)mesh->cluster_count;
+    unsigned may = context->round.choice == E3D_ALL_CANDIDATES    ? ~0u
+                   : context->round.choice == E3D_SEEN_CANDIDATES ? __atomic_load_n(&context->seen[candidate->number], __ATOMIC_RELAXED)
                                                              : 0;
     unsigned found = 0;
     if (mesh->desc.components != 3 || count <= E3D_GROUP_CLUSTERS)
@@ -511,32 +511,32 @@ static unsigned find_next(walker *w, const e3d_item *item)
     return found;
 }
 
-static int64_t items_of(const e3d_round *round) { return round->end - round->first; }
+static int64_t candidates_of(const e3d_round *round) { return round->end - round->first; }
 
 /* As many that threads seldom ask for more, and few enough that none waits long for another's last ones. */
-static int64_t items_a_task(const e3d_context *context)
+static int64_t candidates_a_task(const e3d_context *context)
 {
-    int64_t items = items_of(&context->round) / (TASKS_A_THREAD * context->renderer->threads);
-    return items < 1 ? 1 : items > MOST_ITEMS_A_TASK ? MOST_ITEMS_A_TASK : items;
+    int64_t candidates = candidates_of(&context->round) / (TASKS_A_THREAD * context->renderer->threads);
+    return candidates < 1 ? 1 : candidates > MOST_CANDIDATES_A_TASK ? MOST_CANDIDATES_A_TASK : candidates;
 }
 
-static void walk_items(walker *w)
+static void walk_candidates(walker *w)
 {
     enum { AHEAD = 6 };
     e3d_context *context = w->context;
     const e3d_round *round = &context->round;
-    int64_t task = items_a_task(context);
+    int64_t task = candidates_a_task(context);
     while (!w->worker->failed) {
         int64_t first = round->first + atomic_fetch_add(&context->next, task);
         if (first >= round->end)
             return;
         for (int64_t i = first; i < first + task && i < round->end; i++) {
             if (i + 2 * AHEAD < round->end)
-                fetch_seen(context, &context->items[i + 2 * AHEAD]);
+                fetch_seen(context, &context->candidates[i + 2 * AHEAD]);
             if (i + AHEAD < round->end)
-                fetch_item(context, &context->items[i + AHEAD]);
-            w->next_left = i + 1 < round->end ? find_next(w, &context->items[i + 1]) : 0;
-            run_item(w, &context->items[i]);
+                fetch_candidate(context, &context->candidates[i + AHEAD]);
+            w->next_left = i + 1 < round->end ? find_next(w, &context->candidates[i + 1]) : 0;
+            visit_candidate(w, &context->candidates[i]);
         }
     }
 }
@@ -559,7 +559,7 @@ static void geometry_work(void *argument, int number)
 {
     e3d_context *context = argument;
     walker w = {.context = context, .worker = context->renderer->workers[number]};
-    walk_items(&w);
+    walk_candidates(&w);
     e3d_fragments_flush(context, w.worker);
     if (context->round.last)
         walk_units(context, w.worker);
@@ -567,7 +567,7 @@ static void geometry_work(void *argument, int number)
 
 void e3d_geometry(e3d_context *context)
 {
-    int64_t work = items_of(&context->round) + context->draws->units / UNITS_A_TASK;
+    int64_t work = candidates_of(&context->round) + context->draws->units / UNITS_A_TASK;
     atomic_store(&context->next, 0);
     atomic_store(&context->next_unit, 0);
     e3d_pool_run(work > LEAST_WORK ? context->renderer->threads : 1, geometry_work, context);

@@ -43,9 +43,9 @@ static void position_of(const unit_walk *w, int32_t vertex, float out[4])
                      : ((m[4 * r] * p[0] + m[4 * r + 1] * p[1]) + m[4 * r + 2] * p[2]) + m[4 * r + 3];
 }
 
-static void emit_quad(unit_walk *w, const e3d_corner q[4], uint32_t order, int pass)
+static void emit_quad(unit_walk *w, const e3d_corner q[4], uint32_t order, int which)
 {
-    e3d_primitive primitive = {.order = order, .pass = pass, .cut = 1, .cull = E3D_CULL_NONE};
+    e3d_primitive primitive = {.order = order, .set = which, .cut = 1, .cull = E3D_CULL_NONE};
     const e3d_corner first[3] = {q[0], q[1], q[2]}, second[3] = {q[0], q[2], q[3]};
     e3d_emit(w->context, w->worker, first, &primitive);
     e3d_emit(w->context, w->worker, second, &primitive);
@@ -69,7 +69,7 @@ static int32_t offset_of(const e3d_context *context, double dx, double dy)
 }
 
 /* Of its ends on the screen. */
-static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int pass)
+static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int which)
 {
     int32_t across = distance(end[1].x, end[0].x), down = distance(end[1].y, end[0].y);
     if (!across && !down)
@@ -77,10 +77,10 @@ static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int
     int32_t offset = offset_of(w->context, across, down), dx = across < down ? offset : 0, dy = across < down ? 0 : offset;
     const e3d_corner quad[4] = {moved(end[0], -dx, -dy), moved(end[1], -dx, -dy),
                                 moved(end[1], dx, dy), moved(end[0], dx, dy)};
-    emit_quad(w, quad, order, pass);
+    emit_quad(w, quad, order, which);
 }
 
-static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int pass)
+static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int which)
 {
     const e3d_viewport *viewport = &w->context->view->viewport;
     float v[2][4];
@@ -103,10 +103,10 @@ static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int pas
             return;
         for (int k = 0; k < 3; k++)
             end[i].c[k] = cut[i].c[k];
-        if (pass == E3D_PASS_WIRE)
+        if (which == E3D_SET_EDGES)
             end[i].zn = end[i].zn - E3D_WIRE_PULL;
     }
-    draw_band(w, end, order, pass);
+    draw_band(w, end, order, which);
 }
 
 static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
@@ -123,7 +123,7 @@ static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
     c.c[1] = c.c[2] = 0;
     int32_t h = w->context->lines.point_half;
     const e3d_corner quad[4] = {moved(c, -h, -h), moved(c, h, -h), moved(c, h, h), moved(c, -h, h)};
-    emit_quad(w, quad, order, E3D_PASS_SCENE);
+    emit_quad(w, quad, order, E3D_SET_SCENE);
 }
 
 static int32_t unit_end(int32_t unit, int32_t count)
@@ -137,7 +137,7 @@ static void run_lines(unit_walk *w, int32_t unit)
     const e3d_mesh_desc *d = &w->draw->mesh->desc;
     for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->lines_count); i++)
         draw_line(w, d->lines + 2 * (size_t)i, w->order + (uint32_t)(d->faces_count + i),
-                  E3D_PASS_SCENE);
+                  E3D_SET_SCENE);
 }
 
 static void run_points(unit_walk *w, int32_t unit)
@@ -151,7 +151,7 @@ static void run_edges(unit_walk *w, int32_t unit)
 {
     const e3d_mesh_desc *d = &w->draw->mesh->desc;
     for (int32_t i = unit * E3D_LINES_A_UNIT; i < unit_end(unit, d->edges_count); i++)
-        draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_PASS_WIRE);
+        draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_SET_EDGES);
 }
 
 void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,

@@ -35,7 +35,7 @@ static size_t count_records(const e3d_renderer *renderer)
 {
     size_t count = 0;
     for (int32_t w = 0; w < renderer->threads; w++)
-        count += renderer->workers[w]->pass[E3D_PASS_SCENE].records.count;
+        count += renderer->workers[w]->sets[E3D_SET_SCENE].records.count;
     return count;
 }
 
@@ -43,7 +43,7 @@ static void list_records(const e3d_context *context, entry *entries)
 {
     size_t n = 0;
     for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
+        const e3d_record_set *set = &context->renderer->workers[w]->sets[E3D_SET_SCENE];
         const e3d_record *records = set->records.data;
         for (size_t r = 0; r < set->records.count; r++, n++)
             entries[n] = (entry){
@@ -62,7 +62,7 @@ static int gather(const e3d_context *context, const entry *entries, size_t count
     e3d_record *records = sorted->records.data;
     float *corners = sorted->corners.data;
     for (size_t i = 0; i < count; i++) {
-        const e3d_record_set *set = &workers[entries[i].worker]->pass[E3D_PASS_SCENE];
+        const e3d_record_set *set = &workers[entries[i].worker]->sets[E3D_SET_SCENE];
         records[i] = ((const e3d_record *)set->records.data)[entries[i].record];
         if (records[i].meta & E3D_RECORD_CUT) {
             memcpy(corners + 9 * sorted->corners.count,
@@ -79,13 +79,13 @@ static int gather(const e3d_context *context, const entry *entries, size_t count
 /* Worker 0's set becomes the sorted one; the others keep nothing of this pass. */
 static void install(e3d_context *context, e3d_record_set *sorted)
 {
-    e3d_record_set *set = &context->renderer->workers[0]->pass[E3D_PASS_SCENE];
+    e3d_record_set *set = &context->renderer->workers[0]->sets[E3D_SET_SCENE];
     e3d_array_free(&set->records);
     e3d_array_free(&set->corners);
     set->records = sorted->records;
     set->corners = sorted->corners;
     for (int32_t w = 1; w < context->renderer->threads; w++)
-        context->renderer->workers[w]->pass[E3D_PASS_SCENE].records.count = 0;
+        context->renderer->workers[w]->sets[E3D_SET_SCENE].records.count = 0;
 }
 
 int e3d_sort_records(e3d_context *context)
@@ -106,7 +106,7 @@ int e3d_sort_records(e3d_context *context)
     }
     install(context, &sorted);
     e3d_worker *worker = context->renderer->workers[0];
-    e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
+    e3d_record_set *set = &worker->sets[E3D_SET_SCENE];
     for (size_t r = 0; r < count; r++) {
         const e3d_record *record = (const e3d_record *)set->records.data + r;
         e3d_box box = e3d_sample_box(record->x, record->y, &context->view->viewport);

@@ -107,8 +107,8 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
     if (area == 0 || is_culled(primitive, front))
         return;
     const e3d_corner *c[3] = {&corner[0], &corner[area < 0 ? 2 : 1], &corner[area < 0 ? 1 : 2]};
-    e3d_record_set *set = &worker->pass[primitive->pass];
-    int sorted = e3d_plans(context, E3D_PLAN_SORTS) && primitive->pass == E3D_PASS_SCENE;
+    e3d_record_set *set = &worker->sets[primitive->set];
+    int sorted = e3d_plans(context, E3D_PLAN_SORTS) && primitive->set == E3D_SET_SCENE;
     if (!e3d_records_fit(context, set, 1)) {
         worker->failed = 1;
         return;

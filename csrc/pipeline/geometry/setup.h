@@ -18,7 +18,7 @@ typedef struct e3d_corner {
 } e3d_corner;
 typedef struct e3d_primitive {
     uint32_t order;
-    int pass, face, cut;
+    int set, face, cut;
     e3d_cull cull;
     int mirrored;
 } e3d_primitive;

@@ -48,7 +48,7 @@ static e3d_box samples_of(const e3d_viewport *viewport, float4 lo, float4 hi)
 }
 
 /* Rectangle of samples and nearest depth; the whole picture and the nearest of all where the box reaches the eye. */
-static void project(const e3d_viewport *viewport, const corners *c, e3d_box_view *out)
+static void project_corners(const e3d_viewport *viewport, const corners *c, e3d_box_view *out)
 {
     float4 lo = c->at[0] / splat(c->at[0][3]), hi = lo, nearest = c->at[0];
     for (int i = 1; i < 8; i++) {
@@ -105,7 +105,7 @@ void e3d_view_box(const e3d_viewport *viewport, const float clip[16], const floa
     find_corners(clip, lo, hi, &c);
     out->state = state_of(&c);
     if (out->state != E3D_BOX_OUTSIDE)
-        project(viewport, &c, out);
+        project_corners(viewport, &c, out);
 }
 
 static inline int4 load_words(const int32_t *p)

@@ -77,13 +77,13 @@ static int place_instances(e3d_draws *draws, e3d_draw_state *state, uint32_t ord
 static e3d_status place_draws(e3d_draws *draws, const e3d_frame *frame)
 {
     uint32_t order = 0;
-    for (int32_t t = 0; t < draws->turn_count; t++) {
+    for (int32_t t = 0; t < draws->order_count; t++) {
         int32_t d = frame->order ? frame->order[t] : t;
         if (d < 0 || d >= frame->draw_count)
             return E3D_INVALID_ARGUMENT;
         e3d_draw_state *state = &draws->states[d];
         int32_t instances = state->draw->pose_kind == E3D_POSE_NODES ? 1 : state->draw->instances;
-        draws->turns[t] = (e3d_turn){order, d, state->placed};
+        draws->order[t] = (e3d_order_entry){order, d, state->placed};
         if (!place_instances(draws, state, order, instances))
             return E3D_INVALID_ARGUMENT;
         order += (uint32_t)instances * (uint32_t)state->primitives;
@@ -96,12 +96,12 @@ static e3d_status place_draws(e3d_draws *draws, const e3d_frame *frame)
 
 e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges)
 {
-    draws->turn_count = frame->order ? frame->order_count : frame->draw_count;
+    draws->order_count = frame->order ? frame->order_count : frame->draw_count;
     if (!e3d_array_reserve(&draws->state_memory, (size_t)frame->draw_count + 1, sizeof(e3d_draw_state)) ||
-        !e3d_array_reserve(&draws->turn_memory, (size_t)draws->turn_count + 1, sizeof(e3d_turn)))
+        !e3d_array_reserve(&draws->order_memory, (size_t)draws->order_count + 1, sizeof(e3d_order_entry)))
         return E3D_OUT_OF_MEMORY;
     draws->states = draws->state_memory.data;
-    draws->turns = draws->turn_memory.data;
+    draws->order = draws->order_memory.data;
     e3d_status status = count_draws(draws, frame, edges);
     if (status != E3D_OK)
         return status;
@@ -115,7 +115,7 @@ void e3d_draws_free(e3d_draws *draws)
 {
     e3d_array_free(&draws->state_memory);
     e3d_array_free(&draws->instance_memory);
-    e3d_array_free(&draws->turn_memory);
+    e3d_array_free(&draws->order_memory);
 }
 
 /* ---- whose a number is ---- */
@@ -140,7 +140,7 @@ static ALWAYS_INLINE int32_t find_by_start(const e3d_draws *draws, start_of star
 static int64_t first_instance(const e3d_draws *draws, int32_t k) { return draws->states[k].instance_base; }
 static int64_t first_unit(const e3d_draws *draws, int32_t k) { return draws->states[k].unit_base; }
 static int64_t first_group(const e3d_draws *draws, int32_t k) { return draws->states[k].group_base; }
-static int64_t first_order(const e3d_draws *draws, int32_t k) { return draws->turns[k].order; }
+static int64_t first_order(const e3d_draws *draws, int32_t k) { return draws->order[k].order; }
 
 const e3d_draw_state *e3d_draw_of_instance(const e3d_draws *draws, int64_t instance)
 {
@@ -157,7 +157,7 @@ const e3d_draw_state *e3d_draw_of_group(const e3d_draws *draws, int64_t group)
     return &draws->states[find_by_start(draws, first_group, draws->count, group)];
 }
 
-const e3d_turn *e3d_find_turn(const e3d_draws *draws, uint32_t order)
+const e3d_order_entry *e3d_find_order_entry(const e3d_draws *draws, uint32_t order)
 {
-    return &draws->turns[find_by_start(draws, first_order, draws->turn_count, order)];
+    return &draws->order[find_by_start(draws, first_order, draws->order_count, order)];
 }

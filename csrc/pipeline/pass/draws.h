@@ -28,20 +28,20 @@ typedef struct e3d_draw_state {
     int32_t any_two_sided;
 } e3d_draw_state;
 
-/* Whose turn it is in the order of drawing: all instances of a draw, or one node of several. */
-typedef struct e3d_turn {
+/* A place in the order of drawing: all instances of a draw, or one node of several. */
+typedef struct e3d_order_entry {
     uint32_t order; /* of the first primitive */
     int32_t draw, instance;
-} e3d_turn;
+} e3d_order_entry;
 
 /* All draws of a frame, in memory that frames use again. */
 typedef struct e3d_draws {
     e3d_draw_state *states;
     e3d_instance *instances;
-    e3d_turn *turns;
-    int32_t count, instance_count, turn_count;
+    e3d_order_entry *order;
+    int32_t count, instance_count, order_count;
     int64_t units, groups;
-    e3d_array state_memory, instance_memory, turn_memory;
+    e3d_array state_memory, instance_memory, order_memory;
 } e3d_draws;
 
 /* `edges`: those of wireframes are drawn, too. */
@@ -52,8 +52,8 @@ void e3d_draws_free(e3d_draws *draws);
 const e3d_draw_state *e3d_draw_of_instance(const e3d_draws *draws, int64_t instance);
 const e3d_draw_state *e3d_draw_of_unit(const e3d_draws *draws, int64_t unit);
 const e3d_draw_state *e3d_draw_of_group(const e3d_draws *draws, int64_t group);
-/* The last turn that starts at or before an order. */
-const e3d_turn *e3d_find_turn(const e3d_draws *draws, uint32_t order);
+/* The last entry that starts at or before an order. */
+const e3d_order_entry *e3d_find_order_entry(const e3d_draws *draws, uint32_t order);
 
 /* What object_id and instance_id output. */
 static inline int32_t e3d_object_id(const e3d_draw *draw, int32_t instance)

@@ -1,4 +1,4 @@
-/* shade, second half: visible samples, group by group and batch by batch, to colours and outputs (R20-R32). */
+/* shade, second half: visible samples, bucket by bucket and batch by batch, to colours and outputs (R20-R32). */
 #include <string.h>
 
 #include "core/cpu.h"
@@ -13,7 +13,7 @@
 #include "pipeline/state/worker.h"
 #include "pipeline/store/blank.h"
 #include "pipeline/pass/draws.h"
-#include "pipeline/store/late.h"
+#include "pipeline/store/deferred.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/store/resolve.h"
@@ -46,9 +46,9 @@ static uint32_t number_bytes(int32_t id) { return ((uint32_t)id + 1) * 0x9E3779B
 
 static void show_numbers(const e3d_frame *frame, const e3d_worker *worker, e3d_batch *batch)
 {
-    const e3d_visible_piece *pieces = worker->surface.pieces.data;
+    const e3d_visible_primitive *pieces = worker->surface.pieces.data;
     for (int i = 0; i < batch->count; i++) {
-        const e3d_visible_piece *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
+        const e3d_visible_primitive *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
         if (frame->mode == E3D_MODE_RANDOM)
             set_bytes(batch, i, random_bytes((uint32_t)piece->local));
         else
@@ -86,36 +86,36 @@ static void show_normal(const e3d_context *context, e3d_batch *batch)
 
 /* ---- lit and unlit ---- */
 
-static void find_albedo(const e3d_context *context, const e3d_group *group, e3d_batch *batch,
+static void find_albedo(const e3d_context *context, const e3d_bucket *bucket, e3d_batch *batch,
                         const e3d_surfaces *surfaces)
 {
     const e3d_kernels *kernels = context->kernels;
-    const float *base = group->material->color;
-    for (int k = 0; k < 3 && !group->textured; k++)
+    const float *base = bucket->material->color;
+    for (int k = 0; k < 3 && !bucket->textured; k++)
         for (int i = 0; i < batch->count; i++)
             batch->color[k][i] = base[k];
-    if (group->textured) {
-        kernels->texture(batch, e3d_texture_get_view(group->material->texture), base);
+    if (bucket->textured) {
+        kernels->texture(batch, e3d_texture_get_view(bucket->material->texture), base);
     }
-    if (group->by_vertex || group->by_instance)
-        kernels->tint(batch, surfaces, group->by_vertex, group->by_instance);
+    if (bucket->by_vertex || bucket->by_instance)
+        kernels->tint(batch, surfaces, bucket->by_vertex, bucket->by_instance);
 }
 
-static void light(const e3d_context *context, const e3d_group *group, e3d_batch *batch)
+static void light(const e3d_context *context, const e3d_bucket *bucket, e3d_batch *batch)
 {
-    const e3d_material *m = group->material;
+    const e3d_material *m = bucket->material;
     int shiny = e3d_adds(m->specular);
     context->kernels->light(batch, &context->view->lighting, shiny ? m->shininess : 0.0f);
     context->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive);
 }
 
-static void find_colors(const e3d_context *context, const e3d_worker *worker, const e3d_group *group,
+static void find_colors(const e3d_context *context, const e3d_worker *worker, const e3d_bucket *bucket,
                         e3d_batch *batch)
 {
     switch (context->frame->mode) {
     case E3D_MODE_LIT:
-        if (group->face)
-            light(context, group, batch);
+        if (bucket->face)
+            light(context, bucket, batch);
         break;
     case E3D_MODE_DEPTH: show_depth(context, batch); break;
     case E3D_MODE_NORMAL: show_normal(context, batch); break;
@@ -129,40 +129,40 @@ static void find_colors(const e3d_context *context, const e3d_worker *worker, co
 
 /* ---- batches ---- */
 
-/* What the batches of a group need of their surfaces: identities need nothing. */
-static int wanted_of(const e3d_context *context, const e3d_group *group)
+/* What the batches of a bucket need of their surfaces: identities need nothing. */
+static int wanted_of(const e3d_context *context, const e3d_bucket *bucket)
 {
     int wanted = e3d_plan_inputs(context->plan), colored = e3d_plans(context, E3D_PLAN_BASE_COLOR);
-    if (group->textured && colored) {
+    if (bucket->textured && colored) {
         wanted |= E3D_WANT_UV;
-        if (e3d_texture_get_view(group->material->texture)->filter == E3D_TRILINEAR)
+        if (e3d_texture_get_view(bucket->material->texture)->filter == E3D_TRILINEAR)
             wanted |= E3D_WANT_LEVEL;
     }
-    if (context->targets->barycentric || (colored && group->by_vertex))
+    if (context->targets->barycentric || (colored && bucket->by_vertex))
         wanted |= E3D_WANT_WEIGHTS;
-    if (wanted || (colored && group->by_instance))
+    if (wanted || (colored && bucket->by_instance))
         wanted |= E3D_WANT_SURFACE;
-    return group->flat ? wanted | E3D_WANT_FLAT : wanted;
+    return bucket->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 
 /* Whether samples go straight to where colours are kept. */
-static int is_painted(const e3d_context *context, const e3d_group *group)
+static int is_painted(const e3d_context *context, const e3d_bucket *bucket)
 {
-    return e3d_plans(context, E3D_PLAN_PAINTS) && !(group->face && context->frame->wireframe == E3D_WIRE_ONLY);
+    return e3d_plans(context, E3D_PLAN_PAINTS) && !(bucket->face && context->frame->wireframe == E3D_WIRE_ONLY);
 }
 
-static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
+static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int wanted)
 {
-    const e3d_material *m = group->material;
-    int lit = context->frame->mode == E3D_MODE_LIT && group->face, shiny = e3d_adds(m->specular);
-    e3d_pixel_rows *late = e3d_late_rows(context, worker);
-    int rows = late ? late->count : 0;
+    const e3d_material *m = bucket->material;
+    int lit = context->frame->mode == E3D_MODE_LIT && bucket->face, shiny = e3d_adds(m->specular);
+    e3d_pixel_rows *deferred = e3d_deferred_rows(context, worker);
+    int rows = deferred ? deferred->count : 0;
     const e3d_paint paint = {
         .wanted = wanted,
-        .texture = group->textured ? e3d_texture_get_view(m->texture) : NULL,
+        .texture = bucket->textured ? e3d_texture_get_view(m->texture) : NULL,
         .base = m->color,
-        .by_vertex = group->by_vertex,
-        .by_instance = group->by_instance,
+        .by_vertex = bucket->by_vertex,
+        .by_instance = bucket->by_instance,
         .lighting = lit ? &context->view->lighting : NULL,
         .shininess = shiny ? m->shininess : 0.0f,
         .specular = shiny ? m->specular : NULL,
@@ -170,39 +170,39 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .srgb = e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
         .looks_ahead = e3d_cpu_looks_ahead(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
-        .meanwhile = late,
+        .meanwhile = deferred,
     };
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
-    if (!late)
+    if (!deferred)
         e3d_blank_some(context, worker);
-    else if (late->count == rows)
-        e3d_late_some(context, late);
+    else if (deferred->count == rows)
+        e3d_deferred_some(context, deferred);
 }
 
-static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int wanted)
+static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
     const e3d_surfaces *surfaces = &worker->tile->surfaces;
     worker->counters.shaded += batch->count;
-    if (is_painted(context, group)) {
-        paint_batch(context, worker, group, wanted);
+    if (is_painted(context, bucket)) {
+        paint_batch(context, worker, bucket, wanted);
         return;
     }
     e3d_blank_some(context, worker);
     if (wanted & E3D_WANT_SURFACE)
         context->kernels->interpolate(batch, surfaces, wanted);
     if (e3d_plans(context, E3D_PLAN_BASE_COLOR))
-        find_albedo(context, group, batch, surfaces);
+        find_albedo(context, bucket, batch, surfaces);
     if (e3d_plans(context, E3D_PLAN_OUTPUTS))
         e3d_outputs_batch(context, worker);
-    int hidden = group->face && context->frame->wireframe == E3D_WIRE_ONLY;
+    int hidden = bucket->face && context->frame->wireframe == E3D_WIRE_ONLY;
     if (!e3d_plans(context, E3D_PLAN_COLORS))
         return;
     if (hidden) {
         e3d_resolve_hidden(context, worker);
         return;
     }
-    find_colors(context, worker, group, batch);
+    find_colors(context, worker, bucket, batch);
     e3d_resolve_batch(context, worker);
 }
 
@@ -212,12 +212,12 @@ typedef struct stretch {
     int32_t at, behind;
 } stretch;
 
-/* The one that begins with piece `first`; the piece behind it in the chain. A single group has all pieces of the tile. */
+/* The one that begins with piece `first`; the piece behind it in the chain. A single bucket has all pieces of the tile. */
 static int32_t find_stretch(const e3d_worker *worker, int32_t first, int32_t end, stretch *out)
 {
-    const e3d_visible_piece *pieces = worker->surface.pieces.data;
+    const e3d_visible_primitive *pieces = worker->surface.pieces.data;
     int32_t p = first;
-    if (worker->surface.groups.count == 1) {
+    if (worker->surface.buckets.count == 1) {
         int32_t behind = end < 0 ? (int32_t)worker->surface.pieces.count : end;
         *out = (stretch){first, behind, pieces[first].first, pieces[behind - 1].end};
         return end;
@@ -240,7 +240,7 @@ static void take(const e3d_context *context, e3d_worker *worker, int32_t piece, 
 }
 
 /* The samples of pieces whose surfaces, 0 and so on, are known. */
-static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int32_t end, int wanted)
+static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int32_t first, int32_t end, int wanted)
 {
     e3d_batch *batch = &worker->tile->batch;
     int32_t surface = 0;
@@ -252,23 +252,23 @@ static void shade_pieces(const e3d_context *context, e3d_worker *worker, const e
             take(context, worker, s.first - surface, &s);
             if (s.at == s.behind)
                 break;
-            shade_batch(context, worker, group, wanted);
+            shade_batch(context, worker, bucket, wanted);
             batch->count = 0;
         }
         surface += s.end - s.first;
     }
-    shade_batch(context, worker, group, wanted);
+    shade_batch(context, worker, bucket, wanted);
 }
 
-static void shade_group(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
-                        const e3d_group *group)
+static void shade_bucket(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile,
+                        const e3d_bucket *bucket)
 {
-    int wanted = wanted_of(context, group);
-    for (int32_t first = group->first, end; first >= 0; first = end) {
-        end = e3d_add_surfaces(context, worker, group, first, wanted);
+    int wanted = wanted_of(context, bucket);
+    for (int32_t first = bucket->first, end; first >= 0; first = end) {
+        end = e3d_add_surfaces(context, worker, bucket, first, wanted);
         if (wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(context, worker, tile, wanted);
-        shade_pieces(context, worker, group, first, end, wanted);
+        shade_pieces(context, worker, bucket, first, end, wanted);
     }
 }
 
@@ -276,9 +276,9 @@ int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_ti
 {
     if (!e3d_find_pieces(context, worker))
         return 0;
-    const e3d_group *groups = worker->surface.groups.data;
-    for (size_t g = 0; g < worker->surface.groups.count; g++)
-        shade_group(context, worker, tile, &groups[g]);
+    const e3d_bucket *buckets = worker->surface.buckets.data;
+    for (size_t g = 0; g < worker->surface.buckets.count; g++)
+        shade_bucket(context, worker, tile, &buckets[g]);
     return 1;
 }
 

@@ -22,7 +22,7 @@
 void e3d_surface_free(e3d_surface_state *state)
 {
     e3d_array_free(&state->pieces);
-    e3d_array_free(&state->groups);
+    e3d_array_free(&state->buckets);
 }
 
 /* ---- which primitive a piece is of ---- */
@@ -36,14 +36,14 @@ typedef struct instance_finder {
 
 static const float *corners_of(const e3d_context *context, uint32_t id, const e3d_record *record)
 {
-    const e3d_worker *owner = context->renderer->workers[id & ((1u << context->tables[E3D_PASS_SCENE].bits) - 1)];
-    return record->meta & E3D_RECORD_CUT ? (const float *)owner->pass[E3D_PASS_SCENE].corners.data +
+    const e3d_worker *owner = context->renderer->workers[id & ((1u << context->tables[E3D_SET_SCENE].bits) - 1)];
+    return record->meta & E3D_RECORD_CUT ? (const float *)owner->sets[E3D_SET_SCENE].corners.data +
                                                9 * (size_t)(record->meta >> E3D_RECORD_SHIFT)
                                          : NULL;
 }
 
 /* Of a piece of fragments, whose `local` is the triangle's number in its cluster so far. */
-static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder *finder, e3d_visible_piece *piece)
+static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder *finder, e3d_visible_primitive *piece)
 {
     const e3d_drawn_cluster *drawn = piece->drawn;
     finder->draw = &context->draws->states[drawn->draw];
@@ -52,35 +52,35 @@ static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder 
     piece->local = drawn->faces[piece->local];
 }
 
-static void find_primitive(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_piece *piece)
+static void find_primitive(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_primitive *piece)
 {
     uint32_t order = piece->record->order;
     piece->corners = corners_of(context, id, piece->record);
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
-        const e3d_turn *turn = e3d_find_turn(context->draws, order);
-        const e3d_draw_state *draw = &context->draws->states[turn->draw];
-        uint32_t primitives = (uint32_t)draw->primitives, instances = (order - turn->order) / primitives;
+        const e3d_order_entry *entry = e3d_find_order_entry(context->draws, order);
+        const e3d_draw_state *draw = &context->draws->states[entry->draw];
+        uint32_t primitives = (uint32_t)draw->primitives, instances = (order - entry->order) / primitives;
         finder->draw = draw;
-        finder->instance = turn->instance + (int32_t)instances;
-        finder->first = turn->order + instances * primitives;
+        finder->instance = entry->instance + (int32_t)instances;
+        finder->first = entry->order + instances * primitives;
     }
     piece->local = (int32_t)(order - finder->first);
 }
 
-int32_t e3d_face_of(const e3d_visible_piece *piece)
+int32_t e3d_face_of(const e3d_visible_primitive *piece)
 {
     return piece->local < piece->draw->mesh->desc.faces_count ? piece->local : -1;
 }
 
 /* How many vertices the primitive has. */
-static int corners_count(const e3d_visible_piece *piece)
+static int corners_count(const e3d_visible_primitive *piece)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
     int32_t line = piece->local - mesh->faces_count;
     return line < 0 ? 3 : line < mesh->lines_count ? 2 : 1;
 }
 
-static ALWAYS_INLINE void find_vertices(e3d_visible_piece *piece)
+static ALWAYS_INLINE void find_vertices(e3d_visible_primitive *piece)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
     int32_t line = piece->local - mesh->faces_count;
@@ -92,22 +92,22 @@ static ALWAYS_INLINE void find_vertices(e3d_visible_piece *piece)
         piece->vertex[0] = mesh->points[line - mesh->lines_count];
 }
 
-/* ---- groups ---- */
+/* ---- buckets ---- */
 
-/* Material and kind of primitive: with the draw, all that the group depends on. */
-static int32_t group_id_of(const e3d_visible_piece *piece)
+/* Material and kind of primitive: with the draw, all that the bucket depends on. */
+static int32_t bucket_id_of(const e3d_visible_primitive *piece)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
     int32_t face = e3d_face_of(piece);
     return face < 0 ? -1 : piece->draw->mesh->material_most ? mesh->material_ids[face] : 0;
 }
 
-static e3d_group group_of(const e3d_context *context, const e3d_draw_state *state, int32_t id)
+static e3d_bucket bucket_of(const e3d_context *context, const e3d_draw_state *state, int32_t id)
 {
     const e3d_frame *frame = context->frame;
     const e3d_draw *draw = state->draw;
     const e3d_mesh_desc *mesh = &state->mesh->desc;
-    e3d_group g = {.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)],
+    e3d_bucket g = {.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)],
                    .face = id >= 0,
                    .first = -1,
                    .last = -1};
@@ -120,53 +120,53 @@ static e3d_group group_of(const e3d_context *context, const e3d_draw_state *stat
     return g;
 }
 
-static int same_group(const e3d_group *a, const e3d_group *b)
+static int same_bucket(const e3d_bucket *a, const e3d_bucket *b)
 {
     return a->material == b->material && a->face == b->face && a->flat == b->flat &&
            a->textured == b->textured && a->by_vertex == b->by_vertex &&
            a->by_instance == b->by_instance;
 }
 
-/* The group's number, or -1 when memory is out. */
-static int32_t number_group(e3d_worker *worker, const e3d_group *group)
+/* The bucket's number, or -1 when memory is out. */
+static int32_t number_bucket(e3d_worker *worker, const e3d_bucket *bucket)
 {
-    e3d_group *groups = worker->surface.groups.data;
-    for (size_t g = worker->surface.groups.count; g-- > 0;)
-        if (same_group(&groups[g], group))
+    e3d_bucket *buckets = worker->surface.buckets.data;
+    for (size_t g = worker->surface.buckets.count; g-- > 0;)
+        if (same_bucket(&buckets[g], bucket))
             return (int32_t)g;
-    if (!e3d_array_reserve(&worker->surface.groups, worker->surface.groups.count + 1, sizeof *group))
+    if (!e3d_array_reserve(&worker->surface.buckets, worker->surface.buckets.count + 1, sizeof *bucket))
         return -1;
-    ((e3d_group *)worker->surface.groups.data)[worker->surface.groups.count] = *group;
-    return (int32_t)worker->surface.groups.count++;
+    ((e3d_bucket *)worker->surface.buckets.data)[worker->surface.buckets.count] = *bucket;
+    return (int32_t)worker->surface.buckets.count++;
 }
 
 /* ---- the pieces of a tile ---- */
 
-/* The group that was found last: mostly the next piece is of it, too. */
-typedef struct group_finder {
+/* The bucket that was found last: mostly the next piece is of it, too. */
+typedef struct bucket_finder {
     const e3d_draw_state *draw;
-    int32_t id; /* as group_id_of counts them */
-    int32_t group;
-} group_finder;
+    int32_t id; /* as bucket_id_of counts them */
+    int32_t bucket;
+} bucket_finder;
 
-/* The group of a piece, whose last it becomes; 0 when memory is out. */
-static ALWAYS_INLINE int join_group(const e3d_context *context, e3d_worker *worker, int32_t number, group_finder *finder)
+/* The bucket of a piece, whose last it becomes; 0 when memory is out. */
+static ALWAYS_INLINE int join_bucket(const e3d_context *context, e3d_worker *worker, int32_t number, bucket_finder *finder)
 {
-    e3d_visible_piece *pieces = worker->surface.pieces.data, *piece = &pieces[number];
-    int32_t id = group_id_of(piece);
+    e3d_visible_primitive *pieces = worker->surface.pieces.data, *piece = &pieces[number];
+    int32_t id = bucket_id_of(piece);
     if (piece->draw != finder->draw || id != finder->id) {
-        e3d_group group = group_of(context, piece->draw, id);
-        *finder = (group_finder){piece->draw, id, number_group(worker, &group)};
-        if (finder->group < 0)
+        e3d_bucket bucket = bucket_of(context, piece->draw, id);
+        *finder = (bucket_finder){piece->draw, id, number_bucket(worker, &bucket)};
+        if (finder->bucket < 0)
             return 0;
     }
-    e3d_group *group = (e3d_group *)worker->surface.groups.data + finder->group;
-    if (group->last < 0)
-        group->first = number;
+    e3d_bucket *bucket = (e3d_bucket *)worker->surface.buckets.data + finder->bucket;
+    if (bucket->last < 0)
+        bucket->first = number;
     else
-        pieces[group->last].next = number;
-    group->last = number;
-    piece->group = finder->group;
+        pieces[bucket->last].next = number;
+    bucket->last = number;
+    piece->bucket = finder->bucket;
     return 1;
 }
 
@@ -176,10 +176,10 @@ typedef struct piece_range {
 } piece_range;
 
 /* What IDs stand for: a record, or a triangle of a cluster. */
-static void find_named(const e3d_record_table *table, const e3d_shown_piece *of, piece_range range, e3d_visible_piece *pieces)
+static void find_named(const e3d_record_table *table, const e3d_shown_piece *of, piece_range range, e3d_visible_primitive *pieces)
 {
     for (int32_t n = range.first; n < range.end; n++) {
-        pieces[n] = (e3d_visible_piece){.next = -1, .first = of[n].first, .end = of[n + 1].first};
+        pieces[n] = (e3d_visible_primitive){.next = -1, .first = of[n].first, .end = of[n + 1].first};
         if (of[n].id & E3D_FRAGMENT_ID) {
             pieces[n].drawn = e3d_drawn_at(table, of[n].id, &pieces[n].local);
             __builtin_prefetch(pieces[n].drawn->faces + pieces[n].local);
@@ -192,7 +192,7 @@ static void find_named(const e3d_record_table *table, const e3d_shown_piece *of,
 
 /* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
 static void find_primitives(const e3d_context *context, const e3d_shown_piece *of, piece_range range, instance_finder *finder,
-                            e3d_visible_piece *pieces)
+                            e3d_visible_primitive *pieces)
 {
     for (int32_t n = range.first; n < range.end; n++) {
         if (pieces[n].drawn)
@@ -206,13 +206,13 @@ static void find_primitives(const e3d_context *context, const e3d_shown_piece *o
 }
 
 /* 0 when memory is out. */
-static int find_groups(const e3d_context *context, e3d_worker *worker, piece_range range, group_finder *finder)
+static int find_buckets(const e3d_context *context, e3d_worker *worker, piece_range range, bucket_finder *finder)
 {
-    e3d_visible_piece *pieces = worker->surface.pieces.data;
+    e3d_visible_primitive *pieces = worker->surface.pieces.data;
     for (int32_t n = range.first; n < range.end; n++)
         find_vertices(&pieces[n]);
     for (int32_t n = range.first; n < range.end; n++)
-        if (!join_group(context, worker, n, finder))
+        if (!join_bucket(context, worker, n, finder))
             return 0;
     return 1;
 }
@@ -229,17 +229,17 @@ int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
     enum { SOME = 32 };
     e3d_shown *shown = &worker->tile->shown;
     instance_finder instance = {0};
-    group_finder group = {0};
+    bucket_finder bucket = {0};
     int32_t all = shown->pieces;
     shown->piece[all].first = shown->count;
-    worker->surface.groups.count = 0;
-    if (!e3d_array_reserve(&worker->surface.pieces, (size_t)all, sizeof(e3d_visible_piece)))
+    worker->surface.buckets.count = 0;
+    if (!e3d_array_reserve(&worker->surface.pieces, (size_t)all, sizeof(e3d_visible_primitive)))
         return 0;
-    e3d_visible_piece *pieces = worker->surface.pieces.data;
+    e3d_visible_primitive *pieces = worker->surface.pieces.data;
     for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
-        find_named(&context->tables[E3D_PASS_SCENE], shown->piece, range_of(n, SOME, all), pieces);
+        find_named(&context->tables[E3D_SET_SCENE], shown->piece, range_of(n, SOME, all), pieces);
         find_primitives(context, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
-        if (!find_groups(context, worker, range_of(n - 2 * SOME, SOME, all), &group))
+        if (!find_buckets(context, worker, range_of(n - 2 * SOME, SOME, all), &bucket))
             return 0;
     }
     worker->surface.pieces.count = (size_t)all;
@@ -296,19 +296,19 @@ static void value_of(const e3d_context *context, const uint8_t *u8, const float 
         out[c] = f32 ? f32[4 * index + c] : context->unorm8[u8[4 * index + c]];
 }
 
-static void add_colors(const e3d_context *context, const e3d_visible_piece *piece, const e3d_group *group,
+static void add_colors(const e3d_context *context, const e3d_visible_primitive *piece, const e3d_bucket *bucket,
                        const int32_t vertex[3], int count, e3d_surfaces *s, int32_t n)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
     const e3d_draw *draw = piece->draw->draw;
-    for (int v = 0; v < 3 && group->by_vertex; v++) {
+    for (int v = 0; v < 3 && bucket->by_vertex; v++) {
         float value[3] = {0.0f, 0.0f, 0.0f};
         if (v < count)
             value_of(context, mesh->colors_u8, mesh->colors_f32, (size_t)vertex[v], value);
         for (int c = 0; c < 3; c++)
             s->color[c][v][n] = value[c];
     }
-    if (group->by_instance) {
+    if (bucket->by_instance) {
         float value[3];
         value_of(context, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance, value);
         for (int c = 0; c < 3; c++)
@@ -328,7 +328,7 @@ static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, 
 }
 
 /* The next surface is that of a piece, without what e3d_find_surfaces adds. */
-static void add_surface(const e3d_context *context, const e3d_visible_piece *piece, const e3d_group *group, int wanted,
+static void add_surface(const e3d_context *context, const e3d_visible_primitive *piece, const e3d_bucket *bucket, int wanted,
                         e3d_surfaces *s)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
@@ -344,15 +344,15 @@ static void add_surface(const e3d_context *context, const e3d_visible_piece *pie
     if (wanted & E3D_WANT_POSITION || piece->drawn)
         add_vectors(mesh->positions, 3, vertex, mesh->components == 3 ? count : 0, s->position, n);
     if (wanted & E3D_WANT_NORMAL)
-        add_normals(mesh, face, group->flat, vertex, s, n);
+        add_normals(mesh, face, bucket->flat, vertex, s, n);
     if (wanted & E3D_WANT_UV)
         add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
     if (e3d_plans(context, E3D_PLAN_BASE_COLOR))
-        add_colors(context, piece, group, vertex, count, s, n);
+        add_colors(context, piece, bucket, vertex, count, s, n);
 }
 
 /* Ahead of their use: vertices are anywhere in memory. Only of a piece of this draw, whose face was asked for when it was found. */
-static ALWAYS_INLINE void fetch_vertices(const e3d_visible_piece *piece, const e3d_draw_state *draw, int wanted)
+static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *piece, const e3d_draw_state *draw, int wanted)
 {
     const e3d_mesh_desc *mesh = &draw->mesh->desc;
     if (piece->draw != draw)
@@ -369,24 +369,24 @@ static ALWAYS_INLINE void fetch_vertices(const e3d_visible_piece *piece, const e
         __builtin_prefetch(mesh->colors_u8 + 4 * (size_t)vertex[v]);
 }
 
-static void set_texels(const e3d_group *group, e3d_surfaces *s)
+static void set_texels(const e3d_bucket *bucket, e3d_surfaces *s)
 {
-    const e3d_level *level = &e3d_texture_get_view(group->material->texture)->levels[0];
+    const e3d_level *level = &e3d_texture_get_view(bucket->material->texture)->levels[0];
     s->texels[0] = (float)level->width;
     s->texels[1] = (float)level->height;
 }
 
-int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted)
+int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int32_t first, int wanted)
 {
     enum { AHEAD = 24 };
-    const e3d_visible_piece *pieces = worker->surface.pieces.data;
+    const e3d_visible_primitive *pieces = worker->surface.pieces.data;
     e3d_surfaces *s = &worker->tile->surfaces;
     int32_t p = first, last = (int32_t)worker->surface.pieces.count - 1 - AHEAD;
     for (int32_t i = first; i < first + AHEAD && i <= last && wanted & E3D_WANT_SURFACE; i++)
         fetch_vertices(&pieces[i], pieces[first].draw, wanted);
     s->count = s->matrices = s->irregular = s->projected = 0;
     if (wanted & E3D_WANT_LEVEL)
-        set_texels(group, s);
+        set_texels(bucket, s);
     for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
         s->piece[s->count] = p;
         if (!(wanted & E3D_WANT_SURFACE)) {
@@ -395,7 +395,7 @@ int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e
         }
         if (p <= last)
             fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
-        add_surface(context, &pieces[p], group, wanted, s);
+        add_surface(context, &pieces[p], bucket, wanted, s);
     }
     return p;
 }
@@ -403,7 +403,7 @@ int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e
 /* ---- what the kernel leaves to do ---- */
 
 /* R18 of a clipped piece, of a line or a point. */
-static void cut_planes(const e3d_context *context, const e3d_visible_piece *piece, e3d_surfaces *s, int32_t n)
+static void cut_planes(const e3d_context *context, const e3d_visible_primitive *piece, e3d_surfaces *s, int32_t n)
 {
     const e3d_record *r = piece->record;
     const float *c = piece->corners;
@@ -455,7 +455,7 @@ static void clear_positions(e3d_surfaces *s, int32_t n, int first)
 
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted)
 {
-    const e3d_visible_piece *pieces = worker->surface.pieces.data;
+    const e3d_visible_primitive *pieces = worker->surface.pieces.data;
     e3d_surfaces *s = &worker->tile->surfaces;
     for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
         s->matrix[n] = s->matrix[s->count - 1];
@@ -463,7 +463,7 @@ void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d
         context->kernels->project(s, &context->view->viewport);
     context->kernels->surface(s, tile->x, tile->y, wanted);
     for (int32_t n = 0; n < s->count && s->irregular; n++) {
-        const e3d_visible_piece *piece = &pieces[s->piece[n]];
+        const e3d_visible_primitive *piece = &pieces[s->piece[n]];
         const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
         if (piece->corners)
             cut_planes(context, piece, s, n);

@@ -13,36 +13,36 @@ typedef struct e3d_draw_state e3d_draw_state;
 typedef struct e3d_tile e3d_tile;
 
 /* Samples that are shaded by the same steps. */
-typedef struct e3d_group {
+typedef struct e3d_bucket {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance;
     int32_t first, last; /* of its visible pieces */
-} e3d_group;
+} e3d_bucket;
 
 /* A piece that shows in a tile, and its samples, or its runs (e3d_shown). */
-typedef struct e3d_visible_piece {
+typedef struct e3d_visible_primitive {
     const e3d_record *record;       /* or NULL: */
     const e3d_drawn_cluster *drawn; /* the piece is of fragments */
     const float *corners;           /* c[k][j] of a cut record, or NULL */
     const e3d_draw_state *draw;
     int32_t instance, local; /* in its draw, in its instance */
     int32_t vertex[3];       /* of the mesh; as many as there are */
-    int32_t group, next;     /* the next of the same group, or -1 */
+    int32_t bucket, next;     /* the next of the same bucket, or -1 */
     int32_t first, end;
-} e3d_visible_piece;
+} e3d_visible_primitive;
 
 /* A thread's memory, of one tile. */
 typedef struct e3d_surface_state {
-    e3d_array pieces; /* e3d_visible_piece */
-    e3d_array groups; /* e3d_group */
+    e3d_array pieces; /* e3d_visible_primitive */
+    e3d_array buckets; /* e3d_bucket */
 } e3d_surface_state;
 
 void e3d_surface_free(e3d_surface_state *state);
-/* The pieces of what shows, chained by group; 0 when memory is out. */
+/* The pieces of what shows, chained by bucket; 0 when memory is out. */
 int e3d_find_pieces(const e3d_context *context, e3d_worker *worker);
-/* The surfaces of pieces of a group from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
-int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_group *group, int32_t first, int wanted);
+/* The surfaces of pieces of a bucket from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
+int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int32_t first, int wanted);
 void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
-int32_t e3d_face_of(const e3d_visible_piece *piece);
+int32_t e3d_face_of(const e3d_visible_primitive *piece);
 
 #endif

@@ -109,8 +109,8 @@ static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
 static void put_ids(const e3d_context *context, const e3d_worker *worker, const int32_t *at)
 {
     const e3d_batch *batch = &worker->tile->batch;
-    const e3d_visible_piece *pieces = worker->surface.pieces.data;
-    const e3d_group *groups = worker->surface.groups.data;
+    const e3d_visible_primitive *pieces = worker->surface.pieces.data;
+    const e3d_bucket *buckets = worker->surface.buckets.data;
     int32_t *triangles = e3d_outputs_gathered(context, worker, E3D_OUTPUT_TRIANGLE_ID);
     int32_t *objects = e3d_outputs_gathered(context, worker, E3D_OUTPUT_OBJECT_ID);
     int32_t *instances = e3d_outputs_gathered(context, worker, E3D_OUTPUT_INSTANCE_ID);
@@ -120,7 +120,7 @@ static void put_ids(const e3d_context *context, const e3d_worker *worker, const 
     for (int i = 0, end = 0; i < batch->count; i = end) {
         while (end < batch->count && batch->surface[end] == batch->surface[i])
             end++;
-        const e3d_visible_piece *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
+        const e3d_visible_primitive *piece = &pieces[worker->tile->surfaces.piece[batch->surface[i]]];
         const e3d_draw *draw = piece->draw->draw;
         if (triangles)
             put_id(triangles, at + i, end - i, e3d_face_of(piece));
@@ -129,7 +129,7 @@ static void put_ids(const e3d_context *context, const e3d_worker *worker, const 
         if (instances)
             put_id(instances, at + i, end - i, e3d_instance_id(draw, piece->instance));
         if (materials)
-            put_id(materials, at + i, end - i, groups[piece->group].material->id);
+            put_id(materials, at + i, end - i, buckets[piece->bucket].material->id);
     }
 }
 

@@ -21,16 +21,16 @@
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/resolve.h"
 
-/* Which items are drawn now. */
+/* Which candidates are drawn now. */
 typedef enum e3d_choice {
-    E3D_ALL_ITEMS = 0,
-    E3D_SEEN_ITEMS,   /* what showed when it was last tried */
-    E3D_UNSEEN_ITEMS, /* the others */
+    E3D_ALL_CANDIDATES = 0,
+    E3D_SEEN_CANDIDATES,   /* what showed when it was last tried */
+    E3D_UNSEEN_CANDIDATES, /* the others */
 } e3d_choice;
 
 typedef struct e3d_round {
     e3d_choice choice;
-    int64_t first, end; /* items */
+    int64_t first, end; /* candidates */
     int tested;         /* against the kept tiles' depths */
     int finishes;       /* its tiles are shaded and resolved; the last round's only where more has come */
     int last;           /* lines, points and edges are drawn, too */
@@ -45,16 +45,16 @@ typedef struct e3d_context {
     e3d_draws *draws;
     e3d_view *view;
     uint8_t *marks;          /* of each instance */
-    const e3d_item *items;
-    int64_t item_count;
-    uint8_t *seen;           /* the history's, by e3d_item.unit */
+    const e3d_candidate *candidates;
+    int64_t candidate_count;
+    uint8_t *seen;           /* the history's, by e3d_candidate.number */
     e3d_tile_progress *tiles;
     e3d_visible_tile *kept;  /* NULL: one round */
     e3d_tile_depths *depths; /* of the tiles */
     e3d_round round;
-    const e3d_record *records[E3D_PASSES][E3D_MAX_THREADS];
+    const e3d_record *records[E3D_SETS][E3D_MAX_THREADS];
     const e3d_drawn_cluster *drawn[E3D_MAX_THREADS];
-    e3d_record_table tables[E3D_PASSES];
+    e3d_record_table tables[E3D_SETS];
     float unorm8[256]; /* values of 8-bit vertex and instance colours (R23) */
     e3d_output outputs[E3D_OUTPUTS]; /* by kind */
     e3d_line_style lines;

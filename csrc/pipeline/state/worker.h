@@ -11,20 +11,20 @@
 #include "pipeline/state/counts.h"
 #include "pipeline/state/records.h"
 #include "pipeline/store/blank.h"
-#include "pipeline/store/late.h"
+#include "pipeline/store/deferred.h"
 #include "pipeline/store/outputs.h"
-#include "pipeline/store/share.h"
+#include "pipeline/store/queue.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/spans.h"
 
 typedef struct e3d_tile_memory e3d_tile_memory;
 
 /* Records are of the scene, or of the edges of a wireframe. */
-enum { E3D_PASS_SCENE = 0, E3D_PASS_WIRE, E3D_PASSES };
+enum { E3D_SET_SCENE = 0, E3D_SET_EDGES, E3D_SETS };
 
 /* A thread: the memory of each stage, kept from frame to frame. */
 typedef struct e3d_worker {
-    e3d_record_set pass[E3D_PASSES];
+    e3d_record_set sets[E3D_SETS];
     e3d_fragment_set fragments;
     e3d_geometry_state geometry;
     e3d_tile_memory *tile;
@@ -36,11 +36,11 @@ typedef struct e3d_worker {
     e3d_outputs_state outputs;
     e3d_counters counters;
     e3d_spans_state spans;
-    e3d_late_state late;
+    e3d_deferred_state deferred;
     e3d_blank_state blank;
     int64_t lap; /* when the last stage of a tile ended (e3d_lap) */
     int failed;  /* out of memory */
-    e3d_share_state share;
+    e3d_queue_state queue;
 } e3d_worker;
 
 /* Adds to a stage's time what has passed since the thread's last lap. */

@@ -6,7 +6,7 @@
 #include "pipeline/store/blank.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
-#include "pipeline/store/share.h"
+#include "pipeline/store/queue.h"
 #include "pipeline/state/tile_state.h"
 #include "pipeline/pass/view.h"
 

@@ -72,16 +72,16 @@ static int add_slot(e3d_worker *worker, uint32_t id, uint32_t order)
     return 1;
 }
 
-static const e3d_record *record_of(const e3d_tile_job *job, int pass, uint32_t slot)
+static const e3d_record *record_of(const e3d_tile_job *job, int which, uint32_t slot)
 {
-    return e3d_record_at(&job->context->tables[pass], ((const uint32_t *)job->worker->slots.ids.data)[slot]);
+    return e3d_record_at(&job->context->tables[which], ((const uint32_t *)job->worker->slots.ids.data)[slot]);
 }
 
-static int run_block(e3d_tile_job *job, int pass, const e3d_bin_block *block, piece_action action)
+static int visit_block(e3d_tile_job *job, int which, const e3d_bin_block *block, piece_action action)
 {
     e3d_worker *worker = job->worker;
     for (uint32_t i = 0; i < block->count; i++) {
-        const e3d_record *record = e3d_record_at(&job->context->tables[pass], block->id[i]);
+        const e3d_record *record = e3d_record_at(&job->context->tables[which], block->id[i]);
         e3d_piece piece;
         if (!prepare_piece(job->context, record, &job->tile, (uint32_t)worker->slots.ids.count, &piece))
             continue;
@@ -91,15 +91,15 @@ static int run_block(e3d_tile_job *job, int pass, const e3d_bin_block *block, pi
     return 1;
 }
 
-static int run_bins(e3d_tile_job *job, int pass, piece_action action)
+static int visit_bins(e3d_tile_job *job, int which, piece_action action)
 {
     e3d_renderer *renderer = job->context->renderer;
     job->worker->slots.ids.count = 0;
     for (int32_t w = 0; w < renderer->threads; w++) {
-        const e3d_record_set *set = &renderer->workers[w]->pass[pass];
+        const e3d_record_set *set = &renderer->workers[w]->sets[which];
         const e3d_bin_block *block = e3d_first_records(set, &set->bins, job->number);
         for (; block; block = e3d_next_records(set, block))
-            if (!run_block(job, pass, block, action))
+            if (!visit_block(job, which, block, action))
                 return 0;
     }
     return 1;
@@ -123,7 +123,7 @@ static int act_visible(e3d_tile_job *job, const e3d_piece *piece)
 
 static int act_count(e3d_tile_job *job, const e3d_piece *piece)
 {
-    const e3d_record *record = record_of(job, E3D_PASS_SCENE, piece->slot);
+    const e3d_record *record = record_of(job, E3D_SET_SCENE, piece->slot);
     e3d_tile_memory *memory = job->worker->tile;
     e3d_tile_buffers buffers = buffers_of(job, memory->bound, memory->mark);
     if (record->meta & E3D_RECORD_FACE)
@@ -142,8 +142,8 @@ static void find_edge_limits(e3d_tile_job *job)
         if (visible->id[i] < 0)
             continue;
         const e3d_record *kept = e3d_plans(job->context, E3D_PLAN_SLOTS)
-                                     ? record_of(job, E3D_PASS_SCENE, (uint32_t)visible->id[i])
-                                     : e3d_record_at(&job->context->tables[E3D_PASS_SCENE], (uint32_t)visible->id[i]);
+                                     ? record_of(job, E3D_SET_SCENE, (uint32_t)visible->id[i])
+                                     : e3d_record_at(&job->context->tables[E3D_SET_SCENE], (uint32_t)visible->id[i]);
         float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
         float limit = visible->z[i] + (slope < range ? slope : range);
         if (limit < E3D_BEYOND_FAR)
@@ -209,7 +209,7 @@ static void clear_marks(e3d_tile_memory *memory)
 int e3d_slots_draw(e3d_tile_job *job)
 {
     clear_samples(job->worker->visible);
-    return run_bins(job, E3D_PASS_SCENE, e3d_plans(job->context, E3D_PLAN_AT_ONCE) ? act_forward : act_visible);
+    return visit_bins(job, E3D_SET_SCENE, e3d_plans(job->context, E3D_PLAN_AT_ONCE) ? act_forward : act_visible);
 }
 
 void e3d_slots_to_ids(const e3d_worker *worker, int32_t count)
@@ -229,13 +229,13 @@ int e3d_slots_mark(e3d_tile_job *job)
         find_edge_limits(job); /* while the slots are the scene's */
     if (counts) {
         clear_marks(job->worker->tile);
-        if (!run_bins(job, E3D_PASS_SCENE, act_count))
+        if (!visit_bins(job, E3D_SET_SCENE, act_count))
             return 0;
         e3d_resolve_overdraw(job->context, job->worker, &job->tile);
     }
     if (edges) {
         clear_marks(job->worker->tile);
-        if (!run_bins(job, E3D_PASS_WIRE, act_mark))
+        if (!visit_bins(job, E3D_SET_EDGES, act_mark))
             return 0;
         e3d_resolve_wire(job->context, job->worker, &job->tile);
     }

@@ -21,7 +21,7 @@ static int are_few(const e3d_context *context, int64_t tile)
     uint32_t count = 0;
     for (int32_t w = 0; w < context->renderer->threads; w++) {
         const e3d_worker *worker = context->renderer->workers[w];
-        const e3d_record_set *set = &worker->pass[E3D_PASS_SCENE];
+        const e3d_record_set *set = &worker->sets[E3D_SET_SCENE];
         if (e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK)
             return 0;
         for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
@@ -35,9 +35,9 @@ static int are_few(const e3d_context *context, int64_t tile)
 static int cover_records(const e3d_context *context, e3d_tile_memory *memory, int64_t tile)
 {
     for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_record_set *set = &context->renderer->workers[w]->pass[E3D_PASS_SCENE];
+        const e3d_record_set *set = &context->renderer->workers[w]->sets[E3D_SET_SCENE];
         for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
-            if (!context->kernels->cover_records(&memory->cover, &context->tables[E3D_PASS_SCENE], block->id, (int)block->count,
+            if (!context->kernels->cover_records(&memory->cover, &context->tables[E3D_SET_SCENE], block->id, (int)block->count,
                                                  &memory->shown))
                 return 0;
     }
@@ -85,7 +85,7 @@ static int show_met(const e3d_context *context, e3d_tile_memory *memory)
     e3d_shown_begin(&memory->shown, 1);
     int count = kernels->show_alone(&memory->cover, &memory->shown, numbers);
     sort_by_depth(memory, numbers, count, numbers);
-    return kernels->show_layers(&memory->cover, &context->tables[E3D_PASS_SCENE], numbers, count, &memory->layers, &memory->shown);
+    return kernels->show_layers(&memory->cover, &context->tables[E3D_SET_SCENE], numbers, count, &memory->layers, &memory->shown);
 }
 
 /* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */

@@ -18,11 +18,11 @@
 #include "pipeline/state/worker.h"
 #include "pipeline/store/blank.h"
 #include "pipeline/cull/depths.h"
-#include "pipeline/store/late.h"
+#include "pipeline/store/deferred.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/store/resolve.h"
 #include "pipeline/shade/shade.h"
-#include "pipeline/store/share.h"
+#include "pipeline/store/queue.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/spans.h"
 #include "pipeline/state/tile_state.h"
@@ -76,13 +76,13 @@ static int draw_pieces(e3d_tile_job *job)
 }
 
 /* Whether the last round drew what owns a run, a record or a cluster of fragments. */
-static int is_late(const e3d_context *context, uint32_t id)
+static int is_from_last_round(const e3d_context *context, uint32_t id)
 {
-    int bits = context->tables[E3D_PASS_SCENE].bits;
+    int bits = context->tables[E3D_SET_SCENE].bits;
     const e3d_worker *worker = context->renderer->workers[id & ((1u << bits) - 1)];
     uint32_t number = (id & (E3D_FRAGMENT_ID - 1)) >> bits;
     return id & E3D_FRAGMENT_ID ? number / E3D_CLUSTER_TRIANGLES >= worker->fragments.earlier_drawn
-                                : number >= worker->pass[E3D_PASS_SCENE].earlier_records;
+                                : number >= worker->sets[E3D_SET_SCENE].earlier_records;
 }
 
 /* Only the runs that are not shaded yet; the others' samples are counted. */
@@ -91,7 +91,7 @@ static int32_t leave_out_shaded(const e3d_tile_job *job, int32_t count)
     e3d_run *runs = job->worker->tile->runs;
     int32_t left = 0;
     for (int32_t i = 0; i < count; i++)
-        if (is_late(job->context, (uint32_t)runs[i].owner))
+        if (is_from_last_round(job->context, (uint32_t)runs[i].owner))
             runs[left++] = runs[i];
         else
             job->worker->counters.shaded += runs[i].length;
@@ -126,7 +126,7 @@ static int shade_visible(e3d_tile_job *job)
     e3d_context *context = job->context;
     e3d_worker *worker = job->worker;
     if (shows_pieces(job)) {
-        context->kernels->raster_settle(worker->visible, &context->tables[E3D_PASS_SCENE], 0);
+        context->kernels->raster_settle(worker->visible, &context->tables[E3D_SET_SCENE], 0);
         clear_outside(job);
         e3d_visible_show(context, worker, job->number);
         begin(job, worker->tile->shown.count == job->tile.width * job->tile.height);
@@ -163,7 +163,7 @@ static void raster_visible(e3d_tile_job *job)
     if (context->round.finishes)
         e3d_note_depths(context, visible, job->number);
     if (e3d_plans(context, E3D_PLAN_DEPTHS))
-        context->kernels->raster_settle(visible, &context->tables[E3D_PASS_SCENE], 1);
+        context->kernels->raster_settle(visible, &context->tables[E3D_SET_SCENE], 1);
 }
 
 static int draw_visible(e3d_tile_job *job)
@@ -247,7 +247,7 @@ static void tiles_work(void *argument, int number)
         if (number == 0)
             poll(context, worker->lap);
     }
-    e3d_late_rest(context, worker);
+    e3d_deferred_rest(context, worker);
     if (!atomic_load(&context->stop))
         e3d_blank_rest(context, worker);
     e3d_lap(worker, &worker->counters.ns_resolve);
@@ -257,6 +257,6 @@ static void tiles_work(void *argument, int number)
 void e3d_tiles(e3d_context *context)
 {
     e3d_tables_set(context);
-    e3d_share_tiles(context);
+    e3d_queue_tiles(context);
     e3d_pool_run(e3d_tile_count(context->view) > 2 ? context->renderer->threads : 1, tiles_work, context);
 }

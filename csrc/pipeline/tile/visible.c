@@ -31,7 +31,7 @@ static void draw_records(const e3d_context *context, e3d_visible_tile *visible, 
     const e3d_bin_block *next[E3D_MAX_THREADS];
     int32_t left = renderer->threads;
     for (int32_t w = 0; w < renderer->threads; w++) {
-        const e3d_record_set *set = &renderer->workers[w]->pass[E3D_PASS_SCENE];
+        const e3d_record_set *set = &renderer->workers[w]->sets[E3D_SET_SCENE];
         next[w] = e3d_first_records(set, earlier ? &set->earlier : &set->bins, tile_number);
     }
     while (left) {
@@ -39,8 +39,8 @@ static void draw_records(const e3d_context *context, e3d_visible_tile *visible, 
         for (int32_t w = 0; w < renderer->threads; w++) {
             if (!next[w])
                 continue;
-            context->kernels->raster_visible(visible, &context->tables[E3D_PASS_SCENE], next[w]->id, (int)next[w]->count);
-            next[w] = e3d_next_records(&renderer->workers[w]->pass[E3D_PASS_SCENE], next[w]);
+            context->kernels->raster_visible(visible, &context->tables[E3D_SET_SCENE], next[w]->id, (int)next[w]->count);
+            next[w] = e3d_next_records(&renderer->workers[w]->sets[E3D_SET_SCENE], next[w]);
             left += next[w] != NULL;
         }
     }
@@ -58,7 +58,7 @@ void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int
 static void show_records(const e3d_context *context, const e3d_record_set *set, e3d_worker *worker, int64_t tile_number)
 {
     for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile_number); block; block = e3d_next_records(set, block))
-        context->kernels->show_records(worker->visible, &context->tables[E3D_PASS_SCENE], block->id, (int)block->count,
+        context->kernels->show_records(worker->visible, &context->tables[E3D_SET_SCENE], block->id, (int)block->count,
                                        &worker->tile->shown);
 }
 
@@ -67,7 +67,7 @@ void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t ti
     e3d_shown_begin(&worker->tile->shown, 0);
     for (int32_t w = 0; w < context->renderer->threads; w++) {
         const e3d_worker *from = context->renderer->workers[w];
-        show_records(context, &from->pass[E3D_PASS_SCENE], worker, tile_number);
+        show_records(context, &from->sets[E3D_SET_SCENE], worker, tile_number);
         e3d_fragments_show(context, &from->fragments, worker, tile_number);
     }
 }

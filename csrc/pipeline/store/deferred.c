@@ -9,7 +9,7 @@
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/store/blank.h"
-#include "pipeline/store/late.h"
+#include "pipeline/store/deferred.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
 
@@ -30,14 +30,14 @@ static void write_some(const e3d_context *context, e3d_pixel_rows *rows, int som
     rows->count -= now.count;
 }
 
-void e3d_late_add(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_deferred_add(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
     e3d_tile_memory *memory = worker->tile;
-    write_some(context, &worker->late.drawn, E3D_TILE);
-    if (rows_of(context, tile, memory->rgba, E3D_TILE * sizeof(uint32_t), &worker->late.drawn)) {
+    write_some(context, &worker->deferred.drawn, E3D_TILE);
+    if (rows_of(context, tile, memory->rgba, E3D_TILE * sizeof(uint32_t), &worker->deferred.drawn)) {
         memory->rgba = memory->pixels[memory->rgba == memory->pixels[0]];
     } else {
-        worker->late.drawn.count = 0;
+        worker->deferred.drawn.count = 0;
         e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
     }
 }
@@ -49,28 +49,28 @@ static void add_blank(const e3d_context *context, e3d_worker *worker)
     for (int k = 0; k < E3D_OUTPUTS; k++)
         if (context->outputs[k].target)
             return;
-    if (blank->height && rows_of(context, blank, context->background.row, 0, &worker->late.blank))
+    if (blank->height && rows_of(context, blank, context->background.row, 0, &worker->deferred.blank))
         blank->height = 0;
     else
-        worker->late.blank.count = 0;
+        worker->deferred.blank.count = 0;
 }
 
-e3d_pixel_rows *e3d_late_rows(const e3d_context *context, e3d_worker *worker)
+e3d_pixel_rows *e3d_deferred_rows(const e3d_context *context, e3d_worker *worker)
 {
-    if (worker->late.drawn.count)
-        return &worker->late.drawn;
-    if (!worker->late.blank.count)
+    if (worker->deferred.drawn.count)
+        return &worker->deferred.drawn;
+    if (!worker->deferred.blank.count)
         add_blank(context, worker);
-    return worker->late.blank.count ? &worker->late.blank : NULL;
+    return worker->deferred.blank.count ? &worker->deferred.blank : NULL;
 }
 
-void e3d_late_some(const e3d_context *context, e3d_pixel_rows *rows)
+void e3d_deferred_some(const e3d_context *context, e3d_pixel_rows *rows)
 {
     write_some(context, rows, E3D_SOME_ROWS);
 }
 
-void e3d_late_rest(const e3d_context *context, e3d_worker *worker)
+void e3d_deferred_rest(const e3d_context *context, e3d_worker *worker)
 {
-    write_some(context, &worker->late.drawn, E3D_TILE);
-    write_some(context, &worker->late.blank, E3D_TILE);
+    write_some(context, &worker->deferred.drawn, E3D_TILE);
+    write_some(context, &worker->deferred.blank, E3D_TILE);
 }

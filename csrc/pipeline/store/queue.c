@@ -4,19 +4,19 @@
 #include "pipeline/state/context.h"
 #include "pipeline/state/renderer.h"
 #include "pipeline/state/worker.h"
-#include "pipeline/store/share.h"
+#include "pipeline/store/queue.h"
 #include "pipeline/pass/view.h"
 
-void e3d_share_tiles(e3d_context *context)
+void e3d_queue_tiles(e3d_context *context)
 {
     int64_t tiles = e3d_tile_count(context->view);
     int threads = context->renderer->threads;
     for (int w = 0; w < threads; w++)
         for (int what = 0; what < E3D_TO_DO; what++) {
             e3d_worker *worker = context->renderer->workers[w];
-            atomic_store(&worker->share.of[what].next, tiles * w / threads);
-            worker->share.of[what].end = tiles * (w + 1) / threads;
-            worker->share.taken[what] = (e3d_places){0, 0};
+            atomic_store(&worker->queue.ranges[what].next, tiles * w / threads);
+            worker->queue.ranges[what].end = tiles * (w + 1) / threads;
+            worker->queue.taken[what] = (e3d_taken_tiles){0, 0};
         }
 }
 
@@ -27,11 +27,11 @@ static int take_more(const e3d_renderer *renderer, e3d_worker *worker, e3d_to_do
     enum { PARTS = 16 };
     int threads = renderer->threads;
     for (int k = 0, owner = (int)worker->number; k < threads; k++, owner = owner + 1 < threads ? owner + 1 : 0) {
-        e3d_share *from = &renderer->workers[owner]->share.of[what];
+        e3d_tile_range *from = &renderer->workers[owner]->queue.ranges[what];
         int64_t left = from->end - atomic_load(&from->next), some = 1 + left / PARTS;
         int64_t first = left > 0 ? atomic_fetch_add(&from->next, some) : from->end;
         if (first < from->end) {
-            worker->share.taken[what] = (e3d_places){first, first + some < from->end ? first + some : from->end};
+            worker->queue.taken[what] = (e3d_taken_tiles){first, first + some < from->end ? first + some : from->end};
             return 1;
         }
     }
@@ -40,7 +40,7 @@ static int take_more(const e3d_renderer *renderer, e3d_worker *worker, e3d_to_do
 
 int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what)
 {
-    e3d_places *taken = &worker->share.taken[what];
+    e3d_taken_tiles *taken = &worker->queue.taken[what];
     if (taken->next == taken->end && !take_more(context->renderer, worker, what))
         return -1;
     return taken->next++;

@@ -1,6 +1,6 @@
 /* Which thread does what with which tile. */
-#ifndef E3D_SHARE_H
-#define E3D_SHARE_H
+#ifndef E3D_QUEUE_H
+#define E3D_QUEUE_H
 
 #include <stdatomic.h>
 #include <stdint.h>
@@ -12,25 +12,25 @@ typedef struct e3d_worker e3d_worker;
 typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
 
 /* Of the tiles, by their numbers: a worker's share, and what one has taken. */
-typedef struct e3d_share {
+typedef struct e3d_tile_range {
     atomic_llong next;
     int64_t end;
-} e3d_share;
+} e3d_tile_range;
 
-typedef struct e3d_places {
+typedef struct e3d_taken_tiles {
     int64_t next, end;
-} e3d_places;
+} e3d_taken_tiles;
 
 /* A thread's memory. Others take from its shares, too: the padding keeps them off the cache lines of the rest. */
-typedef struct e3d_share_state {
-    e3d_places taken[E3D_TO_DO];
+typedef struct e3d_queue_state {
+    e3d_taken_tiles taken[E3D_TO_DO];
     char padding[128];
-    e3d_share of[E3D_TO_DO];
+    e3d_tile_range ranges[E3D_TO_DO];
     char more_padding[128];
-} e3d_share_state;
+} e3d_queue_state;
 
 /* All tiles are to be done, each by one worker. */
-void e3d_share_tiles(e3d_context *context);
+void e3d_queue_tiles(e3d_context *context);
 
 /* The next tile that a worker may do this with; -1 when none is left. */
 int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/grow.h"
-#include "core/limits.h"
 #include "core/mesh.h"
 #include "core/pool.h"
 #include "e3d.h"

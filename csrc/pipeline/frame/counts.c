@@ -11,7 +11,6 @@
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/state/renderer.h"
-#include "pipeline/state/worker.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
 {

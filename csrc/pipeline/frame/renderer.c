@@ -6,13 +6,11 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
-#include "kernels/types/visible.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/geometry/fragments.h"
 #include "pipeline/cull/history.h"
-#include "pipeline/state/records.h"
 #include "pipeline/frame/rounds.h"
 #include "pipeline/state/renderer.h"
 #include "pipeline/state/tile_memory.h"
@@ -32,9 +30,8 @@ static e3d_worker *create_worker(uint32_t number)
     worker->number = number;
     worker->tile = memory;
     memset(worker->tile, 0, sizeof *worker->tile); /* padding is read, never used */
-    worker->tile->rgba = worker->tile->pixels[0];
-    for (int i = 0; i < E3D_TILE_SAMPLES + E3D_PAD; i++)
-        worker->tile->bound[i] = E3D_BEYOND_FAR;
+    worker->tile->pixels.rgba = worker->tile->pixels.of[0];
+    e3d_marks_init(&worker->tile->marks);
     return worker;
 }
 

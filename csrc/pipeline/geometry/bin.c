@@ -12,7 +12,6 @@
 #include "pipeline/geometry/fragments.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/records.h"
-#include "pipeline/state/renderer.h"
 #include "pipeline/state/worker.h"
 
 static void empty_bins(e3d_array *bins, int32_t tiles)

@@ -30,7 +30,6 @@
 #include "pipeline/state/records.h"
 #include "pipeline/geometry/setup.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/renderer.h"
 #include "pipeline/state/worker.h"
 
 enum { TASKS_A_THREAD = 64, MOST_CANDIDATES_A_TASK = 32, UNITS_A_TASK = 8 };

@@ -169,10 +169,10 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
         .looks_ahead = e3d_cpu_looks_ahead(),
-        .samples = context->frame->samples_axis > 1 ? &worker->tile->samples : NULL,
+        .samples = context->frame->samples_axis > 1 ? &worker->tile->pixels.samples : NULL,
         .meanwhile = deferred,
     };
-    context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->rgba);
+    context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->pixels.rgba);
     if (!deferred)
         e3d_blank_some(context, worker);
     else if (deferred->count == rows)
@@ -284,7 +284,7 @@ int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_ti
 
 static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs, int32_t count)
 {
-    e3d_show_runs(e3d_sort_runs(runs, worker->tile->spare, count), count, &worker->tile->shown);
+    e3d_show_runs(e3d_sort_runs(runs, worker->tile->runs.spare, count), count, &worker->tile->shown);
     return e3d_shade_shown(context, worker, tile);
 }
 
@@ -319,14 +319,14 @@ static int shade_blocks(const e3d_context *context, e3d_worker *worker, const e3
 {
     e3d_tile_memory *memory = worker->tile;
     int32_t number[BLOCKS] = {0}, next[BLOCKS], first = 0;
-    cut_runs(memory->runs, count, number, NULL);
+    cut_runs(memory->runs.rows, count, number, NULL);
     for (int b = 0; b < BLOCKS; b++) {
         next[b] = first;
         first += number[b];
     }
-    cut_runs(memory->runs, count, next, memory->blocks);
+    cut_runs(memory->runs.rows, count, next, memory->runs.blocks);
     for (int b = 0; b < BLOCKS; b++)
-        if (!shade_all(context, worker, tile, memory->blocks + next[b] - number[b], number[b]))
+        if (!shade_all(context, worker, tile, memory->runs.blocks + next[b] - number[b], number[b]))
             return 0;
     return 1;
 }
@@ -334,5 +334,5 @@ static int shade_blocks(const e3d_context *context, e3d_worker *worker, const e3
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
 {
     return e3d_plans(context, E3D_PLAN_LIGHT_BLOCKS) && count < MANY_RUNS ? shade_blocks(context, worker, tile, count)
-                                                   : shade_all(context, worker, tile, worker->tile->runs, count);
+                                                   : shade_all(context, worker, tile, worker->tile->runs.rows, count);
 }

@@ -15,7 +15,6 @@
 #include "pipeline/pass/plan.h"
 #include "pipeline/shade/surface.h"
 #include "pipeline/state/context.h"
-#include "pipeline/state/renderer.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
 

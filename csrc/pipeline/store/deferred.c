@@ -34,11 +34,11 @@ void e3d_deferred_add(const e3d_context *context, e3d_worker *worker, const e3d_
 {
     e3d_tile_memory *memory = worker->tile;
     write_some(context, &worker->deferred.drawn, E3D_TILE);
-    if (rows_of(context, tile, memory->rgba, E3D_TILE * sizeof(uint32_t), &worker->deferred.drawn)) {
-        memory->rgba = memory->pixels[memory->rgba == memory->pixels[0]];
+    if (rows_of(context, tile, memory->pixels.rgba, E3D_TILE * sizeof(uint32_t), &worker->deferred.drawn)) {
+        memory->pixels.rgba = memory->pixels.of[memory->pixels.rgba == memory->pixels.of[0]];
     } else {
         worker->deferred.drawn.count = 0;
-        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
+        e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), memory->pixels.rgba, E3D_TILE * sizeof(uint32_t));
     }
 }
 

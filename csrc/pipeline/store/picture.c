@@ -4,7 +4,6 @@
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
 #include "pipeline/state/context.h"
-#include "pipeline/state/renderer.h"
 #include "pipeline/store/picture.h"
 
 /* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */

@@ -74,30 +74,30 @@ void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker)
     if (!context->targets->color)
         return;
     if (context->frame->samples_axis > 1) {
-        fill_samples(context, &memory->samples);
+        fill_samples(context, &memory->pixels.samples);
         return;
     }
     for (int i = 0; i < E3D_TILE_SAMPLES; i++)
-        memory->rgba[i] = context->background.rgba;
+        memory->pixels.rgba[i] = context->background.rgba;
 }
 
 void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
 {
     e3d_outputs_again(context, worker, tile);
     if (context->targets->color)
-        e3d_read_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->rgba, E3D_TILE * sizeof(uint32_t));
+        e3d_read_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->pixels.rgba, E3D_TILE * sizeof(uint32_t));
 }
 
 /* A sample's colour, clamped, and whether it counts; or the pixel that it is. */
 static void set_sample(const e3d_context *context, e3d_tile_memory *memory, int at, const float sample[4], uint32_t rgba)
 {
     if (context->frame->samples_axis == 1) {
-        memory->rgba[at] = rgba;
+        memory->pixels.rgba[at] = rgba;
         return;
     }
     for (int k = 0; k < 3; k++)
-        memory->samples.color[k][at] = sample[k];
-    memory->samples.counts[at] = sample[3];
+        memory->pixels.samples.color[k][at] = sample[k];
+    memory->pixels.samples.counts[at] = sample[3];
 }
 
 void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker)
@@ -111,9 +111,9 @@ void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
 {
     e3d_tile_memory *memory = worker->tile;
     if (context->frame->samples_axis == 1)
-        context->kernels->put(&memory->batch, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), memory->rgba);
+        context->kernels->put(&memory->batch, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), memory->pixels.rgba);
     else
-        context->kernels->keep(&memory->batch, &memory->samples);
+        context->kernels->keep(&memory->batch, &memory->pixels.samples);
 }
 
 void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
@@ -121,7 +121,7 @@ void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const 
     e3d_tile_memory *memory = worker->tile;
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++) {
-            int at = y * E3D_TILE + x, count = memory->mark[at];
+            int at = y * E3D_TILE + x, count = memory->marks.count[at];
             if (!count)
                 continue;
             const uint8_t *c = E3D_OVERDRAW_RAMP[count < 15 ? count : 15];
@@ -136,7 +136,7 @@ void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_
     e3d_tile_memory *memory = worker->tile;
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++)
-            if (memory->mark[y * E3D_TILE + x])
+            if (memory->marks.count[y * E3D_TILE + x])
                 set_sample(context, memory, y * E3D_TILE + x, context->line.sample, context->line.rgba);
 }
 
@@ -145,8 +145,8 @@ static void average(const e3d_context *context, e3d_tile_memory *memory, const e
 {
     int axis = context->frame->samples_axis;
     for (int y = 0; y < tile->height / axis; y++)
-        context->kernels->average(&memory->samples, axis, y * axis, tile->width / axis, context->background.color, e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
-                                  memory->rgba + y * E3D_TILE);
+        context->kernels->average(&memory->pixels.samples, axis, y * axis, tile->width / axis, context->background.color, e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
+                                  memory->pixels.rgba + y * E3D_TILE);
 }
 
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)

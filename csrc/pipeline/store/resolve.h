@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/limits.h"
+#include "kernels/types/shading.h"
 
 /* What is drawn in one colour: a sample of it and whether it counts (e3d_samples), and a pixel of nothing else. */
 typedef struct e3d_ink {
@@ -18,6 +19,13 @@ typedef struct e3d_background {
     uint32_t rgba;
     uint32_t row[E3D_TILE]; /* of such pixels */
 } e3d_background;
+
+/* The colours of a tile. */
+typedef struct e3d_pixels_memory {
+    uint32_t of[2][E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel: this tile's, and the last one's; */
+    uint32_t *rgba;                             /* the former */
+    e3d_samples samples;                        /* of several */
+} e3d_pixels_memory;
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;

@@ -4,7 +4,6 @@
  */
 #include <math.h>
 
-#include "core/clock.h"
 #include "core/grow.h"
 #include "core/limits.h"
 #include "e3d.h"
@@ -22,6 +21,12 @@
 #include "pipeline/store/resolve.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/tile/slots.h"
+
+void e3d_marks_init(e3d_marks_memory *marks)
+{
+    for (int i = 0; i < E3D_TILE_SAMPLES + E3D_PAD; i++)
+        marks->bound[i] = E3D_BEYOND_FAR;
+}
 
 void e3d_slots_free(e3d_slots_state *slots)
 {
@@ -125,7 +130,7 @@ static int act_count(e3d_tile_job *job, const e3d_piece *piece)
 {
     const e3d_record *record = record_of(job, E3D_SET_SCENE, piece->slot);
     e3d_tile_memory *memory = job->worker->tile;
-    e3d_tile_buffers buffers = buffers_of(job, memory->bound, memory->mark);
+    e3d_tile_buffers buffers = buffers_of(job, memory->marks.bound, memory->marks.count);
     if (record->meta & E3D_RECORD_FACE)
         job->context->kernels->raster_count(piece, &buffers);
     return 1;
@@ -138,7 +143,7 @@ static void find_edge_limits(e3d_tile_job *job)
     const e3d_visible_tile *visible = job->worker->visible;
     float reach = (float)job->context->lines.reach * (1.0f / 256.0f) + 0.5f;
     for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
-        memory->edge_limit[i] = E3D_BEYOND_FAR;
+        memory->marks.edge_limit[i] = E3D_BEYOND_FAR;
         if (visible->id[i] < 0)
             continue;
         const e3d_record *kept = e3d_plans(job->context, E3D_PLAN_SLOTS)
@@ -147,15 +152,15 @@ static void find_edge_limits(e3d_tile_job *job)
         float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
         float limit = visible->z[i] + (slope < range ? slope : range);
         if (limit < E3D_BEYOND_FAR)
-            memory->edge_limit[i] = limit;
+            memory->marks.edge_limit[i] = limit;
     }
 }
 
 static int act_mark(e3d_tile_job *job, const e3d_piece *piece)
 {
     e3d_tile_memory *memory = job->worker->tile;
-    float *limit = e3d_plans(job->context, E3D_PLAN_EDGE_DEPTHS) ? memory->edge_limit : memory->bound;
-    e3d_tile_buffers buffers = buffers_of(job, limit, memory->mark);
+    float *limit = e3d_plans(job->context, E3D_PLAN_EDGE_DEPTHS) ? memory->marks.edge_limit : memory->marks.bound;
+    e3d_tile_buffers buffers = buffers_of(job, limit, memory->marks.count);
     e3d_piece marked = *piece;
     marked.slot = 1;
     job->context->kernels->raster_mark(&marked, &buffers);
@@ -172,7 +177,7 @@ static int32_t runs_of_slot(const e3d_worker *worker, int32_t slot, const e3d_bo
             while (x <= box->x1 && worker->visible->id[y * E3D_TILE + x] == slot)
                 x++;
             if (x > first)
-                memory->runs[count++] = (e3d_run){id, (uint16_t)(y * E3D_TILE + first),
+                memory->runs.rows[count++] = (e3d_run){id, (uint16_t)(y * E3D_TILE + first),
                                                   (uint16_t)(x - first)};
         }
     return count;
@@ -203,7 +208,7 @@ static void clear_samples(e3d_visible_tile *visible)
 static void clear_marks(e3d_tile_memory *memory)
 {
     for (int i = 0; i < E3D_TILE_SAMPLES; i++)
-        memory->mark[i] = 0;
+        memory->marks.count[i] = 0;
 }
 
 int e3d_slots_draw(e3d_tile_job *job)
@@ -214,7 +219,7 @@ int e3d_slots_draw(e3d_tile_job *job)
 
 void e3d_slots_to_ids(const e3d_worker *worker, int32_t count)
 {
-    e3d_run *runs = worker->tile->runs;
+    e3d_run *runs = worker->tile->runs.rows;
     for (int32_t i = 0; i < count; i++)
         runs[i].owner = ((const int32_t *)worker->slots.ids.data)[runs[i].owner];
 }

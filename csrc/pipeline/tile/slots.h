@@ -3,6 +3,7 @@
 #define E3D_SLOTS_H
 
 #include "core/grow.h"
+#include "core/limits.h"
 #include "pipeline/state/tile_state.h"
 #include "pipeline/pass/view.h"
 
@@ -14,6 +15,14 @@ typedef struct e3d_slots_state {
     e3d_array ids, orders;
 } e3d_slots_state;
 
+/* Of each sample of a tile: what is counted or marked beside the visible surface. */
+typedef struct e3d_marks_memory {
+    float bound[E3D_TILE_SAMPLES + E3D_PAD];      /* E3D_BEYOND_FAR everywhere */
+    float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* what an edge's depth must be less than */
+    int32_t count[E3D_TILE_SAMPLES + E3D_PAD];    /* overdraw, then edges */
+} e3d_marks_memory;
+
+void e3d_marks_init(e3d_marks_memory *marks);
 void e3d_slots_free(e3d_slots_state *slots);
 
 /* A tile that a thread draws. */

@@ -10,7 +10,6 @@
 #include "pipeline/state/context.h"
 #include "pipeline/state/records.h"
 #include "pipeline/shade/runs.h"
-#include "pipeline/state/renderer.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/tile/spans.h"
@@ -37,7 +36,7 @@ static int cover_records(const e3d_context *context, e3d_tile_memory *memory, in
     for (int32_t w = 0; w < context->renderer->threads; w++) {
         const e3d_record_set *set = &context->renderer->workers[w]->sets[E3D_SET_SCENE];
         for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
-            if (!context->kernels->cover_records(&memory->cover, &context->tables[E3D_SET_SCENE], block->id, (int)block->count,
+            if (!context->kernels->cover_records(&memory->spans.cover, &context->tables[E3D_SET_SCENE], block->id, (int)block->count,
                                                  &memory->shown))
                 return 0;
     }
@@ -46,7 +45,7 @@ static int cover_records(const e3d_context *context, e3d_tile_memory *memory, in
 
 static void begin(e3d_tile_memory *memory, const e3d_tile *tile)
 {
-    e3d_cover *cover = &memory->cover;
+    e3d_cover *cover = &memory->spans.cover;
     cover->x = tile->x;
     cover->y = tile->y;
     cover->width = tile->width;
@@ -69,10 +68,10 @@ static int meet(const e3d_cover *cover)
 static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int count, uint16_t *sorted)
 {
     for (int i = 0; i < count; i++) {
-        memory->runs[i].sample = numbers[i];
-        memcpy(&memory->runs[i].owner, &memory->cover.record[numbers[i]].record->zmin, sizeof(float));
+        memory->runs.rows[i].sample = numbers[i];
+        memcpy(&memory->runs.rows[i].owner, &memory->spans.cover.record[numbers[i]].record->zmin, sizeof(float));
     }
-    const e3d_run *runs = e3d_sort_runs(memory->runs, memory->spare, count);
+    const e3d_run *runs = e3d_sort_runs(memory->runs.rows, memory->runs.spare, count);
     for (int i = 0; i < count; i++)
         sorted[i] = runs[i].sample;
 }
@@ -83,9 +82,9 @@ static int show_met(const e3d_context *context, e3d_tile_memory *memory)
     const e3d_kernels *kernels = context->kernels;
     uint16_t numbers[E3D_MOST_COVERING];
     e3d_shown_begin(&memory->shown, 1);
-    int count = kernels->show_alone(&memory->cover, &memory->shown, numbers);
+    int count = kernels->show_alone(&memory->spans.cover, &memory->shown, numbers);
     sort_by_depth(memory, numbers, count, numbers);
-    return kernels->show_layers(&memory->cover, &context->tables[E3D_SET_SCENE], numbers, count, &memory->layers, &memory->shown);
+    return kernels->show_layers(&memory->spans.cover, &context->tables[E3D_SET_SCENE], numbers, count, &memory->spans.layers, &memory->shown);
 }
 
 /* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
@@ -106,7 +105,7 @@ int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_til
     if (!are_few(context, number))
         return 0;
     begin(memory, tile);
-    int shows = cover_records(context, memory, number) && (!meet(&memory->cover) || show_met(context, memory));
+    int shows = cover_records(context, memory, number) && (!meet(&memory->spans.cover) || show_met(context, memory));
     judge(&worker->spans, shows);
     return shows;
 }

@@ -13,6 +13,12 @@ typedef struct e3d_spans_state {
     int32_t without, left;
 } e3d_spans_state;
 
+/* A thread's memory, of one tile. */
+typedef struct e3d_spans_memory {
+    _Alignas(64) e3d_cover cover;
+    _Alignas(64) e3d_layers layers;
+} e3d_spans_memory;
+
 /* Makes the list of what shows of few records; 0 where they are too large for that, or meet too much. */
 int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number);
 /* Whether they left no gap. */

@@ -2,12 +2,10 @@
 #include <math.h>
 
 #include "core/clock.h"
-#include "core/grow.h"
 #include "core/limits.h"
 #include "core/pool.h"
 #include "core/stream.h"
 #include "e3d.h"
-#include "kernels/coverage.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
@@ -40,7 +38,7 @@ static int is_again(const e3d_tile_job *job) { return job->state == E3D_TILE_DRA
 static int32_t find_runs(const e3d_tile_job *job, int *gaps)
 {
     return job->context->kernels->find_runs(job->worker->visible, job->tile.width, job->tile.height,
-                                            job->worker->tile->runs, gaps);
+                                            job->worker->tile->runs.rows, gaps);
 }
 
 /* What the tile's samples are before they are shaded: anything, where all of them will be. */
@@ -88,7 +86,7 @@ static int is_from_last_round(const e3d_context *context, uint32_t id)
 /* Only the runs that are not shaded yet; the others' samples are counted. */
 static int32_t leave_out_shaded(const e3d_tile_job *job, int32_t count)
 {
-    e3d_run *runs = job->worker->tile->runs;
+    e3d_run *runs = job->worker->tile->runs.rows;
     int32_t left = 0;
     for (int32_t i = 0; i < count; i++)
         if (is_from_last_round(job->context, (uint32_t)runs[i].owner))
@@ -149,7 +147,7 @@ static int shows_spans(const e3d_tile_job *job)
 
 static int shade_spans(e3d_tile_job *job)
 {
-    begin(job, e3d_spans_cover_all(&job->worker->tile->cover));
+    begin(job, e3d_spans_cover_all(&job->worker->tile->spans.cover));
     return e3d_shade_shown(job->context, job->worker, &job->tile);
 }
 

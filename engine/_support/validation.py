@@ -1,8 +1,8 @@
-"""Attributes that check what is assigned to them and count the assignments; owners without others.
+"""Checks of what callers give, and attributes that check what is assigned to them.
 
-In: whatever a caller assigns. Out: the checked value; the owner's ``version`` grows, which tells
-the renderer to renew what it made of the owner. Used by cameras, lights and instances. What a
-`Closed` class does not declare cannot be assigned at all.
+In: whatever a caller gives. Out: the checked value, or an `InvalidArgumentError`. When a
+`CheckedAttribute` is assigned, its owner's ``version`` grows, which tells the renderer to renew
+what it made of the owner. What a `Closed` class does not declare cannot be assigned at all.
 """
 
 from __future__ import annotations
@@ -68,26 +68,6 @@ def freeze(array: np.ndarray) -> np.ndarray:
 def _declared(kind: type) -> frozenset[str]:
     """The names that a class and its bases annotate."""
     return frozenset().union(*(getattr(base, "__annotations__", {}) for base in kind.__mro__))
-
-
-_PLACES = {"position", "translation", "location", "pose", "rotation", "euler", "eye", "target"}
-
-
-class PlacedByNode(Closed):
-    """Base of lights and cameras, which have no place of their own: a node gives them theirs."""
-
-    if not TYPE_CHECKING:  # to a type checker, __init__ says what there is
-
-        def __new__(cls, *args, **kwargs):
-            for name in _PLACES.intersection(kwargs):
-                thing = "light" if cls.__name__.endswith("Light") else "camera"
-                how = "pose=engine3d.look_at(eye, target)"
-                how = how if thing == "camera" else "translation=(x, y, z)"
-                raise TypeError(
-                    f"{cls.__name__}() takes no {name!r}: it is placed by its node, "
-                    f"scene.add({thing}, {how})"
-                )
-            return super().__new__(cls)
 
 
 class CheckedAttribute(Generic[Given, Kept]):

@@ -6,7 +6,7 @@ is called. A format is one module of this package that defines ``READERS``; `reg
 
 from __future__ import annotations
 
-from .companions import companion_texture
+from .companion_textures import companion_texture
 from .documents import CameraRecord, Document, LightRecord
 from .loading import load_document, load_mesh, load_texture
 from .registry import formats

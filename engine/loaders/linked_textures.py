@@ -11,7 +11,7 @@ import os
 from ..errors import Engine3DError
 from ..materials.material import Material
 from ..materials.textures import Texture
-from .companions import companion_texture
+from .companion_textures import companion_texture
 from .linked_files import LinkedFileError, LinkedFiles
 from .sources import Source
 from .text import shown

@@ -13,10 +13,10 @@ from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
 from .documents import Document, DocumentObject
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
+from .ply_body import open_body
 from .ply_faces import PlyFaces, read_edges, read_faces, read_strips
 from .ply_header import is_ply, read_header
 from .ply_materials import material_ids, read_materials
-from .ply_stores import open_store
 from .ply_tables import PlyTable, read_tables
 from .ply_vertices import PlyVertices, read_vertices
 from .registry import Reader
@@ -41,7 +41,7 @@ def read_ply(source: Source, split: bool = False) -> Document:
     """
     warnings = WarningList(source.path)
     header = read_header(source, warnings)
-    tables = read_tables(source, header, open_store(source, header))
+    tables = read_tables(source, header, open_body(source, header))
     table = tables.get("vertex")
     if table is None or not len(table):
         raise FileFormatError("no vertices in this PLY file", source.path)

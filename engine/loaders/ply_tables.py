@@ -1,6 +1,6 @@
 """The rows of a PLY file's body as columns.
 
-In: the store of a file's numbers, and the elements that its header announces. Out: a `PlyTable` for
+In: the body of a file, and the elements that its header announces. Out: a `PlyTable` for
 each element that is asked for. Rows whose lists all have the length of those in the first row lie
 at equal distances and are read as they lie; others are walked along once. No row is believed in
 before the file was found long enough for it.
@@ -14,15 +14,15 @@ import numpy as np
 
 from .._native import loaders as native
 from ..errors import FileFormatError
-from .ply_header import PlyElement, PlyHeader
-from .ply_stores import (
+from .ply_body import (
     BadListError,
-    BinaryStore,
+    BinaryBody,
     ListInRow,
     ShortBodyError,
-    TextStore,
+    TextBody,
     WalkedRows,
 )
+from .ply_header import PlyElement, PlyHeader
 from .sources import Source
 
 
@@ -76,12 +76,12 @@ class PlyTable:
     element : PlyElement
     """
 
-    def __init__(self, element: PlyElement, store, layout: _Layout, path: str) -> None:
+    def __init__(self, element: PlyElement, body, layout: _Layout, path: str) -> None:
         self.element = element
-        self._store = store
+        self._body = body
         self._layout = layout
         self._path = path
-        self._places = _places_in_row(element, store)
+        self._places = _places_in_row(element, body)
 
     def __len__(self) -> int:
         return self._layout.count
@@ -102,10 +102,10 @@ class PlyTable:
         layout = self._layout
         if layout.stride is not None:
             first = self._first_place(after, offset)
-            return self._store.column(first, len(self), layout.stride, code)
+            return self._body.column(first, len(self), layout.stride, code)
         if after == 0:
-            return self._store.numbers(layout.rows.places + offset, code)
-        return self._store.numbers(self._list_ends(after - 1) + offset, code)
+            return self._body.numbers(layout.rows.places + offset, code)
+        return self._body.numbers(self._list_ends(after - 1) + offset, code)
 
     def columns(self, *names: str) -> np.ndarray:
         """Return several such properties beside each other: (N, len(names)).
@@ -123,7 +123,7 @@ class PlyTable:
     def _block(self, names: tuple[str, ...]) -> np.ndarray | None:
         """Columns that lie beside each other in rows of one shape, copied at once."""
         code, layout = self.type(names[0]), self._layout
-        size = self._store.size(code)
+        size = self._body.size(code)
         after, offset = self._places[names[0]]
         expected = [(after, offset + size * index) for index in range(len(names))]
         if (
@@ -142,7 +142,7 @@ class PlyTable:
         layout = self._layout
         sizes = layout.rows.sizes[:, number]
         if layout.stride is None:
-            return PlyList(sizes, native.frozen(self._store.lists(layout.rows, number, code)))
+            return PlyList(sizes, native.frozen(self._body.lists(layout.rows, number, code)))
         values, length = layout.items, int(sizes[0])
         if values is None:
             shape = (len(self), length)
@@ -153,7 +153,7 @@ class PlyTable:
     def _rows(self, start: int, shape: tuple[int, int], code: str) -> np.ndarray:
         """Neighbouring numbers of all rows, of one shape; those of the first row at ``start``."""
         place, stride = int(self._layout.rows.places[0]), self._layout.stride
-        return native.frozen(self._store.rows(place, start - place, shape, stride, code))
+        return native.frozen(self._body.rows(place, start - place, shape, stride, code))
 
     def fail(self, row: int, message: str):
         """Raise an error about a row."""
@@ -163,9 +163,9 @@ class PlyTable:
         else:
             place = int(layout.rows.places[0]) + row * layout.stride
         raise FileFormatError(
-            f"{self.element.name} {row}{self._store.describe(place)}: {message}",
+            f"{self.element.name} {row}{self._body.describe(place)}: {message}",
             self._path,
-            self._store.line(place),
+            self._body.line(place),
         )
 
     def _first_place(self, after: int, offset: int) -> int:
@@ -174,13 +174,13 @@ class PlyTable:
 
     def _list_ends(self, number: int) -> np.ndarray:
         lists = [p for p in self.element.properties.values() if p.count_type is not None]
-        size = self._store.size(lists[number].type)
+        size = self._body.size(lists[number].type)
         rows = self._layout.rows
         return rows.starts[:, number] + rows.sizes[:, number] * size
 
 
 def read_tables(
-    source: Source, header: PlyHeader, store: BinaryStore | TextStore
+    source: Source, header: PlyHeader, body: BinaryBody | TextBody
 ) -> dict[str, PlyTable]:
     """Find the rows of all elements.
 
@@ -190,91 +190,91 @@ def read_tables(
         The file ends before what is announced, or a list has an impossible length.
     """
     tables = {}
-    place = store.start
+    place = body.start
     for name, element in header.elements.items():
-        layout = _find_rows(source, element, store, place)
-        tables[name] = PlyTable(element, store, layout, source.path)
+        layout = _find_rows(source, element, body, place)
+        tables[name] = PlyTable(element, body, layout, source.path)
         place = layout.end
-    if place < store.end and not header.byte_order:
+    if place < body.end and not header.byte_order:
         # Rows of another width than announced: everything after the first would be wrong.
         raise FileFormatError(
-            f"{store.end - place} numbers more than the header announces",
+            f"{body.end - place} numbers more than the header announces",
             source.path,
-            store.line(place),
+            body.line(place),
         )
     return tables
 
 
-def _places_in_row(element: PlyElement, store) -> dict[str, tuple[int, int]]:
+def _places_in_row(element: PlyElement, body) -> dict[str, tuple[int, int]]:
     """For each number the lists before it and its distance from the last; for lists, which one."""
     places, lists, offset = {}, 0, 0
     for name, item in element.properties.items():
         places[name] = (lists, offset)
         if item.count_type is None:
-            offset += store.size(item.type)
+            offset += body.size(item.type)
         else:
             lists, offset = lists + 1, 0
     return places
 
 
-def _find_rows(source: Source, element: PlyElement, store, start: int) -> _Layout:
-    lists, tail = _lists(element, store)
-    least = sum(before + store.size(count_type) for before, count_type, _ in lists) + tail
+def _find_rows(source: Source, element: PlyElement, body, start: int) -> _Layout:
+    lists, tail = _lists(element, body)
+    least = sum(before + body.size(count_type) for before, count_type, _ in lists) + tail
     count = element.count if least else 0
-    if count * least > store.end - start:
-        _fail_short(source, element, store)
+    if count * least > body.end - start:
+        _fail_short(source, element, body)
     try:
-        first = store.walk(lists, tail, start, min(count, 1))
+        first = body.walk(lists, tail, start, min(count, 1))
         stride = first.end - start
-        fits = count * stride <= store.end - start
+        fits = count * stride <= body.end - start
         if count and fits:
             found = _Layout(count, stride, first, start + stride * count)
             if len(element.properties) == 1 and lists:
                 _, *types = lists[0]
-                items = store.even_lists(start, count, *types, int(first.sizes[0, 0]))
+                items = body.even_lists(start, count, *types, int(first.sizes[0, 0]))
                 if items is not None:
                     return found._replace(items=items)
-            elif _is_uniform(element, store, first, stride, count):
+            elif _is_uniform(element, body, first, stride, count):
                 return found
-        rows = store.walk(lists, tail, start, count)
+        rows = body.walk(lists, tail, start, count)
     except ShortBodyError:
-        _fail_short(source, element, store)
+        _fail_short(source, element, body)
     except BadListError as error:
         raise FileFormatError(
-            f"{element.name} {error.row}{store.describe(error.place)}: "
+            f"{element.name} {error.row}{body.describe(error.place)}: "
             "the length of a list must be an integer from 0 on",
             source.path,
-            store.line(error.place),
+            body.line(error.place),
         ) from None
     return _Layout(count, None, rows, rows.end)
 
 
-def _lists(element: PlyElement, store) -> tuple[list[ListInRow], int]:
+def _lists(element: PlyElement, body) -> tuple[list[ListInRow], int]:
     """The lists of a row, and the number of places behind the last."""
     lists, before = [], 0
     for item in element.properties.values():
         if item.count_type is None:
-            before += store.size(item.type)
+            before += body.size(item.type)
         else:
             lists.append((before, item.count_type, item.type))
             before = 0
     return lists, before
 
 
-def _is_uniform(element: PlyElement, store, first: WalkedRows, stride: int, count: int) -> bool:
+def _is_uniform(element: PlyElement, body, first: WalkedRows, stride: int, count: int) -> bool:
     """Whether the lists of all rows have the lengths of those in the first."""
     lists = [p for p in element.properties.values() if p.count_type is not None]
     for item, begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
         place = int(first.places[0])
-        offset = int(begin) - store.size(item.count_type) - place
-        if not store.lengths_are(place, offset, stride, count, item.count_type, int(size)):
+        offset = int(begin) - body.size(item.count_type) - place
+        if not body.lengths_are(place, offset, stride, count, item.count_type, int(size)):
             return False
     return True
 
 
-def _fail_short(source: Source, element: PlyElement, store):
+def _fail_short(source: Source, element: PlyElement, body):
     raise FileFormatError(
         f"the file ends before the {element.count} rows of element {element.name!r} do",
         source.path,
-        store.line(store.end),
+        body.line(body.end),
     )

@@ -19,7 +19,6 @@ from .._support.validation import (
     CheckedAttribute,
     NumberAttribute,
     OptionalNumberAttribute,
-    PlacedByNode,
     VectorAttribute,
     finite,
     matrix4,
@@ -27,6 +26,7 @@ from .._support.validation import (
     positive,
 )
 from ..errors import InvalidArgumentError
+from ._placed_by_node import PlacedByNode
 
 
 def _angle(value: float, what: str) -> float:

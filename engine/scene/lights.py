@@ -18,7 +18,6 @@ from .._support.validation import (
     CheckedAttribute,
     ColorAttribute,
     NumberAttribute,
-    PlacedByNode,
     VectorAttribute,
     not_negative,
     one_of,
@@ -27,6 +26,7 @@ from .._support.validation import (
 from ..choices import ColorLike, Falloff
 from ..errors import InvalidArgumentError
 from ..materials.colors import check_color
+from ._placed_by_node import PlacedByNode
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 

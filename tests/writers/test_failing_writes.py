@@ -174,7 +174,7 @@ STOPPED = """
 import os, signal, sys
 if signal.getsignal(int(sys.argv[1])) == signal.SIG_IGN:  # the tests run under nohup
     signal.signal(int(sys.argv[1]), signal.SIG_DFL)
-from engine3d import atomic_write
+from engine3d.files import atomic_write
 from engine3d.cli import main
 finish = atomic_write._Part.finish
 def stop(part):

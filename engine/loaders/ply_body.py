@@ -64,7 +64,7 @@ class BadListError(Exception):
         self.row, self.place = row, place
 
 
-class BinaryStore:
+class BinaryBody:
     """The numbers of a binary body.
 
     Attributes
@@ -191,7 +191,7 @@ class BinaryStore:
         return f" at byte {place}"
 
 
-class TextStore:
+class TextBody:
     """The numbers of a text body; comments may stand between its lines."""
 
     def __init__(self, source: Source, header: PlyHeader) -> None:
@@ -266,14 +266,14 @@ class TextStore:
         return self._first_line + feeds + returns - pairs
 
 
-def open_store(source: Source, header: PlyHeader) -> BinaryStore | TextStore:
-    """Return the store for a file's body."""
+def open_body(source: Source, header: PlyHeader) -> BinaryBody | TextBody:
+    """Return the body of a file, to get numbers from."""
     if not header.byte_order:
-        return TextStore(source, header)
+        return TextBody(source, header)
     if not all(map(_is_read_once, header.elements.values())):
         # Everything at once is faster than from the file several times.
         _ = source.data
-    return BinaryStore(source, header)
+    return BinaryBody(source, header)
 
 
 def _is_read_once(element: PlyElement) -> bool:

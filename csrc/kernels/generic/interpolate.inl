@@ -1,7 +1,7 @@
 /* interpolate: attributes of a batch of samples (R19-R26).
  *
- * The surfaces of one vector's samples stand side by side, in order: a word of theirs is one load and one permutation, or one
- * broadcast where all samples are of one surface.
+ * Samples come in the order of their surfaces, so the surfaces of one vector lie side by side: each of their numbers is one load
+ * and one permutation, or one broadcast where all samples are of one surface, rather than a gather.
  */
 #ifndef E3D_KERNELS_INTERPOLATE_INL
 #define E3D_KERNELS_INTERPOLATE_INL
@@ -11,7 +11,7 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 
-/* R19: how far samples are from their surfaces' base, and the corners' weights, in proportion to the barycentrics. */
+/* R19: each sample's distance from the base of its surface, the weights of the corners, and 1 over their sum. */
 typedef struct weight_lanes {
     vf32 dx, dy, w[3], r;
 } weight_lanes;
@@ -30,7 +30,7 @@ static ALWAYS_INLINE void interpolate_weights(const e3d_surfaces *s, const eleme
     }
 }
 
-/* The weighted sum of one component; `rows`: of three corners. */
+/* The weighted sum of one component, whose values at the three corners are in `rows`. */
 static ALWAYS_INLINE vf32 weighted_sum(const e3d_surface_floats rows[3], const element_lanes *lanes, int same, const vf32 w[3])
 {
     vf32 corner[3];
@@ -38,10 +38,10 @@ static ALWAYS_INLINE vf32 weighted_sum(const e3d_surface_floats rows[3], const e
     return dot_three(w, corner);
 }
 
-/* R22: what has no usable length becomes zero, or no number. */
+/* R22: makes v a unit vector; one without a usable length becomes 0 or NaN. */
 static inline void unit_length(vf32 v[3])
 {
-    vf32 length2 = v_max(v_setf(E3D_LEAST_LENGTH2), dot_three(v, v)); /* of no number: no number */
+    vf32 length2 = v_max(v_setf(E3D_LEAST_LENGTH2), dot_three(v, v)); /* a NaN stays one */
     vf32 inverse = v_div(v_setf(1.0f), v_sqrt(length2));
     for (int k = 0; k < 3; k++)
         v[k] = v_mul(v[k], inverse);
@@ -49,14 +49,14 @@ static inline void unit_length(vf32 v[3])
 
 /* ---- stages: each over all vectors of a batch ---- */
 
-/* Of one vector: its first sample, the surfaces from that one's on, and whether all samples are of the same one. */
+/* One vector of samples: its first, the surfaces that it picks from, and whether all samples are of one surface. */
 typedef struct sample_vector {
     int i, same;
     element_lanes elements;
     const e3d_surfaces *s;
 } sample_vector;
 
-/* `how`: what the stage is told. */
+/* Runs a stage, whose argument is `how`, over a batch. It is inlined twice, so that `same` is a constant in one of the copies. */
 static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surfaces,
                                       void (*stage)(e3d_batch *, const sample_vector *, const void *), const void *how)
 {
@@ -65,7 +65,7 @@ static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surf
         v.s = surfaces_from(surfaces, &v.elements);
         v.same = v.elements.same;
         if (v.same) {
-            v.same = 1; /* known when compiled */
+            v.same = 1; /* a constant for the compiler */
             stage(batch, &v, how);
         } else {
             stage(batch, &v, how);
@@ -88,7 +88,7 @@ static ALWAYS_INLINE void keep_weights(e3d_batch *batch, int i, const weight_lan
     v_storef(batch->r + i, weights->r);
 }
 
-/* R26: twice the logarithm is read off the bits of a float. */
+/* R26: the bits of a float are its logarithm, straight between powers of two. */
 static ALWAYS_INLINE void interpolate_level(e3d_batch *batch, const weight_lanes *weights, const sample_vector *v)
 {
     vf32 along[2], down[2], r2 = v_mul(weights->r, weights->r);
@@ -116,7 +116,7 @@ static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], 
         v_storef(batch->normal[c] + v->i, n[c]);
 }
 
-/* What nothing needs is not divided: quotients and roots take long. */
+/* Divisions and roots have a long latency, so r is only found if something needs it. */
 static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vector *v, const void *how)
 {
     int wanted = *(const int *)how;
@@ -165,7 +165,7 @@ static ALWAYS_INLINE void stage_instance_color(e3d_batch *batch, const sample_ve
     }
 }
 
-/* Of a constant. */
+/* R24, of a constant base colour: color = base * tint */
 static ALWAYS_INLINE void stage_instance_base(e3d_batch *batch, const sample_vector *v, const void *how)
 {
     const float *base = how;

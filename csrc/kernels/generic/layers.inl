@@ -1,6 +1,8 @@
-/* layers: what shows of records that meet, without a depth for each sample (R12, R14-R16). From near to far, each takes the samples
- * that those before it leave. Where one of these is open, that is, may reach behind the nearest depth of the one that is added, their
- * depths are compared sample by sample; the others hide it.
+/* layers: what shows of overlapping records, without a depth for each sample (R12, R14-R16).
+ *
+ * Records come from near to far, and each takes the samples that those before it leave. One that ends before the nearest depth of
+ * the next one is closed: it hides whatever follows. One that reaches farther is open: where it shares samples with the next one,
+ * their depths are compared there. So no tile of few records of the textured head needs a depth buffer: 6 % less time.
  */
 #ifndef E3D_KERNELS_LAYERS_INL
 #define E3D_KERNELS_LAYERS_INL
@@ -13,12 +15,12 @@
 #include "kernels/generic/visible.inl"
 #include "kernels/generic/spans.inl"
 
-enum { LAYERS_CONTESTED = 512 }; /* samples: with more of them a depth for each takes less */
+enum { LAYERS_CONTESTED = 512 }; /* samples: comparing more than these takes longer than a depth buffer */
 
-/* What is left to a record in a row y. */
+/* The samples that are left to a record, by row: [y] is row y of the tile. */
 static inline uint64_t *layers_left(e3d_layers *layers, const e3d_covering *c) { return layers->left + c->at - c->y0; }
 
-/* What is left to a record hides what is behind it. */
+/* Closes a record: the samples that are left to it hide what follows. */
 static inline void layers_hide(e3d_layers *layers, const e3d_covering *c)
 {
     const int32_t *left = (const int32_t *)(layers->left + c->at);
@@ -28,7 +30,7 @@ static inline void layers_hide(e3d_layers *layers, const e3d_covering *c)
             v_storei(hidden, v_ori(v_loadi(hidden), v_loadi(left)));
 }
 
-/* Open records that end before a depth, where the next one begins. */
+/* Closes the open records that end before `near`, where the next record begins. */
 static inline void layers_close(e3d_layers *layers, const e3d_cover *cover, float near)
 {
     int32_t open = 0;
@@ -42,7 +44,7 @@ static inline void layers_close(e3d_layers *layers, const e3d_cover *cover, floa
     layers->opened = open;
 }
 
-/* Samples of a row of two records: those where the first is in front. */
+/* The samples of a row that two records share and in which the first is in front (R16). */
 static inline uint64_t layers_nearer(const e3d_covering *a, const e3d_covering *b, uint64_t both, int32_t y, const e3d_cover *cover,
                                      const e3d_record_table *table)
 {
@@ -57,7 +59,7 @@ static inline uint64_t layers_nearer(const e3d_covering *a, const e3d_covering *
     return nearer;
 }
 
-/* Each sample that a new record shares with an open one is left to one of the two. */
+/* Leaves each sample that a new record shares with an open one to one of the two, by depth. */
 static inline void layers_contest(e3d_layers *layers, const e3d_covering *c, const e3d_cover *cover, const e3d_record_table *table)
 {
     uint64_t *left = layers_left(layers, c);
@@ -78,7 +80,7 @@ static inline void layers_contest(e3d_layers *layers, const e3d_covering *c, con
     }
 }
 
-/* What is left of a row, as runs of the piece that comes next. */
+/* Adds the samples of a row, as runs of the piece that comes next. */
 static inline void layers_add_row(uint64_t left, int32_t y, e3d_shown *out)
 {
     while (left) {
@@ -100,12 +102,12 @@ static inline void layers_show(e3d_layers *layers, const e3d_covering *c, e3d_sh
     spans_name(c->id, first, out);
 }
 
-/* Of a record: whether something hides samples, something is left, and others may hide that. */
+/* A record's samples: those that closed records hide, those that are left to it, and those of these that others have, too. */
 typedef struct layers_state {
     vi32 hidden, left, doubt;
 } layers_state;
 
-/* Of V_LANES rows: keeps what isn't hidden. */
+/* Takes V_LANES rows of a record, but for the samples that closed records hide. */
 static inline void layers_note(vi32 spans, int32_t y, int32_t at, e3d_layers *layers, layers_state *state)
 {
     int32_t *left = (int32_t *)(layers->left + at), *covered = (int32_t *)(layers->covered + y);
@@ -168,7 +170,7 @@ static int kernel_show_layers(const e3d_cover *cover, const e3d_record_table *ta
     }
     if (!layers->taken)
         return 1;
-    out->count = runs; /* some were listed before others took samples of theirs */
+    out->count = runs; /* a later record took samples of one that was listed already: list all anew */
     out->pieces = pieces;
     for (int i = 0; i < count; i++)
         layers_show(layers, &cover->record[numbers[i]], out);

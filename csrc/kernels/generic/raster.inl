@@ -31,7 +31,7 @@ static inline vf32 raster_z(const raster_constants *c, vf32 column, int32_t dy)
     return v_min(v_max(z, c->zmin), c->zmax);
 }
 
-/* Lanes of equal depth where this piece comes first. */
+/* The lanes of equal depth in which this piece comes first (R16). */
 static inline uint32_t raster_ties(uint32_t equal, const int32_t *slot, const e3d_piece *piece,
                                    const e3d_tile_buffers *tile)
 {
@@ -48,14 +48,14 @@ static inline void raster_take_ties(uint32_t won, vf32 z, float *depth, int32_t 
 {
     float lanes[V_LANES];
     v_storef(lanes, z);
-    for (; won; won &= won - 1) { /* of two zeros, the depth takes the sign */
+    for (; won; won &= won - 1) { /* of 0 and -0, the depth takes the winner's sign */
         int lane = __builtin_ctz(won);
         depth[lane] = lanes[lane];
         slot[lane] = (int32_t)piece->slot;
     }
 }
 
-/* One vector of samples: `inside` of them are covered. */
+/* Writes one vector of samples, `inside` of which are covered. */
 static inline void raster_write(int use, vmask inside, vf32 z, int at, const raster_constants *c,
                                 const e3d_piece *piece, const e3d_tile_buffers *tile)
 {
@@ -88,7 +88,7 @@ static inline vi32 raster_step(int32_t per_sample)
     return v_muli(v_iota(), v_seti(per_sample));
 }
 
-/* One column of vectors, from x on, over the rows of the box. */
+/* Draws one column of vectors, from x on, over the rows of the box. */
 static inline void raster_strip(int use, const e3d_piece *p, int x, const raster_constants *c,
                                 const e3d_tile_buffers *tile)
 {
@@ -107,7 +107,7 @@ static inline void raster_strip(int use, const e3d_piece *p, int x, const raster
     }
 }
 
-/* A box narrower than a block: strips from its own first column on, as far as the tile allows. */
+/* Draws a box narrower than a block: strips from its own first column on, or as far to the right as the tile allows. */
 static inline void raster_narrow(int use, const e3d_piece *p, const raster_constants *c,
                                  const e3d_tile_buffers *tile)
 {
@@ -118,7 +118,7 @@ static inline void raster_narrow(int use, const e3d_piece *p, const raster_const
         raster_strip(use, p, x + i * V_LANES, c, tile);
 }
 
-/* Edge function at the block's corner where it is greatest (least). */
+/* An edge function at the corner of a block where it is greatest (least). */
 static inline int32_t raster_most(int32_t e, int32_t a, int32_t b)
 {
     return e + (a > 0 ? a * (RASTER_COLUMNS - 1) : 0) + (b > 0 ? b * (RASTER_BLOCK - 1) : 0);
@@ -199,7 +199,7 @@ static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buff
             raster_block(use, p, x, top, &c, tile);
 }
 
-/* Narrow pieces would leave most of a wide vector empty: an ISA file may name the table that takes them. */
+/* Narrow pieces would leave most lanes of a wide vector empty: an ISA file may name a table of shorter vectors for them. */
 #ifdef E3D_NARROW_TABLE
 #define RASTER_NARROW(name)                    \
     if (raster_is_narrow(piece)) {             \

@@ -81,7 +81,7 @@ typedef struct record_plane {
     vf32 z0, gx, gy, zmin, zmax;
 } record_plane;
 
-/* R13, of corners that turn the right way; the lanes whose plane is finite in `finite`. */
+/* R13, for corners that turn the right way; `finite` gets the lanes whose plane is finite. */
 static inline record_plane record_plane_of(const record_corners *c, setup_span across, setup_span down,
                                            vmask *finite)
 {
@@ -109,7 +109,7 @@ static inline record_plane record_plane_of(const record_corners *c, setup_span a
     return p;
 }
 
-/* Edge function k (R12) at a sample, at least 0 inside: `sign` is all ones where the winding is the other way. */
+/* Edge function k (R12) at a sample, not negative inside; `sign` is all ones in the lanes that turn the other way. */
 typedef struct record_edge {
     vi32 a, b, c;
 } record_edge;
@@ -127,7 +127,7 @@ static inline record_edge record_edge_of(const vi32 x[3], const vi32 y[3], int k
     return e;
 }
 
-/* Which samples of a box of at most 2 x 2 are covered: bit 2 * row + column. */
+/* The samples of a box of at most 2 x 2 that are covered: bit 2 * row + column. */
 static inline vi32 record_cover(const vi32 x[3], const vi32 y[3], setup_span across, setup_span down)
 {
     vi32 half = v_seti(128), outside[4], sign = v_sra(setup_area(x, y), 31);
@@ -147,14 +147,14 @@ static inline vi32 record_cover(const vi32 x[3], const vi32 y[3], setup_span acr
     return v_andi(cover, v_seli(v_eqi(down.first, down.last), v_seti(3), v_seti(15)));
 }
 
-/* Triangles that are worth a record: not the tiny ones without cover. */
+/* The triangles that get a record; tiny ones that cover nothing are left out. */
 typedef struct record_list {
     uint8_t triangles[E3D_CLUSTER_TRIANGLES + E3D_PAD];
     uint8_t cover[E3D_CLUSTER_TRIANGLES + E3D_PAD]; /* of the tiny ones, else 0 */
     int count;
 } record_list;
 
-/* All, where the tiny ones are not told from the others. */
+/* Lists all triangles, where tiny ones are not told from the others. */
 static inline void record_list_all(const e3d_record_request *q, record_list *list)
 {
     memcpy(list->triangles, q->triangles, (size_t)q->count + E3D_PAD);
@@ -162,6 +162,7 @@ static inline void record_list_all(const e3d_record_request *q, record_list *lis
     list->count = q->count;
 }
 
+/* Lists a vector's triangles, but for tiny ones that cover nothing. */
 static inline void record_try(const e3d_record_request *q, int first, record_list *list)
 {
     vi32 x[3], y[3];
@@ -175,7 +176,7 @@ static inline void record_try(const e3d_record_request *q, int first, record_lis
     vi32 ylo = setup_min3(y[0], y[1], y[2]), yhi = setup_max3(y[0], y[1], y[2]);
     setup_span across = setup_samples(xlo, xhi, q->viewport->width);
     setup_span down = setup_samples(ylo, yhi, q->viewport->height);
-    vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* than 32-bit products hold */
+    vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* 32 bits don't hold their products */
     vmask tiny = v_mandnot(v_mand(setup_narrow(across, 2), setup_narrow(down, 2)), large);
     uint32_t tinies = v_bits(tiny), keep = setup_tail(q->count - first);
     vi32 cover = v_seti(0);
@@ -192,7 +193,7 @@ static inline void record_list_some(const e3d_record_request *q, record_list *li
     list->count = 0;
     for (int i = 0; i < q->count; i += V_LANES)
         record_try(q, i, list);
-    memset(list->triangles + list->count, 0, E3D_PAD); /* whole vectors are read */
+    memset(list->triangles + list->count, 0, E3D_PAD); /* padding: whole vectors are read */
     memset(list->cover + list->count, 0, E3D_PAD);
 }
 
@@ -206,7 +207,7 @@ static inline vi32 record_meta(vi32 cover, vmask back, vmask swapped)
     return v_ori(meta, v_shl(cover, E3D_RECORD_SHIFT));
 }
 
-/* First tile below, last tile above: row << 16 | column. */
+/* The tiles of the boxes: row << 16 | column of the first and of the last. */
 static inline void record_spans(setup_span across, setup_span down, e3d_tile_span *out)
 {
     int32_t first[V_LANES], last[V_LANES];
@@ -216,7 +217,7 @@ static inline void record_spans(setup_span across, setup_span down, e3d_tile_spa
         out[lane] = (e3d_tile_span){(uint32_t)first[lane], (uint32_t)last[lane]};
 }
 
-/* Of one vector's, those to keep, in place: mostly all. */
+/* Moves the records to keep to the front, in place; mostly these are all. Returns how many. */
 static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_span *spans)
 {
     int made = 0, all = v_count(keep);

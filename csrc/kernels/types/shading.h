@@ -54,7 +54,7 @@ typedef struct e3d_batch {
     int count;
 } e3d_batch;
 
-/* What shading needs of a group's samples, and so what interpolation fills. */
+/* What shading needs of a bucket's samples, and so what interpolation fills. */
 enum {
     E3D_WANT_POSITION = 1,
     E3D_WANT_NORMAL = 2,

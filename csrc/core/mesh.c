@@ -53,10 +53,10 @@ static void bound_mesh(e3d_mesh *mesh)
         }
     for (size_t i = 0; i < 2 * (size_t)d->lines_count; i++)
         e3d_grow_bounds(d->positions + (size_t)d->lines[i] * d->components, mesh->lo, mesh->hi,
-                    &mesh->any_finite);
+                        &mesh->any_finite);
     for (int32_t i = 0; i < d->points_count; i++)
         e3d_grow_bounds(d->positions + (size_t)d->points[i] * d->components, mesh->lo, mesh->hi,
-                    &mesh->any_finite);
+                        &mesh->any_finite);
 }
 
 e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out)

@@ -10,16 +10,16 @@ extern "C" {
 
 /* The kernels for x86-64, the fastest last: X(ENUMERATOR, name, the instructions that they take, as compilers call them).
  * setup.py reads it, too: kernels/isa_NAME.c is compiled for these instructions. */
-#define E3D_EACH_X86_BACKEND(X)                 \
-    X(E3D_BACKEND_SSE41, sse41, HAS("sse4.1"))  \
-    X(E3D_BACKEND_AVX2, avx2, HAS("avx2"))      \
-    X(E3D_BACKEND_AVX512, avx512,               \
+#define E3D_EACH_X86_BACKEND(X) \
+    X(E3D_BACKEND_SSE41, sse41, HAS("sse4.1")) \
+    X(E3D_BACKEND_AVX2, avx2, HAS("avx2")) \
+    X(E3D_BACKEND_AVX512, avx512, \
       HAS("avx512f") && HAS("avx512cd") && HAS("avx512bw") && HAS("avx512dq") && HAS("avx512vl"))
 
 /* SCALAR is the reference: obvious loops, one thread. PORTABLE is the kernels, one lane wide, on any processor. */
-#define E3D_EACH_BACKEND(X)            \
-    X(E3D_BACKEND_SCALAR, scalar)      \
-    X(E3D_BACKEND_PORTABLE, portable)  \
+#define E3D_EACH_BACKEND(X) \
+    X(E3D_BACKEND_SCALAR, scalar) \
+    X(E3D_BACKEND_PORTABLE, portable) \
     E3D_EACH_X86_BACKEND(X)
 
 typedef enum e3d_backend { E3D_EACH_BACKEND(E3D_ENUMERATOR) E3D_BACKEND_COUNT } e3d_backend;

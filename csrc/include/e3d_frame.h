@@ -13,14 +13,14 @@
 extern "C" {
 #endif
 
-#define E3D_EACH_MODE(X)                  \
-    X(E3D_MODE_LIT, lit)                  \
-    X(E3D_MODE_UNLIT, unlit)              \
-    X(E3D_MODE_RANDOM, random)            \
-    X(E3D_MODE_DEPTH, depth)              \
-    X(E3D_MODE_NORMAL, normal)            \
-    X(E3D_MODE_TRIANGLE_ID, triangle_id)  \
-    X(E3D_MODE_OBJECT_ID, object_id)      \
+#define E3D_EACH_MODE(X) \
+    X(E3D_MODE_LIT, lit) \
+    X(E3D_MODE_UNLIT, unlit) \
+    X(E3D_MODE_RANDOM, random) \
+    X(E3D_MODE_DEPTH, depth) \
+    X(E3D_MODE_NORMAL, normal) \
+    X(E3D_MODE_TRIANGLE_ID, triangle_id) \
+    X(E3D_MODE_OBJECT_ID, object_id) \
     X(E3D_MODE_OVERDRAW, overdraw)
 typedef enum e3d_mode { E3D_EACH_MODE(E3D_ENUMERATOR) } e3d_mode;
 
@@ -41,10 +41,10 @@ typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
 
 /* What is left out before it is drawn; the picture is the same. ALL: what is outside the frustum, or behind what is drawn
  * already. ALWAYS: as ALL, and what is drawn already is tried against even where that cannot pay. */
-#define E3D_EACH_CULLING(X)            \
-    X(E3D_CULLING_ALL, all)            \
-    X(E3D_CULLING_FRUSTUM, frustum)    \
-    X(E3D_CULLING_NONE, none)          \
+#define E3D_EACH_CULLING(X) \
+    X(E3D_CULLING_ALL, all) \
+    X(E3D_CULLING_FRUSTUM, frustum) \
+    X(E3D_CULLING_NONE, none) \
     X(E3D_CULLING_ALWAYS, always)
 typedef enum e3d_culling { E3D_EACH_CULLING(E3D_ENUMERATOR) } e3d_culling;
 

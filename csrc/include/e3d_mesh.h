@@ -16,10 +16,10 @@ typedef struct e3d_mesh e3d_mesh;
 
 /* What vertices carry beside a position: X(ENUMERATOR, name, type of a channel, channels). All are optional; colours are of
  * one type. */
-#define E3D_EACH_VERTEX_ATTRIBUTE(X)                          \
-    X(E3D_VERTEX_NORMALS, normals, float, 3)                  \
+#define E3D_EACH_VERTEX_ATTRIBUTE(X) \
+    X(E3D_VERTEX_NORMALS, normals, float, 3) \
     X(E3D_VERTEX_UVS, uvs, float, 2) /* origin bottom-left */ \
-    X(E3D_VERTEX_COLORS_U8, colors_u8, uint8_t, 4)            \
+    X(E3D_VERTEX_COLORS_U8, colors_u8, uint8_t, 4) \
     X(E3D_VERTEX_COLORS_F32, colors_f32, float, 4) /* linear */
 
 typedef enum e3d_vertex_attribute { E3D_EACH_VERTEX_ATTRIBUTE(E3D_ENUMERATOR) E3D_VERTEX_ATTRIBUTES } e3d_vertex_attribute;

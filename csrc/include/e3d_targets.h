@@ -15,20 +15,20 @@ extern "C" {
 /* The outputs: X(ENUMERATOR, name, type of a channel, channels, what is written where nothing shows, what it tells of the
  * surface that shows: the plan of a frame asks for this). IDs are those of faces, lines and points; triangle_id is -1 on the
  * latter two. Vectors have unit length or the length of the world; normals look towards the viewer. */
-#define E3D_EACH_OUTPUT(X)                                                       \
-    X(E3D_OUTPUT_COLOR, color, uint8_t, 4, 0, COLOR) /* RGBA */                  \
+#define E3D_EACH_OUTPUT(X) \
+    X(E3D_OUTPUT_COLOR, color, uint8_t, 4, 0, COLOR) /* RGBA */ \
     X(E3D_OUTPUT_DEPTH, depth, float, 1, 0, POSITIONS) /* along the view axis */ \
-    X(E3D_OUTPUT_NDC_DEPTH, ndc_depth, float, 1, INFINITY, NDC_DEPTH)            \
-    X(E3D_OUTPUT_TRIANGLE_ID, triangle_id, int32_t, 1, -1, IDENTITIES)           \
-    X(E3D_OUTPUT_OBJECT_ID, object_id, int32_t, 1, -1, IDENTITIES)               \
-    X(E3D_OUTPUT_INSTANCE_ID, instance_id, int32_t, 1, -1, IDENTITIES)           \
-    X(E3D_OUTPUT_MATERIAL_ID, material_id, int32_t, 1, -1, IDENTITIES)           \
-    X(E3D_OUTPUT_ALBEDO, albedo, float, 3, 0, ALBEDO) /* working space */        \
-    X(E3D_OUTPUT_NORMAL, normal, float, 3, 0, NORMALS) /* view space */          \
-    X(E3D_OUTPUT_POSITION, position, float, 3, 0, POSITIONS) /* view space */    \
-    X(E3D_OUTPUT_WORLD_NORMAL, world_normal, float, 3, 0, NORMALS)               \
-    X(E3D_OUTPUT_WORLD_POSITION, world_position, float, 3, 0, POSITIONS)         \
-    X(E3D_OUTPUT_UV, uv, float, 2, 0, UVS)                                       \
+    X(E3D_OUTPUT_NDC_DEPTH, ndc_depth, float, 1, INFINITY, NDC_DEPTH) \
+    X(E3D_OUTPUT_TRIANGLE_ID, triangle_id, int32_t, 1, -1, IDENTITIES) \
+    X(E3D_OUTPUT_OBJECT_ID, object_id, int32_t, 1, -1, IDENTITIES) \
+    X(E3D_OUTPUT_INSTANCE_ID, instance_id, int32_t, 1, -1, IDENTITIES) \
+    X(E3D_OUTPUT_MATERIAL_ID, material_id, int32_t, 1, -1, IDENTITIES) \
+    X(E3D_OUTPUT_ALBEDO, albedo, float, 3, 0, ALBEDO) /* working space */ \
+    X(E3D_OUTPUT_NORMAL, normal, float, 3, 0, NORMALS) /* view space */ \
+    X(E3D_OUTPUT_POSITION, position, float, 3, 0, POSITIONS) /* view space */ \
+    X(E3D_OUTPUT_WORLD_NORMAL, world_normal, float, 3, 0, NORMALS) \
+    X(E3D_OUTPUT_WORLD_POSITION, world_position, float, 3, 0, POSITIONS) \
+    X(E3D_OUTPUT_UV, uv, float, 2, 0, UVS) \
     X(E3D_OUTPUT_BARYCENTRIC, barycentric, float, 3, 0, IDENTITIES)
 
 typedef enum e3d_output_kind { E3D_EACH_OUTPUT(E3D_ENUMERATOR) E3D_OUTPUTS } e3d_output_kind;

@@ -47,7 +47,7 @@ static inline vector face_normal(vector ab, vector ac)
 /* acos(x) = sqrt(1 - x) * polynomial(x) for 0 <= x <= 1 to 2e-8 (Abramowitz and Stegun, 4.4.46). */
 static inline double arc_cosine(double x)
 {
-    static const double coefficients[] = {0.0066700901,  -0.0170881256, 0.0308918810, -0.0501743046,
+    static const double coefficients[] = {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046,
                                           0.0889789874, -0.2145988016, 1.5707963050};
     const double size = fabs(x) > 1 ? 1 : fabs(x);
     double polynomial = -0.0012624911;

@@ -51,7 +51,7 @@ static inline void ref_normalize(float v[3])
 /* R27; v is positive and normal. */
 static inline float ref_log2(float v)
 {
-    static const float Q[7] = {0x1.c5507p-2f,   -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
+    static const float Q[7] = {0x1.c5507p-2f, -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
                                0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
     uint32_t bits;
     memcpy(&bits, &v, sizeof bits);

@@ -117,7 +117,7 @@ void ref_transform_point(const float rows[3][4], const float point[3], float out
 
 void ref_transform_normal(const ref_instance *instance, const float normal[3], float out[3])
 {
-    const float(*n)[3] = instance->normal_matrix;
+    const float (*n)[3] = instance->normal_matrix;
     for (int r = 0; r < 3; r++)
         out[r] = (n[r][0] * normal[0] + n[r][1] * normal[1]) + n[r][2] * normal[2];
 }

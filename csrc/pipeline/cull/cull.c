@@ -28,11 +28,11 @@ typedef struct task {
 } task;
 
 static void add_candidate(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, uint32_t number,
-                     int32_t group, int64_t group_number)
+                          int32_t group, int64_t group_number)
 {
     const e3d_group_box *box = &draw->mesh->groups[group];
     e3d_candidate candidate = {number, (uint32_t)group, (int32_t)(draw - context->draws->states), (int32_t)group_number,
-                     {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
+                               {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
         e3d_view_box(&context->view->viewport, e3d_culling_matrix(context->view, number), box->lo, box->hi, &candidate.view);

@@ -294,7 +294,7 @@ static e3d_cull_result result_of(const walker *w, const e3d_candidate *candidate
 /* The results of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. What
  * was seen faced the viewer, and is tried again in turn. */
 static unsigned find_results(const walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked,
-                           e3d_cull_result results[E3D_GROUP_CLUSTERS])
+                             e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
     const e3d_context *context = w->context;
     e3d_box_view views[E3D_GROUP_CLUSTERS];

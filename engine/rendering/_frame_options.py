@@ -17,6 +17,7 @@ from ._native_handles import MeshNeeds
 from .options import RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
+_MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
 # Modes whose colours go through the sRGB encoder; the others give display values.
 _ENCODED_MODES = ("lit", "unlit")
 
@@ -88,7 +89,7 @@ class FrameOptions:
 
 
 class OptionsCache:
-    """The options of the last frame, for as long as none changes.
+    """The options of the last frames, each for as long as nothing changes that it was made of.
 
     Identity decides, because (255, 255, 255) and (255.0, 255.0, 255.0) are equal, but not the same
     colour. What is compared cannot change in place: a colour that could is not kept.
@@ -96,10 +97,10 @@ class OptionsCache:
 
     def __init__(self, color_space: str) -> None:
         self._color_space = color_space
-        self._given: tuple = ()
-        self._made: RenderOptions | None = None
-        self._seen: tuple = ()
-        self._frame_options: FrameOptions | None = None
+        # By outputs: the other keyword arguments, and what they name.
+        self._named: dict[tuple, tuple[tuple, RenderOptions]] = {}
+        # By the identity of options: these, the scene's colours, and what they are together.
+        self._found: dict[int, tuple[tuple, FrameOptions]] = {}
 
     def of_keywords(self, keywords: dict, outputs: Iterable[str]) -> RenderOptions:
         """Return the options that the keyword arguments of a frame name.
@@ -109,18 +110,29 @@ class OptionsCache:
         InvalidArgumentError
         """
         names = outputs if type(outputs) is tuple else check_outputs(outputs)
-        given = (*keywords.values(), *names)
-        if len(given) != len(self._given) or not all(map(is_, given, self._given)):
-            self._given = ()
-            self._made = RenderOptions(outputs=names, **keywords)
-            if type(keywords["line_color"]) is tuple:
-                self._given = given
-        return self._made
+        given = tuple(keywords.values())
+        try:
+            known = self._named.get(names)
+        except TypeError:  # what cannot be hashed names no output
+            names = check_outputs(names)
+        if known is not None and all(map(is_, given, known[0])):
+            return known[1]
+        options = RenderOptions(outputs=names, **keywords)
+        if type(keywords["line_color"]) is tuple:
+            _keep(self._named, names, (given, options))
+        return options
 
     def get(self, scene: Scene, options: RenderOptions) -> FrameOptions:
         """Return what the options are for a scene as it is now."""
         seen = options, scene.background, scene.ambient, scene.light_clamp
-        if not self._seen or not all(map(is_, seen, self._seen)):
-            self._frame_options = FrameOptions(scene, self._color_space, options)
-            self._seen = seen
-        return self._frame_options
+        known = self._found.get(id(options))
+        if known is None or not all(map(is_, seen, known[0])):
+            known = seen, FrameOptions(scene, self._color_space, options)
+            _keep(self._found, id(options), known)
+        return known[1]
+
+
+def _keep(cache: dict, key, value) -> None:
+    if len(cache) >= _MAX_KEPT:
+        cache.clear()
+    cache[key] = value

@@ -91,6 +91,7 @@ def test_what_could_change_in_place_is_copied():
         ({"outputs": "color"}, "outputs must be a tuple of names"),
         ({"outputs": ()}, "outputs must name at least one"),
         ({"outputs": ("x",)}, "outputs must be one of"),
+        ({"outputs": ([],)}, "outputs must be one of"),
         ({"line_width": 0}, "line_width must be more than 0"),
         ({"point_size": 257}, "point_size must be more than 0 and at most 256"),
         ({"line_color": (1, 2)}, "line_color needs 3 components"),

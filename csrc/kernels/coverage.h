@@ -7,11 +7,12 @@
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
 
-/* Samples, inclusive; empty where x0 > x1 or y0 > y1. */
+/* A box of samples, inclusive; it is empty where x0 > x1 or y0 > y1. */
 typedef struct e3d_box {
     int32_t x0, y0, x1, y1;
 } e3d_box;
 
+/* The samples whose centres lie in the corners' rectangle, within the viewport (R10). */
 static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], const e3d_viewport *viewport)
 {
     int32_t xlo = x[0], xhi = x[0], ylo = y[0], yhi = y[0];
@@ -35,7 +36,7 @@ static inline int64_t e3d_doubled_area(const int32_t x[3], const int32_t y[3])
     return (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
 }
 
-/* Edge function k at a sample, floor(E / 256) with the top-left rule inside. */
+/* An edge function at a sample, floor(E / 256) with the top-left rule included, and its steps to the right and down. */
 typedef struct e3d_edge {
     int64_t e;
     int32_t a, b;
@@ -52,8 +53,8 @@ static inline e3d_edge e3d_edge_at(const e3d_record *r, int k, int32_t x, int32_
     return edge;
 }
 
-/* Edge k of a piece, R12 at the first sample (x, y) of a tile. 0 if it rejects the whole tile; an edge that the tile satisfies is
- * left out, so that the others fit 32 bits. */
+/* Edge k of a piece (R12) at the first sample (x, y) of a tile; 0 if the whole tile lies outside it. An edge with the whole tile
+ * on its inner side is left out, so that those that cross the tile fit 32 bits. */
 static inline int e3d_piece_edge(const e3d_record *r, int k, int32_t x, int32_t y, e3d_piece *piece)
 {
     const int64_t span = E3D_TILE - 1;

@@ -17,60 +17,65 @@
 #include "kernels/types/visible.h"
 
 typedef struct e3d_kernels {
-    /* Bit k: every triangle of cluster k surely has an area of the sign `drop` on the screen, or none; at most 32 clusters. */
+    /* Returns a bit for each of up to 32 clusters: its triangles surely all have an area of the sign `drop` on the screen, or
+     * none. */
     uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float clip[16],
                           const e3d_viewport *viewport);
-    /* positions: planes `stride` apart, 3 or 4 of them; count vertices. inside: those that are finite are surely in the frustum,
-     * in spite of rounding. */
+    /* Transform `count` vertices, whose positions are 3 (take_clip: 4) planes `stride` apart. inside: whatever is finite is surely
+     * in the frustum, in spite of rounding. */
     void (*transform)(const float *positions, int stride, int count, const float matrix[16],
                       const e3d_viewport *viewport, int inside, e3d_vertices *out);
     void (*take_clip)(const float *positions, int stride, int count, const e3d_viewport *viewport,
                       e3d_vertices *out);
-    /* indices: three planes of E3D_CLUSTER_TRIANGLES. cull: sign of the area (screen, Y down) to drop: -1, +1, 0 = neither.
-     * fragments: small triangles are to become some. How many survive. */
+    /* Finds the triangles of a cluster that may show; returns how many. indices: three planes of E3D_CLUSTER_TRIANGLES. cull: the
+     * sign of the area (screen, Y down) to drop, or 0. fragments: micro-triangles are to become fragments. */
     int (*setup)(const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull, int fragments,
                  const e3d_viewport *viewport, e3d_survivors *out);
-    /* Records and their tiles; how many. Room for those of a whole cluster. */
+    /* Makes records, and finds their tiles; returns how many. There is room for those of a whole cluster. */
     int (*record)(const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans);
-    /* Adds triangles of a cluster, a bit each; the IDs of triangle t are first + (t << bits). There is room for all. */
+    /* Adds micro-triangles of a cluster, a bit each, for which there is room; triangle t has the ID first + (t << bits). */
     void (*add_small)(const e3d_vertices *vertices, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
                       e3d_small_triangles *to);
-    /* The fragments of small triangles, which are consumed, to their tiles; tiles in a row of them. */
+    /* Turns all micro-triangles into fragments in the bins of their tiles, tiles_x in a row, and empties the list. */
     void (*fragments)(e3d_small_triangles *triangles, const e3d_viewport *viewport, int tiles_x, e3d_fragment_bins *out);
+    /* Draw a piece into a tile: the nearest shows; the last shows; count the pieces over each sample; mark samples. */
     void (*raster_depth)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_overwrite)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_count)(const e3d_piece *piece, const e3d_tile_buffers *tile);
     void (*raster_mark)(const e3d_piece *piece, const e3d_tile_buffers *tile);
-    /* Draws records into the tile. */
+    /* Draw records, or a block of fragments, into the tile: the nearest shows (R16). */
     void (*raster_visible)(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count);
     void (*raster_fragments)(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *block);
-    /* Writes the samples of all noted blocks: the IDs, and the depths where these are needed, else they stay noted. */
+    /* Writes the samples of all noted blocks: with depths, else the IDs alone, and the blocks stay noted. */
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
-    /* Finds, of each block that isn't noted, zmax and the farthest depth of each column. */
+    /* Measures each block that isn't noted: its zmax, and the farthest depth of each column. */
     void (*raster_measure)(e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
-    /* The runs of the first width x height samples of a tile that show something, those of a row in order; their number. `gaps`:
-     * whether some samples show nothing. Of noted blocks, which stay noted, IDs are written where that helps. */
+    /* Finds the runs of the first width x height samples that show something, row by row; returns how many. `gaps`: whether some
+     * samples show nothing. It writes the IDs of noted blocks where it must look at samples; the blocks stay noted. */
     int (*find_runs)(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps);
-    /* Adds the samples that bear the IDs of records to the list; records, in this order, are pieces. */
+    /* Adds the samples that show records to the list: a piece for each record, in this order. */
     void (*show_records)(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
-    /* The same of fragments; those of one triangle that follow each other are a piece. */
+    /* Likewise for fragments: a piece for those of one triangle, which follow each other. */
     void (*show_fragments)(const e3d_visible_tile *tile, const e3d_fragment_block *block, e3d_shown *out);
-    /* Adds what records cover to the rest of the tile's, and their runs to the list; records, in this order, are pieces. 0 where one is
-     * too large, or may be beyond the far plane, or there are too many. */
+    /* Adds what records cover, row by row, to the tile's cover, and their runs to the list, a piece for each record. 0 if one is
+     * too large or may reach beyond the far plane, or if there are too many. */
     int (*cover_records)(e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out);
-    /* Adds the runs of the records that others don't meet. Lists the numbers of the rest; how many. */
+    /* Adds the runs of the records that share no sample with others. Lists the numbers of the rest, and returns how many
+     * they are. */
     int (*show_alone)(const e3d_cover *cover, e3d_shown *out, uint16_t *rest);
-    /* Adds what shows of these, the nearest first. 0 where to find depths of all samples takes less. */
+    /* Adds what shows of these records, which come sorted by their nearest depth. 0 if a depth buffer would take less. */
     int (*show_layers)(const e3d_cover *cover, const e3d_record_table *table, const uint16_t *numbers, int count, e3d_layers *layers,
                        e3d_shown *out);
-    /* Adds as many runs or samples from `first` on as the batch has room for; how many. A batch of none takes one at least. Piece
-     * `piece` is surface 0, the others follow. */
+    /* Add as many runs or samples from `first` on as the batch has room for, at least one to an empty batch; return how many.
+     * Piece `piece` is surface 0, and the next ones follow. */
     int (*take_runs)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);
     int (*take_shown)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);
-    /* The corners on the screen (R3, R8, R9) of pieces that have no record. */
+    /* Finds the corners on the screen (R3, R8, R9) of the pieces that have no record. */
     void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport);
-    /* The planes of R18 of pieces that weren't clipped, and what is wanted of the vertices; the tile's first sample. */
+    /* Finds the planes of R18 of pieces that weren't clipped, and what is wanted of their vertices. (tile_x, tile_y) is the tile's
+     * first sample. */
     void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted);
+    /* Fills the wanted attributes of a batch (R19-R26). */
     void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted);
     /* color = base * texture */
     void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float base[3]);
@@ -80,19 +85,20 @@ typedef struct e3d_kernels {
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
     /* color = (color * energy + specular * shine) + emissive; specular may be NULL */
     void (*combine)(e3d_batch *batch, const float specular[3], const float emissive[3]);
-    /* Planes of colours, which are clamped to [0, 1], to RGBA8 with alpha 255. */
+    /* Clamps planes of colours to [0, 1], and encodes them as RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);
-    /* The colours of a batch, likewise, each to its sample's place in rgba. */
+    /* Encodes the colours of a batch likewise, each to its sample's place in rgba. */
     void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba);
-    /* Keeps a batch's colours, clamped: its samples count. */
+    /* Keeps the clamped colours of a batch in its samples, which then count. */
     void (*keep)(const e3d_batch *batch, e3d_samples *samples);
-    /* `width` pixels of axis x axis samples each, the first in that row of samples: their mean colours, encoded, and alpha; the
-     * background's colour, which is clamped, where none counts. */
+    /* Averages and encodes `width` pixels of axis x axis samples each, the first in that row of samples. Where no sample counts, a
+     * pixel has the background's colour, which is clamped already. */
     void (*average)(const e3d_samples *samples, int axis, int row, int width, const float background[3], int srgb, uint32_t *rgba);
-    /* All of these from interpolate on: the pixels of a batch, each at its sample's place in rgba. There are few lights. */
+    /* Does all of this at once, from interpolate on: the pixels of a batch, each at its sample's place in rgba. There are few
+     * lights. */
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
-    /* Copies what this core won't read again: e3d_stream_end before other threads are told. */
+    /* Copies rows with non-temporal stores; e3d_stream_end() must follow before other threads are told. */
     void (*stream)(const e3d_pixel_rows *rows);
 } e3d_kernels;
 

@@ -42,6 +42,7 @@ def test_files_that_pages_name_exist(name):
 def test_what_the_page_of_the_rasteriser_names_exists():
     text = (ROOT / "docs" / "rasteriser.md").read_text(encoding="utf-8")
     names = set(re.findall(r"`(\w*_\w+)`", text))
+    names.update(*re.findall(r"`(e3d_\w+)\.(\w+)`", text))
     sources = [path for path in (ROOT / "csrc").rglob("*") if path.suffix in (".c", ".h", ".inl")]
     words = set(re.findall(r"\w+", " ".join(path.read_text(encoding="utf-8") for path in sources)))
     plan = re.findall(r"^    X\((\w+)", (ROOT / "csrc/pipeline/pass/plan.h").read_text(), re.M)

@@ -154,7 +154,6 @@ cdef extern from "kernels/kernels.h" nogil:
         int srgb
         int looks_ahead
         e3d_samples *samples
-        e3d_pixel_rows *meanwhile
 
     ctypedef struct e3d_kernels:
         uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float *clip,

@@ -171,8 +171,7 @@ class Kernels:
         looks_ahead: bool,
         rgba: _Words,
         samples: _Floats | None = ...,
-        meanwhile: tuple[_Bytes, int, _Bytes, int, int, int] | None = ...,
-    ) -> int: ...
+    ) -> None: ...
     def stream(
         self, to: _Bytes, pitch: int, source: _Bytes, step: int, size: int, count: int
     ) -> None: ...

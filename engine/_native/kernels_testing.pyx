@@ -486,23 +486,16 @@ cdef class Kernels:
     def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
               const float[::1] specular, const float[::1] emissive, bint srgb, bint looks_ahead, uint32_t[::1] rgba,
-              float[:, ::1] samples=None, meanwhile=None):
-        """How many rows are left of those of ``meanwhile``: what `stream` takes, as a tuple.
-
-        ``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
+              float[:, ::1] samples=None):
+        """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
         ``specular`` and ``emissive`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements. ``samples``,
         as for `keep`: these are written instead.
         """
         cdef e3d_paint paint
         cdef e3d_texture_view view
         cdef e3d_lighting lights
-        cdef e3d_pixel_rows rows
         check_size(batch, sizeof(e3d_batch))
         check_size(surfaces, sizeof(e3d_surfaces))
-        rows.count = 0
-        if meanwhile is not None:
-            to, pitch, source, step, size, count = meanwhile
-            rows = rows_of(to, pitch, source, step, size, count)
         if texture is not None:
             texels, channel_bits, sizes, filter, wrap = texture
             view = texture_view(texels, channel_bits, sizes, filter, wrap)
@@ -521,11 +514,9 @@ cdef class Kernels:
         paint.srgb = srgb
         paint.looks_ahead = looks_ahead
         paint.samples = NULL if samples is None else samples_of(samples)
-        paint.meanwhile = NULL if meanwhile is None else &rows
         for _ in range(self.rounds):
             self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
                              &paint, &rgba[0])
-        return rows.count
 
     def stream(self, uint8_t[::1] to, size_t pitch, const uint8_t[::1] source, size_t step, size_t size, int count):
         """``count`` rows of ``size`` bytes, ``step`` bytes apart; they arrive ``pitch`` bytes apart."""

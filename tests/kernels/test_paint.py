@@ -169,49 +169,6 @@ def test_paint(kernels, filter_name, lit):
     batches.check_gaps()
 
 
-LINE, ROWS, BATCHES = 64, 3, 30
-
-
-def check_rows(room, source, done, pitch, step, size):
-    """As many rows have arrived, of the next one perhaps its beginning, and nothing else has."""
-    expected = np.zeros_like(room)
-    for y in range(done):
-        expected[y * pitch :][:size] = source[y * step :][:size]
-    if done < ROWS:
-        begun = expected[done * pitch :][:size]
-        begun[:] = np.where(room[done * pitch :][:size], source[done * step :][:size], 0)
-    assert np.array_equal(room, expected)
-
-
-@all_backends
-@pytest.mark.parametrize("many", [False, True])
-@pytest.mark.parametrize("start", [0, 16, 4, 1])
-@pytest.mark.parametrize("size", [256, 128, 100])
-def test_rows_written_meanwhile(kernels, size, start, many):
-    """The pixels are as without; whole vectors of rows are written, as far as the samples go."""
-    rng = np.random.default_rng(9)
-    surfaces, batches = surfaces_and_batches()
-    batches = batches.copy()
-    source, room = rng.integers(1, 256, ROWS * 256, np.uint8), np.zeros((ROWS + 1) * 320, np.uint8)
-    room, written = room[-room.ctypes.data % LINE + start :], 0
-    steps, pitches = itertools.cycle([0, 256]), itertools.cycle([256, 320])
-    for row, step, pitch in zip(batches.rows[:BATCHES], steps, pitches, strict=False):
-        texture = random_texture(rng, rng.choice([*FILTERS]), 16) if rng.integers(2) else None
-        material, before = random_material(rng, texture, bool(rng.integers(2))), row.copy()
-        tiles = np.full((2, SAMPLES + PAD), UNTOUCHED, np.uint32)
-        planes = [untouched() if many else None for _ in tiles]
-        kernels.paint(row, surfaces, *material.values(), tiles[0], planes[0])
-        row[:], room[:] = before, 0
-        rows = room, pitch, source, step, size, ROWS
-        done = ROWS - kernels.paint(row, surfaces, *material.values(), tiles[1], planes[1], rows)
-        check_rows(room, source, done, pitch, step, size)
-        written += done
-        assert np.array_equal(*tiles)
-        assert not many or np.array_equal(*map(bits, planes))
-    if (size, start) == (256, 0):
-        assert written > BATCHES
-
-
 @all_backends
 @pytest.mark.parametrize("srgb", [False, True])
 def test_put(kernels, srgb):

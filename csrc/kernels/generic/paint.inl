@@ -20,7 +20,6 @@ typedef struct paint_plan {
     const e3d_paint *paint;
     const texture_plan *texture; /* for PAINT_TEXELS: texture_is_bilinear8 */
     paint_source source;
-    e3d_pixel_rows *meanwhile;
 } paint_plan;
 
 /* ---- light ---- */
@@ -123,33 +122,6 @@ static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int la
         rgba[sample[lane]] = pixel[lane];
 }
 
-/* ---- meanwhile ---- */
-
-/* Non-temporal stores drain while the core computes, but many at once fill the write-combining buffers, and stall it. So a piece
- * of a row goes with each vector: the textured head takes 7 % less time. */
-enum { PAINT_PIECE = 4 * sizeof(vi32) };
-
-static inline e3d_pixel_rows *paint_meanwhile(e3d_pixel_rows *rows)
-{
-    int whole = rows && rows->count && !(((uintptr_t)rows->to | rows->pitch) % sizeof(vi32) | rows->bytes % PAINT_PIECE);
-    return whole ? rows : NULL;
-}
-
-/* Streams a piece of a row; returns where the next one begins. A row that the batch doesn't finish is written again. */
-static ALWAYS_INLINE size_t paint_piece(e3d_pixel_rows *rows, size_t at)
-{
-    if (!rows || !rows->count)
-        return 0;
-    for (size_t end = at + PAINT_PIECE; at < end; at += sizeof(vi32))
-        v_streami(rows->to + at, v_loadi(rows->from + at));
-    if (at < rows->bytes)
-        return at;
-    rows->to += rows->pitch;
-    rows->from += rows->step;
-    rows->count--;
-    return 0;
-}
-
 /* The colours of one vector. */
 static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint_plan *plan, paint_kind kind, float shininess,
                                       vf32 color[3])
@@ -166,17 +138,15 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint
         paint_light(batch, i, plan->paint, kind, shininess, color);
 }
 
-/* Shades and encodes a batch to RGBA8, and streams rows meanwhile. */
+/* Shades and encodes a batch to RGBA8. */
 static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, int srgb,
                                       uint32_t *rgba)
 {
     const vcurve curve = encode_curve();
-    size_t at = 0;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_color(batch, i, plan, kind, shininess, color);
         paint_store(batch->sample + i, encode_vector(&curve, color, srgb), V_LANES, rgba);
-        at = paint_piece(plan->meanwhile, at);
     }
 }
 
@@ -196,12 +166,10 @@ static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const paint_plan *plan
 
 static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess)
 {
-    size_t at = 0;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
         paint_color(batch, i, plan, kind, shininess, color);
         samples_keep(batch->sample + i, color, V_LANES, plan->paint->samples);
-        at = paint_piece(plan->meanwhile, at);
     }
 }
 
@@ -231,7 +199,7 @@ static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)
 static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba)
 {
     texture_plan texture;
-    paint_plan plan = {.paint = paint, .texture = &texture, .meanwhile = paint_meanwhile(paint->meanwhile)};
+    paint_plan plan = {.paint = paint, .texture = &texture};
     if (paint->wanted & E3D_WANT_SURFACE)
         kernel_interpolate(batch, surfaces, paint->wanted);
     plan.source = paint->texture ? paint_textured(batch, surfaces, paint, &texture) : paint_untextured(batch, surfaces, paint);

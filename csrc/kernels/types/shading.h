@@ -100,7 +100,6 @@ typedef struct e3d_paint {
     int srgb;
     int looks_ahead;      /* what e3d_cpu_looks_ahead says */
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
-    e3d_pixel_rows *meanwhile; /* NULL, or rows that are streamed meanwhile; the kernel leaves here what it did not get to */
 } e3d_paint;
 
 #endif

@@ -30,7 +30,6 @@ static e3d_worker *create_worker(uint32_t number)
     worker->number = number;
     worker->tile = memory;
     memset(worker->tile, 0, sizeof *worker->tile); /* padding is read, never used */
-    worker->tile->pixels.rgba = worker->tile->pixels.of[0];
     e3d_marks_init(&worker->tile->marks);
     return worker;
 }

@@ -11,9 +11,8 @@
 #include "pipeline/state/context.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
-#include "pipeline/store/blank.h"
 #include "pipeline/pass/draws.h"
-#include "pipeline/store/deferred.h"
+#include "pipeline/store/blank.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/store/resolve.h"
@@ -155,8 +154,6 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
 {
     const e3d_material *m = bucket->material;
     int lit = context->frame->mode == E3D_MODE_LIT && bucket->face, shiny = e3d_adds(m->specular);
-    e3d_pixel_rows *deferred = e3d_deferred_rows(context, worker);
-    int rows = deferred ? deferred->count : 0;
     const e3d_paint paint = {
         .wanted = wanted,
         .texture = bucket->textured ? e3d_texture_get_view(m->texture) : NULL,
@@ -170,13 +167,8 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .srgb = e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
         .looks_ahead = e3d_cpu_looks_ahead(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->pixels.samples : NULL,
-        .meanwhile = deferred,
     };
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->pixels.rgba);
-    if (!deferred)
-        e3d_blank_some(context, worker);
-    else if (deferred->count == rows)
-        e3d_deferred_some(context, deferred);
 }
 
 static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int wanted)
@@ -184,11 +176,11 @@ static void shade_batch(const e3d_context *context, e3d_worker *worker, const e3
     e3d_batch *batch = &worker->tile->batch;
     const e3d_surfaces *surfaces = &worker->tile->surfaces;
     worker->counters.shaded += batch->count;
+    e3d_blank_some(context, worker);
     if (is_painted(context, bucket)) {
         paint_batch(context, worker, bucket, wanted);
         return;
     }
-    e3d_blank_some(context, worker);
     if (wanted & E3D_WANT_SURFACE)
         context->kernels->interpolate(batch, surfaces, wanted);
     if (e3d_plans(context, E3D_PLAN_BASE_COLOR))

@@ -11,7 +11,6 @@
 #include "pipeline/state/counts.h"
 #include "pipeline/state/records.h"
 #include "pipeline/store/blank.h"
-#include "pipeline/store/deferred.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/queue.h"
 #include "pipeline/tile/slots.h"
@@ -36,7 +35,6 @@ typedef struct e3d_worker {
     e3d_outputs_state outputs;
     e3d_counters counters;
     e3d_spans_state spans;
-    e3d_deferred_state deferred;
     e3d_blank_state blank;
     int64_t lap; /* when the last stage of a tile ended (e3d_lap) */
     int failed;  /* out of memory */

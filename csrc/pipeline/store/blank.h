@@ -13,11 +13,8 @@ typedef struct e3d_blank_state {
     int more;
 } e3d_blank_state;
 
-/* Clears such tiles: some rows at a time, and at last what is left of all. */
+/* Clears such tiles: a few rows at a time, and at last what is left of all. */
 void e3d_blank_begin(e3d_worker *worker);
-enum { E3D_SOME_ROWS = 8 }; /* that are written at once between batches */
-/* The one that is being cleared now, perhaps with no rows left. */
-e3d_tile *e3d_blank_now(const e3d_context *context, e3d_worker *worker);
 void e3d_blank_some(const e3d_context *context, e3d_worker *worker);
 void e3d_blank_rest(const e3d_context *context, e3d_worker *worker);
 

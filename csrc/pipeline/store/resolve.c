@@ -7,7 +7,6 @@
 #include "pipeline/state/context.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
-#include "pipeline/store/deferred.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
 #include "pipeline/pass/plan.h"
@@ -156,5 +155,5 @@ void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile 
         return;
     if (context->frame->samples_axis > 1)
         average(context, worker->tile, tile);
-    e3d_deferred_add(context, worker, tile);
+    e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->pixels.rgba, E3D_TILE * sizeof(uint32_t));
 }

@@ -22,9 +22,8 @@ typedef struct e3d_background {
 
 /* The colours of a tile. */
 typedef struct e3d_pixels_memory {
-    uint32_t of[2][E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel: this tile's, and the last one's; */
-    uint32_t *rgba;                             /* the former */
-    e3d_samples samples;                        /* of several */
+    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
+    e3d_samples samples;                       /* of several */
 } e3d_pixels_memory;
 
 typedef struct e3d_context e3d_context;

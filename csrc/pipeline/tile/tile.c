@@ -16,7 +16,6 @@
 #include "pipeline/state/worker.h"
 #include "pipeline/store/blank.h"
 #include "pipeline/cull/depths.h"
-#include "pipeline/store/deferred.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/store/resolve.h"
 #include "pipeline/shade/shade.h"
@@ -245,7 +244,6 @@ static void tiles_work(void *argument, int number)
         if (number == 0)
             poll(context, worker->lap);
     }
-    e3d_deferred_rest(context, worker);
     if (!atomic_load(&context->stop))
         e3d_blank_rest(context, worker);
     e3d_lap(worker, &worker->counters.ns_resolve);

@@ -47,7 +47,7 @@ def asked_for(scene_facts, *, outputs=("color",), mode="lit", wireframe=None, hi
     of_mode = {"lit": "LIT", "unlit": "UNLIT", "depth": "DEPTH_MODE", "normal": "NORMAL_MODE"}
     facts |= {of_mode[mode]} if mode in of_mode else set()
     facts |= {"OVERDRAW_MODE"} if mode == "overdraw" else set()
-    facts |= scene_facts & {"LOCAL_LIGHT", "MANY_LIGHTS", "MANY_RANGES"} if mode == "lit" else set()
+    facts |= scene_facts & {"LOCAL_LIGHT", "MANY_LIGHTS"} if mode == "lit" else set()
     if wireframe is not None:
         facts |= {"WIREFRAME"}
     if wireframe == "only":
@@ -106,7 +106,7 @@ def test_lights_and_lines_of_the_scene_lead_to_the_plan_of_the_rules(renderer):
     cases = [
         (scene_of(lights=[near]), {"LOCAL_LIGHT"}),
         (scene_of(lights=[e3d.DirectionalLight()] * 5), {"MANY_LIGHTS"}),
-        (scene_of(lights=[near] * 5), {"LOCAL_LIGHT", "MANY_LIGHTS", "MANY_RANGES"}),
+        (scene_of(lights=[near] * 5), {"LOCAL_LIGHT", "MANY_LIGHTS"}),
         (scene_of(line=True), {"LINES"}),
     ]
     for scene, facts in cases:

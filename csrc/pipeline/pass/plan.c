@@ -20,14 +20,6 @@ static int has_local_light(const e3d_frame *frame)
     return 0;
 }
 
-static int has_many_ranges(const e3d_frame *frame)
-{
-    int32_t ranges = 0;
-    for (int32_t n = 0; n < frame->light_count; n++)
-        ranges += frame->lights[n].kind == E3D_LIGHT_POINT && frame->lights[n].range < INFINITY;
-    return ranges > E3D_FEW_LIGHTS;
-}
-
 static int has_lines(const e3d_frame *frame)
 {
     for (int32_t d = 0; d < frame->draw_count; d++)
@@ -54,8 +46,7 @@ static e3d_plan asked_mode(const e3d_frame *f)
     switch (f->mode) {
     case E3D_MODE_LIT:
         return ASKED(LIT) | asked_if(has_local_light(f), E3D_ASKED_LOCAL_LIGHT) |
-               asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS) |
-               asked_if(has_many_ranges(f), E3D_ASKED_MANY_RANGES);
+               asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS);
     case E3D_MODE_UNLIT: return ASKED(UNLIT);
     case E3D_MODE_DEPTH: return ASKED(DEPTH_MODE);
     case E3D_MODE_NORMAL: return ASKED(NORMAL_MODE);
@@ -120,9 +111,8 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_DEPTHS, ASKED(NDC_DEPTH), 0},
     {E3D_PLAN_DEPTHS, ASKED(WIREFRAME), 0},
     {E3D_PLAN_FRAGMENTS, 0, PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(WIREFRAME)},
-    {E3D_PLAN_LIGHT_BLOCKS, PLAN(COLORS) | ASKED(LIT) | ASKED(MANY_RANGES), 0},
-    {E3D_PLAN_SPANS, PLAN(SHADES), PLAN(SLOTS) | PLAN(DEPTHS) | PLAN(LIGHT_BLOCKS)},
-    {E3D_PLAN_LISTS, PLAN(SHADES), PLAN(SLOTS) | PLAN(LIGHT_BLOCKS)},
+    {E3D_PLAN_SPANS, PLAN(SHADES), PLAN(SLOTS) | PLAN(DEPTHS)},
+    {E3D_PLAN_LISTS, PLAN(SHADES), PLAN(SLOTS)},
     {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(LIT), PLAN(OUTPUTS) | ASKED(MANY_LIGHTS)},
     {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(UNLIT), PLAN(OUTPUTS)},
     {E3D_PLAN_ROUNDS, PLAN(FACES) | ASKED(OCCLUSION),

@@ -25,7 +25,6 @@
     X(OVERDRAW_MODE, "mode overdraw")                                                  \
     X(LOCAL_LIGHT, "light that depends on the position: point lights or highlights")   \
     X(MANY_LIGHTS, "more than 4 lights")                                               \
-    X(MANY_RANGES, "more than 4 lights of a finite range")                             \
     X(WIREFRAME, "a wireframe, with or without the faces")                             \
     X(WIRE_ONLY, "a wireframe without the faces")                                      \
     X(HIDDEN_LINES, "that faces hide the edges behind them in a wireframe without them") \
@@ -52,7 +51,6 @@
     X(SLOTS, "a tile draws record after record; its samples keep slots instead of IDs")  \
     X(DEPTHS, "the depth of every sample is needed, not only the ID")                    \
     X(FRAGMENTS, "micro-triangles go to the tiles as samples")                           \
-    X(LIGHT_BLOCKS, "samples are shaded in blocks of 32 x 32, each with its own lights") \
     X(SPANS, "tiles of few records may be drawn without depths")                         \
     X(LISTS, "tiles may list visible samples by record instead of by row")               \
     X(PAINTS, "one kernel takes samples from the surface to the encoded pixel")          \

@@ -7,9 +7,8 @@
 
 /* A thread's memory, of one tile. */
 typedef struct e3d_runs_memory {
-    e3d_run rows[E3D_TILE_SAMPLES + 1];   /* what shows, row by row */
-    e3d_run blocks[E3D_TILE_SAMPLES + 1]; /* the same, cut at blocks and in their order */
-    char apart[2048]; /* padding against 4K aliasing: sorting reads `blocks` and writes `spare`; loads at the same offset in a
+    e3d_run rows[E3D_TILE_SAMPLES + 1]; /* what shows, row by row */
+    char apart[2048]; /* padding against 4K aliasing: sorting reads `rows` and writes `spare`; loads at the same offset in a
                        * page as a store before them would wait for it */
     e3d_run spare[E3D_TILE_SAMPLES]; /* while runs are sorted */
 } e3d_runs_memory;

@@ -274,57 +274,9 @@ int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_ti
     return 1;
 }
 
-static int shade_all(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, e3d_run *runs, int32_t count)
-{
-    e3d_show_runs(e3d_sort_runs(runs, worker->tile->runs.spare, count), count, &worker->tile->shown);
-    return e3d_shade_shown(context, worker, tile);
-}
-
-/* ---- blocks: a batch of neighbours is in reach of few lights ---- */
-
-enum { MANY_RUNS = 512 }; /* in a tile: batches of one material are small as they are */
-
-enum { BLOCK = 32, BLOCKS_A_ROW = E3D_TILE / BLOCK, BLOCKS = BLOCKS_A_ROW * BLOCKS_A_ROW };
-
-static int block_of(int sample)
-{
-    return sample / (E3D_TILE * BLOCK) * BLOCKS_A_ROW + sample % E3D_TILE / BLOCK;
-}
-
-/* Cuts the runs at the blocks' edges, and counts them or puts them at next[block]. */
-static void cut_runs(const e3d_run *runs, int32_t count, int32_t next[BLOCKS], e3d_run *out)
-{
-    for (int32_t i = 0; i < count; i++) {
-        int sample = runs[i].sample, end = sample + runs[i].length;
-        while (sample < end) {
-            int edge = sample - sample % BLOCK + BLOCK, block = block_of(sample);
-            edge = edge < end ? edge : end;
-            if (out)
-                out[next[block]] = (e3d_run){runs[i].owner, (uint16_t)sample, (uint16_t)(edge - sample)};
-            next[block]++;
-            sample = edge;
-        }
-    }
-}
-
-static int shade_blocks(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
-{
-    e3d_tile_memory *memory = worker->tile;
-    int32_t number[BLOCKS] = {0}, next[BLOCKS], first = 0;
-    cut_runs(memory->runs.rows, count, number, NULL);
-    for (int b = 0; b < BLOCKS; b++) {
-        next[b] = first;
-        first += number[b];
-    }
-    cut_runs(memory->runs.rows, count, next, memory->runs.blocks);
-    for (int b = 0; b < BLOCKS; b++)
-        if (!shade_all(context, worker, tile, memory->runs.blocks + next[b] - number[b], number[b]))
-            return 0;
-    return 1;
-}
-
 int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count)
 {
-    return e3d_plans(context, E3D_PLAN_LIGHT_BLOCKS) && count < MANY_RUNS ? shade_blocks(context, worker, tile, count)
-                                                   : shade_all(context, worker, tile, worker->tile->runs.rows, count);
+    e3d_runs_memory *runs = &worker->tile->runs;
+    e3d_show_runs(e3d_sort_runs(runs->rows, runs->spare, count), count, &worker->tile->shown);
+    return e3d_shade_shown(context, worker, tile);
 }

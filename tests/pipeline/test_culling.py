@@ -75,25 +75,6 @@ def test_tiles_that_are_drawn_twice(threads):
             assert stats["rounds"] == (2 if number else 5)
 
 
-def test_pieces_behind_what_is_drawn_reach_no_tile():
-    """Of what comes into view, only the pieces near a hole in the wall before it are drawn."""
-    scene = e3d.Scene()
-    for x, y in ((-2.05, 0), (2.05, 0), (0, 2.05), (0, -2.05)):
-        scene.add(e3d.quad(), translation=(x, y, 1), scale=4)
-    ball = scene.add(e3d.uv_sphere(0.8, (24, 16)))
-    eye = (0, 0.001, 9)
-    with e3d.Renderer(640, 480) as renderer:
-        ball.visible = False
-        for _ in range(2):
-            before, _ = pictures(renderer, scene, eye, culling="always")
-        ball.visible = True
-        stats, got = pictures(renderer, scene, eye, culling="always")
-        assert got == pictures(renderer, scene, eye, culling="none")[1]
-    assert stats["rounds"] == 2
-    added = {name: stats[name] - before[name] for name in ("triangles_setup", "triangles_drawn")}
-    assert 0 < 4 * added["triangles_drawn"] < added["triangles_setup"]
-
-
 def test_what_is_hidden_is_left_out():
     """Behind a wall that fills the view almost nothing is set up."""
     scene = crowd()

@@ -183,22 +183,6 @@ static inline uint64_t records_behind(float near, const e3d_visible_tile *tile)
 
 static inline size_t records_sample(uint32_t from) { return (from >> RECORDS_DOWN) * E3D_TILE + (from & 0xFFFF); }
 
-/* Whether all that is written in the strips is nearer; mostly the sample in the middle of the box tells at once that it isn't.
- * Samples beside the box may not be written yet: a NaN there is left out, as v_max gives its second argument. */
-static inline int records_hidden(const records_lanes *in, int lane, float near, const e3d_visible_tile *tile)
-{
-    float middle = tile->z[(in->y0[lane] + in->y1[lane]) / 2 * E3D_TILE + (in->x0[lane] + in->x1[lane]) / 2];
-    vf32 far = v_setf(middle);
-    if (!(near > middle))
-        return 0;
-    for (int s = 0; s <= in->strips[lane]; s++) {
-        size_t i = records_sample(in->from[s][lane]); /* past the tile, if no rows are left */
-        for (int32_t left = in->vectors[s][lane]; left > 0; left--, i += ROWS * E3D_TILE)
-            far = v_max(rows_loadf(tile->z + i), far);
-    }
-    return !v_any(v_mnot(v_gt(v_setf(near), far)));
-}
-
 /* Blocks in which samples were written, none nearer than `near`, and whose bounds are not updated yet. */
 typedef struct records_touched {
     uint64_t met;
@@ -298,8 +282,6 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
         records_wide(in, lane, r, id, tile, table);
         return;
     }
-    if (!(in->narrow >> lane & 1 || met & tile->noted) && records_hidden(in, lane, r->zmin, tile))
-        return;
     for (uint64_t left = met & tile->noted; left; left &= left - 1)
         visible_unfold(tile, table, __builtin_ctzll(left));
     touched->met |= met;

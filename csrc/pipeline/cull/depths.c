@@ -89,18 +89,6 @@ static int is_behind(const e3d_tile_depths *depths, const e3d_box *samples, floa
     return 1;
 }
 
-void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view)
-{
-    const e3d_box *s = &view->samples;
-    int32_t x = (s->x0 + s->x1) / 2, y = (s->y0 + s->y1) / 2;
-    int64_t tile = (int64_t)(y / E3D_TILE) * context->view->tiles_x + x / E3D_TILE;
-    const e3d_tile_depths *depths = &context->depths[tile];
-    int row = y % E3D_TILE / E3D_BLOCK * BLOCKS;
-    __builtin_prefetch(depths);
-    __builtin_prefetch(&depths->zmax[row]);
-    __builtin_prefetch(depths->columns[row + x % E3D_TILE / E3D_BLOCK]);
-}
-
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
 {
     const e3d_box *s = &view->samples;
@@ -113,10 +101,4 @@ int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
                 return 0;
         }
     return 1;
-}
-
-int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record)
-{
-    const e3d_box_view view = {.near = record->zmin, .samples = e3d_sample_box(record->x, record->y, &context->view->viewport)};
-    return e3d_is_hidden(context, &view);
 }

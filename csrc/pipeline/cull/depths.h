@@ -18,10 +18,6 @@ typedef struct e3d_tile_depths {
 } e3d_tile_depths;
 
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
-/* The same of what a record covers. */
-int e3d_record_is_hidden(const e3d_context *context, const e3d_record *record);
-/* Asks for what that reads first. */
-void e3d_fetch_kept(const e3d_context *context, const e3d_box_view *view);
 /* Of a tile that nothing is drawn in, and so hides nothing. */
 void e3d_depths_clear(e3d_tile_depths *depths);
 /* Notes a tile's farthest depths. */

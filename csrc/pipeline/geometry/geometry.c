@@ -43,7 +43,6 @@ typedef struct walker {
     uint32_t number; /* of the instance */
     const e3d_view_instance *instance;
     uint32_t order; /* of the instance's first primitive */
-    const e3d_vertices *vertices; /* of the cluster that is drawn */
     const e3d_cluster *next;      /* of the next candidate, */
     unsigned next_left;           /* and those of them that are to be fetched: a bit each */
 } walker;
@@ -83,7 +82,7 @@ static e3d_primitive face_primitive(const walker *w, int32_t face)
 /* With the key that painter's algorithm sorts by. */
 static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
-    const e3d_vertices *v = w->vertices;
+    const e3d_vertices *v = &w->worker->geometry.vertices;
     e3d_corner corner[3];
     for (int k = 0; k < 3; k++) {
         int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
@@ -97,7 +96,7 @@ static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *
 
 static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
-    const e3d_vertices *v = w->vertices;
+    const e3d_vertices *v = &w->worker->geometry.vertices;
     const e3d_viewport *viewport = &w->context->view->viewport;
     float corner[3][4];
     e3d_clip_vertex polygon[E3D_CLIP_MAX];
@@ -141,14 +140,9 @@ static void draw_records(walker *w, const e3d_record_request *request)
     uint32_t number = (uint32_t)set->records.count;
     set->records.count += (size_t)made;
     w->worker->counters.records += made;
-    int step = w->context->round.tested ? 1 : made;
-    for (int i = 0; i < made; i += step) {
-        if (w->context->round.tested && e3d_record_is_hidden(w->context, &records[i]))
-            continue; /* its tiles may be finished */
-        w->worker->counters.triangles_drawn += step;
-        if (!e3d_bin_records(w->context, w->worker, set, number + (uint32_t)i, spans + i, step))
-            w->worker->failed = 1;
-    }
+    w->worker->counters.triangles_drawn += made;
+    if (!e3d_bin_records(w->context, w->worker, set, number, spans, made))
+        w->worker->failed = 1;
 }
 
 /* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them; those are dropped whose area has the sign
@@ -162,7 +156,7 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
     for (uint64_t left = triangles; left; left &= left - 1)
         list[count++] = (uint8_t)__builtin_ctzll(left);
     memset(list + count, 0, E3D_PAD);
-    const e3d_record_request request = {.vertices = w->vertices, .indices = indices, .triangles = list,
+    const e3d_record_request request = {.vertices = &w->worker->geometry.vertices, .indices = indices, .triangles = list,
                                         .count = count, .tiny = tiny, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
                                         .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->view->viewport};
     draw_records(w, &request);
@@ -188,7 +182,7 @@ static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t 
 /* The small triangles that are culled, where some materials are two-sided. */
 static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t one_sided)
 {
-    const e3d_vertices *v = w->vertices;
+    const e3d_vertices *v = &w->worker->geometry.vertices;
     uint64_t found = 0;
     for (uint64_t left = one_sided; left; left &= left - 1) {
         int32_t x[3], y[3], triangle = __builtin_ctzll(left);
@@ -213,12 +207,13 @@ static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *ind
     /* Written in place: a copy of the struct would load wider words than were just stored, which stores cannot forward. */
     *drawn = (e3d_drawn_cluster){w->draw->mesh->faces + cluster->first, w->order, (int32_t)w->number,
                                  (int32_t)(w->draw - w->context->draws->states), w->instance->mirrored};
-    e3d_fragments_add(w->context, w->worker, w->vertices, indices, small);
+    e3d_fragments_add(w->context, w->worker, &w->worker->geometry.vertices, indices, small);
 }
 
-static void transform_cluster(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, e3d_vertices *out)
+static void transform_cluster(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster)
 {
     const e3d_context *context = w->context;
+    e3d_vertices *out = &w->worker->geometry.vertices;
     if (w->draw->mesh->desc.components == 4)
         context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->view->viewport, out);
     else
@@ -249,7 +244,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     int fragments = e3d_plans(w->context, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
     e3d_survivors *s = &worker->geometry.survivors;
-    int count = kernels->setup(w->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
+    int count = kernels->setup(&w->worker->geometry.vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
     worker->counters.triangles_rejected += cluster->triangles - count;
     fetch_records(w, __builtin_popcountll(s->draw));
     if (s->small)
@@ -291,27 +286,25 @@ static e3d_cull_result result_of(const walker *w, const e3d_candidate *candidate
     return view->state == E3D_BOX_OUTSIDE ? E3D_RESULT_OUTSIDE : E3D_RESULT_DRAWN;
 }
 
-/* The results of those of a group's clusters whose bits are set; bits of what is drawn. What the trials read is asked for first. What
- * was seen faced the viewer, and is tried again in turn. */
+/* Whether a cluster is drawn, and if not, why. A box may be hidden by what earlier rounds drew. */
+static e3d_cull_result tested_result_of(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, int away)
+{
+    e3d_box_view view;
+    e3d_cull_result result = result_of(w, candidate, cluster, away, &view);
+    int hidden = w->context->round.tested && result == E3D_RESULT_DRAWN && e3d_is_hidden(w->context, &view);
+    return hidden ? E3D_RESULT_OCCLUDED : result;
+}
+
+/* The results of those of a group's clusters whose bits are set; a bit for each that is drawn. What was seen faced the viewer, and is
+ * tested again in turn. */
 static unsigned find_results(const walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked,
                              e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
-    const e3d_context *context = w->context;
-    e3d_box_view views[E3D_GROUP_CLUSTERS];
-    unsigned shown = 0, away = context->round.choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
+    unsigned shown = 0, away = w->context->round.choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
     for (unsigned left = asked; left; left &= left - 1) {
         int k = __builtin_ctz(left);
-        results[k] = result_of(w, candidate, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1, &views[k]);
+        results[k] = tested_result_of(w, candidate, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1);
         shown |= (unsigned)(results[k] == E3D_RESULT_DRAWN) << k;
-        if (context->round.tested && results[k] == E3D_RESULT_DRAWN)
-            e3d_fetch_kept(context, &views[k]);
-    }
-    for (unsigned left = context->round.tested ? shown : 0; left; left &= left - 1) {
-        int k = __builtin_ctz(left);
-        if (!e3d_is_hidden(context, &views[k]))
-            continue;
-        results[k] = E3D_RESULT_OCCLUDED;
-        shown &= ~(1u << k);
     }
     return shown;
 }
@@ -320,7 +313,7 @@ static unsigned find_results(const walker *w, const e3d_candidate *candidate, co
 static int vertices_are_hidden(const walker *w)
 {
     e3d_box_view view;
-    return e3d_view_vertices(&w->context->view->viewport, w->vertices, &view) && e3d_is_hidden(w->context, &view);
+    return e3d_view_vertices(&w->context->view->viewport, &w->worker->geometry.vertices, &view) && e3d_is_hidden(w->context, &view);
 }
 
 /* Of a smaller group, clusters are drawn in the time that a closer look takes. */
@@ -410,15 +403,10 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
         shown = find_results(w, candidate, group, asked, results);
     int closely = w->context->round.tested && is_wide(&candidate->view.samples);
     unsigned left = !e3d_plans(w->context, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
-    if (left)
-        transform_cluster(w, candidate, &clusters[__builtin_ctz(left)], &w->worker->geometry.vertices[0]);
-    for (int side = 0; left; left &= left - 1, side ^= 1) {
+    for (; left; left &= left - 1) {
         int k = __builtin_ctz(left);
-        unsigned after = left & (left - 1);
-        fetch_next(w, clusters, after & (after - 1));
-        if (after) /* before this one is drawn: neither waits for the other */
-            transform_cluster(w, candidate, &clusters[__builtin_ctz(after)], &w->worker->geometry.vertices[!side]);
-        w->vertices = &w->worker->geometry.vertices[side];
+        fetch_next(w, clusters, left & (left - 1));
+        transform_cluster(w, candidate, &clusters[k]);
         if (closely && vertices_are_hidden(w)) {
             results[k] = E3D_RESULT_OCCLUDED;
             shown &= ~(1u << k);
@@ -477,8 +465,6 @@ static void fetch_candidate(const e3d_context *context, const e3d_candidate *can
     if (context->round.choice == E3D_ALL_CANDIDATES || __atomic_load_n(&context->seen[candidate->number], __ATOMIC_RELAXED))
         for (size_t at = 0; at < sizeof(e3d_view_instance); at += LINE)
             __builtin_prefetch(seen + at);
-    if (context->round.tested)
-        e3d_fetch_kept(context, &candidate->view);
 }
 
 /* What that reads itself. */

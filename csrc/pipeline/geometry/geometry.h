@@ -9,7 +9,7 @@ typedef struct e3d_context e3d_context;
 
 /* A thread's memory. */
 typedef struct e3d_geometry_state {
-    _Alignas(64) e3d_vertices vertices[2]; /* of the cluster that is drawn, and of the next */
+    _Alignas(64) e3d_vertices vertices; /* of the cluster that is drawn */
     e3d_survivors survivors;
 } e3d_geometry_state;
 

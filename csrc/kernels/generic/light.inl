@@ -39,16 +39,16 @@ static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf3
 }
 
 /* Adds color * amount to the sums, in the lanes `near`; NULL: in all. */
-static ALWAYS_INLINE void light_sum(vf32 sums[3], int channels, const float color[3], vf32 amount, const vmask *near)
+static ALWAYS_INLINE void light_sum(vf32 sums[3], const float color[3], vf32 amount, const vmask *near)
 {
-    for (int k = 0; k < channels; k++) {
+    for (int k = 0; k < 3; k++) {
         vf32 more = v_add(sums[k], v_mul(v_setf(color[k]), amount));
         sums[k] = near ? v_self(*near, more, sums[k]) : more;
     }
 }
 
-static ALWAYS_INLINE void light_highlight(const e3d_light *light, int channels, const vf32 l[3], vf32 facing, vf32 attenuation,
-                                          const vmask *near, float shininess, lit_lanes *lit)
+static ALWAYS_INLINE void light_highlight(const e3d_light *light, const vf32 l[3], vf32 facing, vf32 attenuation, const vmask *near,
+                                          float shininess, lit_lanes *lit)
 {
     vf32 zero = v_setf(0.0f), h[3];
     for (int k = 0; k < 3; k++)
@@ -58,33 +58,33 @@ static ALWAYS_INLINE void light_highlight(const e3d_light *light, int channels, 
     vmask some = v_mand(v_gt(facing, zero), v_ge(x, v_setf(0x1p-100f)));
     vf32 safe = v_self(some, x, v_setf(1.0f));
     vf32 power = v_self(some, exp2_poly(v_mul(v_setf(shininess), log2_poly(safe))), zero);
-    light_sum(lit->shine, channels, light->color, v_mul(attenuation, power), near);
+    light_sum(lit->shine, light->color, v_mul(attenuation, power), near);
 }
 
 /* Adds one light that comes from direction l (R31). */
-static ALWAYS_INLINE void light_from(const e3d_light *light, int channels, const vf32 l[3], vf32 attenuation, const vmask *near,
+static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf32 attenuation, const vmask *near,
                                      float shininess, lit_lanes *lit)
 {
     vf32 zero = v_setf(0.0f), facing = v_max(dot_three(lit->normal, l), zero);
-    light_sum(lit->energy, channels, light->color, v_mul(attenuation, facing), near);
+    light_sum(lit->energy, light->color, v_mul(attenuation, facing), near);
     vmask faces = v_gt(facing, zero);
     if (shininess > 0.0f && v_any(near ? v_mand(*near, faces) : faces)) /* where no lane faces the light, the highlight is 0 */
-        light_highlight(light, channels, l, facing, attenuation, near, shininess, lit);
+        light_highlight(light, l, facing, attenuation, near, shininess, lit);
 }
 
-static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, int channels, float shininess, lit_lanes *lit)
+static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, float shininess, lit_lanes *lit)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 l[3], attenuation = v_setf(1.0f);
     if (light->kind == E3D_LIGHT_DIRECTIONAL) {
         for (int k = 0; k < 3; k++)
             l[k] = v_setf(light->to_light[k]);
-        light_from(light, channels, l, attenuation, NULL, shininess, lit);
+        light_from(light, l, attenuation, NULL, shininess, lit);
         return;
     }
     vmask near = light_towards(lighting, n, lit->position, l, &attenuation);
     if (v_any(near))
-        light_from(light, channels, l, attenuation, &near, shininess, lit);
+        light_from(light, l, attenuation, &near, shininess, lit);
 }
 
 static inline void light_view(const e3d_lighting *lighting, lit_lanes *lit)
@@ -195,7 +195,7 @@ static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, con
         if (shininess > 0.0f)
             light_view(lighting, &lit);
         for (int n = 0; n < count; n++)
-            light_one(lighting, chosen[n], 3, shininess, &lit);
+            light_one(lighting, chosen[n], shininess, &lit);
         for (int k = 0; k < 3; k++) {
             v_storef(batch->energy[k] + i, lit.energy[k]);
             v_storef(batch->shine[k] + i, lit.shine[k]);
@@ -227,9 +227,9 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
 
 /* R31: color = (color * energy + specular * shine) + emissive; what is NULL is 0. */
 static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
-                                         const float emissive[3], int channels, vf32 color[3])
+                                         const float emissive[3], vf32 color[3])
 {
-    for (int k = 0; k < channels; k++) {
+    for (int k = 0; k < 3; k++) {
         color[k] = v_mul(color[k], energy[k]);
         if (specular)
             color[k] = v_add(color[k], v_mul(v_setf(specular[k]), shine[k]));
@@ -247,7 +247,7 @@ static void kernel_combine(e3d_batch *batch, const float specular[3], const floa
             energy[k] = v_loadf(batch->energy[k] + i);
             shine[k] = v_loadf(batch->shine[k] + i);
         }
-        combine_vector(energy, shine, specular, emissive, 3, color);
+        combine_vector(energy, shine, specular, emissive, color);
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }

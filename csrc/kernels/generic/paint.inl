@@ -24,31 +24,8 @@ typedef struct paint_plan {
 
 /* ---- light ---- */
 
-/* How a batch is lit. Grey light needs one channel of energy (PAINT_GREY_LIGHT), a grey surface in grey light one channel of
- * colour, too (PAINT_GREY): one sRGB look-up instead of three. PAINT_GREY_LIT is such a surface after its light was added. */
-typedef enum paint_kind { PAINT_UNLIT, PAINT_GREY_LIT, PAINT_GREY, PAINT_GREY_LIGHT, PAINT_LIT } paint_kind;
-
-static ALWAYS_INLINE int paint_lights(paint_kind kind) { return kind == PAINT_LIT ? 3 : 1; }
-static ALWAYS_INLINE int paint_colors(paint_kind kind) { return kind == PAINT_GREY || kind == PAINT_GREY_LIT ? 1 : 3; }
-
-static inline int is_grey(const float c[3]) { return c[0] == c[1] && c[0] == c[2]; }
-
-static inline paint_kind paint_kind_of(const e3d_paint *paint, paint_source source)
-{
-    const e3d_lighting *lighting = paint->lighting;
-    if (!lighting)
-        return PAINT_UNLIT;
-    int grey = is_grey(lighting->ambient);
-    for (int n = 0; n < lighting->light_count; n++)
-        grey &= is_grey(lighting->lights[n].color);
-    if (!grey || paint->shininess > 0.0f)
-        return PAINT_LIT;
-    return source == PAINT_BASE && is_grey(paint->base) && (!paint->emissive || is_grey(paint->emissive)) ? PAINT_GREY : PAINT_GREY_LIGHT;
-}
-
-/* R31 of all lights, which are few. The kind, and whether there are highlights, are constants for the compiler. */
-static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, paint_kind kind, float shininess,
-                                      vf32 color[3])
+/* R31 of all lights, which are few. Whether there are highlights is a constant for the compiler. */
+static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, float shininess, vf32 color[3])
 {
     const e3d_lighting *lighting = paint->lighting;
     lit_lanes lit;
@@ -62,12 +39,10 @@ static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_p
     if (shininess > 0.0f)
         light_view(lighting, &lit);
     for (int n = 0; n < lighting->light_count; n++)
-        light_one(lighting, n, paint_lights(kind), shininess, &lit);
+        light_one(lighting, n, shininess, &lit);
     for (int k = 0; k < 3; k++)
-        lit.energy[k] = k < paint_lights(kind) ? light_clamp(lighting, lit.energy[k]) : lit.energy[0];
-    combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, paint_colors(kind), color);
-    for (int k = paint_colors(kind); k < 3; k++)
-        color[k] = color[0];
+        lit.energy[k] = light_clamp(lighting, lit.energy[k]);
+    combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, color);
 }
 
 /* ---- albedo ---- */
@@ -123,7 +98,7 @@ static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int la
 }
 
 /* The colours of one vector. */
-static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint_plan *plan, paint_kind kind, float shininess,
+static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint_plan *plan, int lit, float shininess,
                                       vf32 color[3])
 {
     if (plan->source == PAINT_TEXELS)
@@ -132,57 +107,55 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const paint
         paint_load(batch, i, color);
     for (int k = 0; k < 3 && plan->source == PAINT_BASE; k++)
         color[k] = v_setf(plan->paint->base[k]);
-    if (kind == PAINT_GREY_LIT)
-        color[1] = color[2] = color[0];
-    else if (kind != PAINT_UNLIT)
-        paint_light(batch, i, plan->paint, kind, shininess, color);
+    if (lit)
+        paint_light(batch, i, plan->paint, shininess, color);
 }
 
 /* Shades and encodes a batch to RGBA8. */
-static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, int srgb,
+static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const paint_plan *plan, int lit, float shininess, int srgb,
                                       uint32_t *rgba)
 {
     const vcurve curve = encode_curve();
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
-        paint_color(batch, i, plan, kind, shininess, color);
+        paint_color(batch, i, plan, lit, shininess, color);
         paint_store(batch->sample + i, encode_vector(&curve, color, srgb), V_LANES, rgba);
     }
 }
 
 /* Where the sRGB curve is looked up in memory, light has a loop of its own: one of both would not fit the out-of-order window. */
-static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const paint_plan *plan, int lit, float shininess, uint32_t *rgba)
 {
-    paint_plan lit = *plan;
-    lit.source = PAINT_COLOR;
+    paint_plan done = *plan;
+    done.source = PAINT_COLOR;
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
-        paint_color(batch, i, plan, kind, shininess, color);
-        for (int k = 0; k < paint_colors(kind); k++)
+        paint_color(batch, i, plan, lit, shininess, color);
+        for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }
-    paint_codes(batch, &lit, kind == PAINT_GREY ? PAINT_GREY_LIT : PAINT_UNLIT, shininess, 1, rgba);
+    paint_codes(batch, &done, 0, 0.0f, 1, rgba);
 }
 
-static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess)
+static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const paint_plan *plan, int lit, float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
-        paint_color(batch, i, plan, kind, shininess, color);
+        paint_color(batch, i, plan, lit, shininess, color);
         samples_keep(batch->sample + i, color, V_LANES, plan->paint->samples);
     }
 }
 
-static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const paint_plan *plan, paint_kind kind, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const paint_plan *plan, int lit, float shininess, uint32_t *rgba)
 {
     if (plan->paint->samples)
-        paint_samples(batch, plan, kind, shininess);
+        paint_samples(batch, plan, lit, shininess);
     else if (plan->paint->srgb && V_LANES < 16)
-        paint_in_turn(batch, plan, kind, shininess, rgba);
+        paint_in_turn(batch, plan, lit, shininess, rgba);
     else if (plan->paint->srgb)
-        paint_codes(batch, plan, kind, shininess, 1, rgba);
+        paint_codes(batch, plan, lit, shininess, 1, rgba);
     else
-        paint_codes(batch, plan, kind, shininess, 0, rgba);
+        paint_codes(batch, plan, lit, shininess, 0, rgba);
 }
 
 static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)
@@ -203,18 +176,12 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
     if (paint->wanted & E3D_WANT_SURFACE)
         kernel_interpolate(batch, surfaces, paint->wanted);
     plan.source = paint->texture ? paint_textured(batch, surfaces, paint, &texture) : paint_untextured(batch, surfaces, paint);
-    switch (paint_kind_of(paint, plan.source)) {
-    case PAINT_GREY_LIT:
-    case PAINT_UNLIT: paint_pixels(batch, &plan, PAINT_UNLIT, 0.0f, rgba); break;
-    case PAINT_GREY: paint_pixels(batch, &plan, PAINT_GREY, 0.0f, rgba); break;
-    case PAINT_GREY_LIGHT: paint_pixels(batch, &plan, PAINT_GREY_LIGHT, 0.0f, rgba); break;
-    case PAINT_LIT:
-        if (paint->shininess > 0.0f)
-            paint_pixels(batch, &plan, PAINT_LIT, paint->shininess, rgba);
-        else
-            paint_pixels(batch, &plan, PAINT_LIT, 0.0f, rgba);
-        break;
-    }
+    if (!paint->lighting)
+        paint_pixels(batch, &plan, 0, 0.0f, rgba);
+    else if (paint->shininess > 0.0f)
+        paint_pixels(batch, &plan, 1, paint->shininess, rgba);
+    else
+        paint_pixels(batch, &plan, 1, 0.0f, rgba);
 }
 
 #endif

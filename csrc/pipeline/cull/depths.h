@@ -18,7 +18,7 @@ typedef struct e3d_tile_depths {
 } e3d_tile_depths;
 
 int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view);
-/* Of a tile that nothing is drawn in, and so hides nothing. */
+/* Says that nothing is drawn in a tile, which therefore hides nothing. */
 void e3d_depths_clear(e3d_tile_depths *depths);
 /* Notes a tile's farthest depths. */
 void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile);

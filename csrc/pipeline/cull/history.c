@@ -26,7 +26,7 @@ void e3d_histories_free(e3d_histories *histories)
         free_history(&histories->of[h]);
 }
 
-/* Without memory it stays empty. */
+/* Copies an array; where memory is out, the copy stays empty. */
 static void copy_array(e3d_array *to, const e3d_array *from, size_t size)
 {
     to->count = 0;

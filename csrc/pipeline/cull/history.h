@@ -35,7 +35,7 @@ typedef struct e3d_history {
     int64_t tiles_changed; /* by what the frame before had not shown */
 } e3d_history;
 
-/* Those of the views that a renderer drew last. */
+/* The histories of the views that a renderer drew last. */
 enum { E3D_HISTORIES = 8 };
 typedef struct e3d_histories {
     e3d_history of[E3D_HISTORIES];

@@ -102,7 +102,12 @@ static e3d_status run_pass(e3d_renderer *renderer, const e3d_pass *pass)
         e3d_count_submitted(pass->frame, stats);
         return done;
     }
-    e3d_context context = {.renderer = renderer, .kernels = renderer->kernels, .frame = pass->frame, .targets = pass->targets, .draws = &renderer->draws, .view = &renderer->view};
+    e3d_context context = {.renderer = renderer,
+                           .kernels = renderer->kernels,
+                           .frame = pass->frame,
+                           .targets = pass->targets,
+                           .draws = &renderer->draws,
+                           .view = &renderer->view};
     e3d_fpenv saved = e3d_fpenv_enter();
     e3d_status status = run(&context, stats);
     e3d_fpenv_leave(saved);

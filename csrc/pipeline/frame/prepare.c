@@ -19,7 +19,7 @@
 #include "pipeline/state/tile_state.h"
 #include "pipeline/pass/view.h"
 
-/* Of all tiles nothing is drawn; of all instances nothing shows so far. */
+/* Before a frame, no tile is drawn and no instance shows. */
 static int clear_marks(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;

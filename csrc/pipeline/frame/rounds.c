@@ -167,7 +167,8 @@ static int pay(const e3d_context *context)
         return 0;
     for (int32_t w = 0; w < context->renderer->threads; w++)
         covered += context->renderer->workers[w]->counters.blocks;
-    return !e3d_history_backs_off(context->view->history, covered, context->candidate_count) && covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
+    return !e3d_history_backs_off(context->view->history, covered, context->candidate_count) &&
+           covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 
 /* Whether most tiles can be drawn to their end with what the last frames showed: shading a tile while it lies in the caches pays

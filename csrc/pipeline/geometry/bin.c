@@ -103,8 +103,8 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile
     }
 }
 
-/* To the tiles of a span that the record does not miss. Within the picture it meets each of a single row or column. (By itself, for
- * with it the rest would have no registers left.) */
+/* Lists a record in the tiles of a span that it does not miss; it meets each tile of a single row or column. This is a function of
+ * its own because its registers would spill those of the common case. */
 static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
                                               e3d_tile_span span, uint32_t id)
 {

@@ -13,11 +13,11 @@ typedef struct e3d_record_set e3d_record_set;
 
 void e3d_records_free(e3d_record_set *set);
 int e3d_records_reset(e3d_record_set *set, int32_t tiles);
-/* Of records or of fragments. */
+/* Empties the bins of a thread's records or fragments. */
 void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles);
 /* Puts what they hold aside; 0 when memory is out. */
 int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles);
-/* Of so many records from one on, to the tiles of their spans; 0 when memory is out. */
+/* Lists `count` records from `first` on in the bins of the tiles that they may touch; 0 when memory is out. */
 int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
                     int count);
 static inline e3d_tile_span e3d_span_of(const e3d_box *box)
@@ -28,7 +28,7 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 
 /* Whether any thread has a record or a fragment for the tile. */
 int e3d_has_bin(const e3d_context *context, int which, int64_t tile);
-/* The same of both sets. */
+/* Whether that holds for either set. */
 int e3d_has_bins(const e3d_context *context, int64_t tile);
 /* How many a tile's bins of the scene hold. */
 typedef struct e3d_entries {

@@ -49,7 +49,7 @@ void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
 /* Draws a tile's fragments, or those of the round that finished it. */
 void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
                         int earlier);
-/* What they show of the tile, to the end of the list. */
+/* Adds the samples that show them to the tile's list. */
 void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number);
 
 #endif

@@ -79,7 +79,7 @@ static e3d_primitive face_primitive(const walker *w, int32_t face)
                            .mirrored = w->instance->mirrored};
 }
 
-/* With the key that painter's algorithm sorts by. */
+/* Emits one triangle, with the key that painter's algorithm sorts by. */
 static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
     const e3d_vertices *v = &w->worker->geometry.vertices;
@@ -162,7 +162,7 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
     draw_records(w, &request);
 }
 
-/* Those of two-sided materials. */
+/* The triangles whose materials are two-sided: a bit each. */
 static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint64_t triangles)
 {
     uint64_t found = 0;
@@ -222,7 +222,7 @@ static void transform_cluster(const walker *w, const e3d_candidate *candidate, c
                                     out);
 }
 
-/* Where the next records will lie, the last frame's were read by other threads: their lines are asked for ahead. */
+/* Prefetches for writing the cache lines of the next records: other threads read the last frame's records there. */
 static void fetch_records(const walker *w, int count)
 {
     e3d_record_set *set = &w->worker->sets[E3D_SET_SCENE];
@@ -270,7 +270,7 @@ static unsigned find_away(const walker *w, const e3d_group_box *group)
                                        drop_sign(w), w->instance->clip, &context->view->viewport);
 }
 
-/* Without what is drawn already: *view tells of a cluster that may show whether it must be tried against that. */
+/* What becomes of a cluster, before it is tested against what is drawn. Where it may show, *view is what that test needs. */
 static e3d_cull_result result_of(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
     const float *clip = e3d_culling_matrix(w->context->view, w->number);
@@ -316,7 +316,7 @@ static int vertices_are_hidden(const walker *w)
     return e3d_view_vertices(&w->context->view->viewport, &w->worker->geometry.vertices, &view) && e3d_is_hidden(w->context, &view);
 }
 
-/* Of a smaller group, clusters are drawn in the time that a closer look takes. */
+/* Whether the vertices of a group's clusters are worth testing: those of a smaller one are drawn in the same time. */
 static int is_wide(const e3d_box *samples)
 {
     enum { WIDE = 48 };
@@ -334,7 +334,7 @@ static void mark(walker *w, const e3d_candidate *candidate, e3d_cull_result resu
         __atomic_fetch_or(marks, bits, __ATOMIC_RELAXED);
 }
 
-/* What a cluster is made of lies in memory cluster by cluster: the next one's, ahead of its use. */
+/* Prefetches a cluster's positions and indices, which lie one after the other. */
 static ALWAYS_INLINE void fetch_cluster(const e3d_cluster *c, int32_t components)
 {
     enum { LINE = 64 };
@@ -364,7 +364,7 @@ static void count_cluster(walker *w, const e3d_candidate *candidate, const e3d_c
     mark(w, candidate, result);
 }
 
-/* Of a group that is hidden, without a look at each cluster where all count and are in the frustum. */
+/* Counts the clusters of a hidden group; it looks at each only where not all count, or not all are in the frustum. */
 static void count_hidden(walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned counted)
 {
     e3d_counters *counters = &w->worker->counters;
@@ -423,7 +423,7 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
  * are hidden now drop out. */
 enum { FRAMES_A_TRIAL = 4 };
 
-/* Other threads may look at it meanwhile, to see what to fetch. */
+/* Stores what showed; other threads may read it at the same time, to see what to prefetch. */
 static void set_seen(const e3d_context *context, const e3d_candidate *candidate, unsigned seen)
 {
     __atomic_store_n(&context->seen[candidate->number], (uint8_t)seen, __ATOMIC_RELAXED);
@@ -457,7 +457,7 @@ static void visit_candidate(walker *w, const e3d_candidate *candidate)
 
 /* ---- the walk ---- */
 
-/* What a candidate soon to come reads of the frame, anywhere in memory: few of those that did not show read their instance. */
+/* Prefetches what a candidate will read of its instance; few of those that did not show last time read it. */
 static void fetch_candidate(const e3d_context *context, const e3d_candidate *candidate)
 {
     enum { LINE = 64 };
@@ -467,7 +467,7 @@ static void fetch_candidate(const e3d_context *context, const e3d_candidate *can
             __builtin_prefetch(seen + at);
 }
 
-/* What that reads itself. */
+/* Prefetches what fetch_candidate reads. */
 static void fetch_seen(const e3d_context *context, const e3d_candidate *candidate)
 {
     if (context->round.choice != E3D_ALL_CANDIDATES)
@@ -498,7 +498,7 @@ static unsigned find_next(walker *w, const e3d_candidate *candidate)
 
 static int64_t candidates_of(const e3d_round *round) { return round->end - round->first; }
 
-/* As many that threads seldom ask for more, and few enough that none waits long for another's last ones. */
+/* How many candidates a thread takes at once: many, so that it seldom asks; few, so that none waits long for another's last. */
 static int64_t candidates_a_task(const e3d_context *context)
 {
     int64_t candidates = candidates_of(&context->round) / (TASKS_A_THREAD * context->renderer->threads);

@@ -68,7 +68,7 @@ static int32_t offset_of(const e3d_context *context, double dx, double dy)
     return (int32_t)lrint((double)context->lines.half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
 }
 
-/* Of its ends on the screen. */
+/* Draws a line between two points of the screen as a parallelogram. */
 static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int which)
 {
     int32_t across = distance(end[1].x, end[0].x), down = distance(end[1].y, end[0].y);

@@ -24,7 +24,7 @@ int e3d_box_state(const float clip[16], const float lo[3], const float hi[3]);
 /* Only the state is set of a box that is outside. */
 void e3d_view_box(const e3d_viewport *viewport, const float clip[16], const float lo[3], const float hi[3],
                   e3d_box_view *out);
-/* Of vertices that are all in the frustum, four or more, around a sample; 0 if they are not. */
+/* The box of four or more vertices; 0 if not all are in the frustum, or no sample lies between them. */
 int e3d_view_vertices(const e3d_viewport *viewport, const e3d_vertices *vertices, e3d_box_view *out);
 
 #endif

@@ -48,7 +48,7 @@ typedef struct e3d_draws {
 e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges);
 void e3d_draws_free(e3d_draws *draws);
 
-/* Whose an instance, a unit of work or a group of clusters is, by its number in the frame: there must be one. */
+/* The draw that an instance, a unit of work or a group of clusters belongs to, by its number in the frame: it must exist. */
 const e3d_draw_state *e3d_draw_of_instance(const e3d_draws *draws, int64_t instance);
 const e3d_draw_state *e3d_draw_of_unit(const e3d_draws *draws, int64_t unit);
 const e3d_draw_state *e3d_draw_of_group(const e3d_draws *draws, int64_t group);

@@ -50,7 +50,7 @@ static void multiply_pose(const double a[16], const e3d_draw *draw, int32_t inst
     multiply_rows(a, rows, out);
 }
 
-/* Those of the upper left 3x3; its determinant. */
+/* The cofactors of the upper left 3x3, and its determinant. */
 static double find_cofactors(const double m[16], double cofactor[9])
 {
     for (int r = 0; r < 3; r++)

@@ -81,7 +81,7 @@ void e3d_view_free(e3d_view *view)
 
 /* ---- instances ---- */
 
-/* Of the world matrix in float64; the clip matrix is known. */
+/* Finds what follows from the world matrix, in float64, once the clip matrix is known. */
 static void finish(const e3d_view *view, const double world[16], e3d_instance *instance, e3d_view_instance *out)
 {
     for (int k = 0; k < 12; k++)

@@ -222,7 +222,7 @@ static int32_t find_stretch(const e3d_worker *worker, int32_t first, int32_t end
     return p;
 }
 
-/* As much of a stretch as the batch has room for. */
+/* Adds as much of a stretch as the batch has room for. */
 static void take(const e3d_context *context, e3d_worker *worker, int32_t piece, stretch *s)
 {
     const e3d_shown *shown = &worker->tile->shown;

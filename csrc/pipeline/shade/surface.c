@@ -41,7 +41,7 @@ static const float *corners_of(const e3d_context *context, uint32_t id, const e3
                                          : NULL;
 }
 
-/* Of a piece of fragments, whose `local` is the triangle's number in its cluster so far. */
+/* Finds the face of a micro-triangle, whose `local` is its number in the cluster so far. */
 static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder *finder, e3d_visible_primitive *piece)
 {
     const e3d_drawn_cluster *drawn = piece->drawn;

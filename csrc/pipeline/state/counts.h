@@ -5,9 +5,15 @@
 #include <stdint.h>
 
 /* What becomes of a cluster: it is transformed and drawn, or left out. */
-typedef enum e3d_cull_result { E3D_RESULT_DRAWN = 0, E3D_RESULT_OUTSIDE, E3D_RESULT_BACKFACING, E3D_RESULT_OCCLUDED, E3D_CULL_RESULTS } e3d_cull_result;
+typedef enum e3d_cull_result {
+    E3D_RESULT_DRAWN = 0,
+    E3D_RESULT_OUTSIDE,
+    E3D_RESULT_BACKFACING,
+    E3D_RESULT_OCCLUDED,
+    E3D_CULL_RESULTS
+} e3d_cull_result;
 
-/* Of an instance: a cluster was not occluded; one was drawn. */
+/* What is known of an instance: one of its clusters was not occluded; one was drawn. */
 enum { E3D_MARK_UNOCCLUDED = 1, E3D_MARK_DRAWN = 2 };
 
 typedef struct e3d_counters {

@@ -11,7 +11,7 @@
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
 
-/* Of each output: words a pixel, and the background's, all alike. */
+/* How many words a pixel of each output has, and the word that all of them hold in the background. */
 static const struct {
     int channels;
     union {

@@ -26,7 +26,7 @@ typedef struct e3d_outputs_state {
 enum { E3D_NO_PIXEL = E3D_TILE_SAMPLES };
 
 int e3d_output_channels(e3d_output_kind kind);
-/* Where a worker gathers an output; NULL: nobody asked for it. */
+/* Returns where a worker gathers an output, or NULL if nobody asked for it. */
 void *e3d_outputs_gathered(const e3d_context *context, const e3d_worker *worker, e3d_output_kind kind);
 int e3d_outputs_prepare(e3d_context *context); /* 0 when memory is out */
 void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker);

@@ -11,7 +11,7 @@ typedef struct e3d_worker e3d_worker;
 /* What is done with tiles: those that something is in are drawn, the others cleared. */
 typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
 
-/* Of the tiles, by their numbers: a worker's share, and what one has taken. */
+/* Tiles are known by their numbers. A worker's own range is shared with others; what it has taken is its alone. */
 typedef struct e3d_tile_range {
     atomic_llong next;
     int64_t end;

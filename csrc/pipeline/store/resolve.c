@@ -144,8 +144,8 @@ static void average(const e3d_context *context, e3d_tile_memory *memory, const e
 {
     int axis = context->frame->samples_axis;
     for (int y = 0; y < tile->height / axis; y++)
-        context->kernels->average(&memory->pixels.samples, axis, y * axis, tile->width / axis, context->background.color, e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
-                                  memory->pixels.rgba + y * E3D_TILE);
+        context->kernels->average(&memory->pixels.samples, axis, y * axis, tile->width / axis, context->background.color,
+                                  e3d_plans(context, E3D_PLAN_ENCODES_SRGB), memory->pixels.rgba + y * E3D_TILE);
 }
 
 void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)

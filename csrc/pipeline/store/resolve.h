@@ -33,7 +33,7 @@ typedef struct e3d_tile e3d_tile;
 /* The frame's background and its lines, encoded. */
 void e3d_resolve_prepare(e3d_context *context);
 void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker);
-/* Of a tile that is finished already, and of which some samples are to be shaded anew. */
+/* Reads back a tile that is drawn already, of which some samples are to be shaded anew. */
 void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
 /* batch->color is that of its samples. */
 void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);

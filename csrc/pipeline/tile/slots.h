@@ -15,7 +15,7 @@ typedef struct e3d_slots_state {
     e3d_array ids, orders;
 } e3d_slots_state;
 
-/* Of each sample of a tile: what is counted or marked beside the visible surface. */
+/* What is counted or marked beside the visible surface, sample by sample. */
 typedef struct e3d_marks_memory {
     float bound[E3D_TILE_SAMPLES + E3D_PAD];      /* E3D_BEYOND_FAR everywhere */
     float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* what an edge's depth must be less than */

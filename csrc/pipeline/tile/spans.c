@@ -64,7 +64,7 @@ static int meet(const e3d_cover *cover)
     return twice != 0;
 }
 
-/* By their nearest depths: none is negative, so the bits are in their order. */
+/* Sorts records by their nearest depths. None is negative, so their bits compare as they do. */
 static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int count, uint16_t *sorted)
 {
     for (int i = 0; i < count; i++) {

@@ -40,7 +40,7 @@ static int32_t find_runs(const e3d_tile_job *job, int *gaps)
                                             job->worker->tile->runs.rows, gaps);
 }
 
-/* What the tile's samples are before they are shaded: anything, where all of them will be. */
+/* Fills the tile with what its samples are before they are shaded; nothing is filled where all of them will be. */
 static void begin(const e3d_tile_job *job, int all)
 {
     const e3d_context *context = job->context;
@@ -117,7 +117,7 @@ static void clear_outside(const e3d_tile_job *job)
             id[y * E3D_TILE + x] = E3D_NO_SLOT;
 }
 
-/* Of pieces where they lie, one after the other; or runs are found in rows and sorted. */
+/* Shades what shows: listed record by record, or as runs that are found row by row and sorted. */
 static int shade_visible(e3d_tile_job *job)
 {
     e3d_context *context = job->context;
@@ -136,7 +136,7 @@ static int shade_visible(e3d_tile_job *job)
     return e3d_shade_runs(context, worker, &job->tile, count);
 }
 
-/* What shows of few records is found without depths, where these are not needed for anything else. */
+/* Tries to find without depths what shows of few records. */
 static int shows_spans(const e3d_tile_job *job)
 {
     const e3d_context *context = job->context;

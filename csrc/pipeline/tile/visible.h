@@ -9,7 +9,7 @@ typedef struct e3d_worker e3d_worker;
 typedef struct e3d_tile e3d_tile;
 
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
-/* With what is in its bins, and where it was drawn to its end before, what was in them then. */
+/* Draws what is in a tile's bins; `earlier`: first what was in them when the tile was finished. */
 void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number, int earlier);
 /* Makes the list of what shows, where the tile's bins hold all of it. */
 void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t tile_number);

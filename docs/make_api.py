@@ -14,9 +14,10 @@ import re
 import sys
 from pathlib import Path
 
+from generated_page import write_or_check
+
 import engine3d
 from engine3d._support.validation import CheckedAttribute
-from engine3d.files.atomic_write import atomic_write
 
 PAGE = Path(__file__).resolve().parent / "api.md"
 INTRODUCTION = """\
@@ -231,15 +232,7 @@ def check_complete() -> None:
 
 def main(arguments: list[str]) -> int:
     check_complete()
-    text = page()
-    if "--check" not in arguments:
-        with atomic_write(PAGE) as file:
-            file.write(text.encode())
-        return 0
-    if PAGE.exists() and PAGE.read_text(encoding="utf-8") == text:
-        return 0
-    print("docs/api.md is out of date: run `python docs/make_api.py`", file=sys.stderr)
-    return 1
+    return write_or_check(PAGE, page(), arguments)
 
 
 if __name__ == "__main__":

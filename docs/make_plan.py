@@ -13,9 +13,10 @@ import sys
 from itertools import groupby
 from pathlib import Path
 
+from generated_page import write_or_check
+
 import engine3d as e3d
 from engine3d._native.kernels_testing import plan_items, plan_rules
-from engine3d.files.atomic_write import atomic_write
 
 PAGE = Path(__file__).resolve().parent / "plan.md"
 INTRODUCTION = """\
@@ -98,15 +99,7 @@ def page() -> str:
 
 
 def main(arguments: list[str]) -> int:
-    text = page()
-    if "--check" not in arguments:
-        with atomic_write(PAGE) as file:
-            file.write(text.encode())
-        return 0
-    if PAGE.exists() and PAGE.read_text(encoding="utf-8") == text:
-        return 0
-    print("docs/plan.md is out of date: run `python docs/make_plan.py`", file=sys.stderr)
-    return 1
+    return write_or_check(PAGE, page(), arguments)
 
 
 if __name__ == "__main__":

@@ -40,6 +40,13 @@ static inline int e3d_array_reserve(e3d_array *array, size_t wanted, size_t size
     return 1;
 }
 
+static inline void e3d_array_swap(e3d_array *a, e3d_array *b)
+{
+    e3d_array kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
 static inline void e3d_array_free(e3d_array *array)
 {
     free(array->data);

@@ -10,9 +10,9 @@
 #include "kernels/kernels.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
-#include "pipeline/pass/boxes.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/depths.h"
+#include "pipeline/pass/boxes.h"
 #include "pipeline/state/context.h"
 
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };

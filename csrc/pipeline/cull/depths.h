@@ -5,8 +5,8 @@
 #include "core/limits.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
-#include "pipeline/pass/boxes.h"
 #include "pipeline/cull/cull.h"
+#include "pipeline/pass/boxes.h"
 
 typedef struct e3d_context e3d_context;
 

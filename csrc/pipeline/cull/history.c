@@ -6,8 +6,8 @@
 #include "core/grow.h"
 #include "core/mesh.h"
 #include "e3d.h"
-#include "pipeline/pass/draws.h"
 #include "pipeline/cull/history.h"
+#include "pipeline/pass/draws.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/state/context.h"
 
@@ -112,19 +112,12 @@ static int64_t match_rows(e3d_history *history)
     return known;
 }
 
-static void exchange(e3d_array *a, e3d_array *b)
-{
-    e3d_array kept = *a;
-    *a = *b;
-    *b = kept;
-}
-
 int e3d_history_remember(e3d_context *context)
 {
     e3d_history *history = context->view->history;
     size_t count = (size_t)context->draws->order_count, groups = (size_t)context->draws->groups;
-    exchange(&history->rows, &history->rows_before);
-    exchange(&history->seen, &history->seen_before);
+    e3d_array_swap(&history->rows, &history->rows_before);
+    e3d_array_swap(&history->seen, &history->seen_before);
     history->trials++;
     history->rows.count = 0; /* until it is whole */
     if (!e3d_array_reserve(&history->rows, count + 1, sizeof(e3d_history_row)) ||

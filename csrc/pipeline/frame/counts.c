@@ -5,11 +5,11 @@
  */
 #include "e3d.h"
 #include "pipeline/frame/counts.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/counts.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/state/context.h"
+#include "pipeline/state/counts.h"
 #include "pipeline/state/renderer.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)

@@ -1,5 +1,4 @@
 /* prepare: what a frame needs before anything is drawn: its plan, its draws, its view and its constants. */
-#include <stdatomic.h>
 #include <string.h>
 
 #include "core/grow.h"
@@ -7,17 +6,17 @@
 #include "core/srgb_tables.h"
 #include "e3d.h"
 #include "kernels/types/visible.h"
-#include "pipeline/pass/draws.h"
 #include "pipeline/cull/history.h"
-#include "pipeline/geometry/lines.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/frame/prepare.h"
+#include "pipeline/geometry/lines.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/renderer.h"
+#include "pipeline/state/tile_state.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/store/resolve.h"
-#include "pipeline/state/tile_state.h"
-#include "pipeline/pass/view.h"
 
 /* Before a frame, no tile is drawn and no instance shows. */
 static int clear_marks(e3d_context *context)

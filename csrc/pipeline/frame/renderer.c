@@ -7,17 +7,17 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "pipeline/cull/cull.h"
-#include "pipeline/geometry/bin.h"
-#include "pipeline/pass/draws.h"
-#include "pipeline/geometry/fragments.h"
 #include "pipeline/cull/history.h"
 #include "pipeline/frame/rounds.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/fragments.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/shade/surface.h"
 #include "pipeline/state/renderer.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/tile/slots.h"
-#include "pipeline/shade/surface.h"
-#include "pipeline/pass/view.h"
 
 static e3d_worker *create_worker(uint32_t number)
 {

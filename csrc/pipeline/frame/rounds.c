@@ -14,20 +14,20 @@
 #include "core/pool.h"
 #include "e3d.h"
 #include "kernels/types/visible.h"
-#include "pipeline/geometry/bin.h"
 #include "pipeline/cull/depths.h"
+#include "pipeline/cull/history.h"
+#include "pipeline/frame/rounds.h"
+#include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/fragments.h"
 #include "pipeline/geometry/geometry.h"
-#include "pipeline/cull/history.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/records.h"
-#include "pipeline/frame/rounds.h"
 #include "pipeline/state/renderer.h"
+#include "pipeline/state/tile_state.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/store/queue.h"
-#include "pipeline/state/tile_state.h"
-#include "pipeline/pass/view.h"
 #include "pipeline/tile/tile.h"
 #include "pipeline/tile/visible.h"
 
@@ -108,7 +108,7 @@ static void keep_work(void *argument, int number)
 }
 
 /* Draws what the round covers, and keeps it for the next one. */
-static int keep_tiles(e3d_context *context)
+static void keep_tiles(e3d_context *context)
 {
     e3d_renderer *renderer = context->renderer;
     int32_t tiles = (int32_t)e3d_tile_count(context->view);
@@ -121,7 +121,6 @@ static int keep_tiles(e3d_context *context)
         e3d_bins_clear(&records->bins, &records->blocks, tiles);
         e3d_bins_clear(&fragments->bins, &fragments->blocks, tiles);
     }
-    return 1;
 }
 
 /* The tiles are drawn from visible surface to pixels; those to which the next round adds something will be drawn anew, from these
@@ -150,7 +149,11 @@ static int draw_round(e3d_context *context, e3d_stats *stats, e3d_round round)
     e3d_geometry(context);
     stats->ms_geometry += (double)(e3d_now_ns() - start) * 1e-6;
     stats->rounds++;
-    return (round.last || (round.finishes ? finish_tiles(context) : keep_tiles(context))) && !e3d_any_failed(context->renderer);
+    if (round.finishes && !finish_tiles(context))
+        return 0;
+    if (!round.finishes && !round.last)
+        keep_tiles(context);
+    return !e3d_any_failed(context->renderer);
 }
 
 /* ---- which rounds ---- */

@@ -29,9 +29,7 @@ void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles)
 
 int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles)
 {
-    e3d_array kept = *bins;
-    *bins = *earlier;
-    *earlier = kept;
+    e3d_array_swap(bins, earlier);
     if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
         return 0;
     empty_bins(bins, tiles);

@@ -7,10 +7,10 @@
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/setup.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/records.h"
-#include "pipeline/geometry/setup.h"
 #include "pipeline/state/worker.h"
 
 static float clamp(float v, float lo, float hi)

@@ -7,18 +7,18 @@
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/shade/runs.h"
+#include "pipeline/shade/shade.h"
+#include "pipeline/shade/surface.h"
 #include "pipeline/shade/values.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
-#include "pipeline/pass/draws.h"
 #include "pipeline/store/blank.h"
 #include "pipeline/store/outputs.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/store/resolve.h"
-#include "pipeline/shade/runs.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
 
 /* ---- display modes (R32) ---- */
 

@@ -1,11 +1,11 @@
 /* Which thread draws which tile: a part of the picture is each thread's own, in each frame, so that the textures that show there
  * stay in its core's caches. Who is done draws what others have left. */
 #include "e3d.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/renderer.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/store/queue.h"
-#include "pipeline/pass/view.h"
 
 void e3d_queue_tiles(e3d_context *context)
 {

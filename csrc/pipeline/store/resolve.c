@@ -4,12 +4,12 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/store/resolve.h"
 
 static uint32_t encode_one(const e3d_context *context, const float color[3], float alpha)

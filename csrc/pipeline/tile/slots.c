@@ -13,13 +13,13 @@
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/shade/shade.h"
 #include "pipeline/state/context.h"
 #include "pipeline/state/records.h"
 #include "pipeline/state/renderer.h"
 #include "pipeline/state/tile_memory.h"
 #include "pipeline/state/worker.h"
 #include "pipeline/store/resolve.h"
-#include "pipeline/shade/shade.h"
 #include "pipeline/tile/slots.h"
 
 void e3d_marks_init(e3d_marks_memory *marks)

@@ -4,8 +4,8 @@
 
 #include "core/grow.h"
 #include "core/limits.h"
-#include "pipeline/state/tile_state.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/state/tile_state.h"
 
 typedef struct e3d_context e3d_context;
 typedef struct e3d_worker e3d_worker;

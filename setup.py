@@ -82,7 +82,8 @@ BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
 ISA_FLAGS = isa_flags()
 IS_X86_64 = sysconfig.get_platform().endswith(("x86_64", "amd64"))
 
-PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data"}
+PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
+DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
 DATA_SUFFIXES = ["obj", "mtl", "tga", "png", "jpg", "asc", "json", "txt", "md"]
 
 
@@ -166,9 +167,9 @@ def module_of(source):
 
 
 def packages():
-    """The folders of engine/ that hold an __init__.py, as engine3d.*, and engine3d.data."""
+    """The folders of engine/ that hold an __init__.py, as engine3d.*, and what is data."""
     folders = sorted(path.parent for path in Path("engine").rglob("__init__.py"))
-    return [".".join(("engine3d", *folder.parts[1:])) for folder in folders] + ["engine3d.data"]
+    return [".".join(("engine3d", *folder.parts[1:])) for folder in folders] + DATA_PACKAGES
 
 
 class Build(build):
@@ -358,6 +359,8 @@ if __name__ == "__main__":
             "engine3d": ["py.typed", "*.pyi"],
             "engine3d._native": ["*.pyi"],
             "engine3d.data": [f"**/*.{suffix}" for suffix in DATA_SUFFIXES],
+            # Text only: their pictures are in docs/course, and are drawn anew by whoever runs them.
+            "engine3d.lessons": ["*.c", "*.obj", "*.asc"],
         },
         include_package_data=False,
         exclude_package_data={"engine3d._native": ["kernels_testing.pyi"]},

@@ -11,7 +11,7 @@ import pytest
 pytestmark = pytest.mark.slow
 
 MAX_WHEEL_BYTES = 10_000_000
-SOURCE_FOLDERS = ["benchmarks", "csrc", "data", "docs", "engine", "tests"]
+SOURCE_FOLDERS = ["benchmarks", "csrc", "data", "docs", "engine", "lessons", "tests"]
 SOURCE_FILES = ["CHANGELOG.md", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml", "setup.py"]
 BUILD_PRODUCTS = {".so", ".o", ".a", ".pyc"}
 
@@ -95,6 +95,12 @@ def test_wheel_holds_every_module_stub_and_data_file(wheel, source_tree):
         for path in data.rglob("*")
         if path.is_file() and not {"scripts", "__pycache__"} & set(path.relative_to(data).parts)
     }
+    lessons = source_tree / "lessons"
+    expected |= {
+        f"engine3d/lessons/{path.name}"
+        for path in lessons.iterdir()
+        if path.is_file() and path.suffix != ".md"
+    }
     assert expected <= held
     compiled = {PurePosixPath(name).name.split(".")[0] for name in held if name.endswith(".so")}
     assert compiled == {"_core"}
@@ -105,4 +111,5 @@ def test_wheel_holds_nothing_else(wheel):
         names = archive.namelist()
     roots = {name.split("/")[0].split("-")[0] for name in names}
     assert roots == {"engine3d"}
-    assert not [name for name in names if name.endswith((".pyx", ".c", ".h", ".inl", ".a"))]
+    sources = [name for name in names if name.endswith((".pyx", ".c", ".h", ".inl", ".a"))]
+    assert [name for name in sources if not name.startswith("engine3d/lessons/")] == []

@@ -1,0 +1,129 @@
+"""What the lessons share: their arguments, the sheet of their pictures, and the lessons before.
+
+A lesson is a program of its own. Its function `steps(width, height)` yields what it draws, step
+after step, as `(caption, picture, ...)`: the picture so far, and beside it what explains it.
+Pictures are arrays (H, W, 3) uint8, RGB, top row first.
+"""
+
+import argparse
+import importlib.util
+import inspect
+import textwrap
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+
+import engine3d as e3d
+
+FOLDER = Path(__file__).resolve().parent
+MODELS = files("engine3d.data") / "models"
+PAPER, INK = (30, 33, 40), (235, 235, 230)
+MARGIN = 8
+GLYPH_WIDTH, LINE_HEIGHT = 8, 16
+
+
+def blank(width, height, color=PAPER):
+    """Return a picture of one colour."""
+    picture = np.empty((height, width, 3), np.uint8)
+    picture[:] = color
+    return picture
+
+
+def magnify(picture, times):
+    """Return a picture whose every pixel is a square, with a dark line between neighbours."""
+    large = picture.repeat(times, axis=0).repeat(times, axis=1)
+    large[::times] = large[::times] // 2
+    large[:, ::times] = large[:, ::times] // 2
+    return large
+
+
+def text(lines, width, height, scale=1):
+    """Return a picture of lines of text."""
+    canvas = e3d.Canvas(width, height)
+    canvas.clear(PAPER)
+    for number, line in enumerate(lines):
+        canvas.text(MARGIN, MARGIN + number * LINE_HEIGHT * scale, line, INK, scale=scale)
+    return canvas.pixels[:, :, :3].copy()
+
+
+def earlier(name):
+    """Return the module of another lesson: `earlier("03_lines").bresenham`."""
+    spec = importlib.util.spec_from_file_location(f"lesson_{name}", FOLDER / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def block(caption, *pictures):
+    """Return the pictures of one step side by side, with its caption below."""
+    width = sum(picture.shape[1] + MARGIN for picture in pictures) + MARGIN
+    height = max(picture.shape[0] for picture in pictures) + 2 * MARGIN
+    lines = textwrap.wrap(caption, (width - 2 * MARGIN) // GLYPH_WIDTH)
+    page = np.full((height + LINE_HEIGHT * len(lines), width, 4), 255, np.uint8)
+    page[:, :, :3] = PAPER
+    left = MARGIN
+    for picture in pictures:
+        rows, columns = picture.shape[:2]
+        page[MARGIN : MARGIN + rows, left : left + columns, :3] = picture
+        left += columns + MARGIN
+    canvas = e3d.Canvas(page)
+    for number, line in enumerate(lines):
+        canvas.text(MARGIN, height - MARGIN // 2 + number * LINE_HEIGHT, line, INK)
+    return page
+
+
+def sheet(blocks, widest=800):
+    """Lay blocks out in rows, as many in a row as fit."""
+    rows, row = [], []
+    for one in blocks:
+        if row and sum(b.shape[1] for b in row) + one.shape[1] > widest:
+            rows.append(row)
+            row = []
+        row.append(one)
+    rows.append(row)
+    width = max(sum(b.shape[1] for b in row) for row in rows)
+    page = np.full((sum(max(b.shape[0] for b in row) for row in rows), width, 4), 255, np.uint8)
+    page[:, :, :3] = PAPER
+    top = 0
+    for row in rows:
+        left = 0
+        for one in row:
+            page[top : top + one.shape[0], left : left + one.shape[1]] = one
+            left += one.shape[1]
+        top += max(b.shape[0] for b in row)
+    return page
+
+
+def size(argument):
+    width, _, height = argument.partition("x")
+    return int(width), int(height)
+
+
+def main(file, steps, **others):
+    """Run a lesson: write its pictures to a folder, or do one of the other things it can do.
+
+    file: the lesson's `__file__`. others: a function for each further option, such as
+    `time=measure` for `--time`; it takes the model, too, if `steps` does.
+    """
+    name = Path(file).stem
+    parser = argparse.ArgumentParser(prog=f"python lessons/{name}.py")
+    parser.add_argument("-o", "--out", default="out", type=Path, help="folder (default: out)")
+    parser.add_argument("--size", type=size, metavar="WxH", help="of each picture, in pixels")
+    takes_model = "model" in inspect.signature(steps).parameters
+    if takes_model:
+        parser.add_argument("--model", help="another model file")
+    for option, function in others.items():
+        summary = inspect.getdoc(function).splitlines()[0].lower().rstrip(".")
+        parser.add_argument(f"--{option}", action="store_true", help=summary)
+    given = parser.parse_args()
+    model = {"model": given.model} if takes_model and given.model else {}
+    for option, function in others.items():
+        if getattr(given, option):
+            function(**model)
+            return
+    blocks = [block(*step) for step in steps(*(given.size or ()), **model)]
+    given.out.mkdir(parents=True, exist_ok=True)
+    path = given.out / f"{name}.png"
+    e3d.Canvas(sheet(blocks)).image().save(path)
+    print(f"{path}: {len(blocks)} steps")

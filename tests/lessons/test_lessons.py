@@ -1,0 +1,138 @@
+"""Each lesson draws the picture of its page; its pages in both languages quote it truly."""
+
+import re
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parents[2]
+LESSONS, COURSE = ROOT / "lessons", ROOT / "docs" / "course"
+make = runpy.run_path(str(COURSE / "make.py"))
+NAMES = make["lesson_names"]()
+SECTIONS = {
+    "en": ["The idea", "The program", "What to observe", "Exercises", "Terms"],
+    "fr": ["L'idée", "Le programme", "À observer", "Exercices", "Vocabulaire"],
+}
+MAX_PICTURE_BYTES = 60_000
+
+
+def page(language, name):
+    return (COURSE / language / f"{name}.md").read_text(encoding="utf-8")
+
+
+def sections(text):
+    """The headings of a page, and what stands below each."""
+    parts = re.split(r"^## (.*)\n", text, flags=re.M)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+def quotes(text):
+    """The code that a page quotes, as (language, lines)."""
+    return re.findall(r"^```(\w+)\n(.*?)^```", text, re.M | re.S)
+
+
+def terms(text):
+    """The rows of a page's last table."""
+    rows = sections(text).popitem()[1].strip().splitlines()
+    return [tuple(cell.strip() for cell in row.strip("|").split("|")) for row in rows]
+
+
+def test_lessons_are_numbered_from_1():
+    assert [int(name[:2]) for name in NAMES] == list(range(1, len(NAMES) + 1))
+    assert len(NAMES) >= 3
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_lesson_runs_by_itself_and_draws_its_picture(name, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", [f"{name}.py", "--out", str(tmp_path / "new")])
+    monkeypatch.syspath_prepend(str(LESSONS))
+    runpy.run_path(str(LESSONS / f"{name}.py"), run_name="__main__")
+    written = tmp_path / "new" / f"{name}.png"
+    assert [path.name for path in tmp_path.rglob("*.png")] == [written.name]
+    assert str(written) in capsys.readouterr().out
+    kept = COURSE / "pictures" / written.name
+    with Image.open(written) as new, Image.open(kept) as old:
+        same = np.array_equal(np.asarray(new.convert("RGB")), np.asarray(old.convert("RGB")))
+    assert same, f"look at it, then: python docs/course/make.py {name}"
+    assert kept.stat().st_size < MAX_PICTURE_BYTES
+
+
+def test_a_lesson_runs_from_anywhere(tmp_path):
+    command = [sys.executable, LESSONS / "03_lines.py", "--size", "21x15"]
+    done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert done.stdout == "out/03_lines.png: 6 steps\n"
+    assert (tmp_path / "out" / "03_lines.png").exists()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_pages_quote_the_lesson(name):
+    sources = "".join(
+        path.read_text(encoding="utf-8") for path in sorted(LESSONS.glob(f"{name}.*"))
+    )
+    found = [quotes(page(language, name)) for language in SECTIONS]
+    assert found[0] == found[1] != []
+    for kind, code in found[0]:
+        assert kind in ("python", "c")
+        assert f"\n{code}" in sources, code
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_pages_have_the_same_parts_in_both_languages(name):
+    exercises, vocabulary, commands = [], [], []
+    for language, headings in SECTIONS.items():
+        text = page(language, name)
+        assert list(sections(text)) == headings
+        assert text.startswith(f"# {int(name[:2])}. ")
+        assert text.count(f"](../pictures/{name}.png)") == 1
+        exercises.append(re.findall(r"^(\d)\. ", sections(text)[headings[3]], re.M))
+        vocabulary.append(terms(text)[2:])
+        commands.append(re.findall(r"^    (python .*?\w)(?:  .*)?$", text, re.M))
+    assert exercises[0] == exercises[1] and 3 <= len(exercises[0]) <= 5
+    assert vocabulary[0] == [row[::-1] for row in vocabulary[1]] and len(vocabulary[0]) >= 3
+    assert len(commands[0]) == len(commands[1]) >= 1
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_commands_of_a_page_are_those_of_the_lesson(name, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", [name, "--help"])
+    monkeypatch.syspath_prepend(str(LESSONS))
+    with pytest.raises(SystemExit):
+        runpy.run_path(str(LESSONS / f"{name}.py"), run_name="__main__")
+    offered = set(re.findall(r"--[\w-]+", capsys.readouterr().out))
+    for language in SECTIONS:
+        lines = re.findall(r"^    python (lessons/\S+)([^#\n]*)", page(language, name), re.M)
+        assert {path for path, _ in lines} == {f"lessons/{name}.py"}
+        assert set(re.findall(r"--[\w-]+", " ".join(words for _, words in lines))) <= offered
+
+
+def test_links_and_lists_are_up_to_date():
+    texts = make["texts"]()
+    assert len(texts) == 2 * (len(NAMES) + 1)
+    stale = [path for path, text in texts.items() if path.read_text(encoding="utf-8") != text]
+    assert stale == [], "python docs/course/make.py"
+
+
+@pytest.mark.parametrize("path", [*COURSE.rglob("*.md"), LESSONS / "README.md"], ids=str)
+def test_links_lead_somewhere(path):
+    targets = re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8"))
+    assert targets
+    for target in targets:
+        if "://" not in target:
+            assert (path.parent / target.partition("#")[0]).exists(), target
+
+
+def test_pictures_belong_to_lessons():
+    assert sorted(path.stem for path in (COURSE / "pictures").glob("*")) == NAMES
+
+
+def test_lessons_build_on_earlier_ones_only():
+    for name in NAMES:
+        text = (LESSONS / f"{name}.py").read_text(encoding="utf-8")
+        used = re.findall(r'earlier\("(\w+)"\)', text)
+        assert all(other in NAMES and other < name for other in used), name
+        assert "import engine3d._" not in text and "from engine3d" not in text, name

@@ -69,6 +69,7 @@ CHAPTERS = {
         "Resources",
         "ResourceStats",
     ),
+    "Windows": ("show", "Window"),
     "The canvas": ("Canvas",),
     "Low-level rasterization": ("rasterize", "RasterizeResult"),
     "Errors": (
@@ -86,7 +87,7 @@ CHAPTERS = {
     ),
 }
 #: Modules whose functions are written out here; those of the other modules are public names too.
-MODULES = ("linalg", "loaders")
+MODULES = ("events", "linalg", "loaders")
 #: Classes that a user never makes: they come without a constructor.
 MADE_BY_OTHERS = ("Node", "Frame", "RasterizeResult", "World")
 PLAIN_NAMES = ("__version__", "choices", "errors", "primitives")

@@ -79,11 +79,13 @@ _PUBLIC = {
     "Renderer": "rendering.renderer",
     "render": "rendering.renderer",
     "Canvas": "canvas",
+    "Window": "viewer.window",
+    "show": "viewer.show",
     "RasterizeResult": "rendering.rasterization",
     "rasterize": "rendering.rasterization",
     "backends": "rendering.backend_selection",
 }
-_MODULES = ("choices", "errors", "linalg", "loaders", "primitives")
+_MODULES = ("choices", "errors", "events", "linalg", "loaders", "primitives")
 
 __all__ = ["__version__", *_PUBLIC, *_MODULES]
 

@@ -2,6 +2,7 @@
 
 from . import choices as choices
 from . import errors as errors
+from . import events as events
 from . import linalg as linalg
 from . import loaders as loaders
 from . import primitives as primitives
@@ -68,6 +69,8 @@ from .spatial.colliders import SphereCollider as SphereCollider
 from .spatial.rays import RayHit as RayHit
 from .spatial.rays import RayHits as RayHits
 from .version import __version__ as __version__
+from .viewer.show import show as show
+from .viewer.window import Window as Window
 from .worlds import World as World
 from .worlds import city as city
 from .writers import save_mesh as save_mesh

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import canvas as native
+from ._native.images import encode_png
 from ._support.numbers import as_array, floats, real, shown
 from .errors import InvalidArgumentError
 
@@ -100,6 +101,9 @@ class Canvas:
         from PIL import Image
 
         return Image.fromarray(self._pixels.copy())
+
+    def _repr_png_(self) -> bytes | None:
+        return encode_png(np.ascontiguousarray(self._pixels)) if self._pixels.size else None
 
     def clear(self, color: Color = (0, 0, 0, 255)) -> None:
         """Overwrite every pixel, alpha included.

@@ -28,6 +28,7 @@ Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
+PixelFormat = Literal["rgba", "bgra"]
 EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
 
 #: Three numbers: floats are linear light, integers from 0 to 255 sRGB.

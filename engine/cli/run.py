@@ -57,7 +57,7 @@ def _check(args: argparse.Namespace) -> None:
 
 def _missing_screen() -> str | None:
     """Return why no window can open, as far as that shows without loading SDL, or None."""
-    from ..viewer.window import find_screen
+    from ..viewer.sdl import find_screen
 
     try:
         find_screen()
@@ -88,7 +88,7 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
 
     size = args.resolution or WINDOW_SIZE
     with (
-        Window(f"{viewed.title} - engine3d", *size, vsync=args.vsync) as window,
+        Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync) as window,
         _view_renderer(args, viewed, size, 1, report) as view_renderer,
     ):
         viewer = Viewer(

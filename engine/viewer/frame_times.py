@@ -14,6 +14,31 @@ RECENT_SECONDS = 1.0
 RECENT_FRAMES = 120
 
 
+class FrameRate:
+    """How many pictures a second were shown in the last second."""
+
+    def __init__(self) -> None:
+        self._shown: deque[float] = deque()
+
+    def add(self) -> None:
+        """Count a picture that is shown now."""
+        self._shown.append(time.monotonic())
+        self._forget()
+
+    def _forget(self) -> None:
+        oldest = time.monotonic() - RECENT_SECONDS
+        while self._shown and self._shown[0] < oldest:
+            self._shown.popleft()
+
+    @property
+    def value(self) -> float:
+        """Pictures a second; 0 while fewer than two are recent."""
+        self._forget()
+        if len(self._shown) < 2:
+            return 0.0
+        return (len(self._shown) - 1) / max(self._shown[-1] - self._shown[0], 1e-9)
+
+
 class FrameTimes:
     """Durations of the recent frames.
 

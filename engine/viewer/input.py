@@ -1,108 +1,53 @@
-"""SDL's events, translated into small values that the viewer understands.
+"""SDL's events, translated into those of `engine3d.events`.
 
-In: an ``SDL_Event``. Out: one of the classes below, or None for events that mean nothing here.
-Keys carry both what they type and where they are (named as on a US keyboard). The rest of the
-viewer never sees SDL's structures.
+In: an ``SDL_Event``. Out: one of these classes, or None for events that mean nothing here. What
+reads events never sees SDL's structures.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
 
+from ..events import (
+    CloseRequested,
+    Exposed,
+    FilesDropped,
+    FocusLost,
+    KeyDown,
+    KeyUp,
+    Minimised,
+    MouseButton,
+    MouseLeft,
+    MouseMotion,
+    Resized,
+    Restored,
+    Wheel,
+)
 
-@dataclass(frozen=True)
-class KeyDown:
-    """A key went down (or repeats): ``key`` as typed, ``position`` on the keyboard."""
-
-    key: str
-    position: str
-    shift: bool = False
-    control: bool = False
-    repeat: bool = False
-
-
-@dataclass(frozen=True)
-class KeyUp:
-    """A key came up."""
-
-    key: str
-    position: str
-
-
-@dataclass(frozen=True)
-class MouseButton:
-    """A mouse button (``"left"``, ``"middle"``, ``"right"``) went down or came up."""
-
-    button: str
-    down: bool
-    shift: bool = False
-    control: bool = False
-
-
-@dataclass(frozen=True)
-class MouseMotion:
-    """The mouse moved by (dx, dy) pixels, y downward."""
-
-    dx: int
-    dy: int
-
-
-@dataclass(frozen=True)
-class Wheel:
-    """The wheel turned by ``steps``, positive away from the user."""
-
-    steps: float
-
-
-@dataclass(frozen=True)
-class Resized:
-    """The window's drawable area has a new size, in pixels."""
-
-    width: int
-    height: int
-
-
-@dataclass(frozen=True)
-class FilesDropped:
-    """Files were dropped on the window, all at once."""
-
-    paths: tuple[str, ...]
-
-
-class Exposed:
-    """The window's content must be shown again."""
-
-
-class Minimised:
-    """The window is hidden: nothing needs drawing."""
-
-
-class Restored:
-    """The window shows again."""
-
-
-class FocusLost:
-    """The keyboard went to another window: no key is down any more as far as we know."""
-
-
-class CloseRequested:
-    """The user, or the system, asked the window to close."""
+#: Where in the picture a point of the window is.
+Place = Callable[[int, int], tuple[int, int]]
 
 
 class Translator:
-    """Makes this module's classes of SDL's events, in the order in which they came.
+    """Makes values of SDL's events, in the order in which they came.
 
     Clicks bear no modifier keys, and SDL tells of these what is so by now, several events later
     where a frame takes long. So they are taken from the keys' events. Files that are dropped
     together come one by one: they are one event, when the last of them has come.
+
+    Parameters
+    ----------
+    place : callable, optional
+        Returns where in the picture a point of the window is.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, place: Place | None = None) -> None:
+        self._place = place or (lambda x, y: (x, y))
         self._modifiers = 0
         self._dropped: list[str] = []
 
     def translate(self, event):
-        """Return ``event`` (an ``SDL_Event``) as one of this module's classes, or None."""
+        """Return ``event`` (an ``SDL_Event``) as a value of `engine3d.events`, or None."""
         import sdl2
 
         if event.type in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
@@ -113,22 +58,33 @@ class Translator:
         if event.type == sdl2.SDL_DROPCOMPLETE:
             paths, self._dropped = tuple(self._dropped), []
             return FilesDropped(paths) if paths else None
-        return _translated(sdl2, event, self._modifiers)
+        return _translated(sdl2, event, self._modifiers, self._place)
 
 
-def _translated(sdl2, event, modifiers: int):
+def window_number(sdl2, event) -> int:
+    """Return SDL's number of the window that an event is for; 0 for one that is for none."""
+    if event.type == sdl2.SDL_QUIT:
+        return 0
+    if event.type in (sdl2.SDL_DROPFILE, sdl2.SDL_DROPCOMPLETE):
+        return event.drop.windowID
+    return event.window.windowID
+
+
+def _translated(sdl2, event, modifiers: int, place: Place):
     kind = event.type
     if kind == sdl2.SDL_QUIT:
         return CloseRequested()
     if kind in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
         return _key(sdl2, event.key, kind == sdl2.SDL_KEYDOWN)
     if kind in (sdl2.SDL_MOUSEBUTTONDOWN, sdl2.SDL_MOUSEBUTTONUP):
-        return _button(sdl2, event.button.button, kind == sdl2.SDL_MOUSEBUTTONDOWN, modifiers)
+        return _button(sdl2, event.button, kind == sdl2.SDL_MOUSEBUTTONDOWN, modifiers, place)
     if kind == sdl2.SDL_MOUSEMOTION:
-        return MouseMotion(event.motion.xrel, event.motion.yrel)
+        motion = event.motion
+        return MouseMotion(motion.xrel, motion.yrel, *place(motion.x, motion.y))
     if kind == sdl2.SDL_MOUSEWHEEL:
-        flipped = event.wheel.direction == sdl2.SDL_MOUSEWHEEL_FLIPPED
-        return Wheel(-event.wheel.y if flipped else event.wheel.y)
+        wheel = event.wheel
+        flipped = wheel.direction == sdl2.SDL_MOUSEWHEEL_FLIPPED
+        return Wheel(-wheel.y if flipped else wheel.y, *place(wheel.mouseX, wheel.mouseY))
     if kind == sdl2.SDL_WINDOWEVENT:
         return _window(sdl2, event.window)
     return None
@@ -146,16 +102,17 @@ def _key(sdl2, event, down: bool):
     return KeyDown(key, position, shift, control, bool(event.repeat))
 
 
-def _button(sdl2, number: int, down: bool, modifiers: int):
+def _button(sdl2, event, down: bool, modifiers: int, place: Place):
     names = {
         sdl2.SDL_BUTTON_LEFT: "left",
         sdl2.SDL_BUTTON_MIDDLE: "middle",
         sdl2.SDL_BUTTON_RIGHT: "right",
     }
-    if number not in names:
+    if event.button not in names:
         return None
     shift, control = bool(modifiers & sdl2.KMOD_SHIFT), bool(modifiers & sdl2.KMOD_CTRL)
-    return MouseButton(names[number], down, shift, control)
+    x, y = place(event.x, event.y)
+    return MouseButton(names[event.button], down, shift, control, x, y, max(event.clicks, 1))
 
 
 def _dropped(sdl2, event) -> list[str]:
@@ -183,6 +140,8 @@ def _window(sdl2, event):
         return Restored()
     if kind == sdl2.SDL_WINDOWEVENT_FOCUS_LOST:
         return FocusLost()
+    if kind == sdl2.SDL_WINDOWEVENT_LEAVE:
+        return MouseLeft()
     if kind == sdl2.SDL_WINDOWEVENT_CLOSE:
         return CloseRequested()
     return None

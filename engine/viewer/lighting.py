@@ -51,8 +51,9 @@ class Lighting:
     """
 
     def __init__(self, scene, up, intensity: float = 1.0):
-        self._own = [node for node in scene.nodes if is_light(node)]
-        self._nodes = {OWN_LIGHTS: self._own} if self._own else {}
+        own = [node for node in scene.nodes if is_light(node) and node.visible]
+        self._scene = scene
+        self._nodes = {OWN_LIGHTS: own} if own else {}
         self._home = np.stack(home_axes(up), axis=1)
         for name, lights in SETUPS.items():
             self._nodes[name] = [
@@ -68,6 +69,13 @@ class Lighting:
         for setup, nodes in self._nodes.items():
             for node in nodes:
                 node.visible = setup == name
+
+    def leave(self) -> None:
+        """Light the scene with its own lights again, and take away all others."""
+        self.choose(self.names[0])
+        for name, nodes in self._nodes.items():
+            for node in nodes if name != OWN_LIGHTS else ():
+                self._scene.remove(node)
 
     def follow(self, pose: np.ndarray) -> None:
         """Turn the set-up with the camera, whose pose is (4, 4)."""

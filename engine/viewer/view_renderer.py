@@ -110,6 +110,12 @@ class ViewRenderer:
             return PlacedLight(scene, settings.light_position, self.bounds, intensity)
         return Lighting(scene, UP_DIRECTIONS[self.up], 1.0 if intensity is None else intensity)
 
+    def leave_scene(self) -> None:
+        """Take away what was added to the scene, which is not drawn any more."""
+        self.lighting.leave()
+        if self._grid is not None:
+            self.viewed.scene.remove(self._grid)
+
     def show_grid(self, shown: bool) -> None:
         """Draw a grid under the scene, or not."""
         self.settings.grid = shown

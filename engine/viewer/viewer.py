@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 import time as clock
 
+from .. import events
 from ..errors import Engine3DError, printable
 from . import actions as viewer_actions
-from . import input as events
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
@@ -196,7 +196,7 @@ class Viewer:
         title = printable(" - ".join(filter(None, parts)))
         if title != self._title:
             self._title = title
-            self.window.set_title(title)
+            self.window.title = title
 
     def say(self, message: str) -> None:
         """Show a message for a moment, which is longer for more words."""
@@ -259,7 +259,7 @@ class Viewer:
     # Events
 
     def handle(self, event) -> None:
-        """Obey one event of `input`."""
+        """Obey one event of `engine3d.events`."""
         handler = _HANDLERS.get(type(event))
         if handler is not None:
             handler(self, event)
@@ -298,7 +298,6 @@ class Viewer:
     def _button(self, event) -> None:
         if self.walker is not None:
             return
-        self.window.hold_mouse(event.down)
         if not event.down:
             self.drag = None
         elif event.button == "left":

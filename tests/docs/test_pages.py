@@ -1,9 +1,13 @@
 """The pages of the documentation name files and links that exist."""
 
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
+
+from engine3d.events import CloseRequested
+from engine3d.viewer.window import Window
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "data" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -68,8 +72,21 @@ def test_the_architecture_names_every_file(pattern):
     assert missing == [], "say in docs/architecture.md what these are for"
 
 
+@pytest.fixture
+def closing_windows(monkeypatch):
+    """Windows open on SDL's dummy driver, and their user closes them after a moment."""
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    take, times = Window.events, Counter()
+
+    def events(window, timeout=0.0):
+        times[id(window)] += 1
+        return [*take(window, timeout), *[CloseRequested()] * (times[id(window)] > 20)]
+
+    monkeypatch.setattr(Window, "events", events)
+
+
 @pytest.mark.parametrize("page", PAGES[1:], ids=page_id)
-def test_python_examples_run(page, tmp_path, monkeypatch):
+def test_python_examples_run(page, tmp_path, monkeypatch, closing_windows):
     monkeypatch.chdir(tmp_path)
     names = {}
     for block in re.findall(

@@ -18,21 +18,23 @@ class ScriptedWindow:
         self.scale = 1
 
     def events(self, timeout=0.0):
-        from engine3d.viewer.input import CloseRequested
+        from engine3d.events import CloseRequested
 
         return self._script.pop(0) if self._script else [CloseRequested()]
 
     def present(self, pixels):
         self.shown.append(pixels.copy())
 
-    def set_title(self, title):
+    @property
+    def title(self):
+        return self.titles[-1]
+
+    @title.setter
+    def title(self, title):
         self.titles.append(title)
 
     def capture_mouse(self, captured):
         self.captured = captured
-
-    def hold_mouse(self, held):
-        pass
 
     def toggle_fullscreen(self):
         self.fullscreen = not self.fullscreen

@@ -4,14 +4,15 @@ import ctypes
 
 import pytest
 
-from engine3d.viewer import input as events
-from engine3d.viewer.window import load_sdl
+from engine3d import events
+from engine3d.viewer.input import Translator
+from engine3d.viewer.sdl import load_sdl
 
 sdl2 = load_sdl()
 
 
 def translate(event):
-    return events.Translator().translate(event)
+    return Translator().translate(event)
 
 
 def key_event(kind, symbol, scancode, modifiers=0, repeat=0):
@@ -83,7 +84,7 @@ def test_a_click_has_the_modifiers_of_its_own_time():
         key_event(sdl2.SDL_KEYUP, *control),
         click,
     ]
-    translator = events.Translator()
+    translator = Translator()
     received = [translator.translate(event) for event in queue]
     clicks = [event for event in received if isinstance(event, events.MouseButton)]
     held = [(event.shift, event.control) for event in clicks]
@@ -100,7 +101,10 @@ def test_mouse_events():
     event = sdl2.SDL_Event()
     event.type = sdl2.SDL_MOUSEMOTION
     event.motion.xrel, event.motion.yrel = 3, -4
-    assert translate(event) == events.MouseMotion(3, -4)
+    event.motion.x, event.motion.y = 40, 30
+    assert translate(event) == events.MouseMotion(3, -4, 40, 30)
+    halved = Translator(lambda x, y: (x // 2, y // 2)).translate(event)
+    assert halved == events.MouseMotion(3, -4, 20, 15)
     event = sdl2.SDL_Event()
     event.type = sdl2.SDL_MOUSEWHEEL
     event.wheel.y = 2
@@ -135,7 +139,7 @@ def drop_event(kind, name=None):
 
 
 def test_files_that_are_dropped_together_are_one_event():
-    translator = events.Translator()
+    translator = Translator()
     for names in (("/tmp/päth.obj",), ("/a.stl", "/b.stl", "/c.ply")):
         for name in names:
             event = drop_event(sdl2.SDL_DROPFILE, name.encode())

@@ -9,7 +9,7 @@ import pytest
 from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
-from engine3d.viewer import input as events
+from engine3d import events
 from engine3d.viewer.keymap import BINDINGS
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer

@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.viewer import input as events
+from engine3d import events
+from engine3d.viewer.icon import FACES, icon
+from engine3d.viewer.sdl import find_screen, is_opengl_on_the_cpu, load_sdl, refresh_rate
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer
 from engine3d.viewer.viewed_scene import ViewedScene
 from engine3d.viewer.viewer import Viewer
-from engine3d.viewer.window import Window, _is_opengl_on_the_cpu, find_screen, load_sdl
+from engine3d.viewer.window import Window
 
 sdl2 = load_sdl()
 
@@ -23,7 +25,7 @@ sdl2 = load_sdl()
 @pytest.fixture
 def window(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    with Window("test", 160, 120, vsync=False) as window:
+    with Window(160, 120, "test", vsync=False) as window:
         window.events()
         yield window
 
@@ -52,7 +54,7 @@ def shown_pixels(window):
     pixels = np.empty((height, width, 4), dtype=np.uint8)
     form = sdl2.SDL_PIXELFORMAT_RGBA32
     status = sdl2.SDL_RenderReadPixels(
-        window._renderer, None, form, pixels.ctypes.data_as(ctypes.c_void_p), width * 4
+        window._presenter._renderer, None, form, pixels.ctypes.data_as(ctypes.c_void_p), width * 4
     )
     assert status == 0
     return pixels
@@ -69,6 +71,151 @@ def test_another_size_of_picture_is_fine(window):
     window.present(np.full((30, 40, 4), 200, dtype=np.uint8))
     window.present(np.full((120, 160, 4), 100, dtype=np.uint8))
     assert (shown_pixels(window)[..., :3] == 100).all()
+
+
+def test_pictures_of_all_kinds_are_shown(window):
+    rgba = np.random.default_rng(1).integers(0, 256, (120, 160, 4), dtype=np.uint8)
+    rgba[..., 3] = 255
+    red, green, blue = (rgba[..., channel].astype(np.uint32) for channel in range(3))
+    frame = e3d.render(e3d.Scene((9, 8, 7)), size=(160, 120))
+    grey = rgba[..., 0]
+    for picture, format, expected in [
+        (rgba, None, rgba),
+        (rgba[..., :3], None, rgba),
+        (e3d.Canvas(rgba), None, rgba),
+        (frame, None, frame.color),
+        (grey, None, np.repeat(grey[..., None], 3, axis=2)),
+        (rgba[..., [2, 1, 0, 3]], "bgra", rgba),
+        (red << 16 | green << 8 | blue, "bgra", rgba),
+        (blue << 16 | green << 8 | red | 0xFF000000, "rgba", rgba),
+        (rgba[::-1, ::-1], None, rgba[::-1, ::-1]),
+    ]:
+        window.present(picture, format)
+        np.testing.assert_array_equal(shown_pixels(window)[..., :3], expected[..., :3])
+
+
+@pytest.mark.parametrize(
+    ("picture", "format", "said"),
+    [
+        (np.zeros((4, 4), np.uint32), None, 'needs its format: "bgra" if words are 0xAARRGGBB'),
+        (np.zeros((4, 4, 3), np.float32), None, "this one is \\(4, 4, 3\\) float32"),
+        (np.zeros((4, 4, 2), np.uint8), None, "this one is \\(4, 4, 2\\) uint8"),
+        (np.zeros((0, 4, 4), np.uint8), None, "no pixels"),
+        (np.zeros((4, 4, 4), np.uint8), "argb", "format must be one of rgba, bgra"),
+        ("a picture", None, "a picture is a Frame"),
+    ],
+)
+def test_what_is_no_picture_is_told(window, picture, format, said):
+    with pytest.raises(e3d.InvalidArgumentError, match=said):
+        window.present(picture, format)
+
+
+def test_a_picture_of_other_proportions_is_in_the_middle_and_so_is_the_mouse(window):
+    window.present(np.full((30, 80, 4), 200, dtype=np.uint8))
+    pixels = shown_pixels(window)[..., 0]
+    assert (pixels[30:90] == 200).all() and not pixels[:30].any() and not pixels[90:].any()
+    push(sdl2.SDL_MOUSEMOTION, motion__x=100, motion__y=40, motion__xrel=2, motion__yrel=0)
+    assert window.events() == [events.MouseMotion(2, 0, 50, 5)]
+    assert window.mouse == (50, 5)
+
+
+def test_keys_and_buttons_that_are_down_are_known(window):
+    push(sdl2.SDL_KEYDOWN, key__keysym__sym=sdl2.SDLK_z, key__keysym__scancode=sdl2.SDL_SCANCODE_W)
+    push(sdl2.SDL_MOUSEBUTTONDOWN, button__button=sdl2.SDL_BUTTON_RIGHT)
+    window.events()
+    assert (window.keys, window.positions, window.buttons) == ({"Z"}, {"W"}, {"right"})
+    push(sdl2.SDL_KEYUP, key__keysym__sym=sdl2.SDLK_z, key__keysym__scancode=sdl2.SDL_SCANCODE_W)
+    push(sdl2.SDL_MOUSEBUTTONUP, button__button=sdl2.SDL_BUTTON_RIGHT)
+    window.events()
+    assert (window.keys, window.positions, window.buttons) == (set(), set(), set())
+    push(sdl2.SDL_KEYDOWN, key__keysym__sym=sdl2.SDLK_a)
+    push(sdl2.SDL_WINDOWEVENT, window__event=sdl2.SDL_WINDOWEVENT_FOCUS_LOST)
+    window.events()
+    assert window.keys == set()
+    push(sdl2.SDL_WINDOWEVENT, window__event=sdl2.SDL_WINDOWEVENT_LEAVE)
+    assert window.events() == [events.MouseLeft()] and window.mouse is None
+
+
+def test_ticks_come_as_often_as_asked_for_and_tell_the_time(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    ticks = []
+    with Window(64, 64, max_fps=50, vsync=False) as window:
+        for event in window:
+            if isinstance(event, events.Tick):
+                ticks.append(event)
+                window.present(np.zeros((64, 64, 4), np.uint8))
+                if len(ticks) == 12:
+                    break
+        assert 10 < window.fps <= 51
+    assert ticks[0] == events.Tick(0.0, 0.0)
+    assert all(tick.dt >= 1 / 50 for tick in ticks[1:])
+    assert ticks[-1].time == pytest.approx(sum(tick.dt for tick in ticks))
+
+
+def test_a_waiting_window_has_no_ticks_and_ends_when_it_is_closed(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    received = []
+    with Window(64, 64, wait=True) as window:
+        for event in window:
+            received.append(event)
+            if len(received) == 1:
+                push_key(sdl2.SDLK_a, sdl2.SDL_SCANCODE_A)
+                push(sdl2.SDL_QUIT)
+        assert window.closed
+    kinds = [type(event) for event in received]
+    assert events.Tick not in kinds
+    assert kinds[-3:] == [events.KeyDown, events.KeyUp, events.CloseRequested]
+
+
+def test_closing_in_the_loop_ends_it(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    window = Window(64, 64)
+    count = 0
+    for _ in window:
+        count += 1
+        window.close()
+    assert count == 1
+    with pytest.raises(e3d.InvalidArgumentError, match="the window is closed"):
+        window.present(np.zeros((4, 4, 4), np.uint8))
+
+
+def test_each_of_several_windows_gets_its_own_events(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    with Window(64, 64, "one") as one, Window(64, 64, "two") as two:
+        one.events(), two.events()
+        number = sdl2.SDL_GetWindowID(two._window)
+        push(sdl2.SDL_KEYDOWN, key__keysym__sym=sdl2.SDLK_a, key__windowID=number)
+        close = sdl2.SDL_WINDOWEVENT_CLOSE
+        push(sdl2.SDL_WINDOWEVENT, window__event=close, window__windowID=number)
+        assert one.events() == []
+        assert [type(event) for event in two.events()] == [events.KeyDown, events.CloseRequested]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "options", "said"),
+    [
+        ((0, 10), {}, "width must be"),
+        ((10, 20, 3), {}, "title must be a str"),
+        ((10, 20), {"max_fps": 0}, "max_fps must be a positive number"),
+        ((10, 20), {"max_fps": "many"}, "max_fps must be a positive number"),
+    ],
+)
+def test_what_makes_no_window_is_told(arguments, options, said):
+    with pytest.raises(e3d.InvalidArgumentError, match=said):
+        Window(*arguments, **options)
+
+
+def test_the_title_can_be_changed(window):
+    window.title = "größer"
+    assert window.title == "größer"
+    assert sdl2.SDL_GetWindowTitle(window._window).decode() == "größer"
+
+
+def test_the_icon_is_a_cube_on_nothing():
+    pixels = icon()
+    assert not pixels[[0, 0, -1, -1], [0, -1, 0, -1], 3].any()
+    colors = {tuple(color) for color in pixels[pixels[..., 3] == 255].tolist()}
+    assert colors == {(*color, 255) for _, color in FACES}
 
 
 def test_pushed_events_come_out_translated(window):
@@ -104,7 +251,7 @@ def test_a_viewer_draws_turns_and_quits(window):
 def test_closing_twice_and_opening_again(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     for _ in range(2):
-        window = Window("again", 64, 64, vsync=False)
+        window = Window(64, 64, "again", vsync=False)
         window.close()
         window.close()
 
@@ -115,7 +262,7 @@ def test_without_a_screen_the_error_says_so(monkeypatch):
     with pytest.raises(e3d.DisplayError, match="no screen"):
         find_screen()
     with pytest.raises(e3d.DisplayError, match="no screen"):
-        Window("nowhere", 64, 64)
+        Window(64, 64, "nowhere")
 
 
 def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
@@ -123,11 +270,11 @@ def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     monkeypatch.delenv("SDL_VIDEODRIVER", raising=False)
     with pytest.raises(e3d.DisplayError, match="no screen"):
-        Window("nowhere", 64, 64)
+        Window(64, 64, "nowhere")
 
 
 def test_loading_sdl_prints_nothing():
-    code = "from engine3d.viewer.window import load_sdl; load_sdl()"
+    code = "from engine3d.viewer.sdl import load_sdl; load_sdl()"
     environment = {**os.environ, "SDL_VIDEODRIVER": "dummy"}
     done = subprocess.run(
         [sys.executable, "-W", "default", "-c", code],
@@ -167,17 +314,17 @@ class OpenGL:
 )
 def test_opengl_without_a_graphics_card_is_told_by_its_name(monkeypatch, name, on_the_cpu):
     monkeypatch.delenv("SDL_RENDER_DRIVER", raising=False)
-    assert _is_opengl_on_the_cpu(OpenGL(name)) is on_the_cpu
+    assert is_opengl_on_the_cpu(OpenGL(name)) is on_the_cpu
     monkeypatch.setenv("SDL_RENDER_DRIVER", "opengl")
-    assert not _is_opengl_on_the_cpu(OpenGL(name))
+    assert not is_opengl_on_the_cpu(OpenGL(name))
 
 
 def test_vertical_sync_keeps_the_screens_rhythm(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     pixels = np.zeros((64, 64, 4), np.uint8)
-    with Window("test", 64, 64, vsync=True) as window:
+    with Window(64, 64, "test", vsync=True) as window:
         window.present(pixels)
         start = time.perf_counter()
         for _ in range(12):
             window.present(pixels)
-        assert time.perf_counter() - start > 11 / window.refresh_rate * 0.9
+        assert time.perf_counter() - start > 11 / refresh_rate(sdl2, window._window) * 0.9

@@ -1,0 +1,156 @@
+"""`show`: a scene, a part of one or a picture, in a window, until the user closes it.
+
+In: what to show. Out: nothing; a scene is afterwards as it was before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .. import linalg
+from .._support.image_size import check_size
+from .._support.numbers import real, shown
+from ..choices import PixelFormat
+from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..scene.cameras import OrthographicCamera, PerspectiveCamera
+from ..scene.instances import InstancedMesh
+from ..scene.nodes import Node
+from ..scene.scene import Scene
+from .open_model import BACKGROUND
+from .picture_window import PictureWindow, fitting_size
+from .pixels import Picture, as_pixels
+from .settings import Settings
+from .view_renderer import ViewRenderer
+from .viewed_scene import TURN_SECONDS, ViewedScene
+from .viewer import Viewer
+from .viewpoint import UP_DIRECTIONS, Viewpoint
+from .window import Window
+
+SIZE = (1280, 720)
+
+
+def show(
+    thing: Scene | Node | Mesh | InstancedMesh | Picture,
+    *,
+    size: tuple[int, int] | None = None,
+    title: str | None = None,
+    up: str = "+Y",
+    update: Callable[[float], None] | None = None,
+    period: float = TURN_SECONDS,
+    format: PixelFormat | None = None,
+) -> None:
+    """Show something in a window until the user closes it.
+
+    Scenes, nodes and meshes show in the viewer, with all of its keys (H lists them). Pictures fit
+    into the window; the wheel, + and - zoom, drags move, R fits again, 1 shows real size, and the
+    title tells the pixel under the mouse. Q closes the window; for pictures Escape does, too.
+
+    Parameters
+    ----------
+    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas or ndarray
+        Of a node, its children show as well, and the lights among them. A scene with a camera is
+        seen from there at first. Arrays are as for `Window.present`.
+    size : (int, int), optional
+        Width and height of the window in pixels; by default 1280x720, or what suits the picture.
+    title : str, optional
+        Text of the title bar.
+    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
+        Which way is up in a scene.
+    update : callable, optional
+        Called with the time in seconds before each picture of a scene, to move its nodes:
+        ``animator.seek``, or a function of your own. It plays from the start; Space pauses it.
+    period : float
+        Seconds after which the time begins again at 0.
+    format : {"rgba", "bgra"}, optional
+        Of an array; see `Window.present`.
+
+    Raises
+    ------
+    DisplayError
+        There is no screen.
+    InvalidArgumentError
+        It is nothing that can be shown.
+
+    Examples
+    --------
+    >>> e3d.show(e3d.torus())
+    >>> e3d.show(e3d.render(scene, mode="depth"))
+    """
+    size = None if size is None else check_size(size)
+    scene = _scene(thing)
+    if scene is None:
+        _show_picture(thing, size, title, format)
+        return
+    if up not in UP_DIRECTIONS:
+        raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
+    if not real(period) > 0:
+        raise InvalidArgumentError(f"period must be a positive number, not {shown(period)}")
+    title = title or getattr(thing, "name", "") or type(thing).__name__.lower()
+    plays = update is not None
+    _show_scene(ViewedScene(scene, title, up, update=update, period=period, plays=plays), size)
+
+
+def _scene(thing) -> Scene | None:
+    """Return a scene to show a thing in; None for what is none."""
+    if isinstance(thing, Scene):
+        return thing
+    scene = Scene(BACKGROUND)
+    if isinstance(thing, Mesh | InstancedMesh):
+        scene.add(thing, name=getattr(thing, "name", "") or "mesh")
+    elif isinstance(thing, Node):
+        _add_branch(scene, thing)
+    else:
+        return None
+    return scene
+
+
+def _add_branch(scene: Scene, node: Node) -> None:
+    """Add what a node and those below it hold, where they are in the world."""
+    if node.visible:
+        scene.add(node.object, name=node.name, pose=node.world_pose)
+        for child in node.children:
+            _add_branch(scene, child)
+
+
+def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
+    size = size or SIZE
+    with (
+        Window(*size, f"{viewed.title} - engine3d") as window,
+        ViewRenderer(viewed, Settings({}), size) as view_renderer,
+    ):
+        try:
+            viewer = Viewer(view_renderer, window, view=_first_view(view_renderer))
+            viewer.say("H: help")
+            viewer.run()
+        finally:
+            view_renderer.leave_scene()
+
+
+def _first_view(view_renderer: ViewRenderer) -> Viewpoint | None:
+    """Return the view of the scene's first visible camera; None without one that has an eye."""
+    node = view_renderer.viewed.scene._camera_node()
+    if node is None:
+        return None
+    pose, camera = node.world_pose, node.object
+    eye, ahead = pose[:3, 3], -linalg.normalize(pose[:3, 2])
+    reach = float(linalg.dot(np.subtract(view_renderer.bounds.center, eye), ahead))
+    view = view_renderer.view()
+    if isinstance(camera, PerspectiveCamera):
+        view.yfov = camera.yfov
+    view.look_from(eye, eye + ahead * max(reach, 0.1 * view_renderer.bounds.radius))
+    if isinstance(camera, OrthographicCamera):
+        view.orthographic = True
+        view.distance = camera.ymag / np.tan(view.yfov / 2)
+    return view
+
+
+def _show_picture(picture, size, title: str | None, format: PixelFormat | None) -> None:
+    pixels, order = as_pixels(picture, format)
+    height, width = pixels.shape[:2]
+    title = title or f"{type(picture).__name__.lower()} {width}x{height}"
+    size = size or fitting_size((width, height), SIZE)
+    with Window(*size, title, wait=True) as window:
+        PictureWindow(window, pixels, order).run()

@@ -13,7 +13,7 @@ from typing import get_args
 from ..choices import Samples
 from ..files.animation_files import numbered_path
 from .appearance import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
-from .viewpoint import QUARTER_TURN
+from .viewpoint import QUARTER_TURN, UP_DIRECTIONS
 from .walking import controller
 
 SAMPLES = get_args(Samples)
@@ -138,6 +138,26 @@ def view_isometric(viewer, step: int) -> None:
     _look_along(viewer, QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
 
 
+def _turn_up(viewer, up: str) -> None:
+    if viewer.walker is not None:
+        toggle_walking(viewer)
+    viewer.view_renderer.turn_up(up)
+    for view in (viewer.view, viewer.first_view):
+        view.up = UP_DIRECTIONS[up]
+        viewer.view_renderer.frame(view)
+    viewer.say(f"{up} is up")
+
+
+def turn_y_up(viewer, step: int) -> None:
+    """Stand the scene on the plane of X and Z."""
+    _turn_up(viewer, "+Y" if step > 0 else "-Y")
+
+
+def turn_z_up(viewer, step: int) -> None:
+    """Stand the scene on the plane of X and Y."""
+    _turn_up(viewer, "+Z" if step > 0 else "-Z")
+
+
 def toggle_orthographic(viewer, step: int) -> None:
     """Parallel projection, or perspective."""
     viewer.view.orthographic = not viewer.view.orthographic
@@ -164,7 +184,7 @@ def toggle_walking(viewer, step: int = 1) -> None:
         viewer.walker = None
         viewer.say("orbiting")
     viewer.held_positions.clear()
-    viewer.drag = None
+    viewer.mouse.release()
     viewer.window.capture_mouse(viewer.walker is not None)
 
 

@@ -39,6 +39,8 @@ SECTIONS = {
         Binding(("7",), "view_top", "top"),
         Binding(("9",), "view_isometric", "isometric"),
         Binding(("5",), "toggle_orthographic", "orthographic or perspective"),
+        Binding(("Ctrl+Y",), "turn_y_up", "+Y is up (Shift: -Y)"),
+        Binding(("Ctrl+Z",), "turn_z_up", "+Z is up (Shift: -Z)"),
         Binding(("R", "Return", "Enter"), "reset_view", "reset"),
         Binding(("Tab",), "toggle_walking", "walk: WASD, mouse, arrows"),
         Binding(("C",), "freeze_culling", "while held: cull as from here"),
@@ -62,7 +64,9 @@ BINDINGS = tuple(binding for section in SECTIONS.values() for binding in section
 #: Mouse gestures, for the help.
 GESTURES = (
     ("left drag", "orbit"),
-    ("wheel", "approach (also middle drag)"),
+    ("click", "select what is there"),
+    ("double click", "turn round what is there"),
+    ("wheel", "zoom there (also middle drag)"),
     ("right drag", "pan (also Shift+left)"),
     ("drop", "open files"),
 )
@@ -72,7 +76,7 @@ ORBIT_ARROWS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
 _ACTIONS = {key: binding.action for binding in BINDINGS for key in binding.keys}
 
 
-def action_for(key: str, position: str = "") -> str | None:
+def action_for(key: str, position: str = "", control: bool = False) -> str | None:
     """Return the action bound to a key, or None.
 
     Parameters
@@ -81,7 +85,11 @@ def action_for(key: str, position: str = "") -> str | None:
         What the key types, e.g. ``"W"``, ``"Return"``, ``"Keypad 7"``.
     position : str
         What the key would type on a US keyboard; asked only for digits.
+    control : bool
+        Whether Ctrl is held: only keys named with ``"Ctrl+"`` answer then.
     """
+    if control:
+        return _ACTIONS.get(f"Ctrl+{key}")
     action = _ACTIONS.get(key.removeprefix("Keypad "))
     if action is None and position.isdigit():
         action = _ACTIONS.get(position)

@@ -106,13 +106,21 @@ class PlacedLight:
     name = "placed light"
 
     def __init__(self, scene, position, bounds: Sphere, intensity: float | None = None):
-        for node in scene.nodes:
-            if is_light(node):
-                node.visible = False
+        self._scene = scene
+        self._hidden = [node for node in scene.nodes if is_light(node) and node.visible]
+        for node in self._hidden:
+            node.visible = False
         if intensity is None:
             intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
             intensity = intensity if intensity > 0.0 and math.isfinite(intensity) else 1.0
-        scene.add(PointLight(color=(1.0, 1.0, 1.0), intensity=intensity), translation=position)
+        light = PointLight(color=(1.0, 1.0, 1.0), intensity=intensity)
+        self._node = scene.add(light, translation=position)
+
+    def leave(self) -> None:
+        """Light the scene with its own lights again."""
+        self._scene.remove(self._node)
+        for node in self._hidden:
+            node.visible = True
 
     def choose(self, name: str) -> None:
         """Do nothing: there is one set-up."""

@@ -2,7 +2,7 @@
 
 In: drags and wheel steps in pixels. Out: the view, changed in place.
 The gestures are three.js's OrbitControls: a drag over the window's height turns once round; a pan
-keeps the point under the pointer under it.
+keeps the point under the pointer under it, and so does the wheel.
 """
 
 from __future__ import annotations
@@ -43,11 +43,25 @@ class OrbitController:
         view.azimuth = math.remainder(view.azimuth + azimuth, 2 * math.pi)
         view.elevation = max(-QUARTER_TURN, min(QUARTER_TURN, view.elevation + elevation))
 
-    def dolly(self, steps: float) -> None:
-        """Approach the target by ``steps`` wheel steps; a negative number recedes."""
+    def dolly(self, steps: float, at=None, size=None) -> None:
+        """Approach the target by ``steps`` wheel steps; a negative number recedes.
+
+        Parameters
+        ----------
+        steps : float
+        at : (int, int), optional
+            A pixel: what it shows of the plane through the target stays there.
+        size : (int, int), optional
+            Width and height of the window in pixels.
+        """
+        view = self.view
         steps = max(-MAX_STEPS, min(MAX_STEPS, steps))
-        distance = self.view.distance * DOLLY_STEP**steps
-        self.view.distance = max(MIN_DISTANCE, min(MAX_DISTANCE, distance))
+        before = view.distance
+        view.distance = max(MIN_DISTANCE, min(MAX_DISTANCE, before * DOLLY_STEP**steps))
+        if at is not None:
+            nearer = 1.0 - view.distance / before
+            dx, dy = ((place - side / 2) * nearer for place, side in zip(at, size, strict=True))
+            self._shift(dx, dy, before, size[1])
 
     def dolly_drag(self, dy: float) -> None:
         """Recede by a downward drag of ``dy`` pixels."""
@@ -55,7 +69,11 @@ class OrbitController:
 
     def pan(self, dx: float, dy: float, height: int) -> None:
         """Move the target so that it follows a drag of (dx, dy) pixels."""
+        self._shift(-dx, -dy, self.view.distance, height)
+
+    def _shift(self, dx: float, dy: float, distance: float, height: int) -> None:
+        """Move the target by pixels of a plane at a distance."""
         view = self.view
-        world_a_pixel = 2 * view.distance * math.tan(view.yfov / 2) / max(height, 1)
+        world_a_pixel = 2 * distance * math.tan(view.yfov / 2) / max(height, 1)
         right, up, _ = view.rotation().T * world_a_pixel
-        view.target = view.target - right * dx + up * dy
+        view.target = view.target + right * dx - up * dy

@@ -11,10 +11,12 @@ import numpy as np
 from .. import linalg
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
+from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
 from .grid_lines import grid
 from .lighting import Lighting, PlacedLight
 from .scene_bounds import turning_outline
+from .selection import CLICK_OUTPUTS
 from .settings import Settings
 from .viewed_scene import ViewedScene
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
@@ -86,13 +88,9 @@ class ViewRenderer:
         if not keep_appearance:
             self.appearance = Appearance(**(viewed.appearance | settings.appearance))
         self.bounds = viewed.bounds
-        self.up = settings.up or viewed.up
-        # Before the grid, which is no part of what the first view shows.
-        self._outline = viewed.focus
-        if self._outline is None:
-            self._outline = turning_outline(viewed.scene, UP_DIRECTIONS[self.up])
-        self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
         self._grid = None
+        self._stand(settings.up or viewed.up)
+        self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
         self._points = count_points(viewed.scene)
         if self._transparent:
             viewed.scene.background = None
@@ -102,6 +100,25 @@ class ViewRenderer:
         if lights in self.lighting.names:
             self.lighting.choose(lights)
         self.show_grid(settings.grid)
+
+    def _stand(self, up: str) -> None:
+        """Take a direction as the one that points up."""
+        self.up = up
+        # Without the grid, which is no part of what the first view shows.
+        self._outline = self.viewed.focus
+        if self._outline is None:
+            self._outline = turning_outline(self.viewed.scene, UP_DIRECTIONS[up])
+
+    def turn_up(self, up: str) -> None:
+        """Look at the scene with another direction up, from now on."""
+        lights = self.lighting.name
+        self.leave_scene()
+        self._grid = None
+        self.settings.up = up
+        self._stand(up)
+        self.lighting = self._light()
+        self.lighting.choose(lights)
+        self.show_grid(self.settings.grid)
 
     def _light(self) -> Lighting | PlacedLight:
         scene, settings = self.viewed.scene, self.settings
@@ -171,25 +188,35 @@ class ViewRenderer:
         else:
             view.fit(self._support, np.array(self.bounds.center), self.aspect)
 
-    def draw(self, view: Viewpoint, time: float = 0.0):
+    def draw(self, view: Viewpoint, time: float = 0.0, outputs=("color",)):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""
+        frame = self._render(view, time, outputs)
+        if self.settings.axes or self.settings.metadata:
+            self._draw_overlays(frame.canvas(), view)
+        if self._report is not None:
+            self._report(frame)
+        return frame
+
+    def pick(self, view: Viewpoint, time: float, x: int, y: int) -> RayHit | None:
+        """Return what the picture shows at a pixel, or None."""
+        if not (0 <= x < self.size[0] and 0 <= y < self.size[1]):
+            return None
+        return self.viewed.scene.pick(self._render(view, time, CLICK_OUTPUTS), x, y)
+
+    def _render(self, view: Viewpoint, time: float, outputs):
         if self.viewed.update is not None:
             self.viewed.update(time)
         pose = view.pose()
         self.lighting.follow(pose)
         if self.viewed.follow is not None:
             self.viewed.follow(pose[:3, 3])
-        frame = self.renderer.render(
+        return self.renderer.render(
             self.viewed.scene,
             (self._camera(view), pose),
             culling_camera=self._culling_camera,
+            outputs=outputs,
             **self.appearance.arguments(self.viewed.scene.background, self.point_size),
         )
-        if self.settings.axes or self.settings.metadata:
-            self._draw_overlays(frame.canvas(), view)
-        if self._report is not None:
-            self._report(frame)
-        return frame
 
     @property
     def point_size(self) -> float:

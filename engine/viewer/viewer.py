@@ -10,16 +10,21 @@ from __future__ import annotations
 import math
 import time as clock
 
-from .. import events
+import numpy as np
+
+from .. import events, linalg
 from ..errors import Engine3DError, printable
+from ..spatial.rays import RayHit
 from . import actions as viewer_actions
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
 from .keymap import ORBIT_ARROWS, action_for
 from .model_files import ModelFiles
-from .orbit import OrbitController
+from .mouse import Mouse
+from .orbit import MIN_DISTANCE, OrbitController
 from .overlay import draw_block, statistics_lines
+from .selection import OUTLINE_OUTPUTS, WIDTH, draw_outline, selection_lines
 from .view_renderer import ViewRenderer
 from .viewpoint import Sphere
 
@@ -86,7 +91,8 @@ class Viewer:
         self.frame = None
         self.held_positions: set[str] = set()
         self.fast = False
-        self.drag: str | None = None
+        self.mouse = Mouse(self)
+        self.selected: RayHit | None = None
         self._message = ""
         self._message_ends = 0.0
         self.frame_times = FrameTimes()
@@ -150,7 +156,7 @@ class Viewer:
         viewed = self.view_renderer.viewed
         self.changed = True
         self.time = (self.time + seconds) % viewed.period
-        if viewed.update is None and self.walker is None and self.drag is None:
+        if viewed.update is None and self.walker is None and self.mouse.drag is None:
             self.orbit.turn(2 * math.pi * seconds / viewed.period, 0.0)
 
     def draw(self) -> None:
@@ -159,7 +165,8 @@ class Viewer:
         width, height = self.window.size
         self.view_renderer.resize(width, height)
         self.changed = False
-        self.frame = self.view_renderer.draw(self.view, self.time)
+        outputs = ("color",) if self.selected is None else OUTLINE_OUTPUTS
+        self.frame = self.view_renderer.draw(self.view, self.time, outputs)
         self._draw_overlays()
         drawn = clock.monotonic()
         self.window.present(self.frame.color)
@@ -167,10 +174,13 @@ class Viewer:
 
     def _draw_overlays(self) -> None:
         messages = [line for line in (self._trouble, self._message) if line]
-        if not (self.show_help or self.show_statistics or messages):
+        if not (self.show_help or self.show_statistics or self.selected or messages):
             return
         canvas = self.frame.canvas()
         scale = self.view_renderer.text_scale(canvas)
+        if self.selected is not None:
+            draw_outline(self.frame, self.selected, WIDTH * scale)
+            draw_block(canvas, selection_lines(self.selected), corner="bottom right", scale=scale)
         if self.show_help:
             self.help_pages = draw_help(canvas, self.help_page, scale)
         elif self.show_statistics:
@@ -203,6 +213,22 @@ class Viewer:
         self._message = printable(message)
         seconds = max(MESSAGE_SECONDS, len(message) / READ_A_SECOND)
         self._message_ends = clock.monotonic() + seconds
+        self.changed = True
+
+    def select(self, x: int, y: int) -> None:
+        """Select what shows at a pixel; where nothing does, nothing is selected any more."""
+        self.selected = self.view_renderer.pick(self.view, self.time, x, y)
+        self.changed = True
+
+    def focus(self, x: int, y: int) -> None:
+        """Move what shows at a pixel into the middle, and turn round it from now on."""
+        hit = self.view_renderer.pick(self.view, self.time, x, y)
+        if hit is None or not np.isfinite(hit.position).all():
+            return
+        ahead = linalg.dot(hit.position - self.view.position(), -self.view.rotation()[:, 2])
+        self.view.target = hit.position.copy()
+        if not self.view.orthographic:
+            self.view.distance = max(MIN_DISTANCE, float(ahead))
         self.changed = True
 
     def open(self, paths) -> None:
@@ -240,6 +266,7 @@ class Viewer:
 
     def _show(self, viewed, *, keep_appearance: bool = False) -> None:
         self.view_renderer.show(viewed, keep_appearance=keep_appearance)
+        self.selected = None
         self._trouble = ""
         self._title_due = 0.0
 
@@ -273,8 +300,8 @@ class Viewer:
             self.orbit.turn(right * ARROW_RADIANS, up * ARROW_RADIANS)
             self.changed = True
             return
-        action = action_for(event.key, event.position)
-        if action is not None and not event.repeat and not event.control:
+        action = action_for(event.key, event.position, event.control)
+        if action is not None and not event.repeat:
             getattr(viewer_actions, action)(self, -1 if event.shift else 1)
             self.changed = True
 
@@ -295,38 +322,6 @@ class Viewer:
         if event.key.endswith("Shift"):
             self.fast = False
 
-    def _button(self, event) -> None:
-        if self.walker is not None:
-            return
-        if not event.down:
-            self.drag = None
-        elif event.button == "left":
-            self.drag = "pan" if event.shift or event.control else "rotate"
-        else:
-            self.drag = {"middle": "dolly", "right": "pan"}[event.button]
-
-    def _motion(self, event) -> None:
-        height = self.view_renderer.size[1]
-        if self.walker is not None:
-            self.walker.look(event.dx, event.dy)
-            self.walker.place(self.view)
-        elif self.drag == "rotate":
-            self.orbit.rotate(event.dx, event.dy, height)
-        elif self.drag == "pan":
-            self.orbit.pan(event.dx, event.dy, height)
-        elif self.drag == "dolly":
-            self.orbit.dolly_drag(event.dy)
-        else:
-            return
-        self.changed = True
-
-    def _wheel(self, event) -> None:
-        if self.walker is not None:
-            self.walker.change_speed(event.steps)
-            return
-        self.orbit.dolly(event.steps)
-        self.changed = True
-
     def _redraw(self, event) -> None:
         self.changed = True
 
@@ -337,7 +332,7 @@ class Viewer:
     def _release_keys(self, event) -> None:
         self.held_positions.clear()
         self._unfreeze_culling()
-        self.drag = None
+        self.mouse.release()
 
     def _dropped(self, event) -> None:
         self.open(event.paths)
@@ -349,9 +344,9 @@ class Viewer:
 _HANDLERS = {
     events.KeyDown: Viewer._key_down,
     events.KeyUp: Viewer._key_up,
-    events.MouseButton: Viewer._button,
-    events.MouseMotion: Viewer._motion,
-    events.Wheel: Viewer._wheel,
+    events.MouseButton: lambda viewer, event: viewer.mouse.button(event),
+    events.MouseMotion: lambda viewer, event: viewer.mouse.motion(event),
+    events.Wheel: lambda viewer, event: viewer.mouse.wheel(event),
     events.Resized: Viewer._redraw,
     events.Exposed: Viewer._redraw,
     events.Restored: Viewer._redraw,

@@ -62,7 +62,7 @@ def test_the_help_fits_the_window(size, monkeypatch):
 
     monkeypatch.setattr(Canvas, "text", note)
     pages = draw_help(Canvas(*size))
-    assert (pages == 1) == (size[0] >= 800)
+    assert (pages == 1) == (size[0] >= 1280)
     shown.clear()
     for page in range(pages):
         canvas = Canvas(*size)

@@ -1,0 +1,102 @@
+"""What the mouse does in the viewer: drags orbit, pan and zoom; clicks select; the wheel zooms.
+
+In: events of the mouse. Out: calls of the orbit or the walking controller, and of the viewer. A
+press becomes a drag when the mouse has gone some pixels; otherwise it was a click.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .viewer import Viewer
+
+#: Pixels that a hand moves while it clicks.
+CLICK_REACH = 4
+
+
+class Mouse:
+    """Obeys the mouse.
+
+    Parameters
+    ----------
+    viewer : Viewer
+
+    Attributes
+    ----------
+    drag : str or None
+        What a pressed button does: ``"rotate"``, ``"pan"`` or ``"dolly"``.
+    """
+
+    def __init__(self, viewer: Viewer):
+        self._viewer = viewer
+        self.release()
+
+    def release(self) -> None:
+        """Forget a button that is down."""
+        self.drag: str | None = None
+        self._travelled = 0
+        self._held_back = (0, 0)
+
+    def button(self, event) -> None:
+        """A button went down or came up."""
+        if self._viewer.walker is not None:
+            return
+        if event.down:
+            self.release()
+            self.drag = _drag(event)
+            return
+        clicked = self.drag == "rotate" and not self._dragging
+        self.release()
+        if clicked:
+            self._click(event)
+
+    @property
+    def _dragging(self) -> bool:
+        return self._travelled > CLICK_REACH
+
+    def _click(self, event) -> None:
+        if event.clicks == 2:
+            self._viewer.focus(event.x, event.y)
+        else:
+            self._viewer.select(event.x, event.y)
+
+    def motion(self, event) -> None:
+        """The mouse moved."""
+        viewer = self._viewer
+        if viewer.walker is not None:
+            viewer.walker.look(event.dx, event.dy)
+            viewer.walker.place(viewer.view)
+            viewer.changed = True
+        elif self.drag is not None:
+            self._travelled += abs(event.dx) + abs(event.dy)
+            dx, dy = self._held_back[0] + event.dx, self._held_back[1] + event.dy
+            self._held_back = (0, 0) if self._dragging else (dx, dy)
+            if self._dragging:
+                self._move(dx, dy)
+
+    def _move(self, dx: int, dy: int) -> None:
+        viewer = self._viewer
+        height = viewer.view_renderer.size[1]
+        if self.drag == "rotate":
+            viewer.orbit.rotate(dx, dy, height)
+        elif self.drag == "pan":
+            viewer.orbit.pan(dx, dy, height)
+        else:
+            viewer.orbit.dolly_drag(dy)
+        viewer.changed = True
+
+    def wheel(self, event) -> None:
+        """The wheel turned."""
+        viewer = self._viewer
+        if viewer.walker is not None:
+            viewer.walker.change_speed(event.steps)
+            return
+        viewer.orbit.dolly(event.steps, (event.x, event.y), viewer.view_renderer.size)
+        viewer.changed = True
+
+
+def _drag(event) -> str:
+    if event.button == "left":
+        return "pan" if event.shift or event.control else "rotate"
+    return {"middle": "dolly", "right": "pan"}[event.button]

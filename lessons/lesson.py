@@ -73,15 +73,22 @@ def block(caption, *pictures):
     return page
 
 
-def sheet(blocks, widest=800):
-    """Lay blocks out in rows, as many in a row as fit."""
-    rows, row = [], []
+def rows_of(blocks, widest):
+    """Return blocks in rows, as many in a row as fit."""
+    rows = [[]]
     for one in blocks:
-        if row and sum(b.shape[1] for b in row) + one.shape[1] > widest:
-            rows.append(row)
-            row = []
-        row.append(one)
-    rows.append(row)
+        if rows[-1] and sum(b.shape[1] for b in rows[-1]) + one.shape[1] > widest:
+            rows.append([])
+        rows[-1].append(one)
+    return rows
+
+
+def sheet(blocks, widest=1040):
+    """Lay blocks out in as few rows as fit, which are about equally long."""
+    rows = rows_of(blocks, widest)
+    while len(rows_of(blocks, widest - MARGIN)) == len(rows) and widest > MARGIN:
+        widest -= MARGIN
+    rows = rows_of(blocks, widest)
     width = max(sum(b.shape[1] for b in row) for row in rows)
     page = np.full((sum(max(b.shape[0] for b in row) for row in rows), width, 4), 255, np.uint8)
     page[:, :, :3] = PAPER

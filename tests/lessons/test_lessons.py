@@ -18,7 +18,7 @@ SECTIONS = {
     "en": ["The idea", "The program", "What to observe", "Exercises", "Terms"],
     "fr": ["L'idée", "Le programme", "À observer", "Exercices", "Vocabulaire"],
 }
-MAX_PICTURE_BYTES = 60_000
+MAX_PICTURE_BYTES = 100_000
 
 
 def page(language, name):

@@ -99,6 +99,7 @@ class Node:
         self._name = str(value)
         if self._scene is not None:
             self._scene._names = None
+            self._scene._renames += 1
 
     @property
     def parent(self) -> Node | None:

@@ -87,6 +87,7 @@ class Scene(Closed):
         self._placed_colliders = None  # made when asked for
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
+        self._renames = 0  # how often a node got another name
         self.warnings = []
         self.background = background
         self.ambient = ambient

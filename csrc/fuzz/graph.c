@@ -277,12 +277,16 @@ static void operate(world *w, input *in)
         if (is_alive) {
             const int32_t parent = take_below(in, g->count + 1) - 1;
             const int wrong = parent >= 0 && is_below(g, parent, slot);
-            CLAIM(e3d_graph_link(g, slot, parent) == !wrong);
+            int32_t before = parent < 0 || take_below(in, 2) ? -1 : g->first_child[parent];
+            before = before == slot ? g->next[before] : before;
+            CLAIM(e3d_graph_link(g, slot, parent, before) == !wrong);
         }
         break;
     case 2:
         if (is_alive && take_below(in, 3) == 0)
             e3d_graph_remove(g, slot);
+        else if (!is_alive && g->parent[slot] < 0)
+            e3d_graph_restore(g, slot);
         break;
     case 3: e3d_graph_set_flag(g, slot, take_below(in, 2) ? E3D_NODE_VISIBLE : E3D_NODE_STATIC, take_below(in, 2)); break;
     case 4: set_pose(w, in, slot); return;

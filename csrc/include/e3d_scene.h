@@ -58,10 +58,13 @@ typedef struct e3d_graph {
 int32_t e3d_graph_add(e3d_graph *graph, int32_t parent, int32_t object, int32_t id);
 /* Says that the first slots hold nodes, of which nothing derived is known. */
 void e3d_graph_adopt(e3d_graph *graph, int32_t count);
-/* Hangs a node under another (-1: none), as its last child; 0 if that one is the node itself or below it. */
-int e3d_graph_link(e3d_graph *graph, int32_t slot, int32_t parent);
+/* Hangs a node under another (-1: none), before one of its other children or as the last (-1); 0 if the parent is
+ * the node itself or below it. */
+int e3d_graph_link(e3d_graph *graph, int32_t slot, int32_t parent, int32_t before);
 /* Takes a node out of its parent's children and marks it and all below as not alive. */
 void e3d_graph_remove(e3d_graph *graph, int32_t slot);
+/* Makes a removed node, which hangs under none, and all below it alive again. */
+void e3d_graph_restore(e3d_graph *graph, int32_t slot);
 /* The node after this one in the walk over all below `top`, parents first; -1 at the end. */
 int32_t e3d_graph_walk(const e3d_graph *graph, int32_t slot, int32_t top);
 /* Switches flags (VISIBLE or STATIC). */

@@ -37,8 +37,11 @@ cdef extern from "e3d_scene.h" nogil:
 
     int32_t e3d_graph_add(e3d_graph *graph, int32_t parent, int32_t object, int32_t id)
     void e3d_graph_adopt(e3d_graph *graph, int32_t count)
-    bint e3d_graph_link(e3d_graph *graph, int32_t slot, int32_t parent)
+    bint e3d_graph_link(
+        e3d_graph *graph, int32_t slot, int32_t parent, int32_t before
+    )
     void e3d_graph_remove(e3d_graph *graph, int32_t slot)
+    void e3d_graph_restore(e3d_graph *graph, int32_t slot)
     int32_t e3d_graph_walk(const e3d_graph *graph, int32_t slot, int32_t top)
     void e3d_graph_set_flag(e3d_graph *graph, int32_t slot, int flag, bint on)
     void e3d_graph_set_pose(e3d_graph *graph, int32_t slot, const double *pose)

@@ -41,20 +41,25 @@ void e3d_graph_touch(e3d_graph *g, int32_t slot)
     }
 }
 
-static void append_child(e3d_graph *g, int32_t slot, int32_t parent)
+/* before: a child of the parent; -1 is the end. */
+static void put_in(e3d_graph *g, int32_t slot, int32_t parent, int32_t before)
 {
     g->parent[slot] = parent;
     g->next[slot] = -1;
     g->previous[slot] = -1;
     if (parent < 0)
         return;
-    int32_t last = g->last_child[parent];
-    g->previous[slot] = last;
-    if (last < 0)
+    int32_t after = before < 0 ? g->last_child[parent] : g->previous[before];
+    g->previous[slot] = after;
+    g->next[slot] = before;
+    if (after < 0)
         g->first_child[parent] = slot;
     else
-        g->next[last] = slot;
-    g->last_child[parent] = slot;
+        g->next[after] = slot;
+    if (before < 0)
+        g->last_child[parent] = slot;
+    else
+        g->previous[before] = slot;
 }
 
 static void take_out(e3d_graph *g, int32_t slot)
@@ -80,18 +85,18 @@ int32_t e3d_graph_add(e3d_graph *g, int32_t parent, int32_t object, int32_t id)
     g->flags[slot] = E3D_NODE_ALIVE | E3D_NODE_VISIBLE;
     g->pose_version[slot] = g->world_version[slot] = 0;
     memcpy(g->pose + 12 * (size_t)slot, IDENTITY, sizeof IDENTITY);
-    append_child(g, slot, parent);
+    put_in(g, slot, parent, -1);
     e3d_graph_touch(g, slot);
     return slot;
 }
 
-int e3d_graph_link(e3d_graph *g, int32_t slot, int32_t parent)
+int e3d_graph_link(e3d_graph *g, int32_t slot, int32_t parent, int32_t before)
 {
     for (int32_t above = parent; above >= 0; above = g->parent[above])
         if (above == slot)
             return 0;
     take_out(g, slot);
-    append_child(g, slot, parent);
+    put_in(g, slot, parent, before);
     e3d_graph_touch(g, slot);
     return 1;
 }
@@ -102,6 +107,13 @@ void e3d_graph_remove(e3d_graph *g, int32_t slot)
     e3d_graph_touch(g, slot);
     for (int32_t at = slot; at >= 0; at = e3d_graph_walk(g, at, slot))
         g->flags[at] &= ~E3D_NODE_ALIVE;
+}
+
+void e3d_graph_restore(e3d_graph *g, int32_t slot)
+{
+    for (int32_t at = slot; at >= 0; at = e3d_graph_walk(g, at, slot))
+        g->flags[at] |= E3D_NODE_ALIVE;
+    e3d_graph_touch(g, slot);
 }
 
 void e3d_graph_set_flag(e3d_graph *g, int32_t slot, int flag, int on)

@@ -251,19 +251,33 @@ cdef class NativeGraph:
         e3d_graph_adopt(&self.graph, count)
         self.changes += 1
 
-    def link(self, int32_t slot, int32_t parent):
-        """Hang a node under another, or under none (-1); False if that is itself or below it."""
+    def link(self, int32_t slot, int32_t parent, int32_t before):
+        """Hang a node under another, or under none (-1); False if that is itself or below it.
+
+        It comes before another child of that parent, or last (-1).
+        """
         self.check(slot)
         if parent != -1:
             self.check(parent)
+        if before != -1:
+            self.check(before)
+            if before == slot or parent == -1 or self.graph.parent[before] != parent:
+                raise InvalidArgumentError("before must be another child of the parent")
         self.changes += 1
-        return e3d_graph_link(&self.graph, slot, parent)
+        return e3d_graph_link(&self.graph, slot, parent, before)
 
     def remove(self, int32_t slot):
         """Take out a node; return the slots of it and of all below."""
         self.check(slot)
         self.changes += 1
         e3d_graph_remove(&self.graph, slot)
+        return self.below(slot)
+
+    def restore(self, int32_t slot):
+        """Put a removed node back, under none, with all below; return their slots."""
+        self.check(slot)
+        self.changes += 1
+        e3d_graph_restore(&self.graph, slot)
         return self.below(slot)
 
     def below(self, int32_t slot):

@@ -1,8 +1,7 @@
 """The nodes of a scene as arrays: a row per node, in the order in which they were added.
 
 In: slots. Out: arrays that C keeps up to date (csrc/scene/). A removed node keeps its slot until
-the rows of those that are left are packed into new arrays; the old ones stay with whoever still
-holds a removed node.
+rows are packed into new arrays: those of the nodes, and of the removed ones that may come back.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ class NodeArrays(NativeGraph):
     columns : dict of str to ndarray
         As csrc/include/e3d_scene.h names them; only the first ``count`` rows are nodes.
     nodes : list of Node or None
-        The handle of each slot; None once the node was removed.
+        The handle of each slot; None while the node is removed.
     """
 
     def __init__(self) -> None:
@@ -65,21 +64,26 @@ class NodeArrays(NativeGraph):
         """Return world-from-node of some slots, (N, 4, 4) float64, as of the last update."""
         return matrices_of(self.columns["world"][slots])
 
-    def packed(self) -> NodeArrays:
-        """Return new arrays without the rows of removed nodes; their nodes are not told yet."""
+    def packed(self, removed: list[int]) -> tuple[NodeArrays, np.ndarray]:
+        """Return new arrays of the nodes, and of some removed ones that may come back.
+
+        Also returns the new slot of each old one, -1 for those given up. No node is told yet.
+        """
         count = self.count
-        alive = np.flatnonzero(self.columns["flags"][:count] & ALIVE)
+        stays = self.columns["flags"][:count] & ALIVE != 0
+        stays[removed] = True
+        rows = np.flatnonzero(stays)
         slots = np.full(count + 1, -1, np.int32)  # the last one is that of "none", -1
-        slots[alive] = np.arange(len(alive), dtype=np.int32)
+        slots[rows] = np.arange(len(rows), dtype=np.int32)
         other = NodeArrays()
-        other._make_room(max(_ROOM, 2 * len(alive)))
+        other._make_room(max(_ROOM, 2 * len(rows)))
         for name, column in self.columns.items():
-            kept = column[alive]
-            other.columns[name][: len(alive)] = slots[kept] if name in _LINKS else kept
-        other.nodes = [self.nodes[slot] for slot in alive.tolist()]
+            kept = column[rows]
+            other.columns[name][: len(rows)] = slots[kept] if name in _LINKS else kept
+        other.nodes = [self.nodes[slot] for slot in rows.tolist()]
         other.changes = self.changes
-        other.adopt(len(alive))
-        return other
+        other.adopt(len(rows))
+        return other, slots
 
     def _make_room(self, room: int) -> None:
         columns = {}

@@ -52,6 +52,8 @@ class Node:
         "_pose_version",
         "_scene",
         "_slot",
+        "_taken",
+        "_taken_with",
         "_world_pose",
         "_world_version",
     )
@@ -61,6 +63,8 @@ class Node:
         self._object = obj
         self._name = name
         self._collider = None
+        self._taken = ()  # the nodes below that were removed with this one
+        self._taken_with = None  # the node above that this one was removed with
         self._pose_version = self._world_version = -1
         self._id = number
 
@@ -95,6 +99,7 @@ class Node:
         self._name = str(value)
         if self._scene is not None:
             self._scene._names = None
+            self._scene._renames += 1
 
     @property
     def parent(self) -> Node | None:
@@ -116,7 +121,13 @@ class Node:
     def __reduce_ex__(self, protocol):
         raise TypeError("a Node belongs to its Scene: it cannot be copied or pickled")
 
-    def reparent(self, parent: Node | None, *, keep_world_pose: bool = False) -> None:
+    def reparent(
+        self,
+        parent: Node | None,
+        *,
+        keep_world_pose: bool = False,
+        before: Node | None = None,
+    ) -> None:
         """Give the node, with everything below it, another parent.
 
         Parameters
@@ -126,12 +137,15 @@ class Node:
         keep_world_pose : bool
             Change ``pose`` so that the node stays where it is in the world, up to rounding;
             otherwise ``pose`` stays and the node moves.
+        before : Node, optional
+            A child of the parent: the node takes its place among ``parent.children``, instead of
+            the last. The order of drawing stays that of the ids.
 
         Raises
         ------
         InvalidArgumentError
             The parent is the node itself, below it, or of another scene, or its world pose has no
-            inverse.
+            inverse; or ``before`` is no other child of the parent.
         """
         scene = self._scene
         if parent is not None and not (isinstance(parent, Node) and parent._scene is scene):
@@ -143,7 +157,10 @@ class Node:
             pose = self.world_pose
             if parent is not None:
                 pose = linalg.multiply(linalg.inverse(parent.world_pose), pose)
-        if not self._arrays.link(self._slot, -1 if parent is None else parent._slot):
+        if before is not None and (before is self or not _hangs_under(before, parent)):
+            raise InvalidArgumentError(f"before must be another child of the parent: {before!r}")
+        slots = (-1 if node is None else node._slot for node in (parent, before))
+        if not self._arrays.link(self._slot, *slots):
             raise InvalidArgumentError(f"{parent!r} is {self!r} or below it: that would be a cycle")
         if pose is not None:
             self.pose = pose
@@ -285,6 +302,10 @@ class Node:
         rotation.setflags(write=False)
         scale.setflags(write=False)
         return rotation, scale
+
+
+def _hangs_under(node, parent: Node | None) -> bool:
+    return parent is not None and isinstance(node, Node) and node.parent is parent
 
 
 def check_pose(value: ArrayLike) -> NDArray[np.float64]:

@@ -11,6 +11,7 @@ import itertools
 import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
+from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -77,6 +78,8 @@ class Scene(Closed):
         self._objects = ObjectTable()
         self._ids = itertools.count()
         self._removed = 0  # slots of removed nodes
+        self._removed_lately = 0  # of these, since slots were last given up
+        self._gone: WeakSet[Node] = WeakSet()  # nodes that were removed, but for those below them
         self._removals = 0  # how often a node, or what it held, went
         self._cameras: dict[int, Node] = {}
         self._lights: dict[int, Node] = {}
@@ -84,6 +87,7 @@ class Scene(Closed):
         self._placed_colliders = None  # made when asked for
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
+        self._renames = 0  # how often a node got another name
         self.warnings = []
         self.background = background
         self.ambient = ambient
@@ -222,7 +226,7 @@ class Scene(Closed):
         self._removals += 1
 
     def remove(self, node: Node) -> None:
-        """Take a node and everything below it out of the scene, for good.
+        """Take a node and everything below it out of the scene; see `restore`.
 
         Raises
         ------
@@ -231,26 +235,76 @@ class Scene(Closed):
         """
         if not isinstance(node, Node) or node._scene is not self:
             raise InvalidArgumentError("remove() needs a node of this scene")
-        arrays = self._arrays
+        arrays, taken = self._arrays, []
         for slot in arrays.remove(node._slot):
             gone, arrays.nodes[slot] = arrays.nodes[slot], None
+            taken.append(gone)
             gone._scene = None
             self._objects.release(gone._object)
             self._cameras.pop(gone.id, None)
             self._lights.pop(gone.id, None)
             self._colliders.pop(gone.id, None)
-            self._removed += 1
-            self._removals += 1
+        node._taken = tuple(taken[1:])
+        for below in node._taken:
+            below._taken_with = node
+        self._gone.add(node)
+        self._removed += len(taken)
+        self._removed_lately += len(taken)
+        self._removals += 1
         self._nodes = self._names = None
-        if self._removed > max(_LEAST_REMOVED, arrays.count // 2):
+        if self._removed_lately > max(_LEAST_REMOVED, arrays.count // 2):
             self._pack()
 
+    def restore(
+        self, node: Node, *, parent: Node | None = None, before: Node | None = None
+    ) -> None:
+        """Put a removed node back, with everything that was below it when it was removed.
+
+        All of them keep their ids, and so their places in the order of drawing, and what they were
+        given meanwhile.
+
+        Parameters
+        ----------
+        node : Node
+            What `remove` was called with.
+        parent : Node, optional
+            The node that it hangs under from now on; left out, the scene itself.
+        before : Node, optional
+            As in `Node.reparent`.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The node was not removed from this scene, or only together with one above it; or the
+            parent does not fit.
+        """
+        if not isinstance(node, Node) or node not in self._gone:
+            raise InvalidArgumentError("restore() needs a node that was removed from this scene")
+        taken, arrays = (node, *node._taken), self._arrays
+        for slot, back in zip(arrays.restore(node._slot), taken, strict=True):
+            arrays.nodes[slot] = back
+            back._scene, back._taken_with = self, None
+            arrays.set_object(slot, self._objects.take(back._object))
+            self._list(back)
+            self._set_collider(back)
+        self._gone.discard(node)
+        node._taken = ()
+        self._removed -= len(taken)
+        self._removals += 1
+        self._nodes = self._names = None
+        try:
+            node.reparent(parent, before=before)
+        except InvalidArgumentError:
+            self.remove(node)
+            raise
+
     def _pack(self) -> None:
-        """Give up the slots of removed nodes."""
-        self._arrays = self._arrays.packed()
-        self._removed = 0
-        for slot, node in enumerate(self._arrays.nodes):
-            node._arrays, node._slot = self._arrays, slot
+        """Give up the slots of removed nodes that nobody holds any more."""
+        gone = [node for top in self._gone for node in (top, *top._taken)]
+        self._arrays, slots = self._arrays.packed([node._slot for node in gone])
+        self._removed, self._removed_lately = len(gone), 0
+        for node in (*filter(None, self._arrays.nodes), *gone):
+            node._arrays, node._slot = self._arrays, int(slots[node._slot])
 
     @property
     def nodes(self) -> tuple[Node, ...]:

@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "glossary.md"
 HEADERS = [*ROOT.glob("csrc/pipeline/*/*.h"), *ROOT.glob("csrc/kernels/types/*.h")]
 # What ends the name of a type and says nothing of what it is about.
-FORMS = "array|buffer|float|job|memory|progress|row|set|state|style|table|word"
+FORMS = "array|buffer|float|in|job|memory|out|progress|row|set|state|style|table|word"
 
 
 def rows():

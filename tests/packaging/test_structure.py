@@ -60,9 +60,6 @@ MAX_INCLUDERS = 12  # files of a header's own folder
 # Each file of these is a program of its own: they share how they take their input, and no state.
 PROGRAMS = {"fuzz"}
 
-# The structs that are sums of what all stages keep, and so include a header of each; every stage
-# finds its own there.
-SUMS = "pipeline/state"
 # Imports inside functions without which no modules would import each other in a circle.
 BACKWARD_IMPORTS = {
     "geometry.mesh -> geometry.trimesh_conversion",
@@ -182,11 +179,7 @@ def words(code):
 def test_folders_include_only_those_below_them():
     found = defaultdict(set)
     for name, headers in INCLUDES.items():
-        found[folder_of(name)] |= {folder_of(header) for header in headers} - {
-            folder_of(name),
-            SUMS,
-        }
-    del found[SUMS]
+        found[folder_of(name)] |= {folder_of(header) for header in headers} - {folder_of(name)}
     assert found == FOLDERS
     assert circles(FOLDERS) == []
 
@@ -238,17 +231,12 @@ DECLARED = {
 FRAME_FILES = [name for name in SOURCES if re.match(r"pipeline/|kernels/(?!simd/)", name)]
 
 
-def may_include(folder, other):
-    both = "pipeline/" in folder and "pipeline/" in other
-    return other in FOLDERS.get(folder, ()) or (both and SUMS in (folder, other))
-
-
 @pytest.mark.parametrize("name", FRAME_FILES)
 def test_files_that_draw_a_frame_include_what_they_use(name):
     folder, used = folder_of(name), words(CODE[name])
     homes = defaultdict(set)
     for other in DECLARED:
-        below = may_include(folder, folder_of(other)) and other.endswith(".h")
+        below = folder_of(other) in FOLDERS[folder] and other.endswith(".h")
         if below or folder_of(other) == folder:
             for word in DECLARED[other] & used:
                 homes[word].add(other)

@@ -1,8 +1,9 @@
 /* cull: which groups of clusters may show, from the nearest to the farthest.
  *
- * In:  the frame's instances, and the boxes of their meshes' groups.
+ * In:  the pass's instances, and the boxes of their meshes' groups.
  * Out: candidates, sorted by the depth of their nearest corner, in an order that no thread's timing changes.
  */
+#include <stdatomic.h>
 #include <string.h>
 
 #include "core/grow.h"
@@ -13,11 +14,8 @@
 #include "pipeline/cull/cull.h"
 #include "pipeline/pass/boxes.h"
 #include "pipeline/pass/draws.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/counts.h"
-#include "pipeline/state/renderer.h"
-#include "pipeline/state/worker.h"
 
 enum { GROUPS_A_TASK = 512 };
 
@@ -27,33 +25,45 @@ typedef struct task {
     size_t first;
 } task;
 
-static void add_candidate(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, uint32_t number,
-                          int32_t group, int64_t group_number)
+/* What all threads do with the groups. */
+typedef struct cull_job {
+    const e3d_prepared *pass;
+    e3d_cull_memory *out;
+    atomic_llong next; /* task */
+} cull_job;
+
+static void count_outside(e3d_cull_state *state, const e3d_group_box *box)
+{
+    state->counters.clusters[E3D_RESULT_OUTSIDE] += box->clusters;
+    state->counters.triangles[E3D_RESULT_OUTSIDE] += box->triangles;
+}
+
+static void add_candidate(const e3d_prepared *pass, e3d_cull_state *state, const e3d_draw_state *draw, uint32_t number, int32_t group,
+                          int64_t group_number)
 {
     const e3d_group_box *box = &draw->mesh->groups[group];
-    e3d_candidate candidate = {number, (uint32_t)group, (int32_t)(draw - context->draws->states), (int32_t)group_number,
+    e3d_candidate candidate = {number, (uint32_t)group, (int32_t)(draw - pass->draws->states), (int32_t)group_number,
                                {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
-        e3d_view_box(&context->view->viewport, e3d_culling_matrix(context->view, number), box->lo, box->hi, &candidate.view);
-    if (bounded && context->frame->culling != E3D_CULLING_NONE && (!box->any_finite || candidate.view.state == E3D_BOX_OUTSIDE)) {
-        worker->counters.clusters[E3D_RESULT_OUTSIDE] += box->clusters;
-        worker->counters.triangles[E3D_RESULT_OUTSIDE] += box->triangles;
+        e3d_view_box(&pass->view->viewport, e3d_culling_matrix(pass->view, number), box->lo, box->hi, &candidate.view);
+    if (bounded && pass->frame->culling != E3D_CULLING_NONE && (!box->any_finite || candidate.view.state == E3D_BOX_OUTSIDE)) {
+        count_outside(state, box);
         return;
     }
     const e3d_box blocks = e3d_blocks_of(&candidate.view.samples);
-    worker->counters.blocks += (int64_t)(blocks.x1 - blocks.x0 + 1) * (blocks.y1 - blocks.y0 + 1);
-    if (!e3d_array_reserve(&worker->cull.candidates, worker->cull.candidates.count + 1, sizeof candidate)) {
-        worker->failed = 1;
+    state->blocks += (int64_t)(blocks.x1 - blocks.x0 + 1) * (blocks.y1 - blocks.y0 + 1);
+    if (!e3d_array_reserve(&state->candidates, state->candidates.count + 1, sizeof candidate)) {
+        state->failed = 1;
         return;
     }
-    ((e3d_candidate *)worker->cull.candidates.data)[worker->cull.candidates.count++] = candidate;
+    ((e3d_candidate *)state->candidates.data)[state->candidates.count++] = candidate;
 }
 
-/* Groups [first, end) of the frame: draw after draw, instance after instance. */
-static void cull_groups(e3d_context *context, e3d_worker *worker, int64_t first, int64_t end)
+/* Groups [first, end) of the pass: draw after draw, instance after instance. */
+static void cull_groups(const e3d_prepared *pass, e3d_cull_state *state, int64_t first, int64_t end)
 {
-    const e3d_draw_state *draw = e3d_draw_of_group(context->draws, first);
+    const e3d_draw_state *draw = e3d_draw_of_group(pass->draws, first);
     for (int64_t group_number = first; group_number < end;) {
         while (group_number >= draw->group_base + (int64_t)draw->mesh->group_count * draw->draw->instances)
             draw++;
@@ -62,28 +72,26 @@ static void cull_groups(e3d_context *context, e3d_worker *worker, int64_t first,
         uint32_t number = (uint32_t)(draw->instance_base + within / groups);
         int32_t group = (int32_t)(within % groups);
         for (; group < groups && group_number < end; group++, group_number++)
-            if (context->view->instances[number].shows)
-                add_candidate(context, worker, draw, number, group, group_number);
-            else {
-                worker->counters.clusters[E3D_RESULT_OUTSIDE] += draw->mesh->groups[group].clusters;
-                worker->counters.triangles[E3D_RESULT_OUTSIDE] += draw->mesh->groups[group].triangles;
-            }
+            if (pass->view->instances[number].shows)
+                add_candidate(pass, state, draw, number, group, group_number);
+            else
+                count_outside(state, &draw->mesh->groups[group]);
     }
 }
 
 static void cull_work(void *argument, int number)
 {
-    e3d_context *context = argument;
-    e3d_worker *worker = context->renderer->workers[number];
-    task *tasks = context->renderer->cull.tasks.data;
-    while (!atomic_load(&context->stop)) {
-        int64_t at = atomic_fetch_add(&context->next, 1), first = at * GROUPS_A_TASK;
-        if (first >= context->draws->groups)
+    cull_job *job = argument;
+    e3d_cull_state *state = job->out->of[number];
+    task *tasks = job->out->tasks.data;
+    int64_t groups = job->pass->draws->groups;
+    for (;;) {
+        int64_t at = atomic_fetch_add(&job->next, 1), first = at * GROUPS_A_TASK;
+        if (first >= groups)
             return;
-        int64_t end = first + GROUPS_A_TASK < context->draws->groups ? first + GROUPS_A_TASK : context->draws->groups;
-        size_t before = worker->cull.candidates.count;
-        cull_groups(context, worker, first, end);
-        tasks[at] = (task){number, (int32_t)(worker->cull.candidates.count - before), before};
+        size_t before = state->candidates.count;
+        cull_groups(job->pass, state, first, first + GROUPS_A_TASK < groups ? first + GROUPS_A_TASK : groups);
+        tasks[at] = (task){number, (int32_t)(state->candidates.count - before), before};
     }
 }
 
@@ -102,14 +110,13 @@ static uint32_t bucket_of(float near)
     return bits < most ? most - bits < BUCKETS ? most - bits : BUCKETS - 1 : 0;
 }
 
-static int sort_candidates(e3d_context *context, int64_t task_count)
+static int sort_candidates(e3d_cull_memory *memory, int32_t threads, int64_t task_count)
 {
-    e3d_renderer *renderer = context->renderer;
-    const task *tasks = renderer->cull.tasks.data;
+    const task *tasks = memory->tasks.data;
     uint32_t start[BUCKETS] = {0}, total = 0;
-    for (int32_t w = 0; w < renderer->threads; w++) {
-        const e3d_candidate *candidates = renderer->workers[w]->cull.candidates.data;
-        for (size_t i = 0; i < renderer->workers[w]->cull.candidates.count; i++)
+    for (int32_t t = 0; t < threads; t++) {
+        const e3d_candidate *candidates = memory->of[t]->candidates.data;
+        for (size_t i = 0; i < memory->of[t]->candidates.count; i++)
             start[bucket_of(candidates[i].view.near)]++;
     }
     for (int b = 0; b < BUCKETS; b++) {
@@ -117,32 +124,31 @@ static int sort_candidates(e3d_context *context, int64_t task_count)
         start[b] = total;
         total += count;
     }
-    if (!e3d_array_reserve(&renderer->cull.candidates, (size_t)total + 1, sizeof(e3d_candidate)))
+    if (!e3d_array_reserve(&memory->candidates, (size_t)total + 1, sizeof(e3d_candidate)))
         return 0;
-    e3d_candidate *out = renderer->cull.candidates.data;
+    e3d_candidate *out = memory->candidates.data;
     for (int64_t t = 0; t < task_count; t++) {
-        const e3d_candidate *candidates = renderer->workers[tasks[t].worker]->cull.candidates.data;
-        for (int32_t i = 0; i < tasks[t].count; i++) {
-            const e3d_candidate *candidate = &candidates[tasks[t].first + i];
-            out[start[bucket_of(candidate->view.near)]++] = *candidate;
-        }
+        const e3d_candidate *candidates = (const e3d_candidate *)memory->of[tasks[t].worker]->candidates.data + tasks[t].first;
+        for (int32_t i = 0; i < tasks[t].count; i++)
+            out[start[bucket_of(candidates[i].view.near)]++] = candidates[i];
     }
-    context->candidates = out;
-    context->candidate_count = total;
+    memory->candidates.count = total;
     return 1;
 }
 
-int e3d_find_candidates(e3d_context *context)
+int e3d_find_candidates(const e3d_prepared *pass, e3d_cull_memory *out)
 {
-    e3d_renderer *renderer = context->renderer;
-    int64_t task_count = (context->draws->groups + GROUPS_A_TASK - 1) / GROUPS_A_TASK;
-    if (!e3d_array_reserve(&renderer->cull.tasks, (size_t)task_count + 1, sizeof(task)))
+    int64_t task_count = (pass->draws->groups + GROUPS_A_TASK - 1) / GROUPS_A_TASK;
+    cull_job job = {.pass = pass, .out = out};
+    int failed = 0;
+    if (!e3d_array_reserve(&out->tasks, (size_t)task_count + 1, sizeof(task)))
         return 0;
-    for (int32_t w = 0; w < renderer->threads; w++)
-        renderer->workers[w]->cull.candidates.count = 0;
-    atomic_store(&context->next, 0);
-    e3d_pool_run(task_count > 1 ? renderer->threads : 1, cull_work, context);
-    return !e3d_any_failed(renderer) && sort_candidates(context, task_count);
+    for (int32_t t = 0; t < pass->threads; t++)
+        *out->of[t] = (e3d_cull_state){.candidates = {out->of[t]->candidates.data, 0, out->of[t]->candidates.room}};
+    e3d_pool_run(task_count > 1 ? pass->threads : 1, cull_work, &job);
+    for (int32_t t = 0; t < pass->threads; t++)
+        failed |= out->of[t]->failed;
+    return !failed && sort_candidates(out, pass->threads, task_count);
 }
 
 void e3d_cull_free(e3d_cull_memory *memory)

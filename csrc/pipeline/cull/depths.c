@@ -8,12 +8,9 @@
 #include "core/vectors.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
-#include "kernels/types/records.h"
 #include "kernels/types/visible.h"
-#include "pipeline/cull/cull.h"
 #include "pipeline/cull/depths.h"
 #include "pipeline/pass/boxes.h"
-#include "pipeline/state/context.h"
 
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };
 _Static_assert(BLOCKS == 8 && E3D_BLOCK == 8, "a row of blocks and the columns of a block are compared eight at a time");
@@ -31,13 +28,12 @@ static float farthest(const e3d_visible_tile *visible)
     return a > b ? a : b;
 }
 
-void e3d_note_depths(e3d_context *context, e3d_visible_tile *visible, int64_t tile)
+void e3d_note_depths(const e3d_kernels *kernels, e3d_visible_tile *visible, e3d_tile_depths *out)
 {
-    e3d_tile_depths *depths = &context->depths[tile];
-    context->kernels->raster_measure(visible, depths->columns);
-    memcpy(depths->zmax, visible->zmax, sizeof depths->zmax);
-    depths->noted = visible->noted;
-    depths->most = farthest(visible);
+    kernels->raster_measure(visible, out->columns);
+    memcpy(out->zmax, visible->zmax, sizeof out->zmax);
+    out->noted = visible->noted;
+    out->most = farthest(visible);
 }
 
 void e3d_depths_clear(e3d_tile_depths *depths) { depths->most = NOTHING; }
@@ -89,15 +85,14 @@ static int is_behind(const e3d_tile_depths *depths, const e3d_box *samples, floa
     return 1;
 }
 
-int e3d_is_hidden(const e3d_context *context, const e3d_box_view *view)
+int e3d_is_hidden(const e3d_tile_depths *depths, int32_t tiles_x, const e3d_box_view *view)
 {
     const e3d_box *s = &view->samples;
     for (int32_t ty = s->y0 / E3D_TILE; ty <= s->y1 / E3D_TILE; ty++)
         for (int32_t tx = s->x0 / E3D_TILE; tx <= s->x1 / E3D_TILE; tx++) {
             const e3d_box within = {e3d_in_tile(s->x0 - tx * E3D_TILE), e3d_in_tile(s->y0 - ty * E3D_TILE),
                                     e3d_in_tile(s->x1 - tx * E3D_TILE), e3d_in_tile(s->y1 - ty * E3D_TILE)};
-            int64_t tile = (int64_t)ty * context->view->tiles_x + tx;
-            if (!is_behind(&context->depths[tile], &within, view->near))
+            if (!is_behind(&depths[(int64_t)ty * tiles_x + tx], &within, view->near))
                 return 0;
         }
     return 1;

@@ -8,8 +8,6 @@
 #include "e3d.h"
 #include "pipeline/cull/history.h"
 #include "pipeline/pass/draws.h"
-#include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
 
 /* ---- the views of a renderer ---- */
 
@@ -70,9 +68,9 @@ e3d_history *e3d_history_of(e3d_histories *histories, int64_t view)
 
 /* ---- what the last frame showed ---- */
 
-static e3d_history_row row_of(const e3d_context *context, const e3d_order_entry *entry)
+static e3d_history_row row_of(const e3d_draws *draws, const e3d_order_entry *entry)
 {
-    const e3d_draw_state *state = &context->draws->states[entry->draw];
+    const e3d_draw_state *state = &draws->states[entry->draw];
     const e3d_draw *draw = state->draw;
     int32_t groups = state->mesh->group_count, node = e3d_object_id(draw, entry->instance);
     int64_t base = state->group_base + (int64_t)entry->instance * groups;
@@ -112,10 +110,9 @@ static int64_t match_rows(e3d_history *history)
     return known;
 }
 
-int e3d_history_remember(e3d_context *context)
+int e3d_history_remember(e3d_history *history, const e3d_draws *draws)
 {
-    e3d_history *history = context->view->history;
-    size_t count = (size_t)context->draws->order_count, groups = (size_t)context->draws->groups;
+    size_t count = (size_t)draws->order_count, groups = (size_t)draws->groups;
     e3d_array_swap(&history->rows, &history->rows_before);
     e3d_array_swap(&history->seen, &history->seen_before);
     history->trials++;
@@ -125,13 +122,12 @@ int e3d_history_remember(e3d_context *context)
         return -1;
     e3d_history_row *rows = history->rows.data;
     for (size_t d = 0; d < count; d++)
-        rows[d] = row_of(context, &context->draws->order[d]);
+        rows[d] = row_of(draws, &draws->order[d]);
     memset(history->seen.data, 0, groups);
     history->rows.count = count;
     history->seen.count = groups;
-    context->seen = history->seen.data;
     history->doubts = !history->remembers;
-    history->remembers = 2 * match_rows(history) > context->draws->groups;
+    history->remembers = 2 * match_rows(history) > draws->groups;
     return history->remembers;
 }
 
@@ -154,26 +150,27 @@ int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t candida
 }
 
 /* The clusters that showed when they were last tried. */
-static int64_t count_seen(const e3d_context *context)
+static int64_t count_seen(const e3d_history *history)
 {
-    int64_t seen = 0;
-    for (int64_t group = 0; group < context->draws->groups; group++)
-        seen += __builtin_popcount(context->seen[group]);
-    return seen;
+    const uint8_t *seen = history->seen.data;
+    int64_t count = 0;
+    for (size_t group = 0; group < history->seen.count; group++)
+        count += __builtin_popcount(seen[group]);
+    return count;
 }
 
 /* Whether few of the clusters that were tried are hidden. Trying boxes costs about what drawing a third of the clusters does, and
  * keeping a tile what drawing one does (measured). A frame that remembers nothing draws much before it knows what hides
  * it: the next one tries all of that, and tells. */
-static int hides_little(const e3d_context *context, const e3d_stats *stats)
+static int hides_little(const e3d_history *history, const e3d_stats *stats)
 {
-    if (!context->view->history->remembers)
+    if (!history->remembers)
         return 0;
-    int64_t tried = stats->clusters_drawn + stats->clusters_occluded, hidden = tried - count_seen(context);
-    return 10 * (hidden - e3d_tile_count(context->view)) < 3 * tried;
+    int64_t tried = stats->clusters_drawn + stats->clusters_occluded, hidden = tried - count_seen(history);
+    return 10 * (hidden - stats->tiles) < 3 * tried;
 }
 
-void e3d_history_judge(const e3d_context *context, const e3d_stats *stats)
+void e3d_history_judge(e3d_history *history, const e3d_stats *stats)
 {
-    context->view->history->backoff.frames_left = hides_little(context, stats) ? FRAMES_BETWEEN_TRIALS : 0;
+    history->backoff.frames_left = hides_little(history, stats) ? FRAMES_BETWEEN_TRIALS : 0;
 }

@@ -5,8 +5,7 @@
 #include "core/grow.h"
 #include "core/mesh.h"
 #include "e3d.h"
-
-typedef struct e3d_context e3d_context;
+#include "pipeline/pass/draws.h"
 
 /* An entry of a frame's order, as the next frame finds it again. */
 typedef struct e3d_history_row {
@@ -47,10 +46,10 @@ void e3d_histories_free(e3d_histories *histories);
 e3d_history *e3d_history_of(e3d_histories *histories, int64_t view);
 
 /* Finds what the view's last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
-int e3d_history_remember(e3d_context *context);
+int e3d_history_remember(e3d_history *history, const e3d_draws *draws);
 /* Whether this frame goes without rounds since they did not pay. */
 int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t candidates);
 /* After a frame of several rounds: the next ones go without where little was hidden. */
-void e3d_history_judge(const e3d_context *context, const e3d_stats *stats);
+void e3d_history_judge(e3d_history *history, const e3d_stats *stats);
 
 #endif

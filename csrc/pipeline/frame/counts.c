@@ -4,13 +4,17 @@
  * Out: e3d_stats.
  */
 #include "e3d.h"
+#include "pipeline/cull/cull.h"
 #include "pipeline/frame/counts.h"
+#include "pipeline/frame/renderer.h"
+#include "pipeline/frame/worker.h"
+#include "pipeline/geometry/geometry.h"
+#include "pipeline/geometry/state.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/counts.h"
-#include "pipeline/state/renderer.h"
+#include "pipeline/tile/tile_memory.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
 {
@@ -34,10 +38,11 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
     stats->triangles_in_frustum = stats->triangles_unoccluded = stats->triangles_drawn = stats->triangles;
 }
 
-static int marks_of(const e3d_context *context, const e3d_order_entry *entry)
+/* `all`: the marks of all instances. */
+static int marks_of(const e3d_draws *draws, const uint8_t *all, const e3d_order_entry *entry)
 {
-    const e3d_draw_state *state = &context->draws->states[entry->draw];
-    const uint8_t *marks = context->marks + state->instance_base + entry->instance;
+    const e3d_draw_state *state = &draws->states[entry->draw];
+    const uint8_t *marks = all + state->instance_base + entry->instance;
     int32_t instances = state->draw->pose_kind == E3D_POSE_NODES ? 1 : state->draw->instances;
     int found = state->units && instances ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN : 0;
     for (int32_t i = 0; i < instances && !(found & E3D_MARK_DRAWN); i++)
@@ -46,57 +51,64 @@ static int marks_of(const e3d_context *context, const e3d_order_entry *entry)
 }
 
 /* A node may have several entries, one after the other. */
-static void count_nodes(const e3d_context *context, e3d_stats *stats)
+static void count_nodes(const e3d_draws *draws, const uint8_t *all, e3d_stats *stats)
 {
     int marks = 0;
     int32_t node = -1;
-    for (int32_t t = 0; t <= context->draws->order_count; t++) {
-        const e3d_order_entry *entry = t < context->draws->order_count ? &context->draws->order[t] : NULL;
-        int32_t id = entry ? e3d_object_id(context->draws->states[entry->draw].draw, entry->instance) : -1;
+    for (int32_t t = 0; t <= draws->order_count; t++) {
+        const e3d_order_entry *entry = t < draws->order_count ? &draws->order[t] : NULL;
+        int32_t id = entry ? e3d_object_id(draws->states[entry->draw].draw, entry->instance) : -1;
         if (!entry || id != node) {
             stats->nodes_unoccluded += marks & E3D_MARK_UNOCCLUDED ? 1 : 0;
             stats->nodes_drawn += marks & E3D_MARK_DRAWN ? 1 : 0;
             marks = 0;
             node = id;
         }
-        marks |= entry ? marks_of(context, entry) : 0;
+        marks |= entry ? marks_of(draws, all, entry) : 0;
     }
 }
 
-static void add_counters(e3d_stats *stats, const e3d_counters *c, int32_t threads)
+static void add_culled(e3d_stats *stats, const e3d_cull_counters *c)
 {
     const int64_t *clusters = c->clusters, *triangles = c->triangles;
     stats->clusters_drawn += clusters[E3D_RESULT_DRAWN];
     stats->clusters_unoccluded += clusters[E3D_RESULT_DRAWN] + clusters[E3D_RESULT_BACKFACING];
     stats->clusters_occluded += clusters[E3D_RESULT_OCCLUDED];
     stats->clusters_culled += clusters[E3D_RESULT_OUTSIDE] + clusters[E3D_RESULT_BACKFACING];
-    stats->triangles_drawn += c->triangles_drawn;
     stats->triangles_unoccluded += triangles[E3D_RESULT_DRAWN] + triangles[E3D_RESULT_BACKFACING];
     stats->triangles_occluded += triangles[E3D_RESULT_OCCLUDED];
-    stats->triangles_culled += triangles[E3D_RESULT_OUTSIDE] + triangles[E3D_RESULT_BACKFACING] + c->triangles_rejected;
+    stats->triangles_culled += triangles[E3D_RESULT_OUTSIDE] + triangles[E3D_RESULT_BACKFACING];
+}
+
+static void add_worker(e3d_stats *stats, const e3d_worker *worker, int32_t threads)
+{
+    const e3d_geometry_counters *c = &worker->geometry.counters;
+    add_culled(stats, &worker->cull.counters);
+    add_culled(stats, &c->culled);
+    stats->triangles_drawn += c->triangles_drawn;
+    stats->triangles_culled += c->triangles_rejected;
     stats->triangles_clipped += c->triangles_clipped;
     stats->triangles_setup += c->records;
     stats->bin_entries += c->bin_entries;
-    stats->pixels_shaded += c->shaded;
-    stats->ms_raster += (double)c->ns_raster * 1e-6 / threads;
-    stats->ms_shade += (double)c->ns_shade * 1e-6 / threads;
-    stats->ms_resolve += (double)c->ns_resolve * 1e-6 / threads;
+    stats->pixels_shaded += worker->tile.shade.shaded;
+    stats->ms_raster += (double)worker->tile.ns_raster * 1e-6 / threads;
+    stats->ms_shade += (double)worker->tile.ns_shade * 1e-6 / threads;
+    stats->ms_resolve += (double)worker->tile.ns_resolve * 1e-6 / threads;
 }
 
-void e3d_count(const e3d_context *context, e3d_stats *stats)
+void e3d_count(const e3d_prepared *pass, const e3d_renderer *renderer, e3d_stats *stats)
 {
-    const e3d_renderer *renderer = context->renderer;
-    e3d_count_submitted(context->frame, stats);
-    stats->instances = context->draws->instance_count;
+    e3d_count_submitted(pass->frame, stats);
+    stats->instances = pass->draws->instance_count;
     stats->nodes_unoccluded = stats->nodes_drawn = 0;
     stats->clusters_unoccluded = stats->clusters_drawn = stats->triangles_unoccluded = stats->triangles_drawn = 0;
-    for (int32_t w = 0; w < renderer->threads; w++)
-        add_counters(stats, &renderer->workers[w]->counters, renderer->threads);
+    for (int32_t t = 0; t < renderer->threads; t++)
+        add_worker(stats, renderer->workers[t], renderer->threads);
     stats->clusters_in_frustum = stats->clusters_unoccluded + stats->clusters_occluded;
     stats->triangles_in_frustum = stats->triangles_unoccluded + stats->triangles_occluded;
-    count_nodes(context, stats);
+    count_nodes(pass->draws, renderer->marks.data, stats);
     stats->threads = renderer->threads;
-    stats->tiles = (int32_t)e3d_tile_count(context->view);
+    stats->tiles = (int32_t)e3d_tile_count(pass->view);
     stats->backend = renderer->backend;
-    stats->plan = context->plan >> E3D_PLAN_FIRST;
+    stats->plan = pass->plan >> E3D_PLAN_FIRST;
 }

@@ -3,11 +3,11 @@
 #define E3D_FRAME_COUNTS_H
 
 #include "e3d.h"
-
-typedef struct e3d_context e3d_context;
+#include "pipeline/frame/renderer.h"
+#include "pipeline/pass/prepared.h"
 
 /* Counts what the frame submits, and takes it all for drawn. */
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats);
-void e3d_count(const e3d_context *context, e3d_stats *stats);
+void e3d_count(const e3d_prepared *pass, const e3d_renderer *renderer, e3d_stats *stats);
 
 #endif

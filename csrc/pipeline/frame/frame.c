@@ -4,21 +4,16 @@
 #include "core/clock.h"
 #include "core/fpenv.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
+#include "pipeline/frame/context.h"
 #include "pipeline/frame/counts.h"
 #include "pipeline/frame/prepare.h"
+#include "pipeline/frame/renderer.h"
 #include "pipeline/frame/rounds.h"
-#include "pipeline/geometry/bin.h"
-#include "pipeline/geometry/fragments.h"
 #include "pipeline/geometry/order.h"
 #include "pipeline/pass/plan.h"
-#include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/renderer.h"
-#include "pipeline/state/worker.h"
-#include "pipeline/store/outputs.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/tile/tile.h"
 #include "reference/reference.h"
 
@@ -54,43 +49,36 @@ static int frame_is_valid(const e3d_frame *f)
 
 /* ---- a frame ---- */
 
-static int reset_workers(e3d_context *context)
+/* The stages from the candidates to the last tile. */
+static e3d_status draw(const e3d_context *context, e3d_stats *stats)
 {
     e3d_renderer *renderer = context->renderer;
-    for (int32_t w = 0; w < renderer->threads; w++) {
-        e3d_worker *worker = renderer->workers[w];
-        memset(&worker->counters, 0, sizeof worker->counters);
-        worker->failed = 0;
-        if (!e3d_fragments_reset(&worker->fragments, (int32_t)e3d_tile_count(context->view)))
-            return 0;
-        for (int p = 0; p < E3D_SETS; p++)
-            if (!e3d_records_reset(&worker->sets[p], (int32_t)e3d_tile_count(context->view)))
-                return 0;
-    }
-    return 1;
-}
-
-static e3d_status run(e3d_context *context, e3d_stats *stats)
-{
-    int64_t start = e3d_now_ns();
-    e3d_status status = e3d_prepare(context);
+    e3d_status status = e3d_rounds(context, stats);
     if (status != E3D_OK)
         return status;
-    if (!reset_workers(context) || !e3d_outputs_prepare(context))
+    if (e3d_plans(&context->pass, E3D_PLAN_SORTS) && !e3d_sort_records(&context->pass, &renderer->bins))
         return E3D_OUT_OF_MEMORY;
-    if (!e3d_find_candidates(context))
+    return e3d_tiles(&context->tiles, &renderer->tiles);
+}
+
+static e3d_status run(e3d_renderer *renderer, const e3d_pass *asked, e3d_stats *stats)
+{
+    int64_t start = e3d_now_ns();
+    e3d_context context;
+    e3d_status status = e3d_prepare(renderer, asked, &context);
+    if (status != E3D_OK)
+        return status;
+    if (!e3d_find_candidates(&context.pass, &renderer->cull))
         return E3D_OUT_OF_MEMORY;
     stats->ms_geometry = (double)(e3d_now_ns() - start) * 1e-6;
-    if (!e3d_rounds(context, stats) || (e3d_plans(context, E3D_PLAN_SORTS) && !e3d_sort_records(context)))
-        return E3D_OUT_OF_MEMORY;
-    e3d_tiles(context);
-    if (e3d_any_failed(context->renderer))
-        return E3D_OUT_OF_MEMORY;
-    e3d_count(context, stats);
+    status = draw(&context, stats);
+    if (status == E3D_OUT_OF_MEMORY)
+        return status;
+    e3d_count(&context.pass, renderer, stats);
     if (stats->rounds > 1)
-        e3d_history_judge(context, stats);
+        e3d_history_judge(context.history, stats);
     stats->ms_total = (double)(e3d_now_ns() - start) * 1e-6;
-    return context->cancelled ? E3D_CANCELLED : E3D_OK;
+    return status;
 }
 
 static e3d_status run_pass(e3d_renderer *renderer, const e3d_pass *pass)
@@ -102,14 +90,8 @@ static e3d_status run_pass(e3d_renderer *renderer, const e3d_pass *pass)
         e3d_count_submitted(pass->frame, stats);
         return done;
     }
-    e3d_context context = {.renderer = renderer,
-                           .kernels = renderer->kernels,
-                           .frame = pass->frame,
-                           .targets = pass->targets,
-                           .draws = &renderer->draws,
-                           .view = &renderer->view};
     e3d_fpenv saved = e3d_fpenv_enter();
-    e3d_status status = run(&context, stats);
+    e3d_status status = run(renderer, pass, stats);
     e3d_fpenv_leave(saved);
     return status;
 }

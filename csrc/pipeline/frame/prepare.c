@@ -2,60 +2,83 @@
 #include <string.h>
 
 #include "core/grow.h"
-#include "core/limits.h"
-#include "core/srgb_tables.h"
 #include "e3d.h"
-#include "kernels/types/visible.h"
 #include "pipeline/cull/history.h"
+#include "pipeline/frame/context.h"
 #include "pipeline/frame/prepare.h"
-#include "pipeline/geometry/lines.h"
+#include "pipeline/frame/renderer.h"
+#include "pipeline/frame/worker.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/renderer.h"
-#include "pipeline/state/tile_state.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/shade/shade.h"
+#include "pipeline/store/blank.h"
 #include "pipeline/store/resolve.h"
+#include "pipeline/store/store.h"
+#include "pipeline/store/tile_state.h"
+#include "pipeline/tile/tile.h"
+#include "pipeline/tile/tile_memory.h"
 
-/* Before a frame, no tile is drawn and no instance shows. */
-static int clear_marks(e3d_context *context)
+/* Before a pass, no tile is drawn and no instance shows. */
+static int clear_marks(e3d_renderer *renderer)
 {
-    e3d_renderer *renderer = context->renderer;
-    size_t tiles = (size_t)e3d_tile_count(context->view), instances = (size_t)context->draws->instance_count;
+    size_t tiles = (size_t)e3d_tile_count(&renderer->view), instances = (size_t)renderer->draws.instance_count;
     if (!e3d_array_reserve(&renderer->tile_progress, tiles, sizeof(e3d_tile_progress)) ||
         !e3d_array_reserve(&renderer->marks, instances + 1, 1))
         return 0;
-    context->tiles = memset(renderer->tile_progress.data, 0, tiles * sizeof(e3d_tile_progress));
-    context->marks = memset(renderer->marks.data, 0, instances);
+    memset(renderer->marks.data, 0, instances);
+    renderer->tiles.progress = memset(renderer->tile_progress.data, 0, tiles * sizeof(e3d_tile_progress));
+    renderer->tiles.kept = NULL;
     return 1;
 }
 
-static void prepare_tables(e3d_context *context)
+static int reset_workers(e3d_renderer *renderer, const e3d_store *store)
 {
-    int bits = 0;
-    while ((1 << bits) < context->renderer->threads)
-        bits++;
-    for (int which = 0; which < E3D_SETS; which++)
-        context->tables[which] = (e3d_record_table){context->records[which], context->drawn, bits};
-    for (int c = 0; c < 256; c++)
-        context->unorm8[c] = (float)(context->frame->decode_srgb ? SRGB_TO_LINEAR16[c] : c * 257) * E3D_UNORM16;
+    for (int32_t t = 0; t < renderer->threads; t++) {
+        e3d_tile_memory *memory = renderer->tiles.of[t];
+        memory->ns_raster = memory->ns_shade = memory->ns_resolve = memory->shade.shaded = 0;
+        if (!e3d_array_reserve(&memory->pixels.words, store->words, sizeof(int32_t)))
+            return 0;
+    }
+    return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view));
 }
 
-e3d_status e3d_prepare(e3d_context *context)
+/* What the stages that shade and store read. */
+static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
 {
-    e3d_renderer *renderer = context->renderer;
-    const e3d_frame *frame = context->frame;
-    context->plan = e3d_plan_of(frame, context->targets);
-    context->lines = e3d_line_style_of(frame);
-    context->view->history = e3d_history_of(&renderer->histories, frame->view);
-    prepare_tables(context);
-    e3d_resolve_prepare(context);
-    e3d_status status = e3d_draws_prepare(context->draws, frame, e3d_plans(context, E3D_PLAN_EDGES));
+    const e3d_bins *bins = &renderer->bins;
+    e3d_resolve_prepare(&out->pass, &out->store);
+    out->blank = (e3d_blank_in){&out->store, bins, &renderer->tiles.queue, renderer->tiles.progress};
+    out->shade.pass = &out->pass;
+    out->shade.table = &bins->tables[E3D_SET_SCENE];
+    out->shade.corners = bins->corners;
+    out->shade.store = &out->store;
+    out->shade.blank = &out->blank;
+    e3d_shade_prepare(&out->shade);
+    out->tiles = (e3d_tiles_in){.pass = &out->pass, .bins = bins, .shade = &out->shade, .poll = renderer->poll};
+}
+
+e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_context *out)
+{
+    const e3d_frame *frame = asked->frame;
+    out->renderer = renderer;
+    out->pass = (e3d_prepared){.kernels = renderer->kernels,
+                               .threads = renderer->threads,
+                               .frame = frame,
+                               .targets = asked->targets,
+                               .plan = e3d_plan_of(frame, asked->targets),
+                               .draws = &renderer->draws,
+                               .view = &renderer->view};
+    out->history = e3d_history_of(&renderer->histories, frame->view);
+    e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES));
     if (status != E3D_OK)
         return status;
-    if (!e3d_view_prepare(context->view, frame) || !clear_marks(context) ||
-        !e3d_view_find_instances(context->view, context->draws, frame, renderer->threads))
+    if (!e3d_view_prepare(&renderer->view, frame) || !clear_marks(renderer) ||
+        !e3d_view_find_instances(&renderer->view, &renderer->draws, frame, renderer->threads))
         return E3D_OUT_OF_MEMORY;
-    return E3D_OK;
+    prepare_shading(renderer, out);
+    return reset_workers(renderer, &out->store) ? E3D_OK : E3D_OUT_OF_MEMORY;
 }

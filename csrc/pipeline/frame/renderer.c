@@ -8,29 +8,24 @@
 #include "kernels/kernels.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
-#include "pipeline/frame/rounds.h"
+#include "pipeline/frame/renderer.h"
+#include "pipeline/frame/worker.h"
 #include "pipeline/geometry/bin.h"
-#include "pipeline/geometry/fragments.h"
 #include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/shade/surface.h"
-#include "pipeline/state/renderer.h"
-#include "pipeline/state/tile_memory.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/shade/shade.h"
+#include "pipeline/tile/kept.h"
 #include "pipeline/tile/slots.h"
+#include "pipeline/tile/tile.h"
 
-static e3d_worker *create_worker(uint32_t number)
+static e3d_worker *create_worker(void)
 {
-    void *own = NULL, *memory = NULL;
-    if (posix_memalign(&own, 64, sizeof(e3d_worker)) || posix_memalign(&memory, 64, sizeof(e3d_tile_memory))) {
-        free(own);
+    void *own = NULL;
+    if (posix_memalign(&own, 64, sizeof(e3d_worker)))
         return NULL;
-    }
-    e3d_worker *worker = memset(own, 0, sizeof *worker);
-    worker->number = number;
-    worker->tile = memory;
-    memset(worker->tile, 0, sizeof *worker->tile); /* padding is read, never used */
-    e3d_marks_init(&worker->tile->marks);
+    e3d_worker *worker = memset(own, 0, sizeof *worker); /* padding is read, never used */
+    e3d_marks_init(&worker->tile.marks);
     return worker;
 }
 
@@ -38,15 +33,32 @@ static void destroy_worker(e3d_worker *worker)
 {
     if (!worker)
         return;
-    for (int p = 0; p < E3D_SETS; p++)
-        e3d_records_free(&worker->sets[p]);
-    e3d_fragments_free(&worker->fragments);
-    e3d_slots_free(&worker->slots);
     e3d_array_free(&worker->cull.candidates);
-    e3d_surface_free(&worker->surface);
-    e3d_array_free(&worker->outputs.words);
-    free(worker->tile);
+    e3d_geometry_free(&worker->geometry);
+    e3d_slots_free(&worker->tile.slots);
+    e3d_shade_free(&worker->tile.shade);
+    e3d_array_free(&worker->tile.pixels.words);
     free(worker);
+}
+
+/* Each stage finds its own part of each worker. */
+static int create_workers(e3d_renderer *renderer)
+{
+    renderer->workers = calloc((size_t)renderer->threads, sizeof *renderer->workers);
+    if (!renderer->workers)
+        return 0;
+    for (int32_t t = 0; t < renderer->threads; t++) {
+        e3d_worker *worker = renderer->workers[t] = create_worker();
+        if (!worker)
+            return 0;
+        renderer->cull.of[t] = &worker->cull;
+        renderer->bins.of[t] = &worker->geometry;
+        renderer->tiles.queue.of[t] = &worker->queue;
+        renderer->tiles.of[t] = &worker->tile;
+    }
+    renderer->tiles.queue.threads = renderer->threads;
+    e3d_bins_init(&renderer->bins, renderer->threads);
+    return 1;
 }
 
 e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_renderer **out)
@@ -62,11 +74,7 @@ e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_rendere
     renderer->backend = backend;
     renderer->kernels = e3d_kernels_for(backend);
     renderer->threads = backend == E3D_BACKEND_SCALAR ? 1 : threads ? threads : e3d_thread_count();
-    renderer->workers = calloc((size_t)renderer->threads, sizeof *renderer->workers);
-    int made = renderer->workers != NULL;
-    for (int32_t w = 0; made && w < renderer->threads && backend != E3D_BACKEND_SCALAR; w++)
-        made = (renderer->workers[w] = create_worker((uint32_t)w)) != NULL;
-    if (!made) {
+    if (backend != E3D_BACKEND_SCALAR && !create_workers(renderer)) {
         e3d_renderer_destroy(renderer);
         return E3D_OUT_OF_MEMORY;
     }
@@ -91,8 +99,15 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     free(renderer);
 }
 
+e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height)
+{
+    int64_t across = ((int64_t)width + E3D_TILE - 1) / E3D_TILE, down = ((int64_t)height + E3D_TILE - 1) / E3D_TILE;
+    if (renderer->backend == E3D_BACKEND_SCALAR || (int64_t)width * height > E3D_MOST_KEPT_SAMPLES)
+        return E3D_OK;
+    return e3d_kept_prepare(&renderer->kept, across * down) ? E3D_OK : E3D_OUT_OF_MEMORY;
+}
+
 void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *user)
 {
-    renderer->poll = poll;
-    renderer->poll_user = user;
+    renderer->poll = (e3d_poll){poll, user};
 }

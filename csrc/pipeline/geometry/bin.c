@@ -3,16 +3,19 @@
  * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
  * each thread's own; the raster's rule (R16) makes their order irrelevant.
  */
+#include <string.h>
+
 #include "core/grow.h"
 #include "core/limits.h"
 #include "kernels/coverage.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/records.h"
+#include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/fragments.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/records.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/geometry/records.h"
+#include "pipeline/geometry/state.h"
+#include "pipeline/pass/view.h"
 
 static void empty_bins(e3d_array *bins, int32_t tiles)
 {
@@ -21,13 +24,13 @@ static void empty_bins(e3d_array *bins, int32_t tiles)
         bin[t].first = bin[t].last = E3D_NO_BLOCK;
 }
 
-void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles)
+static void clear_bins(e3d_array *bins, e3d_array *blocks, int32_t tiles)
 {
     blocks->count = 0;
     empty_bins(bins, tiles);
 }
 
-int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles)
+static int keep_bins(e3d_array *bins, e3d_array *earlier, int32_t tiles)
 {
     e3d_array_swap(bins, earlier);
     if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
@@ -36,30 +39,99 @@ int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles)
     return 1;
 }
 
-void e3d_records_free(e3d_record_set *set)
+/* ---- the bins of all threads ---- */
+
+void e3d_bins_init(e3d_bins *bins, int32_t threads)
 {
-    e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins, &set->earlier};
+    int bits = 0;
+    while ((1 << bits) < threads)
+        bits++;
+    bins->threads = threads;
+    for (int which = 0; which < E3D_SETS; which++)
+        bins->tables[which] = (e3d_record_table){bins->records[which], bins->drawn, bits};
+    for (int32_t t = 0; t < threads; t++) {
+        bins->of[t]->number = (uint32_t)t;
+        bins->of[t]->id_bits = bits;
+    }
+}
+
+void e3d_geometry_free(e3d_geometry_state *state)
+{
+    for (int which = 0; which < E3D_SETS; which++) {
+        e3d_record_set *set = &state->sets[which];
+        e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins, &set->earlier};
+        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+            e3d_array_free(arrays[i]);
+    }
+    e3d_fragment_set *set = &state->fragments;
+    e3d_array *arrays[] = {&set->blocks, &set->bins, &set->earlier, &set->drawn};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         e3d_array_free(arrays[i]);
 }
 
-int e3d_records_reset(e3d_record_set *set, int32_t tiles)
+static int reset(e3d_geometry_state *state, int32_t tiles)
 {
-    set->records.count = set->corners.count = set->keys.count = 0;
-    if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
+    e3d_fragment_set *fragments = &state->fragments;
+    memset(&state->counters, 0, sizeof state->counters);
+    state->failed = 0;
+    fragments->drawn.count = fragments->triangles.count = 0;
+    if (!e3d_array_reserve(&fragments->bins, (size_t)tiles, sizeof(e3d_bin)))
         return 0;
-    e3d_bins_clear(&set->bins, &set->blocks, tiles);
+    clear_bins(&fragments->bins, &fragments->blocks, tiles);
+    for (int which = 0; which < E3D_SETS; which++) {
+        e3d_record_set *set = &state->sets[which];
+        set->records.count = set->corners.count = set->keys.count = 0;
+        if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
+            return 0;
+        clear_bins(&set->bins, &set->blocks, tiles);
+    }
     return 1;
 }
 
-void e3d_tables_set(e3d_context *context)
+int e3d_bins_reset(e3d_bins *bins, int64_t tiles)
 {
-    for (int which = 0; which < E3D_SETS; which++)
-        for (int32_t w = 0; w < context->renderer->threads; w++)
-            context->records[which][w] = context->renderer->workers[w]->sets[which].records.data;
-    for (int32_t w = 0; w < context->renderer->threads; w++)
-        context->drawn[w] = context->renderer->workers[w]->fragments.drawn.data;
+    bins->tiles = (int32_t)tiles;
+    for (int32_t t = 0; t < bins->threads; t++)
+        if (!reset(bins->of[t], bins->tiles))
+            return 0;
+    return 1;
 }
+
+void e3d_bins_clear(e3d_bins *bins)
+{
+    for (int32_t t = 0; t < bins->threads; t++) {
+        e3d_record_set *records = &bins->of[t]->sets[E3D_SET_SCENE];
+        e3d_fragment_set *fragments = &bins->of[t]->fragments;
+        clear_bins(&records->bins, &records->blocks, bins->tiles);
+        clear_bins(&fragments->bins, &fragments->blocks, bins->tiles);
+    }
+}
+
+int e3d_bins_keep(e3d_bins *bins)
+{
+    for (int32_t t = 0; t < bins->threads; t++) {
+        e3d_record_set *records = &bins->of[t]->sets[E3D_SET_SCENE];
+        e3d_fragment_set *fragments = &bins->of[t]->fragments;
+        records->earlier_records = records->records.count;
+        fragments->earlier_drawn = fragments->drawn.count;
+        if (!keep_bins(&records->bins, &records->earlier, bins->tiles) ||
+            !keep_bins(&fragments->bins, &fragments->earlier, bins->tiles))
+            return 0;
+    }
+    return 1;
+}
+
+void e3d_bins_index(e3d_bins *bins)
+{
+    for (int32_t t = 0; t < bins->threads; t++) {
+        for (int which = 0; which < E3D_SETS; which++)
+            bins->records[which][t] = bins->of[t]->sets[which].records.data;
+        bins->drawn[t] = bins->of[t]->fragments.drawn.data;
+        bins->corners[t] = bins->of[t]->sets[E3D_SET_SCENE].corners.data;
+    }
+}
+
+/* ---- records to bins ---- */
 
 /* An empty block at a chain's end; 0 when memory is out. */
 static int __attribute__((noinline)) add_block(e3d_array *array, e3d_bin *bin)
@@ -103,7 +175,7 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile
 
 /* Lists a record in the tiles of a span that it does not miss; it meets each tile of a single row or column. This is a function of
  * its own because its registers would spill those of the common case. */
-static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t number,
+static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_state *state, e3d_record_set *set, uint32_t number,
                                               e3d_tile_span span, uint32_t id)
 {
     e3d_bin *bins = set->bins.data;
@@ -120,9 +192,9 @@ static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_wo
                 most[k] += edges.across[k];
             if (misses)
                 continue;
-            if (!push(set, &bins[(int64_t)ty * context->view->tiles_x + tx], id))
+            if (!push(set, &bins[(int64_t)ty * view->tiles_x + tx], id))
                 return 0;
-            worker->counters.bin_entries++;
+            state->counters.bin_entries++;
         }
         for (int k = 0; k < 3; k++)
             edges.most[k] += edges.down[k];
@@ -130,45 +202,45 @@ static int __attribute__((noinline)) bin_wide(const e3d_context *context, e3d_wo
     return 1;
 }
 
-static inline e3d_bin *bin_at(const e3d_context *context, e3d_record_set *set, uint32_t tile)
+static inline e3d_bin *bin_at(const e3d_view *view, e3d_record_set *set, uint32_t tile)
 {
-    return (e3d_bin *)set->bins.data + (int64_t)(tile >> 16) * context->view->tiles_x + (tile & 0xFFFF);
+    return (e3d_bin *)set->bins.data + (int64_t)(tile >> 16) * view->tiles_x + (tile & 0xFFFF);
 }
 
 /* Most are in one tile, or in two side by side. */
-int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
+int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
                     int count)
 {
-    int bits = context->tables[0].bits, entries = 0;
+    int bits = state->id_bits, entries = 0;
     for (int i = 0; i < count; i++) {
-        uint32_t number = first + (uint32_t)i, id = number << bits | worker->number, apart = spans[i].last - spans[i].first;
+        uint32_t number = first + (uint32_t)i, id = number << bits | state->number, apart = spans[i].last - spans[i].first;
         if (apart > 1 && apart != 1 << 16) {
-            if (!bin_wide(context, worker, set, number, spans[i], id))
+            if (!bin_wide(view, state, set, number, spans[i], id))
                 return 0;
             continue;
         }
-        if (!push(set, bin_at(context, set, spans[i].first), id) || (apart && !push(set, bin_at(context, set, spans[i].last), id)))
+        if (!push(set, bin_at(view, set, spans[i].first), id) || (apart && !push(set, bin_at(view, set, spans[i].last), id)))
             return 0;
         entries += apart ? 2 : 1;
     }
-    worker->counters.bin_entries += entries;
+    state->counters.bin_entries += entries;
     return 1;
 }
 
-int e3d_has_bin(const e3d_context *context, int which, int64_t tile)
+/* ---- what a tile's bins hold ---- */
+
+int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile)
 {
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_worker *worker = context->renderer->workers[w];
-        if (e3d_first_block(&worker->sets[which].bins, tile) != E3D_NO_BLOCK ||
-            (which == E3D_SET_SCENE && e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK))
+    for (int32_t t = 0; t < bins->threads; t++)
+        if (e3d_first_block(&bins->of[t]->sets[which].bins, tile) != E3D_NO_BLOCK ||
+            (which == E3D_SET_SCENE && e3d_first_block(&bins->of[t]->fragments.bins, tile) != E3D_NO_BLOCK))
             return 1;
-    }
     return 0;
 }
 
-int e3d_has_bins(const e3d_context *context, int64_t tile)
+int e3d_has_bins(const e3d_bins *bins, int64_t tile)
 {
-    return e3d_has_bin(context, E3D_SET_SCENE, tile) || e3d_has_bin(context, E3D_SET_EDGES, tile);
+    return e3d_has_bin(bins, E3D_SET_SCENE, tile) || e3d_has_bin(bins, E3D_SET_EDGES, tile);
 }
 
 static uint32_t count_records(const e3d_record_set *set, int64_t tile)
@@ -187,13 +259,12 @@ static uint32_t count_fragments(const e3d_fragment_set *set, int64_t tile)
     return count;
 }
 
-e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile)
+e3d_entries e3d_count_entries(const e3d_bins *bins, int64_t tile)
 {
     e3d_entries entries = {0, 0};
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_worker *worker = context->renderer->workers[w];
-        entries.records += count_records(&worker->sets[E3D_SET_SCENE], tile);
-        entries.fragments += count_fragments(&worker->fragments, tile);
+    for (int32_t t = 0; t < bins->threads; t++) {
+        entries.records += count_records(&bins->of[t]->sets[E3D_SET_SCENE], tile);
+        entries.fragments += count_fragments(&bins->of[t]->fragments, tile);
     }
     return entries;
 }

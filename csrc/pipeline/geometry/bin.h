@@ -2,23 +2,38 @@
 #ifndef E3D_BIN_H
 #define E3D_BIN_H
 
-#include "core/grow.h"
 #include "core/limits.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
+#include "kernels/types/visible.h"
+#include "pipeline/geometry/records.h"
+#include "pipeline/geometry/state.h"
+#include "pipeline/pass/view.h"
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_record_set e3d_record_set;
+/* What the geometry leaves for the tiles: each thread's records and fragments, listed by tile, and what tells them by their IDs. */
+typedef struct e3d_bins {
+    int32_t threads, tiles;
+    e3d_geometry_state *of[E3D_MAX_THREADS];
+    const e3d_record *records[E3D_SETS][E3D_MAX_THREADS];
+    const e3d_drawn_cluster *drawn[E3D_MAX_THREADS];
+    const float *corners[E3D_MAX_THREADS]; /* c[k][j] of the cut records of the scene */
+    e3d_record_table tables[E3D_SETS];
+} e3d_bins;
 
-void e3d_records_free(e3d_record_set *set);
-int e3d_records_reset(e3d_record_set *set, int32_t tiles);
-/* Empties the bins of a thread's records or fragments. */
-void e3d_bins_clear(e3d_array *bins, e3d_array *blocks, int32_t tiles);
+/* The bins of so many threads, whose memory is theirs already. */
+void e3d_bins_init(e3d_bins *bins, int32_t threads);
+void e3d_geometry_free(e3d_geometry_state *state);
+/* Begins a pass with nothing in the bins; 0 when memory is out. */
+int e3d_bins_reset(e3d_bins *bins, int64_t tiles);
+/* Empties the bins of the scene. */
+void e3d_bins_clear(e3d_bins *bins);
 /* Puts what they hold aside; 0 when memory is out. */
-int e3d_bins_keep(e3d_array *bins, e3d_array *earlier, int32_t tiles);
+int e3d_bins_keep(e3d_bins *bins);
+/* After the records have their places: the tables that tell a record by its ID. */
+void e3d_bins_index(e3d_bins *bins);
+
 /* Lists `count` records from `first` on in the bins of the tiles that they may touch; 0 when memory is out. */
-int e3d_bin_records(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
+int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
                     int count);
 static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 {
@@ -27,16 +42,13 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 }
 
 /* Whether any thread has a record or a fragment for the tile. */
-int e3d_has_bin(const e3d_context *context, int which, int64_t tile);
+int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile);
 /* Whether that holds for either set. */
-int e3d_has_bins(const e3d_context *context, int64_t tile);
+int e3d_has_bins(const e3d_bins *bins, int64_t tile);
 /* How many a tile's bins of the scene hold. */
 typedef struct e3d_entries {
     uint32_t records, fragments;
 } e3d_entries;
-e3d_entries e3d_count_entries(const e3d_context *context, int64_t tile);
-
-/* After the records have their places: the tables that tell a record by its ID. */
-void e3d_tables_set(e3d_context *context);
+e3d_entries e3d_count_entries(const e3d_bins *bins, int64_t tile);
 
 #endif

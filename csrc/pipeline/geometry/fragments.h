@@ -4,12 +4,11 @@
 
 #include "core/grow.h"
 #include "kernels/types/fragments.h"
-#include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
-#include "pipeline/state/records.h"
+#include "pipeline/geometry/records.h"
+#include "pipeline/pass/prepared.h"
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
+typedef struct e3d_geometry_state e3d_geometry_state;
 
 /* One thread's fragments: what small triangles cover, sample by sample. */
 typedef struct e3d_fragment_set {
@@ -35,21 +34,13 @@ static inline const e3d_fragment_block *e3d_next_fragments(const e3d_fragment_se
     return e3d_fragment_block_at(set, block->next);
 }
 
-void e3d_fragments_free(e3d_fragment_set *set);
-int e3d_fragments_reset(e3d_fragment_set *set, int32_t tiles);
 /* Whether a cluster more can have IDs. */
-int e3d_fragments_fit(const e3d_context *context, const e3d_worker *worker);
+int e3d_fragments_fit(const e3d_geometry_state *state);
 /* Another cluster that has fragments, to be filled in; NULL when memory is out. */
-e3d_drawn_cluster *e3d_fragments_cluster(e3d_worker *worker);
-/* Takes small triangles of that cluster, a bit each, which become fragments now or later. */
-void e3d_fragments_add(const e3d_context *context, e3d_worker *worker, const e3d_vertices *vertices, const uint8_t *indices,
-                       uint64_t triangles);
+e3d_drawn_cluster *e3d_fragments_cluster(e3d_fragment_set *set);
+/* Takes small triangles of that cluster, a bit each, whose vertices the thread has: they become fragments now or later. */
+void e3d_fragments_add(const e3d_prepared *pass, e3d_geometry_state *state, const uint8_t *indices, uint64_t triangles);
 /* All that were taken become fragments. */
-void e3d_fragments_flush(const e3d_context *context, e3d_worker *worker);
-/* Draws a tile's fragments, or those of the round that finished it. */
-void e3d_fragments_draw(const e3d_context *context, const e3d_fragment_set *set, e3d_visible_tile *visible, int64_t tile_number,
-                        int earlier);
-/* Adds the samples that show them to the tile's list. */
-void e3d_fragments_show(const e3d_context *context, const e3d_fragment_set *set, e3d_worker *worker, int64_t tile_number);
+void e3d_fragments_flush(const e3d_prepared *pass, e3d_geometry_state *state);
 
 #endif

@@ -3,6 +3,7 @@
  * Items are groups of clusters, the near ones first. Threads take some of them at a time; each keeps its
  * records and bins to itself.
  */
+#include <stdatomic.h>
 #include <string.h>
 
 #include "core/always_inline.h"
@@ -17,28 +18,37 @@
 #include "kernels/types/visible.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/depths.h"
+#include "pipeline/cull/history.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/clip.h"
 #include "pipeline/geometry/fragments.h"
 #include "pipeline/geometry/geometry.h"
 #include "pipeline/geometry/lines.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/geometry/setup.h"
+#include "pipeline/geometry/state.h"
 #include "pipeline/pass/boxes.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/counts.h"
-#include "pipeline/state/records.h"
-#include "pipeline/state/worker.h"
 
 enum { TASKS_A_THREAD = 64, MOST_CANDIDATES_A_TASK = 32, UNITS_A_TASK = 8 };
 enum { LEAST_WORK = 4 }; /* candidates or tasks of units, that are worth a second thread */
 
+/* What all threads do with the candidates and the units. */
+typedef struct geometry_job {
+    const e3d_geometry_in *in;
+    const e3d_geometry_out *out;
+    atomic_llong next, next_unit;
+} geometry_job;
+
 /* Where a thread stands: one instance of one draw. */
 typedef struct walker {
-    e3d_context *context;
-    e3d_worker *worker;
+    const e3d_geometry_in *in;
+    const e3d_geometry_out *out;
+    const e3d_prepared *pass;
+    e3d_geometry_state *state;
     const e3d_draw_state *draw;
     uint32_t number; /* of the instance */
     const e3d_view_instance *instance;
@@ -51,7 +61,7 @@ typedef struct walker {
 
 static e3d_cull cull_of(const walker *w, int32_t face)
 {
-    const e3d_frame *frame = w->context->frame;
+    const e3d_frame *frame = w->pass->frame;
     if (!w->draw->any_two_sided)
         return frame->cull;
     const e3d_mesh_desc *desc = &w->draw->mesh->desc;
@@ -62,7 +72,7 @@ static e3d_cull cull_of(const walker *w, int32_t face)
 /* The sign of the area (screen, Y down) of what one-sided materials don't show: front faces have a negative one. */
 static int culled_sign(const walker *w)
 {
-    e3d_cull cull = w->context->frame->cull;
+    e3d_cull cull = w->pass->frame->cull;
     int sign = cull == E3D_CULL_NONE ? 0 : cull == E3D_CULL_BACK ? 1 : -1;
     return w->instance->mirrored ? -sign : sign;
 }
@@ -82,22 +92,22 @@ static e3d_primitive face_primitive(const walker *w, int32_t face)
 /* Emits one triangle, with the key that painter's algorithm sorts by. */
 static void draw_triangle(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
-    const e3d_vertices *v = &w->worker->geometry.vertices;
+    const e3d_vertices *v = &w->state->vertices;
     e3d_corner corner[3];
     for (int k = 0; k < 3; k++) {
         int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
         corner[k] = (e3d_corner){v->sx[i], v->sy[i], v->zn[i], v->iw[i], {0, 0, 0}};
     }
     e3d_primitive primitive = face_primitive(w, w->draw->mesh->faces[cluster->first + triangle]);
-    int64_t before = w->worker->counters.records;
-    e3d_emit(w->context, w->worker, corner, &primitive);
-    w->worker->counters.triangles_drawn += w->worker->counters.records > before;
+    int64_t before = w->state->counters.records;
+    e3d_emit(w->pass, w->state, corner, &primitive);
+    w->state->counters.triangles_drawn += w->state->counters.records > before;
 }
 
 static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
-    const e3d_vertices *v = &w->worker->geometry.vertices;
-    const e3d_viewport *viewport = &w->context->view->viewport;
+    const e3d_vertices *v = &w->state->vertices;
+    const e3d_viewport *viewport = &w->pass->view->viewport;
     float corner[3][4];
     e3d_clip_vertex polygon[E3D_CLIP_MAX];
     e3d_corner projected[E3D_CLIP_MAX];
@@ -110,8 +120,8 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
         corner[k][3] = v->w[i];
     }
     int count = e3d_clip_triangle(corner, viewport, polygon);
-    w->worker->counters.triangles_clipped++;
-    int64_t before = w->worker->counters.records;
+    w->state->counters.triangles_clipped++;
+    int64_t before = w->state->counters.records;
     for (int i = 0; i < count; i++) {
         good[i] = e3d_project(polygon[i].v, 1, viewport, &projected[i]);
         for (int k = 0; k < 3; k++)
@@ -122,27 +132,27 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
     for (int i = 1; i + 1 < count; i++)
         if (good[0] && good[i] && good[i + 1]) {
             const e3d_corner piece[3] = {projected[0], projected[i], projected[i + 1]};
-            e3d_emit(w->context, w->worker, piece, &primitive);
+            e3d_emit(w->pass, w->state, piece, &primitive);
         }
-    w->worker->counters.triangles_drawn += w->worker->counters.records > before;
+    w->state->counters.triangles_drawn += w->state->counters.records > before;
 }
 
 static void draw_records(walker *w, const e3d_record_request *request)
 {
-    e3d_record_set *set = &w->worker->sets[E3D_SET_SCENE];
+    e3d_record_set *set = &w->state->sets[E3D_SET_SCENE];
     e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
-    if (!e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES)) {
-        w->worker->failed = 1;
+    if (!e3d_records_fit(set, w->state->id_bits, E3D_CLUSTER_TRIANGLES)) {
+        w->state->failed = 1;
         return;
     }
     e3d_record *records = (e3d_record *)set->records.data + set->records.count;
-    int made = w->context->kernels->record(request, records, spans);
+    int made = w->pass->kernels->record(request, records, spans);
     uint32_t number = (uint32_t)set->records.count;
     set->records.count += (size_t)made;
-    w->worker->counters.records += made;
-    w->worker->counters.triangles_drawn += made;
-    if (!e3d_bin_records(w->context, w->worker, set, number, spans, made))
-        w->worker->failed = 1;
+    w->state->counters.records += made;
+    w->state->counters.triangles_drawn += made;
+    if (!e3d_bin_records(w->pass->view, w->state, set, number, spans, made))
+        w->state->failed = 1;
 }
 
 /* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them; those are dropped whose area has the sign
@@ -156,9 +166,9 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
     for (uint64_t left = triangles; left; left &= left - 1)
         list[count++] = (uint8_t)__builtin_ctzll(left);
     memset(list + count, 0, E3D_PAD);
-    const e3d_record_request request = {.vertices = &w->worker->geometry.vertices, .indices = indices, .triangles = list,
+    const e3d_record_request request = {.vertices = &w->state->vertices, .indices = indices, .triangles = list,
                                         .count = count, .tiny = tiny, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
-                                        .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->context->view->viewport};
+                                        .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->pass->view->viewport};
     draw_records(w, &request);
 }
 
@@ -174,7 +184,7 @@ static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint
 
 static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int tiny)
 {
-    uint64_t draw = w->worker->geometry.survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
+    uint64_t draw = w->state->survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
     draw_some(w, cluster, indices, draw & ~both, tiny, culled_sign(w));
     draw_some(w, cluster, indices, both, tiny, 0);
 }
@@ -182,7 +192,7 @@ static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t 
 /* The small triangles that are culled, where some materials are two-sided. */
 static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t one_sided)
 {
-    const e3d_vertices *v = &w->worker->geometry.vertices;
+    const e3d_vertices *v = &w->state->vertices;
     uint64_t found = 0;
     for (uint64_t left = one_sided; left; left &= left - 1) {
         int32_t x[3], y[3], triangle = __builtin_ctzll(left);
@@ -198,35 +208,39 @@ static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t on
 
 static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
 {
-    uint64_t small = w->worker->geometry.survivors.small;
+    uint64_t small = w->state->survivors.small;
     if (w->draw->any_two_sided)
         small &= ~find_culled(w, indices, small & ~find_two_sided(w, cluster, small));
-    e3d_drawn_cluster *drawn = small ? e3d_fragments_cluster(w->worker) : NULL;
-    if (!drawn)
+    if (!small)
         return;
+    e3d_drawn_cluster *drawn = e3d_fragments_cluster(&w->state->fragments);
+    if (!drawn) {
+        w->state->failed = 1;
+        return;
+    }
     /* Written in place: a copy of the struct would load wider words than were just stored, which stores cannot forward. */
     *drawn = (e3d_drawn_cluster){w->draw->mesh->faces + cluster->first, w->order, (int32_t)w->number,
-                                 (int32_t)(w->draw - w->context->draws->states), w->instance->mirrored};
-    e3d_fragments_add(w->context, w->worker, &w->worker->geometry.vertices, indices, small);
+                                 (int32_t)(w->draw - w->pass->draws->states), w->instance->mirrored};
+    e3d_fragments_add(w->pass, w->state, indices, small);
 }
 
 static void transform_cluster(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster)
 {
-    const e3d_context *context = w->context;
-    e3d_vertices *out = &w->worker->geometry.vertices;
+    const e3d_kernels *kernels = w->pass->kernels;
+    const e3d_view *view = w->pass->view;
+    e3d_vertices *out = &w->state->vertices;
     if (w->draw->mesh->desc.components == 4)
-        context->kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &context->view->viewport, out);
+        kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &view->viewport, out);
     else
-        context->kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &context->view->viewport,
-                                    candidate->view.state == E3D_BOX_INSIDE && !context->view->culling,
-                                    out);
+        kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &view->viewport,
+                           candidate->view.state == E3D_BOX_INSIDE && !view->culling, out);
 }
 
 /* Prefetches for writing the cache lines of the next records: other threads read the last frame's records there. */
 static void fetch_records(const walker *w, int count)
 {
-    e3d_record_set *set = &w->worker->sets[E3D_SET_SCENE];
-    if (!count || !e3d_records_fit(w->context, set, E3D_CLUSTER_TRIANGLES))
+    e3d_record_set *set = &w->state->sets[E3D_SET_SCENE];
+    if (!count || !e3d_records_fit(set, w->state->id_bits, E3D_CLUSTER_TRIANGLES))
         return; /* whoever makes them asks again */
     const e3d_record *next = (const e3d_record *)set->records.data + set->records.count;
     _Static_assert(sizeof *next == 64, "a record is a line of the cache");
@@ -238,18 +252,18 @@ static void fetch_records(const walker *w, int count)
 static void draw_cluster(walker *w, const e3d_cluster *cluster)
 {
     const e3d_mesh *mesh = w->draw->mesh;
-    const e3d_kernels *kernels = w->context->kernels;
-    const e3d_viewport *viewport = &w->context->view->viewport;
-    e3d_worker *worker = w->worker;
-    int fragments = e3d_plans(w->context, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(w->context, worker);
+    const e3d_kernels *kernels = w->pass->kernels;
+    const e3d_viewport *viewport = &w->pass->view->viewport;
+    e3d_geometry_state *state = w->state;
+    int fragments = e3d_plans(w->pass, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(state);
     const uint8_t *indices = e3d_cluster_indices(cluster, mesh->desc.components);
-    e3d_survivors *s = &worker->geometry.survivors;
-    int count = kernels->setup(&w->worker->geometry.vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
-    worker->counters.triangles_rejected += cluster->triangles - count;
+    e3d_survivors *s = &state->survivors;
+    int count = kernels->setup(&state->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
+    state->counters.triangles_rejected += cluster->triangles - count;
     fetch_records(w, __builtin_popcountll(s->draw));
     if (s->small)
         draw_small(w, cluster, indices);
-    int sorts = e3d_plans(w->context, E3D_PLAN_SORTS);
+    int sorts = e3d_plans(w->pass, E3D_PLAN_SORTS);
     if (!sorts)
         draw_triangles(w, cluster, indices, !fragments);
     for (uint64_t left = sorts ? s->draw : 0; left; left &= left - 1)
@@ -263,26 +277,31 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 /* A bit for each cluster. */
 static unsigned find_away(const walker *w, const e3d_group_box *group)
 {
-    const e3d_context *context = w->context;
-    if (!e3d_plans(context, E3D_PLAN_FACES)) /* edges are drawn whichever way faces face */
+    if (!e3d_plans(w->pass, E3D_PLAN_FACES)) /* edges are drawn whichever way faces face */
         return 0;
-    return context->kernels->face_away(&w->draw->mesh->clusters[group->first_cluster], group->clusters, &w->instance->facing,
-                                       drop_sign(w), w->instance->clip, &context->view->viewport);
+    return w->pass->kernels->face_away(&w->draw->mesh->clusters[group->first_cluster], group->clusters, &w->instance->facing,
+                                       drop_sign(w), w->instance->clip, &w->pass->view->viewport);
+}
+
+/* Whether what earlier rounds drew hides a box. */
+static int is_hidden(const walker *w, const e3d_box_view *view)
+{
+    return w->in->depths && e3d_is_hidden(w->in->depths, w->pass->view->tiles_x, view);
 }
 
 /* What becomes of a cluster, before it is tested against what is drawn. Where it may show, *view is what that test needs. */
 static e3d_cull_result result_of(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
-    const float *clip = e3d_culling_matrix(w->context->view, w->number);
+    const float *clip = e3d_culling_matrix(w->pass->view, w->number);
     if (!cluster->any_finite)
         return E3D_RESULT_OUTSIDE;
     if (away)
         return candidate->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
                    ? E3D_RESULT_BACKFACING
                    : E3D_RESULT_OUTSIDE;
-    if (!w->context->round.tested && candidate->view.state == E3D_BOX_INSIDE)
+    if (!w->in->depths && candidate->view.state == E3D_BOX_INSIDE)
         return E3D_RESULT_DRAWN;
-    e3d_view_box(&w->context->view->viewport, clip, cluster->lo, cluster->hi, view);
+    e3d_view_box(&w->pass->view->viewport, clip, cluster->lo, cluster->hi, view);
     return view->state == E3D_BOX_OUTSIDE ? E3D_RESULT_OUTSIDE : E3D_RESULT_DRAWN;
 }
 
@@ -291,8 +310,7 @@ static e3d_cull_result tested_result_of(const walker *w, const e3d_candidate *ca
 {
     e3d_box_view view;
     e3d_cull_result result = result_of(w, candidate, cluster, away, &view);
-    int hidden = w->context->round.tested && result == E3D_RESULT_DRAWN && e3d_is_hidden(w->context, &view);
-    return hidden ? E3D_RESULT_OCCLUDED : result;
+    return result == E3D_RESULT_DRAWN && is_hidden(w, &view) ? E3D_RESULT_OCCLUDED : result;
 }
 
 /* The results of those of a group's clusters whose bits are set; a bit for each that is drawn. What was seen faced the viewer, and is
@@ -300,7 +318,7 @@ static e3d_cull_result tested_result_of(const walker *w, const e3d_candidate *ca
 static unsigned find_results(const walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked,
                              e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
-    unsigned shown = 0, away = w->context->round.choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
+    unsigned shown = 0, away = w->in->choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
     for (unsigned left = asked; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         results[k] = tested_result_of(w, candidate, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1);
@@ -313,7 +331,7 @@ static unsigned find_results(const walker *w, const e3d_candidate *candidate, co
 static int vertices_are_hidden(const walker *w)
 {
     e3d_box_view view;
-    return e3d_view_vertices(&w->context->view->viewport, &w->worker->geometry.vertices, &view) && e3d_is_hidden(w->context, &view);
+    return e3d_view_vertices(&w->pass->view->viewport, &w->state->vertices, &view) && is_hidden(w, &view);
 }
 
 /* Whether the vertices of a group's clusters are worth testing: those of a smaller one are drawn in the same time. */
@@ -326,7 +344,7 @@ static int is_wide(const e3d_box *samples)
 /* Threads may mark the same instance. */
 static void mark(walker *w, const e3d_candidate *candidate, e3d_cull_result result)
 {
-    uint8_t *marks = &w->context->marks[candidate->instance];
+    uint8_t *marks = &w->out->marks[candidate->instance];
     uint8_t bits = result == E3D_RESULT_DRAWN        ? E3D_MARK_UNOCCLUDED | E3D_MARK_DRAWN
                    : result == E3D_RESULT_BACKFACING ? E3D_MARK_UNOCCLUDED
                                             : 0;
@@ -357,19 +375,19 @@ static void fetch_next(walker *w, const e3d_cluster *clusters, unsigned left)
 
 static void count_cluster(walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, e3d_cull_result result)
 {
-    w->worker->counters.clusters[result]++;
-    w->worker->counters.triangles[result] += cluster->triangles;
-    if (result == E3D_RESULT_DRAWN && !e3d_plans(w->context, E3D_PLAN_FACES))
-        w->worker->counters.triangles_drawn += cluster->triangles;
+    w->state->counters.culled.clusters[result]++;
+    w->state->counters.culled.triangles[result] += cluster->triangles;
+    if (result == E3D_RESULT_DRAWN && !e3d_plans(w->pass, E3D_PLAN_FACES))
+        w->state->counters.triangles_drawn += cluster->triangles;
     mark(w, candidate, result);
 }
 
 /* Counts the clusters of a hidden group; it looks at each only where not all count, or not all are in the frustum. */
 static void count_hidden(walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned counted)
 {
-    e3d_counters *counters = &w->worker->counters;
+    e3d_cull_counters *counters = &w->state->counters.culled;
     const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
-    const float *clip = e3d_culling_matrix(w->context->view, w->number);
+    const float *clip = e3d_culling_matrix(w->pass->view, w->number);
     int inside = candidate->view.state == E3D_BOX_INSIDE;
     if (inside && counted == (1u << group->clusters) - 1) {
         counters->clusters[E3D_RESULT_OCCLUDED] += group->clusters;
@@ -392,17 +410,17 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
     const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
     unsigned shown = asked;
     e3d_cull_result results[E3D_GROUP_CLUSTERS] = {E3D_RESULT_DRAWN};
-    if (w->context->round.tested && e3d_is_hidden(w->context, &candidate->view)) {
+    if (is_hidden(w, &candidate->view)) {
         count_hidden(w, candidate, group, asked & wanted);
         return 0;
     }
-    w->order = w->context->draws->instances[w->number].order;
+    w->order = w->pass->draws->instances[w->number].order;
     if (!w->instance->ready)
-        e3d_view_finish_instance(w->context->view, w->context->draws, w->number);
-    if (mesh->desc.components == 3 && w->context->frame->culling != E3D_CULLING_NONE)
+        e3d_view_finish_instance(w->out->view, w->out->draws, w->number);
+    if (mesh->desc.components == 3 && w->pass->frame->culling != E3D_CULLING_NONE)
         shown = find_results(w, candidate, group, asked, results);
-    int closely = w->context->round.tested && is_wide(&candidate->view.samples);
-    unsigned left = !e3d_plans(w->context, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
+    int closely = w->in->depths && is_wide(&candidate->view.samples);
+    unsigned left = !e3d_plans(w->pass, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
     for (; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         fetch_next(w, clusters, left & (left - 1));
@@ -424,66 +442,65 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
 enum { FRAMES_A_TRIAL = 4 };
 
 /* Stores what showed; other threads may read it at the same time, to see what to prefetch. */
-static void set_seen(const e3d_context *context, const e3d_candidate *candidate, unsigned seen)
+static void set_seen(const walker *w, const e3d_candidate *candidate, unsigned seen)
 {
-    __atomic_store_n(&context->seen[candidate->number], (uint8_t)seen, __ATOMIC_RELAXED);
+    __atomic_store_n(&w->out->seen[candidate->number], (uint8_t)seen, __ATOMIC_RELAXED);
 }
 
 static void visit_candidate(walker *w, const e3d_candidate *candidate)
 {
-    e3d_context *context = w->context;
     w->number = candidate->instance;
-    w->instance = &context->view->instances[candidate->instance];
-    w->draw = &context->draws->states[candidate->draw];
+    w->instance = &w->pass->view->instances[candidate->instance];
+    w->draw = &w->pass->draws->states[candidate->draw];
     const e3d_group_box *group = &w->draw->mesh->groups[candidate->group];
     unsigned all = (1u << group->clusters) - 1;
-    if (context->round.choice == E3D_ALL_CANDIDATES) {
+    if (w->in->choice == E3D_ALL_CANDIDATES) {
         unsigned shown = draw_group(w, candidate, group, all, all);
-        if (context->kept)
-            set_seen(context, candidate, shown);
+        if (w->out->seen)
+            set_seen(w, candidate, shown);
         return;
     }
-    unsigned seen = context->seen[candidate->number];
-    if (context->round.choice == E3D_SEEN_CANDIDATES) {
+    unsigned seen = w->out->seen[candidate->number];
+    if (w->in->choice == E3D_SEEN_CANDIDATES) {
         if (seen)
             draw_group(w, candidate, group, seen, seen);
         return;
     }
-    int tried = context->view->history->doubts || (candidate->number + context->view->history->trials) % FRAMES_A_TRIAL == 0;
+    const e3d_history *history = w->in->history;
+    int tried = history->doubts || (candidate->number + history->trials) % FRAMES_A_TRIAL == 0;
     unsigned trusted = tried ? 0 : seen;
     if (trusted != all)
-        set_seen(context, candidate, trusted | draw_group(w, candidate, group, all & ~trusted, all & ~seen));
+        set_seen(w, candidate, trusted | draw_group(w, candidate, group, all & ~trusted, all & ~seen));
 }
 
 /* ---- the walk ---- */
 
 /* Prefetches what a candidate will read of its instance; few of those that did not show last time read it. */
-static void fetch_candidate(const e3d_context *context, const e3d_candidate *candidate)
+static void fetch_candidate(const walker *w, const e3d_candidate *candidate)
 {
     enum { LINE = 64 };
-    const char *seen = (const char *)&context->view->instances[candidate->instance];
-    if (context->round.choice == E3D_ALL_CANDIDATES || __atomic_load_n(&context->seen[candidate->number], __ATOMIC_RELAXED))
+    const char *seen = (const char *)&w->pass->view->instances[candidate->instance];
+    if (w->in->choice == E3D_ALL_CANDIDATES || __atomic_load_n(&w->out->seen[candidate->number], __ATOMIC_RELAXED))
         for (size_t at = 0; at < sizeof(e3d_view_instance); at += LINE)
             __builtin_prefetch(seen + at);
 }
 
 /* Prefetches what fetch_candidate reads. */
-static void fetch_seen(const e3d_context *context, const e3d_candidate *candidate)
+static void fetch_seen(const walker *w, const e3d_candidate *candidate)
 {
-    if (context->round.choice != E3D_ALL_CANDIDATES)
-        __builtin_prefetch(&context->seen[candidate->number]);
+    if (w->in->choice != E3D_ALL_CANDIDATES)
+        __builtin_prefetch(&w->out->seen[candidate->number]);
 }
 
 /* The first two clusters of the next candidate that may be drawn, as far as one can tell yet: a bit each. What tells of all of them is
  * fetched. */
 static unsigned find_next(walker *w, const e3d_candidate *candidate)
 {
-    const e3d_context *context = w->context;
-    const e3d_mesh *mesh = context->draws->states[candidate->draw].mesh;
+    const e3d_mesh *mesh = w->pass->draws->states[candidate->draw].mesh;
     size_t first = (size_t)candidate->group * E3D_GROUP_CLUSTERS, count = (size_t)mesh->cluster_count;
-    unsigned may = context->round.choice == E3D_ALL_CANDIDATES    ? ~0u
-                   : context->round.choice == E3D_SEEN_CANDIDATES ? __atomic_load_n(&context->seen[candidate->number], __ATOMIC_RELAXED)
-                                                             : 0;
+    unsigned may = w->in->choice == E3D_ALL_CANDIDATES    ? ~0u
+                   : w->in->choice == E3D_SEEN_CANDIDATES ? __atomic_load_n(&w->out->seen[candidate->number], __ATOMIC_RELAXED)
+                                                          : 0;
     unsigned found = 0;
     if (mesh->desc.components != 3 || count <= E3D_GROUP_CLUSTERS)
         return 0;
@@ -496,64 +513,65 @@ static unsigned find_next(walker *w, const e3d_candidate *candidate)
     return found;
 }
 
-static int64_t candidates_of(const e3d_round *round) { return round->end - round->first; }
-
 /* How many candidates a thread takes at once: many, so that it seldom asks; few, so that none waits long for another's last. */
-static int64_t candidates_a_task(const e3d_context *context)
+static int64_t candidates_a_task(const e3d_geometry_in *in)
 {
-    int64_t candidates = candidates_of(&context->round) / (TASKS_A_THREAD * context->renderer->threads);
+    int64_t candidates = (in->end - in->first) / (TASKS_A_THREAD * in->pass->threads);
     return candidates < 1 ? 1 : candidates > MOST_CANDIDATES_A_TASK ? MOST_CANDIDATES_A_TASK : candidates;
 }
 
-static void walk_candidates(walker *w)
+static void walk_candidates(walker *w, atomic_llong *next)
 {
     enum { AHEAD = 6 };
-    e3d_context *context = w->context;
-    const e3d_round *round = &context->round;
-    int64_t task = candidates_a_task(context);
-    while (!w->worker->failed) {
-        int64_t first = round->first + atomic_fetch_add(&context->next, task);
-        if (first >= round->end)
+    const e3d_candidate *candidates = w->in->candidates;
+    int64_t end = w->in->end, task = candidates_a_task(w->in);
+    while (!w->state->failed) {
+        int64_t first = w->in->first + atomic_fetch_add(next, task);
+        if (first >= end)
             return;
-        for (int64_t i = first; i < first + task && i < round->end; i++) {
-            if (i + 2 * AHEAD < round->end)
-                fetch_seen(context, &context->candidates[i + 2 * AHEAD]);
-            if (i + AHEAD < round->end)
-                fetch_candidate(context, &context->candidates[i + AHEAD]);
-            w->next_left = i + 1 < round->end ? find_next(w, &context->candidates[i + 1]) : 0;
-            visit_candidate(w, &context->candidates[i]);
+        for (int64_t i = first; i < first + task && i < end; i++) {
+            if (i + 2 * AHEAD < end)
+                fetch_seen(w, &candidates[i + 2 * AHEAD]);
+            if (i + AHEAD < end)
+                fetch_candidate(w, &candidates[i + AHEAD]);
+            w->next_left = i + 1 < end ? find_next(w, &candidates[i + 1]) : 0;
+            visit_candidate(w, &candidates[i]);
         }
     }
 }
 
-static void walk_units(e3d_context *context, e3d_worker *worker)
+static void walk_units(const e3d_prepared *pass, e3d_geometry_state *state, atomic_llong *next)
 {
-    while (!worker->failed) {
-        int64_t first = atomic_fetch_add(&context->next_unit, UNITS_A_TASK);
-        if (first >= context->draws->units)
+    while (!state->failed) {
+        int64_t first = atomic_fetch_add(next, UNITS_A_TASK);
+        if (first >= pass->draws->units)
             return;
-        for (int64_t unit = first; unit < first + UNITS_A_TASK && unit < context->draws->units; unit++) {
-            const e3d_draw_state *draw = e3d_draw_of_unit(context->draws, unit);
+        for (int64_t unit = first; unit < first + UNITS_A_TASK && unit < pass->draws->units; unit++) {
+            const e3d_draw_state *draw = e3d_draw_of_unit(pass->draws, unit);
             int32_t instance = (int32_t)((unit - draw->unit_base) / draw->units);
-            e3d_draw_unit(context, worker, draw, instance, (int32_t)((unit - draw->unit_base) % draw->units));
+            e3d_draw_unit(pass, state, draw, instance, (int32_t)((unit - draw->unit_base) % draw->units));
         }
     }
 }
 
 static void geometry_work(void *argument, int number)
 {
-    e3d_context *context = argument;
-    walker w = {.context = context, .worker = context->renderer->workers[number]};
-    walk_candidates(&w);
-    e3d_fragments_flush(context, w.worker);
-    if (context->round.last)
-        walk_units(context, w.worker);
+    geometry_job *job = argument;
+    walker w = {.in = job->in, .out = job->out, .pass = job->in->pass, .state = job->out->bins->of[number]};
+    walk_candidates(&w, &job->next);
+    e3d_fragments_flush(w.pass, w.state);
+    if (job->in->last)
+        walk_units(w.pass, w.state, &job->next_unit);
 }
 
-void e3d_geometry(e3d_context *context)
+int e3d_geometry(const e3d_geometry_in *in, const e3d_geometry_out *out)
 {
-    int64_t work = candidates_of(&context->round) + context->draws->units / UNITS_A_TASK;
-    atomic_store(&context->next, 0);
-    atomic_store(&context->next_unit, 0);
-    e3d_pool_run(work > LEAST_WORK ? context->renderer->threads : 1, geometry_work, context);
+    geometry_job job = {.in = in, .out = out};
+    int64_t work = in->end - in->first + in->pass->draws->units / UNITS_A_TASK;
+    int failed = 0;
+    e3d_pool_run(work > LEAST_WORK ? in->pass->threads : 1, geometry_work, &job);
+    for (int32_t t = 0; t < in->pass->threads; t++)
+        failed |= out->bins->of[t]->failed;
+    e3d_bins_index(out->bins);
+    return !failed;
 }

@@ -6,16 +6,18 @@
 #include "kernels/types/vertices.h"
 #include "pipeline/geometry/clip.h"
 #include "pipeline/geometry/lines.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/geometry/setup.h"
+#include "pipeline/geometry/state.h"
 #include "pipeline/pass/draws.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/worker.h"
 
 /* Where a thread stands: one instance of one draw. */
 typedef struct unit_walk {
-    e3d_context *context;
-    e3d_worker *worker;
+    const e3d_prepared *pass;
+    e3d_geometry_state *state;
+    e3d_line_style lines;
     const e3d_draw_state *draw;
     const e3d_view_instance *instance;
     uint32_t order; /* of the instance's first primitive */
@@ -47,8 +49,8 @@ static void emit_quad(unit_walk *w, const e3d_corner q[4], uint32_t order, int w
 {
     e3d_primitive primitive = {.order = order, .set = which, .cut = 1, .cull = E3D_CULL_NONE};
     const e3d_corner first[3] = {q[0], q[1], q[2]}, second[3] = {q[0], q[2], q[3]};
-    e3d_emit(w->context, w->worker, first, &primitive);
-    e3d_emit(w->context, w->worker, second, &primitive);
+    e3d_emit(w->pass, w->state, first, &primitive);
+    e3d_emit(w->pass, w->state, second, &primitive);
 }
 
 static e3d_corner moved(e3d_corner c, int32_t x, int32_t y)
@@ -61,11 +63,11 @@ static e3d_corner moved(e3d_corner c, int32_t x, int32_t y)
 static int32_t distance(int32_t a, int32_t b) { return a < b ? b - a : a - b; }
 
 /* How far a line of such extents reaches along its minor axis (R11). */
-static int32_t offset_of(const e3d_context *context, double dx, double dy)
+static int32_t offset_of(const e3d_line_style *lines, double dx, double dy)
 {
-    if (!context->lines.wide)
-        return context->lines.half;
-    return (int32_t)lrint((double)context->lines.half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
+    if (!lines->wide)
+        return lines->half;
+    return (int32_t)lrint((double)lines->half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
 }
 
 /* Draws a line between two points of the screen as a parallelogram. */
@@ -74,7 +76,7 @@ static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int
     int32_t across = distance(end[1].x, end[0].x), down = distance(end[1].y, end[0].y);
     if (!across && !down)
         return;
-    int32_t offset = offset_of(w->context, across, down), dx = across < down ? offset : 0, dy = across < down ? 0 : offset;
+    int32_t offset = offset_of(&w->lines, across, down), dx = across < down ? offset : 0, dy = across < down ? 0 : offset;
     const e3d_corner quad[4] = {moved(end[0], -dx, -dy), moved(end[1], -dx, -dy),
                                 moved(end[1], dx, dy), moved(end[0], dx, dy)};
     emit_quad(w, quad, order, which);
@@ -82,7 +84,7 @@ static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int
 
 static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int which)
 {
-    const e3d_viewport *viewport = &w->context->view->viewport;
+    const e3d_viewport *viewport = &w->pass->view->viewport;
     float v[2][4];
     e3d_clip_vertex cut[2] = {{{0}, {1, 0, 0}}, {{0}, {0, 1, 0}}};
     e3d_corner end[2];
@@ -111,7 +113,7 @@ static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int whi
 
 static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
 {
-    const e3d_viewport *viewport = &w->context->view->viewport;
+    const e3d_viewport *viewport = &w->pass->view->viewport;
     float v[4];
     e3d_corner c;
     position_of(w, vertex, v);
@@ -121,7 +123,7 @@ static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
         return;
     c.c[0] = 1;
     c.c[1] = c.c[2] = 0;
-    int32_t h = w->context->lines.point_half;
+    int32_t h = w->lines.point_half;
     const e3d_corner quad[4] = {moved(c, -h, -h), moved(c, h, -h), moved(c, h, h), moved(c, -h, h)};
     emit_quad(w, quad, order, E3D_SET_SCENE);
 }
@@ -154,11 +156,11 @@ static void run_edges(unit_walk *w, int32_t unit)
         draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_SET_EDGES);
 }
 
-void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
-                   int32_t unit)
+void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_draw_state *draw, int32_t instance, int32_t unit)
 {
     int64_t number = draw->instance_base + instance;
-    unit_walk w = {context, worker, draw, &context->view->instances[number], context->draws->instances[number].order};
+    unit_walk w = {pass, state, e3d_line_style_of(pass->frame), draw, &pass->view->instances[number],
+                   pass->draws->instances[number].order};
     if (unit < draw->line_units)
         run_lines(&w, unit);
     else if ((unit -= draw->line_units) < draw->point_units)

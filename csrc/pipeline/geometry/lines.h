@@ -5,6 +5,9 @@
 #include <stdint.h>
 
 #include "e3d.h"
+#include "pipeline/geometry/state.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/prepared.h"
 
 /* How wide lines and points are, in 1/256 sample. */
 typedef struct e3d_line_style {
@@ -13,13 +16,8 @@ typedef struct e3d_line_style {
     int wide;      /* lines are as wide across as they say */
 } e3d_line_style;
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_draw_state e3d_draw_state;
-
 /* Units of E3D_LINES_A_UNIT lines, then of points, then of edges of an instance. */
-void e3d_draw_unit(e3d_context *context, e3d_worker *worker, const e3d_draw_state *draw, int32_t instance,
-                   int32_t unit);
+void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_draw_state *draw, int32_t instance, int32_t unit);
 
 e3d_line_style e3d_line_style_of(const e3d_frame *frame);
 

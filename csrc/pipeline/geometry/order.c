@@ -10,15 +10,14 @@
 #include "kernels/types/records.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/order.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/records.h"
-#include "pipeline/state/renderer.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/geometry/records.h"
+#include "pipeline/geometry/state.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 
 typedef struct entry {
     float key; /* 0 where only the order counts */
-    uint32_t order, sequence;
-    uint32_t worker, record;
+    uint32_t order, worker, record;
 } entry;
 
 static int compare(const void *left, const void *right)
@@ -28,41 +27,39 @@ static int compare(const void *left, const void *right)
         return a->key > b->key ? -1 : 1;
     if (a->order != b->order)
         return a->order < b->order ? -1 : 1;
-    return a->sequence < b->sequence ? -1 : 1;
+    return a->record < b->record ? -1 : 1;
 }
 
-static size_t count_records(const e3d_renderer *renderer)
+static size_t count_records(const e3d_bins *bins)
 {
     size_t count = 0;
-    for (int32_t w = 0; w < renderer->threads; w++)
-        count += renderer->workers[w]->sets[E3D_SET_SCENE].records.count;
+    for (int32_t t = 0; t < bins->threads; t++)
+        count += bins->of[t]->sets[E3D_SET_SCENE].records.count;
     return count;
 }
 
-static void list_records(const e3d_context *context, entry *entries)
+/* `keyed`: by depth before order. */
+static void list_records(const e3d_bins *bins, int keyed, entry *entries)
 {
     size_t n = 0;
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_record_set *set = &context->renderer->workers[w]->sets[E3D_SET_SCENE];
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
         const e3d_record *records = set->records.data;
         for (size_t r = 0; r < set->records.count; r++, n++)
-            entries[n] = (entry){
-                context->frame->hidden == E3D_HIDDEN_PAINTER ? ((float *)set->keys.data)[r] : 0.0f,
-                records[r].order, (uint32_t)r, (uint32_t)w, (uint32_t)r};
+            entries[n] = (entry){keyed ? ((float *)set->keys.data)[r] : 0.0f, records[r].order, (uint32_t)t, (uint32_t)r};
     }
 }
 
 /* Copies the records, and the corners they refer to, in sorted order. */
-static int gather(const e3d_context *context, const entry *entries, size_t count, e3d_record_set *sorted)
+static int gather(const e3d_bins *bins, const entry *entries, size_t count, e3d_record_set *sorted)
 {
-    e3d_worker **workers = context->renderer->workers;
     if (!e3d_array_reserve(&sorted->records, count, sizeof(e3d_record)) ||
         !e3d_array_reserve(&sorted->corners, count, 9 * sizeof(float)))
         return 0;
     e3d_record *records = sorted->records.data;
     float *corners = sorted->corners.data;
     for (size_t i = 0; i < count; i++) {
-        const e3d_record_set *set = &workers[entries[i].worker]->sets[E3D_SET_SCENE];
+        const e3d_record_set *set = &bins->of[entries[i].worker]->sets[E3D_SET_SCENE];
         records[i] = ((const e3d_record *)set->records.data)[entries[i].record];
         if (records[i].meta & E3D_RECORD_CUT) {
             memcpy(corners + 9 * sorted->corners.count,
@@ -77,42 +74,42 @@ static int gather(const e3d_context *context, const entry *entries, size_t count
 }
 
 /* Worker 0's set becomes the sorted one; the others keep nothing of this pass. */
-static void install(e3d_context *context, e3d_record_set *sorted)
+static void install(e3d_bins *bins, e3d_record_set *sorted)
 {
-    e3d_record_set *set = &context->renderer->workers[0]->sets[E3D_SET_SCENE];
+    e3d_record_set *set = &bins->of[0]->sets[E3D_SET_SCENE];
     e3d_array_free(&set->records);
     e3d_array_free(&set->corners);
     set->records = sorted->records;
     set->corners = sorted->corners;
-    for (int32_t w = 1; w < context->renderer->threads; w++)
-        context->renderer->workers[w]->sets[E3D_SET_SCENE].records.count = 0;
+    for (int32_t t = 1; t < bins->threads; t++)
+        bins->of[t]->sets[E3D_SET_SCENE].records.count = 0;
 }
 
-int e3d_sort_records(e3d_context *context)
+int e3d_sort_records(const e3d_prepared *pass, e3d_bins *bins)
 {
-    size_t count = count_records(context->renderer);
+    size_t count = count_records(bins);
     entry *entries = malloc((count + 1) * sizeof *entries);
     e3d_record_set sorted = {0};
     if (!entries)
         return 0;
-    list_records(context, entries);
+    list_records(bins, pass->frame->hidden == E3D_HIDDEN_PAINTER, entries);
     qsort(entries, count, sizeof *entries, compare);
-    int done = gather(context, entries, count, &sorted);
+    int done = gather(bins, entries, count, &sorted);
     free(entries);
     if (!done) {
         e3d_array_free(&sorted.records);
         e3d_array_free(&sorted.corners);
         return 0;
     }
-    install(context, &sorted);
-    e3d_worker *worker = context->renderer->workers[0];
-    e3d_record_set *set = &worker->sets[E3D_SET_SCENE];
+    install(bins, &sorted);
+    e3d_record_set *set = &bins->of[0]->sets[E3D_SET_SCENE];
     for (size_t r = 0; r < count; r++) {
         const e3d_record *record = (const e3d_record *)set->records.data + r;
-        e3d_box box = e3d_sample_box(record->x, record->y, &context->view->viewport);
+        e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
         const e3d_tile_span span = e3d_span_of(&box);
-        if (!e3d_bin_records(context, worker, set, (uint32_t)r, &span, 1))
+        if (!e3d_bin_records(pass->view, bins->of[0], set, (uint32_t)r, &span, 1))
             return 0;
     }
+    e3d_bins_index(bins);
     return 1;
 }

@@ -2,9 +2,10 @@
 #ifndef E3D_ORDER_H
 #define E3D_ORDER_H
 
-typedef struct e3d_context e3d_context;
+#include "pipeline/geometry/bin.h"
+#include "pipeline/pass/prepared.h"
 
-/* Sorts the records and bins them; 0 when memory is out. */
-int e3d_sort_records(e3d_context *context);
+/* Sorts the records of all threads and bins them as the first one's; 0 when memory is out. */
+int e3d_sort_records(const e3d_prepared *pass, e3d_bins *bins);
 
 #endif

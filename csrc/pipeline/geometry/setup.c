@@ -7,11 +7,11 @@
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/geometry/setup.h"
+#include "pipeline/geometry/state.h"
 #include "pipeline/pass/plan.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/records.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/pass/prepared.h"
 
 static float clamp(float v, float lo, float hi)
 {
@@ -76,20 +76,19 @@ static int append_key(e3d_record_set *set, const e3d_corner *corner[3])
     return 1;
 }
 
-int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more)
+int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more)
 {
-    return (set->records.count + more) >> (30 - context->tables[0].bits) == 0 && /* IDs are less than E3D_FRAGMENT_ID */
+    return (set->records.count + more) >> (30 - id_bits) == 0 && /* IDs are less than E3D_FRAGMENT_ID */
            e3d_array_reserve(&set->records, set->records.count + more, sizeof(e3d_record));
 }
 
 /* Counts the record in; it is binned now, or after sorting. */
-static int accept(const e3d_context *context, e3d_worker *worker, e3d_record_set *set, const e3d_box *box,
-                  int sorted)
+static int accept(const e3d_prepared *pass, e3d_geometry_state *state, e3d_record_set *set, const e3d_box *box, int sorted)
 {
     uint32_t number = (uint32_t)set->records.count++;
-    worker->counters.records++;
+    state->counters.records++;
     const e3d_tile_span span = e3d_span_of(box);
-    return sorted || e3d_bin_records(context, worker, set, number, &span, 1);
+    return sorted || e3d_bin_records(pass->view, state, set, number, &span, 1);
 }
 
 static int is_culled(const e3d_primitive *primitive, int front)
@@ -97,8 +96,7 @@ static int is_culled(const e3d_primitive *primitive, int front)
     return (primitive->cull == E3D_CULL_BACK && !front) || (primitive->cull == E3D_CULL_FRONT && front);
 }
 
-void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner corner[3],
-              const e3d_primitive *primitive)
+void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_corner corner[3], const e3d_primitive *primitive)
 {
     const int32_t x[3] = {corner[0].x, corner[1].x, corner[2].x};
     const int32_t y[3] = {corner[0].y, corner[1].y, corner[2].y};
@@ -107,10 +105,10 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
     if (area == 0 || is_culled(primitive, front))
         return;
     const e3d_corner *c[3] = {&corner[0], &corner[area < 0 ? 2 : 1], &corner[area < 0 ? 1 : 2]};
-    e3d_record_set *set = &worker->sets[primitive->set];
-    int sorted = e3d_plans(context, E3D_PLAN_SORTS) && primitive->set == E3D_SET_SCENE;
-    if (!e3d_records_fit(context, set, 1)) {
-        worker->failed = 1;
+    e3d_record_set *set = &state->sets[primitive->set];
+    int sorted = e3d_plans(pass, E3D_PLAN_SORTS) && primitive->set == E3D_SET_SCENE;
+    if (!e3d_records_fit(set, state->id_bits, 1)) {
+        state->failed = 1;
         return;
     }
     e3d_record *record = (e3d_record *)set->records.data + set->records.count;
@@ -119,7 +117,7 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
         record->y[k] = c[k]->y;
         record->iw[k] = c[k]->iw;
     }
-    e3d_box box = e3d_sample_box(record->x, record->y, &context->view->viewport);
+    e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
     if (box.x0 > box.x1 || box.y0 > box.y1 ||
         !depth_plane(c[0], c[1], c[2], area < 0 ? -area : area, &box, record))
         return;
@@ -127,6 +125,6 @@ void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner c
     record->meta = (front ? 0 : E3D_RECORD_BACK) | (area < 0 ? E3D_RECORD_SWAPPED : 0) |
                    (primitive->face ? E3D_RECORD_FACE : 0);
     if ((primitive->cut && !append_corners(set, c, &record->meta)) || (sorted && !append_key(set, c)) ||
-        !accept(context, worker, set, &box, sorted))
-        worker->failed = 1;
+        !accept(pass, state, set, &box, sorted))
+        state->failed = 1;
 }

@@ -6,10 +6,9 @@
 
 #include "e3d.h"
 #include "kernels/types/vertices.h"
-
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_record_set e3d_record_set;
+#include "pipeline/geometry/records.h"
+#include "pipeline/geometry/state.h"
+#include "pipeline/pass/prepared.h"
 
 typedef struct e3d_corner {
     int32_t x, y;
@@ -23,10 +22,10 @@ typedef struct e3d_primitive {
     int mirrored;
 } e3d_primitive;
 int e3d_project(const float v[4], int clipped, const e3d_viewport *viewport, e3d_corner *out);
-void e3d_emit(const e3d_context *context, e3d_worker *worker, const e3d_corner corner[3],
-              const e3d_primitive *primitive);
+/* Makes a record of a piece that shows, and bins it where records aren't sorted first. */
+void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_corner corner[3], const e3d_primitive *primitive);
 
 /* Whether `more` records have IDs and memory. */
-int e3d_records_fit(const e3d_context *context, e3d_record_set *set, size_t more);
+int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more);
 
 #endif

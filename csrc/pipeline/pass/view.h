@@ -11,8 +11,6 @@
 #include "kernels/types/vertices.h"
 #include "pipeline/pass/draws.h"
 
-typedef struct e3d_history e3d_history;
-
 /* An instance as the eye sees it (R1, R2). */
 typedef struct e3d_view_instance {
     float clip[16];
@@ -34,7 +32,6 @@ typedef struct e3d_view {
     float rows[12];           /* of view_from_world, f32 */
     int mirrors;              /* the camera does: R2 */
     e3d_lighting lighting;
-    e3d_history *history;
     e3d_view_instance *instances;
     const float (*culling)[16]; /* clip matrices of another view, whose frustum tells what is drawn; NULL: this one's does */
     e3d_array instance_memory, culling_memory, reach_memory;

@@ -4,13 +4,49 @@
 
 #include <stdint.h>
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_tile e3d_tile;
+#include "core/grow.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/shade/runs.h"
+#include "pipeline/store/blank.h"
+#include "pipeline/store/store.h"
 
-/* Shades the first `count` of the tile memory's runs, which are owned by IDs; 0 when memory is out. */
-int e3d_shade_runs(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int32_t count);
+typedef struct e3d_shade_in {
+    const e3d_prepared *pass;
+    const e3d_record_table *table; /* of what shows */
+    const float *const *corners;   /* c[k][j] of the cut records of each thread */
+    const e3d_store *store;
+    const e3d_blank_in *blank; /* tiles that are cleared between batches */
+    float unorm8[256];         /* values of 8-bit vertex and instance colours (R23) */
+} e3d_shade_in;
+
+/* A thread's memory, of one tile. */
+typedef struct e3d_shade_memory {
+    e3d_runs_memory runs;
+    _Alignas(64) e3d_shown shown;
+    _Alignas(64) e3d_batch batch;
+    _Alignas(64) e3d_surfaces surfaces; /* of the batch and its neighbours */
+    e3d_array pieces;                   /* e3d_visible_primitive */
+    e3d_array buckets;                  /* e3d_bucket */
+    int64_t shaded;                     /* samples, of all tiles */
+} e3d_shade_memory;
+
+/* What shading writes: its own memory, a tile's pixels, and the rows of others that are cleared meanwhile. */
+typedef struct e3d_shade_out {
+    e3d_shade_memory *memory;
+    e3d_store_memory *pixels;
+    e3d_blank_state *blank;
+} e3d_shade_out;
+
+/* Finds the constants of a pass. */
+void e3d_shade_prepare(e3d_shade_in *in);
+void e3d_shade_free(e3d_shade_memory *memory);
+/* Shades the first `count` of the memory's runs, which are owned by IDs; 0 when memory is out. */
+int e3d_shade_runs(const e3d_shade_in *in, const e3d_tile *tile, int32_t count, const e3d_shade_out *out);
 /* Shades the list of what shows; 0 when memory is out. */
-int e3d_shade_shown(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+int e3d_shade_shown(const e3d_shade_in *in, const e3d_tile *tile, const e3d_shade_out *out);
 
 #endif

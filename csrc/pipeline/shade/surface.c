@@ -10,19 +10,14 @@
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
+#include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/tile_memory.h"
-#include "pipeline/state/worker.h"
-
-void e3d_surface_free(e3d_surface_state *state)
-{
-    e3d_array_free(&state->pieces);
-    e3d_array_free(&state->buckets);
-}
 
 /* ---- which primitive a piece is of ---- */
 
@@ -33,31 +28,30 @@ typedef struct instance_finder {
     int32_t instance;
 } instance_finder;
 
-static const float *corners_of(const e3d_context *context, uint32_t id, const e3d_record *record)
+static const float *corners_of(const e3d_shade_in *in, uint32_t id, const e3d_record *record)
 {
-    const e3d_worker *owner = context->renderer->workers[id & ((1u << context->tables[E3D_SET_SCENE].bits) - 1)];
-    return record->meta & E3D_RECORD_CUT ? (const float *)owner->sets[E3D_SET_SCENE].corners.data +
-                                               9 * (size_t)(record->meta >> E3D_RECORD_SHIFT)
-                                         : NULL;
+    if (!(record->meta & E3D_RECORD_CUT))
+        return NULL;
+    return in->corners[id & ((1u << in->table->bits) - 1)] + 9 * (size_t)(record->meta >> E3D_RECORD_SHIFT);
 }
 
 /* Finds the face of a micro-triangle, whose `local` is its number in the cluster so far. */
-static ALWAYS_INLINE void find_face(const e3d_context *context, instance_finder *finder, e3d_visible_primitive *piece)
+static ALWAYS_INLINE void find_face(const e3d_draws *draws, instance_finder *finder, e3d_visible_primitive *piece)
 {
     const e3d_drawn_cluster *drawn = piece->drawn;
-    finder->draw = &context->draws->states[drawn->draw];
+    finder->draw = &draws->states[drawn->draw];
     finder->first = drawn->order;
     finder->instance = drawn->instance - (int32_t)finder->draw->instance_base;
     piece->local = drawn->faces[piece->local];
 }
 
-static void find_primitive(const e3d_context *context, uint32_t id, instance_finder *finder, e3d_visible_primitive *piece)
+static void find_primitive(const e3d_shade_in *in, uint32_t id, instance_finder *finder, e3d_visible_primitive *piece)
 {
     uint32_t order = piece->record->order;
-    piece->corners = corners_of(context, id, piece->record);
+    piece->corners = corners_of(in, id, piece->record);
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
-        const e3d_order_entry *entry = e3d_find_order_entry(context->draws, order);
-        const e3d_draw_state *draw = &context->draws->states[entry->draw];
+        const e3d_order_entry *entry = e3d_find_order_entry(in->pass->draws, order);
+        const e3d_draw_state *draw = &in->pass->draws->states[entry->draw];
         uint32_t primitives = (uint32_t)draw->primitives, instances = (order - entry->order) / primitives;
         finder->draw = draw;
         finder->instance = entry->instance + (int32_t)instances;
@@ -101,9 +95,8 @@ static int32_t bucket_id_of(const e3d_visible_primitive *piece)
     return face < 0 ? -1 : piece->draw->mesh->material_most ? mesh->material_ids[face] : 0;
 }
 
-static e3d_bucket bucket_of(const e3d_context *context, const e3d_draw_state *state, int32_t id)
+static e3d_bucket bucket_of(const e3d_frame *frame, const e3d_draw_state *state, int32_t id)
 {
-    const e3d_frame *frame = context->frame;
     const e3d_draw *draw = state->draw;
     const e3d_mesh_desc *mesh = &state->mesh->desc;
     e3d_bucket g = {.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)],
@@ -127,16 +120,16 @@ static int same_bucket(const e3d_bucket *a, const e3d_bucket *b)
 }
 
 /* The bucket's number, or -1 when memory is out. */
-static int32_t number_bucket(e3d_worker *worker, const e3d_bucket *bucket)
+static int32_t number_bucket(e3d_shade_memory *memory, const e3d_bucket *bucket)
 {
-    e3d_bucket *buckets = worker->surface.buckets.data;
-    for (size_t g = worker->surface.buckets.count; g-- > 0;)
+    e3d_bucket *buckets = memory->buckets.data;
+    for (size_t g = memory->buckets.count; g-- > 0;)
         if (same_bucket(&buckets[g], bucket))
             return (int32_t)g;
-    if (!e3d_array_reserve(&worker->surface.buckets, worker->surface.buckets.count + 1, sizeof *bucket))
+    if (!e3d_array_reserve(&memory->buckets, memory->buckets.count + 1, sizeof *bucket))
         return -1;
-    ((e3d_bucket *)worker->surface.buckets.data)[worker->surface.buckets.count] = *bucket;
-    return (int32_t)worker->surface.buckets.count++;
+    ((e3d_bucket *)memory->buckets.data)[memory->buckets.count] = *bucket;
+    return (int32_t)memory->buckets.count++;
 }
 
 /* ---- the pieces of a tile ---- */
@@ -149,17 +142,17 @@ typedef struct bucket_finder {
 } bucket_finder;
 
 /* The bucket of a piece, whose last it becomes; 0 when memory is out. */
-static ALWAYS_INLINE int join_bucket(const e3d_context *context, e3d_worker *worker, int32_t number, bucket_finder *finder)
+static ALWAYS_INLINE int join_bucket(const e3d_frame *frame, e3d_shade_memory *memory, int32_t number, bucket_finder *finder)
 {
-    e3d_visible_primitive *pieces = worker->surface.pieces.data, *piece = &pieces[number];
+    e3d_visible_primitive *pieces = memory->pieces.data, *piece = &pieces[number];
     int32_t id = bucket_id_of(piece);
     if (piece->draw != finder->draw || id != finder->id) {
-        e3d_bucket bucket = bucket_of(context, piece->draw, id);
-        *finder = (bucket_finder){piece->draw, id, number_bucket(worker, &bucket)};
+        e3d_bucket bucket = bucket_of(frame, piece->draw, id);
+        *finder = (bucket_finder){piece->draw, id, number_bucket(memory, &bucket)};
         if (finder->bucket < 0)
             return 0;
     }
-    e3d_bucket *bucket = (e3d_bucket *)worker->surface.buckets.data + finder->bucket;
+    e3d_bucket *bucket = (e3d_bucket *)memory->buckets.data + finder->bucket;
     if (bucket->last < 0)
         bucket->first = number;
     else
@@ -190,14 +183,14 @@ static void find_named(const e3d_record_table *table, const e3d_shown_piece *of,
 }
 
 /* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
-static void find_primitives(const e3d_context *context, const e3d_shown_piece *of, piece_range range, instance_finder *finder,
+static void find_primitives(const e3d_shade_in *in, const e3d_shown_piece *of, piece_range range, instance_finder *finder,
                             e3d_visible_primitive *pieces)
 {
     for (int32_t n = range.first; n < range.end; n++) {
         if (pieces[n].drawn)
-            find_face(context, finder, &pieces[n]);
+            find_face(in->pass->draws, finder, &pieces[n]);
         else
-            find_primitive(context, of[n].id, finder, &pieces[n]);
+            find_primitive(in, of[n].id, finder, &pieces[n]);
         pieces[n].draw = finder->draw;
         pieces[n].instance = finder->instance;
         __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)pieces[n].local));
@@ -205,13 +198,13 @@ static void find_primitives(const e3d_context *context, const e3d_shown_piece *o
 }
 
 /* 0 when memory is out. */
-static int find_buckets(const e3d_context *context, e3d_worker *worker, piece_range range, bucket_finder *finder)
+static int find_buckets(const e3d_frame *frame, e3d_shade_memory *memory, piece_range range, bucket_finder *finder)
 {
-    e3d_visible_primitive *pieces = worker->surface.pieces.data;
+    e3d_visible_primitive *pieces = memory->pieces.data;
     for (int32_t n = range.first; n < range.end; n++)
         find_vertices(&pieces[n]);
     for (int32_t n = range.first; n < range.end; n++)
-        if (!join_bucket(context, worker, n, finder))
+        if (!join_bucket(frame, memory, n, finder))
             return 0;
     return 1;
 }
@@ -223,31 +216,31 @@ static piece_range range_of(int32_t first, int32_t count, int32_t all)
 
 /* A software pipeline over ranges of pieces: each stage prefetches what the next one reads a range later, from anywhere in memory. The
  * stages' loops are short, so that an out-of-order processor overlaps several pieces. */
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker)
+int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
 {
     enum { SOME = 32 };
-    e3d_shown *shown = &worker->tile->shown;
+    e3d_shown *shown = &memory->shown;
     instance_finder instance = {0};
     bucket_finder bucket = {0};
     int32_t all = shown->pieces;
     shown->piece[all].first = shown->count;
-    worker->surface.buckets.count = 0;
-    if (!e3d_array_reserve(&worker->surface.pieces, (size_t)all, sizeof(e3d_visible_primitive)))
+    memory->buckets.count = 0;
+    if (!e3d_array_reserve(&memory->pieces, (size_t)all, sizeof(e3d_visible_primitive)))
         return 0;
-    e3d_visible_primitive *pieces = worker->surface.pieces.data;
+    e3d_visible_primitive *pieces = memory->pieces.data;
     for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
-        find_named(&context->tables[E3D_SET_SCENE], shown->piece, range_of(n, SOME, all), pieces);
-        find_primitives(context, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
-        if (!find_buckets(context, worker, range_of(n - 2 * SOME, SOME, all), &bucket))
+        find_named(in->table, shown->piece, range_of(n, SOME, all), pieces);
+        find_primitives(in, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
+        if (!find_buckets(in->pass->frame, memory, range_of(n - 2 * SOME, SOME, all), &bucket))
             return 0;
     }
-    worker->surface.pieces.count = (size_t)all;
+    memory->pieces.count = (size_t)all;
     return 1;
 }
 
 /* ---- what a piece brings, for the surface kernel to work on ---- */
 
-static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n, int32_t instance)
+static void add_matrices(const e3d_prepared *pass, e3d_surfaces *s, int32_t n, int32_t instance)
 {
     int again = n > 0 && s->instance[n - 1] == instance;
     s->instance[n] = instance;
@@ -257,11 +250,11 @@ static void add_matrices(const e3d_context *context, e3d_surfaces *s, int32_t n,
     }
     int32_t m = s->matrix[n] = s->matrices++;
     for (int k = 0; k < 16; k++)
-        s->clip[k][m] = context->view->instances[instance].clip[k];
+        s->clip[k][m] = pass->view->instances[instance].clip[k];
     for (int k = 0; k < 12; k++)
-        s->world[k][m] = context->draws->instances[instance].world[k];
+        s->world[k][m] = pass->draws->instances[instance].world[k];
     for (int k = 0; k < 9; k++)
-        s->normals[k][m] = context->draws->instances[instance].normal[k];
+        s->normals[k][m] = pass->draws->instances[instance].normal[k];
 }
 
 /* `out`: [component][vertex]; vertices that aren't there are 0. */
@@ -289,13 +282,13 @@ static void add_normals(const e3d_mesh_desc *mesh, int32_t face, int flat, const
 }
 
 /* R23 */
-static void value_of(const e3d_context *context, const uint8_t *u8, const float *f32, size_t index, float out[3])
+static void value_of(const float unorm8[256], const uint8_t *u8, const float *f32, size_t index, float out[3])
 {
     for (int c = 0; c < 3; c++)
-        out[c] = f32 ? f32[4 * index + c] : context->unorm8[u8[4 * index + c]];
+        out[c] = f32 ? f32[4 * index + c] : unorm8[u8[4 * index + c]];
 }
 
-static void add_colors(const e3d_context *context, const e3d_visible_primitive *piece, const e3d_bucket *bucket,
+static void add_colors(const float unorm8[256], const e3d_visible_primitive *piece, const e3d_bucket *bucket,
                        const int32_t vertex[3], int count, e3d_surfaces *s, int32_t n)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
@@ -303,13 +296,13 @@ static void add_colors(const e3d_context *context, const e3d_visible_primitive *
     for (int v = 0; v < 3 && bucket->by_vertex; v++) {
         float value[3] = {0.0f, 0.0f, 0.0f};
         if (v < count)
-            value_of(context, mesh->colors_u8, mesh->colors_f32, (size_t)vertex[v], value);
+            value_of(unorm8, mesh->colors_u8, mesh->colors_f32, (size_t)vertex[v], value);
         for (int c = 0; c < 3; c++)
             s->color[c][v][n] = value[c];
     }
     if (bucket->by_instance) {
         float value[3];
-        value_of(context, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance, value);
+        value_of(unorm8, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance, value);
         for (int c = 0; c < 3; c++)
             s->instance_color[c][n] = value[c];
     }
@@ -327,7 +320,7 @@ static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, 
 }
 
 /* The next surface is that of a piece, without what e3d_find_surfaces adds. */
-static void add_surface(const e3d_context *context, const e3d_visible_primitive *piece, const e3d_bucket *bucket, int wanted,
+static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *piece, const e3d_bucket *bucket, int wanted,
                         e3d_surfaces *s)
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
@@ -335,7 +328,7 @@ static void add_surface(const e3d_context *context, const e3d_visible_primitive 
     int32_t n = s->count++, face = e3d_face_of(piece);
     int count = corners_count(piece);
     s->irregular += piece->corners || face < 0 || mesh->components == 4;
-    add_matrices(context, s, n, (int32_t)piece->draw->instance_base + piece->instance);
+    add_matrices(in->pass, s, n, (int32_t)piece->draw->instance_base + piece->instance);
     s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
     s->projected += piece->drawn != NULL;
     if (!piece->drawn)
@@ -346,8 +339,8 @@ static void add_surface(const e3d_context *context, const e3d_visible_primitive 
         add_normals(mesh, face, bucket->flat, vertex, s, n);
     if (wanted & E3D_WANT_UV)
         add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
-    if (e3d_plans(context, E3D_PLAN_BASE_COLOR))
-        add_colors(context, piece, bucket, vertex, count, s, n);
+    if (e3d_plans(in->pass, E3D_PLAN_BASE_COLOR))
+        add_colors(in->unorm8, piece, bucket, vertex, count, s, n);
 }
 
 /* Ahead of their use: vertices are anywhere in memory. Only of a piece of this draw, whose face was asked for when it was found. */
@@ -375,12 +368,12 @@ static void set_texels(const e3d_bucket *bucket, e3d_surfaces *s)
     s->texels[1] = (float)level->height;
 }
 
-int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int32_t first, int wanted)
+int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory)
 {
     enum { AHEAD = 24 };
-    const e3d_visible_primitive *pieces = worker->surface.pieces.data;
-    e3d_surfaces *s = &worker->tile->surfaces;
-    int32_t p = first, last = (int32_t)worker->surface.pieces.count - 1 - AHEAD;
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    e3d_surfaces *s = &memory->surfaces;
+    int32_t p = first, last = (int32_t)memory->pieces.count - 1 - AHEAD;
     for (int32_t i = first; i < first + AHEAD && i <= last && wanted & E3D_WANT_SURFACE; i++)
         fetch_vertices(&pieces[i], pieces[first].draw, wanted);
     s->count = s->matrices = s->irregular = s->projected = 0;
@@ -394,7 +387,7 @@ int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e
         }
         if (p <= last)
             fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
-        add_surface(context, &pieces[p], bucket, wanted, s);
+        add_surface(in, &pieces[p], bucket, wanted, s);
     }
     return p;
 }
@@ -402,11 +395,11 @@ int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e
 /* ---- what the kernel leaves to do ---- */
 
 /* R18 of a clipped piece, of a line or a point. */
-static void cut_planes(const e3d_context *context, const e3d_visible_primitive *piece, e3d_surfaces *s, int32_t n)
+static void cut_planes(const e3d_viewport *viewport, const e3d_visible_primitive *piece, e3d_surfaces *s, int32_t n)
 {
     const e3d_record *r = piece->record;
     const float *c = piece->corners;
-    e3d_box box = e3d_sample_box(r->x, r->y, &context->view->viewport);
+    e3d_box box = e3d_sample_box(r->x, r->y, viewport);
     double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
     m = r->iw[1] > m ? r->iw[1] : m;
     m = r->iw[2] > m ? r->iw[2] : m;
@@ -452,20 +445,20 @@ static void clear_positions(e3d_surfaces *s, int32_t n, int first)
             s->position[c][v][n] = 0.0f;
 }
 
-void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted)
+void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, int wanted, e3d_shade_memory *memory)
 {
-    const e3d_visible_primitive *pieces = worker->surface.pieces.data;
-    e3d_surfaces *s = &worker->tile->surfaces;
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    e3d_surfaces *s = &memory->surfaces;
     for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
         s->matrix[n] = s->matrix[s->count - 1];
     if (s->projected)
-        context->kernels->project(s, &context->view->viewport);
-    context->kernels->surface(s, tile->x, tile->y, wanted);
+        pass->kernels->project(s, &pass->view->viewport);
+    pass->kernels->surface(s, tile->x, tile->y, wanted);
     for (int32_t n = 0; n < s->count && s->irregular; n++) {
         const e3d_visible_primitive *piece = &pieces[s->piece[n]];
         const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
         if (piece->corners)
-            cut_planes(context, piece, s, n);
+            cut_planes(&pass->view->viewport, piece, s, n);
         if (piece->corners && wanted & E3D_WANT_LEVEL)
             cut_slopes(s, n);
         if (mesh->components == 4)

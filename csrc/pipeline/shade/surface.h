@@ -2,15 +2,13 @@
 #ifndef E3D_SURFACE_H
 #define E3D_SURFACE_H
 
-#include "core/grow.h"
 #include "e3d.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
-
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_draw_state e3d_draw_state;
-typedef struct e3d_tile e3d_tile;
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/shade/shade.h"
 
 /* Samples that are shaded by the same steps. */
 typedef struct e3d_bucket {
@@ -31,18 +29,11 @@ typedef struct e3d_visible_primitive {
     int32_t first, end;
 } e3d_visible_primitive;
 
-/* A thread's memory, of one tile. */
-typedef struct e3d_surface_state {
-    e3d_array pieces; /* e3d_visible_primitive */
-    e3d_array buckets; /* e3d_bucket */
-} e3d_surface_state;
-
-void e3d_surface_free(e3d_surface_state *state);
 /* The pieces of what shows, chained by bucket; 0 when memory is out. */
-int e3d_find_pieces(const e3d_context *context, e3d_worker *worker);
+int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory);
 /* The surfaces of pieces of a bucket from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
-int32_t e3d_add_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_bucket *bucket, int32_t first, int wanted);
-void e3d_find_surfaces(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int wanted);
+int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory);
+void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, int wanted, e3d_shade_memory *memory);
 int32_t e3d_face_of(const e3d_visible_primitive *piece);
 
 #endif

@@ -2,9 +2,9 @@
 #ifndef E3D_VALUES_H
 #define E3D_VALUES_H
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
+#include "pipeline/shade/shade.h"
+#include "pipeline/store/store.h"
 
-void e3d_outputs_batch(const e3d_context *context, e3d_worker *worker);
+void e3d_outputs_batch(const e3d_store *store, const e3d_shade_memory *memory, e3d_store_memory *out);
 
 #endif

@@ -1,15 +1,13 @@
 /* resolve: the outputs beside colour. Those of a tile are gathered in the worker's memory, then go to the pictures row by row. */
 #include <math.h>
 
-#include "core/grow.h"
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/visible.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/worker.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
+#include "pipeline/store/store.h"
 
 /* How many words a pixel of each output has, and the word that all of them hold in the background. */
 static const struct {
@@ -28,50 +26,45 @@ enum { PLACES = E3D_TILE_SAMPLES + E3D_PAD };
 
 int e3d_output_channels(e3d_output_kind kind) { return KINDS[kind].channels; }
 
-int e3d_outputs_prepare(e3d_context *context)
+void e3d_outputs_prepare(const e3d_targets *targets, e3d_store *out)
 {
-    size_t words = 0;
+    out->words = 0;
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        void *target = k == E3D_OUTPUT_COLOR ? NULL : e3d_targets_get(context->targets, k); /* which others resolve */
-        context->outputs[k] = (e3d_output){target, words};
-        words += target ? (size_t)KINDS[k].channels * PLACES : 0;
+        void *target = k == E3D_OUTPUT_COLOR ? NULL : e3d_targets_get(targets, k); /* which others resolve */
+        out->outputs[k] = (e3d_output){target, out->words};
+        out->words += target ? (size_t)KINDS[k].channels * PLACES : 0;
     }
-    for (int32_t w = 0; w < context->renderer->threads; w++)
-        if (!e3d_array_reserve(&context->renderer->workers[w]->outputs.words, words, sizeof(int32_t)))
-            return 0;
-    return 1;
 }
 
-void *e3d_outputs_gathered(const e3d_context *context, const e3d_worker *worker, e3d_output_kind kind)
+void *e3d_outputs_gathered(const e3d_store *store, const e3d_store_memory *memory, e3d_output_kind kind)
 {
-    const e3d_output *output = &context->outputs[kind];
-    return output->target ? (int32_t *)worker->outputs.words.data + output->first : NULL;
+    const e3d_output *output = &store->outputs[kind];
+    return output->target ? (int32_t *)memory->words.data + output->first : NULL;
 }
 
-void e3d_outputs_begin(const e3d_context *context, e3d_worker *worker)
+void e3d_outputs_begin(const e3d_store *store, e3d_store_memory *memory)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        int32_t *words = e3d_outputs_gathered(context, worker, k), background = KINDS[k].background.as_int32_t;
+        int32_t *words = e3d_outputs_gathered(store, memory, k), background = KINDS[k].background.as_int32_t;
         for (int i = 0; words && i < KINDS[k].channels * E3D_TILE_SAMPLES; i++)
             words[i] = background;
     }
 }
 
-void e3d_outputs_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_outputs_again(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        void *pixels = e3d_outputs_gathered(context, worker, k);
+        void *pixels = e3d_outputs_gathered(store, memory, k);
         size_t bytes = sizeof(int32_t) * (size_t)KINDS[k].channels;
         if (pixels)
-            e3d_read_tile(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
+            e3d_read_tile(store->pass, tile, store->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
     }
 }
 
-static void put_ndc_depth(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile)
+static void put_ndc_depth(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory)
 {
-    float *pixels = e3d_outputs_gathered(context, worker, E3D_OUTPUT_NDC_DEPTH);
-    const e3d_visible_tile *visible = worker->visible;
-    int axis = context->frame->samples_axis, middle = axis / 2;
+    float *pixels = e3d_outputs_gathered(store, memory, E3D_OUTPUT_NDC_DEPTH);
+    int axis = store->pass->frame->samples_axis, middle = axis / 2;
     for (int y = 0; pixels && y < tile->height / axis; y++)
         for (int x = 0; x < tile->width / axis; x++) {
             int at = (y * axis + middle) * E3D_TILE + x * axis + middle;
@@ -79,25 +72,25 @@ static void put_ndc_depth(const e3d_context *context, const e3d_worker *worker, 
         }
 }
 
-void e3d_outputs_end(const e3d_context *context, const e3d_worker *worker, const e3d_tile *tile)
+void e3d_outputs_end(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory)
 {
-    put_ndc_depth(context, worker, tile);
+    put_ndc_depth(store, visible, tile, memory);
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        const void *pixels = e3d_outputs_gathered(context, worker, k);
+        const void *pixels = e3d_outputs_gathered(store, memory, k);
         size_t bytes = sizeof(int32_t) * (size_t)KINDS[k].channels;
         if (pixels)
-            e3d_write_tile(context, tile, context->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
+            e3d_write_tile(store->pass, tile, store->outputs[k].target, bytes, pixels, E3D_TILE * bytes);
     }
 }
 
-void e3d_outputs_blank(const e3d_context *context, const e3d_tile *tile)
+void e3d_outputs_blank(const e3d_store *store, const e3d_tile *tile)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
         int32_t row[3 * E3D_TILE];
-        if (!context->outputs[k].target)
+        if (!store->outputs[k].target)
             continue;
         for (int i = 0; i < KINDS[k].channels * E3D_TILE; i++)
             row[i] = KINDS[k].background.as_int32_t;
-        e3d_write_tile(context, tile, context->outputs[k].target, sizeof(int32_t) * (size_t)KINDS[k].channels, row, 0);
+        e3d_write_tile(store->pass, tile, store->outputs[k].target, sizeof(int32_t) * (size_t)KINDS[k].channels, row, 0);
     }
 }

@@ -3,14 +3,15 @@
 
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
-#include "pipeline/state/context.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/store/picture.h"
 
 /* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
-static int is_far(const e3d_context *context, size_t bytes)
+static int is_far(const e3d_prepared *pass, size_t bytes)
 {
     enum { LARGE = 1 << 20, SHARED = 1 << 18 };
-    return bytes >= (context->renderer->threads > 1 ? SHARED : LARGE);
+    return bytes >= (pass->threads > 1 ? SHARED : LARGE);
 }
 
 /* A tile's place in a picture, in bytes: to its first pixel, of one of its rows, and from each row to the next. */
@@ -19,10 +20,10 @@ typedef struct place {
     int rows;
 } place;
 
-static place place_of(const e3d_context *context, const e3d_tile *tile, size_t pixel)
+static place place_of(const e3d_prepared *pass, const e3d_tile *tile, size_t pixel)
 {
-    int axis = context->frame->samples_axis;
-    size_t pitch = pixel * (size_t)context->frame->width;
+    int axis = pass->frame->samples_axis;
+    size_t pitch = pixel * (size_t)pass->frame->width;
     size_t start = (size_t)(tile->y / axis) * pitch + (size_t)(tile->x / axis) * pixel;
     return (place){start, pixel * (size_t)(tile->width / axis), pitch, tile->height / axis};
 }
@@ -33,26 +34,19 @@ static void copy(const e3d_pixel_rows *rows)
         memcpy(rows->to + (size_t)y * rows->pitch, rows->from + (size_t)y * rows->step, rows->bytes);
 }
 
-int e3d_tile_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step,
-                  e3d_pixel_rows *out)
+void e3d_write_tile(const e3d_prepared *pass, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
 {
-    const place at = place_of(context, tile, pixel);
-    *out = (e3d_pixel_rows){(char *)picture + at.start, from, at.bytes, at.pitch, step, at.rows};
-    return is_far(context, at.pitch * (size_t)context->frame->height);
-}
-
-void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
-{
-    e3d_pixel_rows rows;
-    if (e3d_tile_rows(context, tile, picture, pixel, from, step, &rows))
-        context->kernels->stream(&rows);
+    const place at = place_of(pass, tile, pixel);
+    const e3d_pixel_rows rows = {(char *)picture + at.start, from, at.bytes, at.pitch, step, at.rows};
+    if (is_far(pass, at.pitch * (size_t)pass->frame->height))
+        pass->kernels->stream(&rows);
     else
         copy(&rows);
 }
 
-void e3d_read_tile(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *to, size_t step)
+void e3d_read_tile(const e3d_prepared *pass, const e3d_tile *tile, const void *picture, size_t pixel, void *to, size_t step)
 {
-    const place at = place_of(context, tile, pixel);
+    const place at = place_of(pass, tile, pixel);
     const e3d_pixel_rows rows = {to, (const char *)picture + at.start, at.bytes, step, at.pitch, at.rows};
     copy(&rows);
 }

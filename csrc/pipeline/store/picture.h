@@ -2,17 +2,14 @@
 #ifndef E3D_PICTURE_H
 #define E3D_PICTURE_H
 
-#include "kernels/types/shading.h"
+#include <stddef.h>
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_tile e3d_tile;
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 
 /* Writes `rows`, `step` bytes apart, of pixels of so many bytes, to the tile's place in a picture. */
-void e3d_write_tile(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
-/* Finds the rows that e3d_write_tile writes; returns whether it streams them. */
-int e3d_tile_rows(const e3d_context *context, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step,
-                  e3d_pixel_rows *out);
+void e3d_write_tile(const e3d_prepared *pass, const e3d_tile *tile, void *picture, size_t pixel, const void *rows, size_t step);
 /* Reads them back. */
-void e3d_read_tile(const e3d_context *context, const e3d_tile *tile, const void *picture, size_t pixel, void *rows, size_t step);
+void e3d_read_tile(const e3d_prepared *pass, const e3d_tile *tile, const void *picture, size_t pixel, void *rows, size_t step);
 
 #endif

@@ -5,8 +5,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
+#include "core/limits.h"
 
 /* What is done with tiles: those that something is in are drawn, the others cleared. */
 typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
@@ -29,10 +28,16 @@ typedef struct e3d_queue_state {
     char more_padding[128];
 } e3d_queue_state;
 
-/* All tiles are to be done, each by one worker. */
-void e3d_queue_tiles(e3d_context *context);
+/* The shares of all threads. */
+typedef struct e3d_queue {
+    int32_t threads;
+    e3d_queue_state *of[E3D_MAX_THREADS];
+} e3d_queue;
 
-/* The next tile that a worker may do this with; -1 when none is left. */
-int64_t e3d_take_tile(const e3d_context *context, e3d_worker *worker, e3d_to_do what);
+/* All of so many tiles are to be done, each by one thread. */
+void e3d_queue_tiles(e3d_queue *queue, int64_t tiles);
+
+/* The next tile that a thread may do this with; -1 when none is left. */
+int64_t e3d_take_tile(const e3d_queue *queue, int thread, e3d_to_do what);
 
 #endif

@@ -4,21 +4,22 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shading.h"
+#include "kernels/types/visible.h"
 #include "pipeline/pass/plan.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/tile_memory.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
 #include "pipeline/store/resolve.h"
+#include "pipeline/store/store.h"
 
-static uint32_t encode_one(const e3d_context *context, const float color[3], float alpha)
+static uint32_t encode_one(const e3d_prepared *pass, const float color[3], float alpha)
 {
     float planes[3][1 + E3D_PAD] = {{0}};
     uint32_t rgba[1 + E3D_PAD];
     for (int k = 0; k < 3; k++)
         planes[k][0] = color[k];
-    context->kernels->encode(planes[0], planes[1], planes[2], 1, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), rgba);
+    pass->kernels->encode(planes[0], planes[1], planes[2], 1, e3d_plans(pass, E3D_PLAN_ENCODES_SRGB), rgba);
     return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
 }
 
@@ -37,13 +38,15 @@ static float unit(float v)
     return v < 1.0f ? v : 1.0f;
 }
 
-void e3d_resolve_prepare(e3d_context *context)
+void e3d_resolve_prepare(const e3d_prepared *pass, e3d_store *out)
 {
-    const e3d_frame *frame = context->frame;
-    e3d_background *background = &context->background;
-    e3d_ink *line = &context->line;
+    const e3d_frame *frame = pass->frame;
+    e3d_background *background = &out->background;
+    e3d_ink *line = &out->line;
     int opaque = frame->background[3] > 0.5f;
     float pixel[3];
+    out->pass = pass;
+    e3d_outputs_prepare(pass->targets, out);
     for (int k = 0; k < 3; k++) {
         background->color[k] = unit(frame->background[k]);
         background->sample[k] = opaque ? background->color[k] : 0.0f;
@@ -52,108 +55,106 @@ void e3d_resolve_prepare(e3d_context *context)
     }
     background->sample[3] = opaque;
     line->sample[3] = 1.0f;
-    background->rgba = encode_one(context, pixel, frame->background[3]);
-    line->rgba = encode_one(context, frame->line_color, 1.0f);
+    background->rgba = encode_one(pass, pixel, frame->background[3]);
+    line->rgba = encode_one(pass, frame->line_color, 1.0f);
     for (int x = 0; x < E3D_TILE; x++)
         background->row[x] = background->rgba;
 }
 
-static void fill_samples(const e3d_context *context, e3d_samples *samples)
+static void fill_samples(const e3d_store *store, e3d_samples *samples)
 {
     float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < E3D_TILE_SAMPLES; i++)
-            planes[k][i] = context->background.sample[k];
+            planes[k][i] = store->background.sample[k];
 }
 
-void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker)
+void e3d_resolve_begin(const e3d_store *store, e3d_store_memory *memory)
 {
-    e3d_tile_memory *memory = worker->tile;
-    e3d_outputs_begin(context, worker);
-    if (!context->targets->color)
+    e3d_outputs_begin(store, memory);
+    if (!store->pass->targets->color)
         return;
-    if (context->frame->samples_axis > 1) {
-        fill_samples(context, &memory->pixels.samples);
+    if (store->pass->frame->samples_axis > 1) {
+        fill_samples(store, &memory->samples);
         return;
     }
     for (int i = 0; i < E3D_TILE_SAMPLES; i++)
-        memory->pixels.rgba[i] = context->background.rgba;
+        memory->rgba[i] = store->background.rgba;
 }
 
-void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_resolve_again(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory)
 {
-    e3d_outputs_again(context, worker, tile);
-    if (context->targets->color)
-        e3d_read_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->pixels.rgba, E3D_TILE * sizeof(uint32_t));
+    e3d_outputs_again(store, tile, memory);
+    if (store->pass->targets->color)
+        e3d_read_tile(store->pass, tile, store->pass->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
 }
 
 /* A sample's colour, clamped, and whether it counts; or the pixel that it is. */
-static void set_sample(const e3d_context *context, e3d_tile_memory *memory, int at, const float sample[4], uint32_t rgba)
+static void set_sample(const e3d_store *store, e3d_store_memory *memory, int at, const float sample[4], uint32_t rgba)
 {
-    if (context->frame->samples_axis == 1) {
-        memory->pixels.rgba[at] = rgba;
+    if (store->pass->frame->samples_axis == 1) {
+        memory->rgba[at] = rgba;
         return;
     }
     for (int k = 0; k < 3; k++)
-        memory->pixels.samples.color[k][at] = sample[k];
-    memory->pixels.samples.counts[at] = sample[3];
+        memory->samples.color[k][at] = sample[k];
+    memory->samples.counts[at] = sample[3];
 }
 
-void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker)
+void e3d_resolve_hidden(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory)
 {
-    const e3d_batch *batch = &worker->tile->batch;
     for (int i = 0; i < batch->count; i++)
-        set_sample(context, worker->tile, batch->sample[i], context->background.sample, context->background.rgba);
+        set_sample(store, memory, batch->sample[i], store->background.sample, store->background.rgba);
 }
 
-void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker)
+void e3d_resolve_batch(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory)
 {
-    e3d_tile_memory *memory = worker->tile;
-    if (context->frame->samples_axis == 1)
-        context->kernels->put(&memory->batch, e3d_plans(context, E3D_PLAN_ENCODES_SRGB), memory->pixels.rgba);
+    const e3d_prepared *pass = store->pass;
+    if (pass->frame->samples_axis == 1)
+        pass->kernels->put(batch, e3d_plans(pass, E3D_PLAN_ENCODES_SRGB), memory->rgba);
     else
-        context->kernels->keep(&memory->batch, &memory->pixels.samples);
+        pass->kernels->keep(batch, &memory->samples);
 }
 
-void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_resolve_overdraw(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory)
 {
-    e3d_tile_memory *memory = worker->tile;
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++) {
-            int at = y * E3D_TILE + x, count = memory->marks.count[at];
+            int at = y * E3D_TILE + x, count = counts[at];
             if (!count)
                 continue;
             const uint8_t *c = E3D_OVERDRAW_RAMP[count < 15 ? count : 15];
             const float sample[4] = {c[0] * E3D_UNORM8, c[1] * E3D_UNORM8, c[2] * E3D_UNORM8, 1.0f};
-            set_sample(context, memory, at, sample,
+            set_sample(store, memory, at, sample,
                        c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | 0xFF000000u);
         }
 }
 
-void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_resolve_wire(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory)
 {
-    e3d_tile_memory *memory = worker->tile;
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++)
-            if (memory->marks.count[y * E3D_TILE + x])
-                set_sample(context, memory, y * E3D_TILE + x, context->line.sample, context->line.rgba);
+            if (counts[y * E3D_TILE + x])
+                set_sample(store, memory, y * E3D_TILE + x, store->line.sample, store->line.rgba);
 }
 
 /* The pixels of several samples each, row by row, to where pixels of one sample are. */
-static void average(const e3d_context *context, e3d_tile_memory *memory, const e3d_tile *tile)
+static void average(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory)
 {
-    int axis = context->frame->samples_axis;
+    const e3d_prepared *pass = store->pass;
+    int axis = pass->frame->samples_axis;
     for (int y = 0; y < tile->height / axis; y++)
-        context->kernels->average(&memory->pixels.samples, axis, y * axis, tile->width / axis, context->background.color,
-                                  e3d_plans(context, E3D_PLAN_ENCODES_SRGB), memory->pixels.rgba + y * E3D_TILE);
+        pass->kernels->average(&memory->samples, axis, y * axis, tile->width / axis, store->background.color,
+                               e3d_plans(pass, E3D_PLAN_ENCODES_SRGB), memory->rgba + y * E3D_TILE);
 }
 
-void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile)
+void e3d_resolve(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory)
 {
-    e3d_outputs_end(context, worker, tile);
-    if (!context->targets->color)
+    const e3d_prepared *pass = store->pass;
+    e3d_outputs_end(store, visible, tile, memory);
+    if (!pass->targets->color)
         return;
-    if (context->frame->samples_axis > 1)
-        average(context, worker->tile, tile);
-    e3d_write_tile(context, tile, context->targets->color, sizeof(uint32_t), worker->tile->pixels.rgba, E3D_TILE * sizeof(uint32_t));
+    if (pass->frame->samples_axis > 1)
+        average(store, tile, memory);
+    e3d_write_tile(pass, tile, pass->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
 }

@@ -4,43 +4,25 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
 #include "kernels/types/shading.h"
+#include "kernels/types/visible.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/store/store.h"
 
-/* What is drawn in one colour: a sample of it and whether it counts (e3d_samples), and a pixel of nothing else. */
-typedef struct e3d_ink {
-    float sample[4];
-    uint32_t rgba;
-} e3d_ink;
-
-typedef struct e3d_background {
-    float color[3]; /* clamped */
-    float sample[4];
-    uint32_t rgba;
-    uint32_t row[E3D_TILE]; /* of such pixels */
-} e3d_background;
-
-/* The colours of a tile. */
-typedef struct e3d_pixels_memory {
-    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
-    e3d_samples samples;                       /* of several */
-} e3d_pixels_memory;
-
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_tile e3d_tile;
-
-/* The frame's background and its lines, encoded. */
-void e3d_resolve_prepare(e3d_context *context);
-void e3d_resolve_begin(const e3d_context *context, e3d_worker *worker);
+/* Finds what the store needs of a pass: its outputs, its background and its lines, encoded. */
+void e3d_resolve_prepare(const e3d_prepared *pass, e3d_store *out);
+void e3d_resolve_begin(const e3d_store *store, e3d_store_memory *memory);
 /* Reads back a tile that is drawn already, of which some samples are to be shaded anew. */
-void e3d_resolve_again(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+void e3d_resolve_again(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory);
 /* batch->color is that of its samples. */
-void e3d_resolve_batch(const e3d_context *context, e3d_worker *worker);
+void e3d_resolve_batch(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory);
 /* The batch's samples show the background again: forward shading may have drawn there before. */
-void e3d_resolve_hidden(const e3d_context *context, e3d_worker *worker);
-void e3d_resolve_overdraw(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
-void e3d_resolve_wire(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
-void e3d_resolve(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile);
+void e3d_resolve_hidden(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory);
+/* `counts`: of faces, or of edges, at each sample. */
+void e3d_resolve_overdraw(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory);
+void e3d_resolve_wire(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory);
+/* The tile's pixels, and what `visible` tells of depths, go to the targets. */
+void e3d_resolve(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory);
 
 #endif

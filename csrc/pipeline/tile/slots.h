@@ -4,11 +4,9 @@
 
 #include "core/grow.h"
 #include "core/limits.h"
-#include "pipeline/pass/view.h"
-#include "pipeline/state/tile_state.h"
+#include "kernels/types/shown.h"
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
+typedef struct e3d_tile_job e3d_tile_job;
 
 /* A thread's memory: of each slot of a tile the record's ID and order (uint32_t). */
 typedef struct e3d_slots_state {
@@ -25,20 +23,11 @@ typedef struct e3d_marks_memory {
 void e3d_marks_init(e3d_marks_memory *marks);
 void e3d_slots_free(e3d_slots_state *slots);
 
-/* A tile that a thread draws. */
-typedef struct e3d_tile_job {
-    e3d_context *context;
-    e3d_worker *worker;
-    e3d_tile tile;
-    int64_t number;
-    e3d_tile_state state; /* before this */
-} e3d_tile_job;
-
 /* Draws the records of the scene, and shades them at once or leaves that for later; 0 when memory is out. */
-int e3d_slots_draw(e3d_tile_job *job);
+int e3d_slots_draw(const e3d_tile_job *job);
 /* Runs that slots own are owned by their records' IDs. */
-void e3d_slots_to_ids(const e3d_worker *worker, int32_t count);
+void e3d_slots_to_ids(const e3d_slots_state *slots, e3d_run *runs, int32_t count);
 /* Draws what there is beside the visible surfaces: overdraw counts, or the edges of a wireframe; 0 when memory is out. */
-int e3d_slots_mark(e3d_tile_job *job);
+int e3d_slots_mark(const e3d_tile_job *job);
 
 #endif

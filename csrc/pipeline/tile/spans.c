@@ -7,21 +7,23 @@
 #include "kernels/kernels.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/records.h"
+#include "pipeline/geometry/state.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/shade/runs.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/records.h"
-#include "pipeline/state/tile_memory.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/shade/shade.h"
 #include "pipeline/tile/spans.h"
+#include "pipeline/tile/tile_memory.h"
 
 /* Whether a tile has few records, and no fragments. Of many not all bins are looked through. */
-static int are_few(const e3d_context *context, int64_t tile)
+static int are_few(const e3d_bins *bins, int64_t tile)
 {
     uint32_t count = 0;
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_worker *worker = context->renderer->workers[w];
-        const e3d_record_set *set = &worker->sets[E3D_SET_SCENE];
-        if (e3d_first_block(&worker->fragments.bins, tile) != E3D_NO_BLOCK)
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
+        if (e3d_first_block(&bins->of[t]->fragments.bins, tile) != E3D_NO_BLOCK)
             return 0;
         for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
             if ((count += block->count) > E3D_MOST_COVERING)
@@ -31,13 +33,13 @@ static int are_few(const e3d_context *context, int64_t tile)
 }
 
 /* Finds what the records of a tile's bins cover, and lists all of it; 0 where that is too much. */
-static int cover_records(const e3d_context *context, e3d_tile_memory *memory, int64_t tile)
+static int cover_records(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile, e3d_tile_memory *memory)
 {
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_record_set *set = &context->renderer->workers[w]->sets[E3D_SET_SCENE];
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
         for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
-            if (!context->kernels->cover_records(&memory->spans.cover, &context->tables[E3D_SET_SCENE], block->id, (int)block->count,
-                                                 &memory->shown))
+            if (!kernels->cover_records(&memory->spans.cover, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count,
+                                        &memory->shade.shown))
                 return 0;
     }
     return 1;
@@ -53,7 +55,7 @@ static void begin(e3d_tile_memory *memory, const e3d_tile *tile)
     cover->count = cover->used = 0;
     memset(cover->once, 0, sizeof cover->once);
     memset(cover->twice, 0, sizeof cover->twice);
-    e3d_shown_begin(&memory->shown, 1);
+    e3d_shown_begin(&memory->shade.shown, 1);
 }
 
 static int meet(const e3d_cover *cover)
@@ -68,45 +70,44 @@ static int meet(const e3d_cover *cover)
 static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int count, uint16_t *sorted)
 {
     for (int i = 0; i < count; i++) {
-        memory->runs.rows[i].sample = numbers[i];
-        memcpy(&memory->runs.rows[i].owner, &memory->spans.cover.record[numbers[i]].record->zmin, sizeof(float));
+        memory->shade.runs.rows[i].sample = numbers[i];
+        memcpy(&memory->shade.runs.rows[i].owner, &memory->spans.cover.record[numbers[i]].record->zmin, sizeof(float));
     }
-    const e3d_run *runs = e3d_sort_runs(memory->runs.rows, memory->runs.spare, count);
+    const e3d_run *runs = e3d_sort_runs(memory->shade.runs.rows, memory->shade.runs.spare, count);
     for (int i = 0; i < count; i++)
         sorted[i] = runs[i].sample;
 }
 
 /* Makes the list of what shows where records meet; 0 where depths of all samples are found sooner. */
-static int show_met(const e3d_context *context, e3d_tile_memory *memory)
+static int show_met(const e3d_kernels *kernels, const e3d_record_table *table, e3d_tile_memory *memory)
 {
-    const e3d_kernels *kernels = context->kernels;
     uint16_t numbers[E3D_MOST_COVERING];
-    e3d_shown_begin(&memory->shown, 1);
-    int count = kernels->show_alone(&memory->spans.cover, &memory->shown, numbers);
+    e3d_shown_begin(&memory->shade.shown, 1);
+    int count = kernels->show_alone(&memory->spans.cover, &memory->shade.shown, numbers);
     sort_by_depth(memory, numbers, count, numbers);
-    return kernels->show_layers(&memory->spans.cover, &context->tables[E3D_SET_SCENE], numbers, count, &memory->spans.layers, &memory->shown);
+    return kernels->show_layers(&memory->spans.cover, table, numbers, count, &memory->spans.layers, &memory->shade.shown);
 }
 
 /* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
-static void judge(e3d_spans_state *trial, int pays)
+static void judge(e3d_spans_memory *trial, int pays)
 {
     enum { MOST = 15 };
     trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1 : MOST;
     trial->left = trial->without;
 }
 
-int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number)
+int e3d_show_spans(const e3d_kernels *kernels, const e3d_bins *bins, const e3d_tile *tile, int64_t number, e3d_tile_memory *out)
 {
-    e3d_tile_memory *memory = worker->tile;
-    if (worker->spans.left > 0) {
-        worker->spans.left--;
+    e3d_spans_memory *spans = &out->spans;
+    if (spans->left > 0) {
+        spans->left--;
         return 0;
     }
-    if (!are_few(context, number))
+    if (!are_few(bins, number))
         return 0;
-    begin(memory, tile);
-    int shows = cover_records(context, memory, number) && (!meet(&memory->spans.cover) || show_met(context, memory));
-    judge(&worker->spans, shows);
+    begin(out, tile);
+    int shows = cover_records(kernels, bins, number, out) && (!meet(&spans->cover) || show_met(kernels, &bins->tables[E3D_SET_SCENE], out));
+    judge(spans, shows);
     return shows;
 }
 

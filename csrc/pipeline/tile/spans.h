@@ -2,25 +2,24 @@
 #ifndef E3D_SPANS_H
 #define E3D_SPANS_H
 
+#include <stdint.h>
+
+#include "kernels/kernels.h"
 #include "kernels/types/shown.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/pass/view.h"
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_tile e3d_tile;
+typedef struct e3d_tile_memory e3d_tile_memory;
 
-/* How many tiles go without spans since these did not pay, and how many of these are left. */
-typedef struct e3d_spans_state {
-    int32_t without, left;
-} e3d_spans_state;
-
-/* A thread's memory, of one tile. */
+/* A thread's memory, of one tile, and what it found lately. */
 typedef struct e3d_spans_memory {
     _Alignas(64) e3d_cover cover;
     _Alignas(64) e3d_layers layers;
+    int32_t without, left; /* how many tiles go without spans since these did not pay, and how many of these are left */
 } e3d_spans_memory;
 
 /* Makes the list of what shows of few records; 0 where they are too large for that, or meet too much. */
-int e3d_show_spans(const e3d_context *context, e3d_worker *worker, const e3d_tile *tile, int64_t number);
+int e3d_show_spans(const e3d_kernels *kernels, const e3d_bins *bins, const e3d_tile *tile, int64_t number, e3d_tile_memory *out);
 /* Whether they left no gap. */
 int e3d_spans_cover_all(const e3d_cover *cover);
 

@@ -2,9 +2,54 @@
 #ifndef E3D_TILE_H
 #define E3D_TILE_H
 
-typedef struct e3d_context e3d_context;
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/types/visible.h"
+#include "pipeline/cull/depths.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/shade/shade.h"
+#include "pipeline/store/queue.h"
+#include "pipeline/store/tile_state.h"
 
-/* Draws all tiles that something is in, and clears the others. */
-void e3d_tiles(e3d_context *context);
+typedef struct e3d_tile_memory e3d_tile_memory;
+
+/* What is asked between tiles whether to stop; `ask` may be NULL. */
+typedef struct e3d_poll {
+    int (*ask)(void *user);
+    void *user;
+} e3d_poll;
+
+typedef struct e3d_tiles_in {
+    const e3d_prepared *pass;
+    const e3d_bins *bins;
+    const e3d_shade_in *shade;
+    e3d_poll poll;
+    int finishes; /* another round follows, which asks for the tiles' depths */
+} e3d_tiles_in;
+
+typedef struct e3d_tiles_out {
+    e3d_tile_memory *of[E3D_MAX_THREADS];
+    e3d_queue queue;
+    e3d_tile_progress *progress; /* of each tile */
+    e3d_visible_tile *kept;      /* NULL: there is one round */
+    e3d_tile_depths *depths;
+} e3d_tiles_out;
+
+/* A tile that a thread draws. */
+typedef struct e3d_tile_job {
+    const e3d_tiles_in *in;
+    e3d_tiles_out *out;
+    e3d_tile_memory *memory; /* the thread's, */
+    e3d_shade_out shades;    /* and what of it shading writes */
+    e3d_visible_tile *visible;
+    e3d_tile tile;
+    int64_t number;
+    e3d_tile_state state; /* before this */
+} e3d_tile_job;
+
+/* Draws all tiles that something is in, and clears the others, until memory is out or the poll says stop. */
+e3d_status e3d_tiles(const e3d_tiles_in *in, e3d_tiles_out *out);
 
 #endif

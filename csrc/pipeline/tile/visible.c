@@ -1,15 +1,15 @@
 /* raster, the visible surface: a tile's records and fragments to the IDs that its samples keep. */
+#include "core/always_inline.h"
 #include "core/limits.h"
-#include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
+#include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/fragments.h"
-#include "pipeline/state/context.h"
-#include "pipeline/state/records.h"
-#include "pipeline/state/renderer.h"
-#include "pipeline/state/tile_memory.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/geometry/records.h"
+#include "pipeline/geometry/state.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/tile/visible.h"
 
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
@@ -25,49 +25,68 @@ void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
 }
 
 /* The next block of each thread in turn: all of them list records from near to far. */
-static void draw_records(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number, int earlier)
+static void draw_records(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
 {
-    const e3d_renderer *renderer = context->renderer;
     const e3d_bin_block *next[E3D_MAX_THREADS];
-    int32_t left = renderer->threads;
-    for (int32_t w = 0; w < renderer->threads; w++) {
-        const e3d_record_set *set = &renderer->workers[w]->sets[E3D_SET_SCENE];
-        next[w] = e3d_first_records(set, earlier ? &set->earlier : &set->bins, tile_number);
+    int32_t left = bins->threads;
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
+        next[t] = e3d_first_records(set, earlier ? &set->earlier : &set->bins, tile_number);
     }
     while (left) {
         left = 0;
-        for (int32_t w = 0; w < renderer->threads; w++) {
-            if (!next[w])
+        for (int32_t t = 0; t < bins->threads; t++) {
+            if (!next[t])
                 continue;
-            context->kernels->raster_visible(visible, &context->tables[E3D_SET_SCENE], next[w]->id, (int)next[w]->count);
-            next[w] = e3d_next_records(&renderer->workers[w]->sets[E3D_SET_SCENE], next[w]);
-            left += next[w] != NULL;
+            kernels->raster_visible(out, &bins->tables[E3D_SET_SCENE], next[t]->id, (int)next[t]->count);
+            next[t] = e3d_next_records(&bins->of[t]->sets[E3D_SET_SCENE], next[t]);
+            left += next[t] != NULL;
         }
     }
 }
 
-void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number, int earlier)
+/* Blocks are in no cache when they are read first. */
+static ALWAYS_INLINE void fetch_block(const e3d_fragment_block *block)
 {
-    for (; earlier >= 0; earlier--) {
-        draw_records(context, visible, tile_number, earlier);
-        for (int32_t w = 0; w < context->renderer->threads; w++)
-            e3d_fragments_draw(context, &context->renderer->workers[w]->fragments, visible, tile_number, earlier);
+    enum { LINE = 64 };
+    for (size_t at = 0; at < sizeof *block; at += LINE)
+        __builtin_prefetch((const char *)block + at);
+}
+
+static void draw_fragments(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
+{
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_fragment_set *set = &bins->of[t]->fragments;
+        const e3d_fragment_block *block = e3d_first_fragments(set, earlier ? &set->earlier : &set->bins, tile_number), *next;
+        for (; block; block = next) {
+            next = e3d_next_fragments(set, block);
+            if (next)
+                fetch_block(next);
+            kernels->raster_fragments(out, &bins->tables[E3D_SET_SCENE], block);
+        }
     }
 }
 
-static void show_records(const e3d_context *context, const e3d_record_set *set, e3d_worker *worker, int64_t tile_number)
+void e3d_visible_draw(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
 {
-    for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile_number); block; block = e3d_next_records(set, block))
-        context->kernels->show_records(worker->visible, &context->tables[E3D_SET_SCENE], block->id, (int)block->count,
-                                       &worker->tile->shown);
+    for (; earlier >= 0; earlier--) {
+        draw_records(kernels, bins, tile_number, earlier, out);
+        draw_fragments(kernels, bins, tile_number, earlier, out);
+    }
 }
 
-void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t tile_number)
+void e3d_visible_show(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, const e3d_visible_tile *visible,
+                      e3d_shown *out)
 {
-    e3d_shown_begin(&worker->tile->shown, 0);
-    for (int32_t w = 0; w < context->renderer->threads; w++) {
-        const e3d_worker *from = context->renderer->workers[w];
-        show_records(context, &from->sets[E3D_SET_SCENE], worker, tile_number);
-        e3d_fragments_show(context, &from->fragments, worker, tile_number);
+    e3d_shown_begin(out, 0);
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *records = &bins->of[t]->sets[E3D_SET_SCENE];
+        const e3d_fragment_set *fragments = &bins->of[t]->fragments;
+        const e3d_bin_block *block = e3d_first_records(records, &records->bins, tile_number);
+        for (; block; block = e3d_next_records(records, block))
+            kernels->show_records(visible, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count, out);
+        const e3d_fragment_block *small = e3d_first_fragments(fragments, &fragments->bins, tile_number);
+        for (; small; small = e3d_next_fragments(fragments, small))
+            kernels->show_fragments(visible, small, out);
     }
 }

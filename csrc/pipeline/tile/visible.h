@@ -2,16 +2,19 @@
 #ifndef E3D_VISIBLE_H
 #define E3D_VISIBLE_H
 
-#include "kernels/types/visible.h"
+#include <stdint.h>
 
-typedef struct e3d_context e3d_context;
-typedef struct e3d_worker e3d_worker;
-typedef struct e3d_tile e3d_tile;
+#include "kernels/kernels.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
+#include "pipeline/geometry/bin.h"
+#include "pipeline/pass/view.h"
 
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
 /* Draws what is in a tile's bins; `earlier`: first what was in them when the tile was finished. */
-void e3d_visible_draw(const e3d_context *context, e3d_visible_tile *visible, int64_t tile_number, int earlier);
+void e3d_visible_draw(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out);
 /* Makes the list of what shows, where the tile's bins hold all of it. */
-void e3d_visible_show(const e3d_context *context, e3d_worker *worker, int64_t tile_number);
+void e3d_visible_show(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, const e3d_visible_tile *visible,
+                      e3d_shown *out);
 
 #endif

@@ -7,10 +7,12 @@
 #include "kernels/kernels.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
-#include "pipeline/frame/rounds.h"
+#include "pipeline/frame/worker.h"
+#include "pipeline/geometry/bin.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/state/worker.h"
+#include "pipeline/tile/kept.h"
+#include "pipeline/tile/tile.h"
 
 typedef struct e3d_renderer {
     e3d_backend backend;
@@ -21,20 +23,12 @@ typedef struct e3d_renderer {
     e3d_view view;
     e3d_cull_memory cull;
     e3d_histories histories;
+    e3d_bins bins;
+    e3d_tiles_out tiles;
     e3d_kept_memory kept;
     e3d_array marks;         /* uint8_t of each instance: E3D_MARK_ */
     e3d_array tile_progress; /* e3d_tile_progress */
-    int (*poll)(void *);
-    void *poll_user;
+    e3d_poll poll;
 } e3d_renderer;
-
-/* Whether memory was out for any thread. */
-static inline int e3d_any_failed(const e3d_renderer *renderer)
-{
-    for (int32_t w = 0; w < renderer->threads; w++)
-        if (renderer->workers[w]->failed)
-            return 1;
-    return 0;
-}
 
 #endif

@@ -11,6 +11,11 @@ typedef struct e3d_bin_block {
     uint32_t id[30];
 } e3d_bin_block;
 
+/* Records are of the scene, or of the edges of a wireframe. */
+enum { E3D_SET_SCENE = 0,
+       E3D_SET_EDGES,
+       E3D_SETS };
+
 /* One thread's records of one pass. */
 typedef struct e3d_record_set {
     e3d_array records; /* e3d_record */

@@ -1,0 +1,23 @@
+/* A pass that is prepared: all that no stage changes while it is drawn. */
+#ifndef E3D_PREPARED_H
+#define E3D_PREPARED_H
+
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/pass/view.h"
+
+typedef struct e3d_prepared {
+    const e3d_kernels *kernels;
+    int32_t threads;
+    const e3d_frame *frame;
+    const e3d_targets *targets;
+    e3d_plan plan;
+    const e3d_draws *draws; /* the geometry finishes some instances, here and in the view */
+    const e3d_view *view;
+} e3d_prepared;
+
+static inline int e3d_plans(const e3d_prepared *pass, e3d_plan_item item) { return e3d_plan_has(pass->plan, item); }
+
+#endif

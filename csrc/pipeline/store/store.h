@@ -1,0 +1,48 @@
+/* What the store's stages share: what a pass writes beside what is shaded, and a thread's pixels. */
+#ifndef E3D_STORE_H
+#define E3D_STORE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/grow.h"
+#include "core/limits.h"
+#include "e3d_targets.h"
+#include "kernels/types/shading.h"
+#include "pipeline/pass/prepared.h"
+
+/* What is drawn in one colour: a sample of it and whether it counts (e3d_samples), and a pixel of nothing else. */
+typedef struct e3d_ink {
+    float sample[4];
+    uint32_t rgba;
+} e3d_ink;
+
+typedef struct e3d_background {
+    float color[3]; /* clamped */
+    float sample[4];
+    uint32_t rgba;
+    uint32_t row[E3D_TILE]; /* of such pixels */
+} e3d_background;
+
+typedef struct e3d_output {
+    void *target; /* or NULL */
+    size_t first; /* word in e3d_store_memory */
+} e3d_output;
+
+/* Constant for a pass. */
+typedef struct e3d_store {
+    const e3d_prepared *pass;
+    e3d_output outputs[E3D_OUTPUTS]; /* by kind */
+    size_t words;                    /* of all outputs, in a thread's memory */
+    e3d_background background;
+    e3d_ink line;
+} e3d_store;
+
+/* A thread's memory: the pixels of one tile. */
+typedef struct e3d_store_memory {
+    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
+    e3d_samples samples;                       /* of several */
+    e3d_array words;                           /* int32_t or float: one output beside colour after the other */
+} e3d_store_memory;
+
+#endif

@@ -14,8 +14,9 @@ import math
 import platform
 import sys
 
+import bar_chart
+
 import engine3d as e3d
-from engine3d.benchmarking import bar_chart
 from engine3d.benchmarking.city_views import city_scene, drive, street_camera, time_frames
 
 COUNTS = tuple(2**power for power in range(11))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from engine3d.benchmarking.chart import COLORS, GRID, Chart
+from chart import COLORS, GRID, Chart
 
 WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 320, 190, 46, 34, 24, 26
 DOT = 5

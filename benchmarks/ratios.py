@@ -12,8 +12,10 @@ import statistics
 import time
 from dataclasses import dataclass, field
 
+import llvmpipe
+
 import engine3d as e3d
-from engine3d.benchmarking import llvmpipe, measuring, workloads
+from engine3d.benchmarking import measuring, workloads
 
 SIZE = (1280, 720)
 LEAST_ROUNDS = 5

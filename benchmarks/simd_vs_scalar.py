@@ -18,12 +18,12 @@ import sys
 import time
 from pathlib import Path
 
+import bar_chart
 from kernel_workloads import KERNEL_WORKLOADS
 from workloads import WORKLOADS
 
 import engine3d as e3d
 from engine3d._native import rasterizer
-from engine3d.benchmarking import bar_chart
 
 try:
     from engine3d._native import kernels_testing

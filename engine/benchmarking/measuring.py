@@ -1,4 +1,4 @@
-"""Timing frames: one renderer at a time, or a renderer and a peer in turns.
+"""Timing frames of one renderer.
 
 In:  a workload, a renderer, seconds to spend.
 Out: a row of figures: medians over the frames, whatever else the machine did in some of them.
@@ -13,14 +13,12 @@ import time
 
 import numpy as np
 
-from ..materials.colors import linear_color
 from ..rendering.renderer import Renderer
 from .workloads import Workload
 
 #: Milliseconds: a frame as slow is not drawn many times.
 SLOW = 1500.0
 LEAST, MOST = 3, 300
-ROUNDS = 5
 STAGES = ("ms_geometry", "ms_raster", "ms_shade", "ms_resolve", "ms_total")
 
 
@@ -131,66 +129,11 @@ def measure(workload: Workload, size, backend="auto", threads=0, seconds: float 
             timer.run(seconds)
     finally:
         drawing.close()
-    return _row(workload, size, timer)
+    return figures(workload, size, timer)
 
 
-def compare(workload: Workload, size, peer, backend="auto", threads=0, seconds=2.0) -> dict:
-    """Return the figures of a workload beside those of a peer, which take turns.
-
-    Parameters
-    ----------
-    peer
-        Has ``name``; ``draw(frame)``, which returns an array; ``as_output(array)``, which makes
-        of it what the workload's output would be.
-
-    Returns
-    -------
-    dict
-        As of `measure`, with ``peer``: its ``name``, ``frames``, ``milliseconds``, ``picture``;
-        ``times_as_fast``, the median over rounds; ``picture``: what `describe` returns.
-    """
-    drawing = Drawing(workload, size, backend, threads)
-    try:
-        ours, theirs = Timer(drawing), Timer(peer)
-        slow = [timer.warm_up() for timer in (ours, theirs)]
-        pictures = [ours.picture, peer.as_output(theirs.picture)]
-        pictures = [describe(picture, workload) for picture in pictures]
-        if any(slow):
-            for timer in (ours, theirs):
-                if not timer.milliseconds:
-                    timer.run(0.0)
-            ratios = [theirs.median / ours.median]
-        else:
-            share = seconds / ROUNDS / 2
-            ratios = [theirs.run(share, 1) / ours.run(share, 1) for _ in range(ROUNDS)]
-    finally:
-        drawing.close()
-    row = _row(workload, size, ours)
-    row["picture"] = pictures[0]
-    row["peer"] = {
-        "name": peer.name,
-        "frames": len(theirs.milliseconds),
-        "milliseconds": theirs.median,
-        "picture": pictures[1],
-    }
-    row["times_as_fast"] = statistics.median(ratios)
-    return row
-
-
-def describe(picture: np.ndarray, workload: Workload) -> dict:
-    """Return the share of a picture that is covered, and the mean of its channels."""
-    if picture.ndim == 3:
-        background = 255 * linear_color(workload.scene.background, "linear") + 0.5
-        colors = picture[:, :, :3].astype(np.int16)
-        covered = (np.abs(colors - background.astype(np.int16)) > 1).any(axis=2)
-        mean = colors.mean(axis=(0, 1))
-    else:
-        covered = np.isfinite(picture) if picture.dtype.kind == "f" else picture >= 0
-        mean = picture[covered].mean(keepdims=True) if covered.any() else np.zeros(1)
-    return {"covered": float(covered.mean()), "mean": [float(value) for value in mean]}
-
-
-def _row(workload: Workload, size, timer: Timer) -> dict:
+def figures(workload: Workload, size, timer: Timer) -> dict:
+    """Return the row of what a timer of a `Drawing` has measured, as `measure` does."""
     stages = {name: statistics.median(one[name] for one in timer.stages) for name in STAGES}
     last, taken = timer.stages[-1], timer.median
     return {

@@ -181,8 +181,9 @@ def _add_bench(commands) -> None:
     command = commands.add_parser(
         "bench",
         help="measure how fast this machine draws",
-        description="Measure how fast this machine draws, stage by stage. The scenes are "
-        "generated; nothing is downloaded.",
+        description="Measure how fast this machine draws, stage by stage. The scenes are\n"
+        "generated; nothing is downloaded. Scripts of the source distribution, in\n"
+        "benchmarks/, draw charts of the results and compare with Mesa's llvmpipe.",
         epilog="\n  ".join(["workloads:", *(f"{one:<15} {WORKLOADS[one]}" for one in names)]),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
@@ -223,14 +224,8 @@ def _add_bench(commands) -> None:
         help="about how long to measure in all; slow frames may take longer (default: 45)",
     )
     command.add_argument(
-        "--against",
-        choices=("llvmpipe",),
-        help="compare with Mesa's llvmpipe, drawing in turns; needs engine3d[bench] and Mesa",
-    )
-    command.add_argument(
         "--json", metavar="FILE", help="write the results as JSON; - for standard output"
     )
-    command.add_argument("--plot", metavar="FILE", help="write a chart as SVG, PNG, JPEG or WebP")
 
 
 def _add_completion(commands, parser: Parser) -> None:

@@ -268,7 +268,6 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
         (["convert", "square.obj", "no/a.ply"], "convert.load_mesh"),
         (["city", "no/a.obj"], "city.make_city"),
         (["bench", "--json", "no/a.json"], "bench.workloads.make"),
-        (["bench", "--plot", "no/a.svg"], "bench.workloads.make"),
     ],
 )
 def test_a_folder_that_is_not_there_is_found_before_any_work(

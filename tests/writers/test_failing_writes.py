@@ -19,7 +19,6 @@ import pytest
 from patience import HUNG
 
 import engine3d as e3d
-from engine3d.benchmarking import bar_chart
 from engine3d.errors import FileAccessError
 from engine3d.files.animation_files import save_animation
 
@@ -51,15 +50,10 @@ def save_turntable(path):
     save_animation(noise, path, 0.1)
 
 
-def save_chart(path):
-    bar_chart.save(path, "times", [("a", [1.0, 2.0]), ("b", [3.0, 1.0])], ["x", "y"])
-
-
 WRITERS = {
     **{f"frame.{suffix}": save_frame for suffix in ("png", "jpg", "tga", "webp")},
     **{f"turntable.{suffix}": save_turntable for suffix in ("gif", "webp", "apng")},
     **{f"mesh.{suffix}": save_mesh for suffix in ("obj", "ply", "stl")},
-    **{f"chart.{suffix}": save_chart for suffix in ("svg", "png")},
 }
 every_writer = pytest.mark.parametrize("name", WRITERS)
 
@@ -93,15 +87,23 @@ def check_failure(folder, name, reason):
 fails = contextlib.contextmanager(check_failure)
 
 
+@contextlib.contextmanager
+def files_may_hold(size):
+    """No file may grow over so many bytes; nor does Python then leave a cut-off .pyc behind."""
+    limits, writes = resource.getrlimit(resource.RLIMIT_FSIZE), sys.dont_write_bytecode
+    sys.dont_write_bytecode = True
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        sys.dont_write_bytecode = writes
+
+
 @every_writer
 def test_a_file_that_may_not_grow(tmp_path, name):
-    old = resource.getrlimit(resource.RLIMIT_FSIZE)
-    with fails(tmp_path, name, errno.EFBIG) as path:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, old[1]))
-        try:
-            WRITERS[name](path)
-        finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, old)
+    with fails(tmp_path, name, errno.EFBIG) as path, files_may_hold(LIMIT):
+        WRITERS[name](path)
 
 
 @pytest.fixture(scope="module")
@@ -133,13 +135,8 @@ def test_the_last_file_of_several_fails(tmp_path):
     """There is room for the library and the image of an OBJ file, but not for itself."""
     mesh = e3d.uv_sphere(segments=(64, 32))
     mesh.materials = a_mesh().materials
-    old = resource.getrlimit(resource.RLIMIT_FSIZE)
-    with fails(tmp_path, "mesh.obj", errno.EFBIG) as path:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 15, old[1]))
-        try:
-            mesh.save(path)
-        finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, old)
+    with fails(tmp_path, "mesh.obj", errno.EFBIG) as path, files_may_hold(1 << 15):
+        mesh.save(path)
 
 
 @contextlib.contextmanager
@@ -193,7 +190,6 @@ COMMANDS = {
     "out.ply": ["convert", "model.obj", "out.ply"],
     "out.stl": ["city", "out.stl", "--triangles", "20000"],
     "out.json": ["bench", "--workloads", "mesh", "--seconds", "0.01", *SMALL, "--json", "out.json"],
-    "out.svg": ["bench", "--workloads", "mesh", "--seconds", "0.01", *SMALL, "--plot", "out.svg"],
 }
 SIGNALS = [(name, number) for name in COMMANDS for number in (signal.SIGTERM, signal.SIGKILL)]
 SIGNALS += [("out.png", signal.SIGINT), ("mesh.obj", signal.SIGINT), ("out.png", signal.SIGHUP)]

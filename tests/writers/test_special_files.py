@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.benchmarking import bar_chart
 from engine3d.errors import FileAccessError
 from engine3d.files.animation_files import save_animation
 from engine3d.files.atomic_write import atomic_write
@@ -29,17 +28,12 @@ def save_mesh(path):
     mesh.save(path)
 
 
-def save_chart(path):
-    bar_chart.save(path, "times", [("a", [1.0, 2.0])], ["x", "y"])
-
-
 SAVES = {
     ".png": save_frame,
     ".obj": save_mesh,
     ".ply": save_mesh,
     ".stl": save_mesh,
     ".gif": lambda path: save_animation(np.zeros((2, 4, 4, 4), np.uint8), path, 0.1),
-    ".svg": save_chart,
 }
 PATHS = ["zero\0byte", "x" * 300, "folder", "nowhere/a", "file/a", "loop", "\N{GRINNING FACE}" * 70]
 

@@ -10,24 +10,25 @@ from __future__ import annotations
 
 import os
 
+import llvmpipe_shaders as shaders
 import numpy as np
 
-from .. import linalg
-from ..errors import Engine3DError
-from ..geometry.mesh import Mesh
-from ..materials.colors import linear_color
-from ..materials.textures import Texture
-from ..scene.instances import InstancedMesh
-from ..scene.lights import DirectionalLight, PointLight
-from . import shaders
-from .workloads import Workload
+from engine3d import (
+    DirectionalLight,
+    Engine3DError,
+    InstancedMesh,
+    Mesh,
+    PointLight,
+    Texture,
+    linalg,
+)
+from engine3d.benchmarking.workloads import Workload
+from engine3d.materials.colors import linear_color
 
 NAME = "llvmpipe"
-NEEDS_MODERNGL = (
-    "--against llvmpipe needs the package moderngl: pip install 'engine3d[bench]' (or moderngl)"
-)
+NEEDS_MODERNGL = "llvmpipe needs the package moderngl: pip install 'engine3d[bench]' (or moderngl)"
 NEEDS_MESA = (
-    "--against llvmpipe needs EGL and the llvmpipe driver of Mesa (on Debian and Ubuntu: "
+    "llvmpipe needs EGL and its driver of Mesa (on Debian and Ubuntu: "
     "apt install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri)"
 )
 #: From so many instances on, those outside of the frustum are left out before drawing.

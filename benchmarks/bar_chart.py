@@ -6,7 +6,7 @@ Out: a file; its suffix says whether it is SVG text or an image.
 
 from __future__ import annotations
 
-from .chart import COLORS, GRID, Chart
+from chart import COLORS, GRID, Chart
 
 BAR, GAP, LEFT, TOP, PLOT, RIGHT = 12, 12, 236, 46, 480, 60
 

@@ -10,7 +10,8 @@ import io
 import os
 from xml.sax.saxutils import escape
 
-from ..files.atomic_write import atomic_write
+from engine3d.canvas import Canvas
+from engine3d.files.atomic_write import atomic_write
 
 _FORMATS = {".png": "PNG", ".jpg": "JPEG", ".webp": "WEBP"}
 COLORS = [(122, 132, 150), (214, 170, 60), (78, 160, 214), (64, 176, 120), (200, 90, 120)]
@@ -68,8 +69,6 @@ def _hexadecimal(color):
 
 
 def as_canvas(chart):
-    from ..canvas import Canvas
-
     canvas = Canvas(chart.width, chart.height)
     for x, y, width, height, color in chart.rectangles:
         canvas.rectangle(x, y, width, height, color)

@@ -15,7 +15,6 @@
 #include "pipeline/pass/boxes.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
-#include "pipeline/pass/view.h"
 
 enum { GROUPS_A_TASK = 512 };
 
@@ -46,7 +45,7 @@ static void add_candidate(const e3d_prepared *pass, e3d_cull_state *state, const
                                {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
-        e3d_view_box(&pass->view->viewport, e3d_culling_matrix(pass->view, number), box->lo, box->hi, &candidate.view);
+        e3d_view_box(&pass->view->viewport, pass->frustum->instances[number].clip, box->lo, box->hi, &candidate.view);
     if (bounded && pass->frame->culling != E3D_CULLING_NONE && (!box->any_finite || candidate.view.state == E3D_BOX_OUTSIDE)) {
         count_outside(state, box);
         return;
@@ -72,7 +71,7 @@ static void cull_groups(const e3d_prepared *pass, e3d_cull_state *state, int64_t
         uint32_t number = (uint32_t)(draw->instance_base + within / groups);
         int32_t group = (int32_t)(within % groups);
         for (; group < groups && group_number < end; group++, group_number++)
-            if (pass->view->instances[number].shows)
+            if (pass->frustum->instances[number].shows)
                 add_candidate(pass, state, draw, number, group, group_number);
             else
                 count_outside(state, &draw->mesh->groups[group]);

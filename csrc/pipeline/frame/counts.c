@@ -7,14 +7,12 @@
 #include "pipeline/cull/cull.h"
 #include "pipeline/frame/counts.h"
 #include "pipeline/frame/renderer.h"
-#include "pipeline/frame/worker.h"
 #include "pipeline/geometry/geometry.h"
-#include "pipeline/geometry/state.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
-#include "pipeline/tile/tile_memory.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
 {

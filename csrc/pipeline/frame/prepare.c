@@ -4,10 +4,8 @@
 #include "core/grow.h"
 #include "e3d.h"
 #include "pipeline/cull/history.h"
-#include "pipeline/frame/context.h"
 #include "pipeline/frame/prepare.h"
 #include "pipeline/frame/renderer.h"
-#include "pipeline/frame/worker.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/draws.h"
@@ -61,6 +59,17 @@ static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
     out->tiles = (e3d_tiles_in){.pass = &out->pass, .bins = bins, .shade = &out->shade, .poll = renderer->poll};
 }
 
+/* The view, and the one whose frustum tells what is drawn; 0 when memory is out. */
+static int prepare_views(e3d_renderer *renderer, const e3d_frame *frame, const e3d_view *frustum)
+{
+    e3d_view *view = &renderer->view, *frozen = &renderer->frozen;
+    e3d_draws *draws = &renderer->draws;
+    int threads = renderer->threads;
+    if (frustum == frozen && !e3d_view_prepare(frozen, frozen, frame->frozen_clip_from_world, draws, frame, threads))
+        return 0;
+    return e3d_view_prepare(view, frustum, frame->clip_from_world, draws, frame, threads);
+}
+
 e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_context *out)
 {
     const e3d_frame *frame = asked->frame;
@@ -71,13 +80,13 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
                                .targets = asked->targets,
                                .plan = e3d_plan_of(frame, asked->targets),
                                .draws = &renderer->draws,
-                               .view = &renderer->view};
+                               .view = &renderer->view,
+                               .frustum = frame->frozen_clip_from_world ? &renderer->frozen : &renderer->view};
     out->history = e3d_history_of(&renderer->histories, frame->view);
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES));
     if (status != E3D_OK)
         return status;
-    if (!e3d_view_prepare(&renderer->view, frame) || !clear_marks(renderer) ||
-        !e3d_view_find_instances(&renderer->view, &renderer->draws, frame, renderer->threads))
+    if (!prepare_views(renderer, frame, out->pass.frustum) || !clear_marks(renderer))
         return E3D_OUT_OF_MEMORY;
     prepare_shading(renderer, out);
     return reset_workers(renderer, &out->store) ? E3D_OK : E3D_OUT_OF_MEMORY;

@@ -3,7 +3,24 @@
 #define E3D_PREPARE_H
 
 #include "e3d.h"
-#include "pipeline/frame/context.h"
+#include "pipeline/cull/history.h"
+#include "pipeline/frame/renderer.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/shade/shade.h"
+#include "pipeline/store/blank.h"
+#include "pipeline/store/store.h"
+#include "pipeline/tile/tile.h"
+
+/* The sum of what the stages read, which the frame hands to them. */
+typedef struct e3d_context {
+    e3d_renderer *renderer; /* its memory is what they write */
+    e3d_prepared pass;
+    e3d_history *history;
+    e3d_store store;
+    e3d_blank_in blank;
+    e3d_shade_in shade;
+    e3d_tiles_in tiles;
+} e3d_context;
 
 /* Prepares a pass, and all of the renderer's memory for it. */
 e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_context *out);

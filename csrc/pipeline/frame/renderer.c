@@ -9,7 +9,6 @@
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
 #include "pipeline/frame/renderer.h"
-#include "pipeline/frame/worker.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
@@ -91,6 +90,7 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     free(renderer->workers);
     e3d_draws_free(&renderer->draws);
     e3d_view_free(&renderer->view);
+    e3d_view_free(&renderer->frozen);
     e3d_cull_free(&renderer->cull);
     e3d_histories_free(&renderer->histories);
     e3d_kept_free(&renderer->kept);

@@ -1,18 +1,28 @@
 /* A renderer: its threads, and the sum of what the stages keep from frame to frame. */
-#ifndef E3D_STATE_RENDERER_H
-#define E3D_STATE_RENDERER_H
+#ifndef E3D_RENDERER_H
+#define E3D_RENDERER_H
 
 #include "core/grow.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
-#include "pipeline/frame/worker.h"
 #include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/store/queue.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/tile.h"
+#include "pipeline/tile/tile_memory.h"
+
+/* A thread. Each stage finds its own part of all threads. */
+typedef struct e3d_worker {
+    e3d_cull_state cull;
+    e3d_geometry_state geometry;
+    e3d_queue_state queue;
+    e3d_tile_memory tile;
+} e3d_worker;
 
 typedef struct e3d_renderer {
     e3d_backend backend;
@@ -21,6 +31,7 @@ typedef struct e3d_renderer {
     e3d_worker **workers;
     e3d_draws draws;
     e3d_view view;
+    e3d_view frozen; /* of a camera that stands still while another one draws what it sees */
     e3d_cull_memory cull;
     e3d_histories histories;
     e3d_bins bins;

@@ -9,27 +9,18 @@
 #include "e3d.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
-#include "pipeline/frame/context.h"
+#include "pipeline/frame/prepare.h"
 #include "pipeline/frame/renderer.h"
 #include "pipeline/frame/rounds.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/geometry.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/tile.h"
 
 /* ---- a round ---- */
-
-typedef struct round {
-    e3d_choice choice;
-    int64_t first, end; /* candidates */
-    int tested;         /* against the kept tiles' depths */
-    int finishes;       /* its tiles are shaded and resolved; the last round's only where more has come */
-    int last;           /* lines, points and edges are drawn, too */
-} round;
 
 /* The tiles are drawn from visible surface to pixels; those to which the next round adds something will be drawn anew, from these
  * bins and the next ones. */
@@ -43,32 +34,23 @@ static e3d_status finish_tiles(const e3d_context *context)
     return status;
 }
 
-static e3d_status draw_round(const e3d_context *context, e3d_stats *stats, round round)
+/* `finishes`: the tiles are shaded and resolved, though another round follows; else they are kept for it. */
+static e3d_status draw_round(const e3d_context *context, e3d_stats *stats, e3d_round round, int finishes)
 {
     int64_t start = e3d_now_ns();
     e3d_renderer *renderer = context->renderer;
-    const e3d_tiles_out *tiles = &renderer->tiles;
-    const e3d_geometry_in in = {.pass = &context->pass,
-                                .candidates = renderer->cull.candidates.data,
-                                .choice = round.choice,
-                                .first = round.first,
-                                .end = round.end,
-                                .depths = round.tested ? tiles->depths : NULL,
-                                .history = context->history,
-                                .last = round.last};
-    const e3d_geometry_out out = {.bins = &renderer->bins,
-                                  .view = &renderer->view,
-                                  .draws = &renderer->draws,
-                                  .marks = renderer->marks.data,
-                                  .seen = tiles->kept ? context->history->seen.data : NULL};
+    e3d_tiles_out *tiles = &renderer->tiles;
+    uint8_t *seen = tiles->kept ? context->history->seen.data : NULL;
+    const e3d_geometry_in in = {&context->pass, renderer->cull.candidates.data, round, tiles->depths, context->history};
+    const e3d_geometry_out out = {&renderer->bins, &renderer->view, &renderer->draws, renderer->marks.data, seen};
     if (!e3d_geometry(&in, &out))
         return E3D_OUT_OF_MEMORY;
     stats->ms_geometry += (double)(e3d_now_ns() - start) * 1e-6;
     stats->rounds++;
-    if (round.finishes)
+    if (finishes)
         return finish_tiles(context);
     if (!round.last) {
-        e3d_keep_tiles(&context->tiles, &renderer->tiles);
+        e3d_keep_tiles(&context->tiles, tiles);
         e3d_bins_clear(&renderer->bins);
     }
     return E3D_OK;
@@ -113,11 +95,11 @@ static int64_t count_changed_tiles(const e3d_bins *bins)
 /* What the last frames showed, then what came into view since. */
 static e3d_status draw_remembered(const e3d_context *context, e3d_stats *stats, int64_t count)
 {
-    round seen = {.choice = E3D_SEEN_CANDIDATES, .end = count, .finishes = finish_early(context)};
-    round unseen = {.choice = E3D_UNSEEN_CANDIDATES, .end = count, .tested = 1, .last = 1};
-    e3d_status status = draw_round(context, stats, seen);
+    e3d_round seen = {.choice = E3D_SEEN_CANDIDATES, .end = count};
+    e3d_round unseen = {.choice = E3D_UNSEEN_CANDIDATES, .end = count, .tested = 1, .last = 1};
+    e3d_status status = draw_round(context, stats, seen, finish_early(context));
     if (status == E3D_OK)
-        status = draw_round(context, stats, unseen);
+        status = draw_round(context, stats, unseen, 0);
     if (status == E3D_OK)
         context->history->tiles_changed = count_changed_tiles(&context->renderer->bins);
     return status;
@@ -128,12 +110,12 @@ static e3d_status draw_from_near_to_far(const e3d_context *context, e3d_stats *s
 {
     int64_t done = 0;
     for (int64_t end = count / 32 + 1; 2 * end < count; end *= 2) {
-        e3d_status status = draw_round(context, stats, (round){.first = done, .end = end, .tested = done > 0});
+        e3d_status status = draw_round(context, stats, (e3d_round){.first = done, .end = end, .tested = done > 0}, 0);
         if (status != E3D_OK)
             return status;
         done = end;
     }
-    return draw_round(context, stats, (round){.first = done, .end = count, .tested = 1, .last = 1});
+    return draw_round(context, stats, (e3d_round){.first = done, .end = count, .tested = 1, .last = 1}, 0);
 }
 
 e3d_status e3d_rounds(const e3d_context *context, e3d_stats *stats)
@@ -141,7 +123,7 @@ e3d_status e3d_rounds(const e3d_context *context, e3d_stats *stats)
     e3d_renderer *renderer = context->renderer;
     int64_t count = (int64_t)renderer->cull.candidates.count;
     if (!pay(context) || !e3d_kept_begin(&renderer->kept, e3d_tile_count(context->pass.view), &renderer->tiles))
-        return draw_round(context, stats, (round){.end = count, .last = 1});
+        return draw_round(context, stats, (e3d_round){.end = count, .last = 1}, 0);
     int remembered = e3d_history_remember(context->history, context->pass.draws);
     if (remembered < 0)
         return E3D_OUT_OF_MEMORY;

@@ -3,7 +3,7 @@
 #define E3D_ROUNDS_H
 
 #include "e3d.h"
-#include "pipeline/frame/context.h"
+#include "pipeline/frame/prepare.h"
 
 /* Draws the pass's geometry in as many rounds as pay. Tiles are finished meanwhile or not; e3d_tiles() draws what the last round
  * left in their bins. */

@@ -12,32 +12,8 @@
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
-#include "pipeline/geometry/fragments.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/view.h"
-
-static void empty_bins(e3d_array *bins, int32_t tiles)
-{
-    e3d_bin *bin = bins->data;
-    for (int32_t t = 0; t < tiles; t++)
-        bin[t].first = bin[t].last = E3D_NO_BLOCK;
-}
-
-static void clear_bins(e3d_array *bins, e3d_array *blocks, int32_t tiles)
-{
-    blocks->count = 0;
-    empty_bins(bins, tiles);
-}
-
-static int keep_bins(e3d_array *bins, e3d_array *earlier, int32_t tiles)
-{
-    e3d_array_swap(bins, earlier);
-    if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
-        return 0;
-    empty_bins(bins, tiles);
-    return 1;
-}
 
 /* ---- the bins of all threads ---- */
 
@@ -55,37 +31,59 @@ void e3d_bins_init(e3d_bins *bins, int32_t threads)
     }
 }
 
+static void free_chains(e3d_chains *chains)
+{
+    e3d_array_free(&chains->blocks);
+    e3d_array_free(&chains->bins);
+    e3d_array_free(&chains->earlier);
+}
+
 void e3d_geometry_free(e3d_geometry_state *state)
 {
-    for (int which = 0; which < E3D_SETS; which++) {
-        e3d_record_set *set = &state->sets[which];
-        e3d_array *arrays[] = {&set->records, &set->corners, &set->keys, &set->blocks, &set->bins, &set->earlier};
-        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-            e3d_array_free(arrays[i]);
+    for (e3d_record_set *set = state->sets; set < state->sets + E3D_SETS; set++) {
+        e3d_array_free(&set->records);
+        e3d_array_free(&set->corners);
+        e3d_array_free(&set->keys);
+        free_chains(&set->chains);
     }
-    e3d_fragment_set *set = &state->fragments;
-    e3d_array *arrays[] = {&set->blocks, &set->bins, &set->earlier, &set->drawn};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        e3d_array_free(arrays[i]);
+    e3d_array_free(&state->fragments.drawn);
+    free_chains(&state->fragments.chains);
+}
+
+/* Leaves the bins empty; 0 when memory is out. */
+static int empty(e3d_array *bins, int32_t tiles)
+{
+    if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
+        return 0;
+    for (int32_t t = 0; t < tiles; t++)
+        ((e3d_bin *)bins->data)[t] = (e3d_bin){E3D_NO_BLOCK, E3D_NO_BLOCK};
+    return 1;
+}
+
+static int clear(e3d_chains *chains, int32_t tiles)
+{
+    chains->blocks.count = 0;
+    return empty(&chains->bins, tiles);
+}
+
+static int keep(e3d_chains *chains, int32_t tiles)
+{
+    e3d_array_swap(&chains->bins, &chains->earlier);
+    return empty(&chains->bins, tiles);
 }
 
 static int reset(e3d_geometry_state *state, int32_t tiles)
 {
-    e3d_fragment_set *fragments = &state->fragments;
     memset(&state->counters, 0, sizeof state->counters);
     state->failed = 0;
-    fragments->drawn.count = fragments->triangles.count = 0;
-    if (!e3d_array_reserve(&fragments->bins, (size_t)tiles, sizeof(e3d_bin)))
-        return 0;
-    clear_bins(&fragments->bins, &fragments->blocks, tiles);
-    for (int which = 0; which < E3D_SETS; which++) {
-        e3d_record_set *set = &state->sets[which];
+    state->fragments.drawn.count = 0;
+    state->fragments.triangles.count = 0;
+    int made = clear(&state->fragments.chains, tiles);
+    for (e3d_record_set *set = state->sets; set < state->sets + E3D_SETS; set++) {
         set->records.count = set->corners.count = set->keys.count = 0;
-        if (!e3d_array_reserve(&set->bins, (size_t)tiles, sizeof(e3d_bin)))
-            return 0;
-        clear_bins(&set->bins, &set->blocks, tiles);
+        made = made && clear(&set->chains, tiles);
     }
-    return 1;
+    return made;
 }
 
 int e3d_bins_reset(e3d_bins *bins, int64_t tiles)
@@ -100,10 +98,8 @@ int e3d_bins_reset(e3d_bins *bins, int64_t tiles)
 void e3d_bins_clear(e3d_bins *bins)
 {
     for (int32_t t = 0; t < bins->threads; t++) {
-        e3d_record_set *records = &bins->of[t]->sets[E3D_SET_SCENE];
-        e3d_fragment_set *fragments = &bins->of[t]->fragments;
-        clear_bins(&records->bins, &records->blocks, bins->tiles);
-        clear_bins(&fragments->bins, &fragments->blocks, bins->tiles);
+        clear(&bins->of[t]->sets[E3D_SET_SCENE].chains, bins->tiles);
+        clear(&bins->of[t]->fragments.chains, bins->tiles);
     }
 }
 
@@ -114,8 +110,7 @@ int e3d_bins_keep(e3d_bins *bins)
         e3d_fragment_set *fragments = &bins->of[t]->fragments;
         records->earlier_records = records->records.count;
         fragments->earlier_drawn = fragments->drawn.count;
-        if (!keep_bins(&records->bins, &records->earlier, bins->tiles) ||
-            !keep_bins(&fragments->bins, &fragments->earlier, bins->tiles))
+        if (!keep(&records->chains, bins->tiles) || !keep(&fragments->chains, bins->tiles))
             return 0;
     }
     return 1;
@@ -149,10 +144,10 @@ static int __attribute__((noinline)) add_block(e3d_array *array, e3d_bin *bin)
 
 static inline int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
 {
-    const e3d_bin_block *blocks = set->blocks.data;
-    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&set->blocks, bin))
+    const e3d_bin_block *blocks = set->chains.blocks.data;
+    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&set->chains.blocks, bin))
         return 0;
-    e3d_bin_block *block = (e3d_bin_block *)set->blocks.data + bin->last;
+    e3d_bin_block *block = (e3d_bin_block *)set->chains.blocks.data + bin->last;
     block->id[block->count++] = id;
     return 1;
 }
@@ -178,7 +173,7 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile
 static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_state *state, e3d_record_set *set, uint32_t number,
                                               e3d_tile_span span, uint32_t id)
 {
-    e3d_bin *bins = set->bins.data;
+    e3d_bin *bins = set->chains.bins.data;
     int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
     int32_t x1 = (int32_t)(span.last & 0xFFFF), y1 = (int32_t)(span.last >> 16);
     tile_edges edges = {{0}, {0}, {0}};
@@ -204,7 +199,7 @@ static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry
 
 static inline e3d_bin *bin_at(const e3d_view *view, e3d_record_set *set, uint32_t tile)
 {
-    return (e3d_bin *)set->bins.data + (int64_t)(tile >> 16) * view->tiles_x + (tile & 0xFFFF);
+    return (e3d_bin *)set->chains.bins.data + (int64_t)(tile >> 16) * view->tiles_x + (tile & 0xFFFF);
 }
 
 /* Most are in one tile, or in two side by side. */
@@ -232,8 +227,8 @@ int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, e3d_record_
 int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile)
 {
     for (int32_t t = 0; t < bins->threads; t++)
-        if (e3d_first_block(&bins->of[t]->sets[which].bins, tile) != E3D_NO_BLOCK ||
-            (which == E3D_SET_SCENE && e3d_first_block(&bins->of[t]->fragments.bins, tile) != E3D_NO_BLOCK))
+        if (e3d_first_block(&bins->of[t]->sets[which].chains, 0, tile) != E3D_NO_BLOCK ||
+            (which == E3D_SET_SCENE && e3d_first_block(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_BLOCK))
             return 1;
     return 0;
 }
@@ -246,7 +241,7 @@ int e3d_has_bins(const e3d_bins *bins, int64_t tile)
 static uint32_t count_records(const e3d_record_set *set, int64_t tile)
 {
     uint32_t count = 0;
-    for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+    for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
         count += block->count;
     return count;
 }
@@ -254,7 +249,7 @@ static uint32_t count_records(const e3d_record_set *set, int64_t tile)
 static uint32_t count_fragments(const e3d_fragment_set *set, int64_t tile)
 {
     uint32_t count = 0;
-    for (const e3d_fragment_block *block = e3d_first_fragments(set, &set->bins, tile); block; block = e3d_next_fragments(set, block))
+    for (const e3d_fragment_block *block = e3d_first_fragments(set, 0, tile); block; block = e3d_fragment_block_at(set, block->next))
         count += block->count;
     return count;
 }

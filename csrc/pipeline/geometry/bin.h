@@ -7,7 +7,6 @@
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/view.h"
 
 /* What the geometry leaves for the tiles: each thread's records and fragments, listed by tile, and what tells them by their IDs. */

@@ -5,11 +5,10 @@
  */
 #include "core/grow.h"
 #include "core/limits.h"
-#include "kernels/kernels.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/fragments.h"
-#include "pipeline/geometry/state.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 
@@ -46,14 +45,14 @@ void e3d_fragments_flush(const e3d_prepared *pass, e3d_geometry_state *state)
     size_t most = e3d_fragment_blocks_most((size_t)e3d_tile_count(pass->view));
     if (!set->triangles.count)
         return;
-    if (!e3d_array_reserve(&set->blocks, set->blocks.count + most, sizeof(e3d_fragment_block))) {
+    if (!e3d_array_reserve(&set->chains.blocks, set->chains.blocks.count + most, sizeof(e3d_fragment_block))) {
         set->triangles.count = 0;
         state->failed = 1;
         return;
     }
-    e3d_fragment_bins out = {.blocks = set->blocks.data, .bins = set->bins.data, .count = (uint32_t)set->blocks.count};
+    e3d_fragment_bins out = {.blocks = set->chains.blocks.data, .bins = set->chains.bins.data, .count = (uint32_t)set->chains.blocks.count};
     pass->kernels->fragments(&set->triangles, &pass->view->viewport, pass->view->tiles_x, &out);
-    set->blocks.count = out.count;
+    set->chains.blocks.count = out.count;
     state->counters.records += out.triangles;
     state->counters.triangles_drawn += out.triangles;
     state->counters.bin_entries += out.fragments;

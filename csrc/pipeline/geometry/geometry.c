@@ -26,10 +26,8 @@
 #include "pipeline/geometry/lines.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/geometry/setup.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/boxes.h"
 #include "pipeline/pass/draws.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 
@@ -233,7 +231,7 @@ static void transform_cluster(const walker *w, const e3d_candidate *candidate, c
         kernels->take_clip(cluster->positions, cluster->stride, cluster->vertices, &view->viewport, out);
     else
         kernels->transform(cluster->positions, cluster->stride, cluster->vertices, w->instance->clip, &view->viewport,
-                           candidate->view.state == E3D_BOX_INSIDE && !view->culling, out);
+                           candidate->view.state == E3D_BOX_INSIDE && w->pass->frustum == view, out);
 }
 
 /* Prefetches for writing the cache lines of the next records: other threads read the last frame's records there. */
@@ -286,20 +284,20 @@ static unsigned find_away(const walker *w, const e3d_group_box *group)
 /* Whether what earlier rounds drew hides a box. */
 static int is_hidden(const walker *w, const e3d_box_view *view)
 {
-    return w->in->depths && e3d_is_hidden(w->in->depths, w->pass->view->tiles_x, view);
+    return w->in->round.tested && e3d_is_hidden(w->in->depths, w->pass->view->tiles_x, view);
 }
 
 /* What becomes of a cluster, before it is tested against what is drawn. Where it may show, *view is what that test needs. */
 static e3d_cull_result result_of(const walker *w, const e3d_candidate *candidate, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
-    const float *clip = e3d_culling_matrix(w->pass->view, w->number);
+    const float *clip = w->pass->frustum->instances[w->number].clip;
     if (!cluster->any_finite)
         return E3D_RESULT_OUTSIDE;
     if (away)
         return candidate->view.state == E3D_BOX_INSIDE || e3d_box_state(clip, cluster->lo, cluster->hi) != E3D_BOX_OUTSIDE
                    ? E3D_RESULT_BACKFACING
                    : E3D_RESULT_OUTSIDE;
-    if (!w->in->depths && candidate->view.state == E3D_BOX_INSIDE)
+    if (!w->in->round.tested && candidate->view.state == E3D_BOX_INSIDE)
         return E3D_RESULT_DRAWN;
     e3d_view_box(&w->pass->view->viewport, clip, cluster->lo, cluster->hi, view);
     return view->state == E3D_BOX_OUTSIDE ? E3D_RESULT_OUTSIDE : E3D_RESULT_DRAWN;
@@ -318,7 +316,7 @@ static e3d_cull_result tested_result_of(const walker *w, const e3d_candidate *ca
 static unsigned find_results(const walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked,
                              e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
-    unsigned shown = 0, away = w->in->choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
+    unsigned shown = 0, away = w->in->round.choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
     for (unsigned left = asked; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         results[k] = tested_result_of(w, candidate, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1);
@@ -387,7 +385,7 @@ static void count_hidden(walker *w, const e3d_candidate *candidate, const e3d_gr
 {
     e3d_cull_counters *counters = &w->state->counters.culled;
     const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
-    const float *clip = e3d_culling_matrix(w->pass->view, w->number);
+    const float *clip = w->pass->frustum->instances[w->number].clip;
     int inside = candidate->view.state == E3D_BOX_INSIDE;
     if (inside && counted == (1u << group->clusters) - 1) {
         counters->clusters[E3D_RESULT_OCCLUDED] += group->clusters;
@@ -419,7 +417,7 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
         e3d_view_finish_instance(w->out->view, w->out->draws, w->number);
     if (mesh->desc.components == 3 && w->pass->frame->culling != E3D_CULLING_NONE)
         shown = find_results(w, candidate, group, asked, results);
-    int closely = w->in->depths && is_wide(&candidate->view.samples);
+    int closely = w->in->round.tested && is_wide(&candidate->view.samples);
     unsigned left = !e3d_plans(w->pass, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
     for (; left; left &= left - 1) {
         int k = __builtin_ctz(left);
@@ -454,14 +452,14 @@ static void visit_candidate(walker *w, const e3d_candidate *candidate)
     w->draw = &w->pass->draws->states[candidate->draw];
     const e3d_group_box *group = &w->draw->mesh->groups[candidate->group];
     unsigned all = (1u << group->clusters) - 1;
-    if (w->in->choice == E3D_ALL_CANDIDATES) {
+    if (w->in->round.choice == E3D_ALL_CANDIDATES) {
         unsigned shown = draw_group(w, candidate, group, all, all);
         if (w->out->seen)
             set_seen(w, candidate, shown);
         return;
     }
     unsigned seen = w->out->seen[candidate->number];
-    if (w->in->choice == E3D_SEEN_CANDIDATES) {
+    if (w->in->round.choice == E3D_SEEN_CANDIDATES) {
         if (seen)
             draw_group(w, candidate, group, seen, seen);
         return;
@@ -480,7 +478,7 @@ static void fetch_candidate(const walker *w, const e3d_candidate *candidate)
 {
     enum { LINE = 64 };
     const char *seen = (const char *)&w->pass->view->instances[candidate->instance];
-    if (w->in->choice == E3D_ALL_CANDIDATES || __atomic_load_n(&w->out->seen[candidate->number], __ATOMIC_RELAXED))
+    if (w->in->round.choice == E3D_ALL_CANDIDATES || __atomic_load_n(&w->out->seen[candidate->number], __ATOMIC_RELAXED))
         for (size_t at = 0; at < sizeof(e3d_view_instance); at += LINE)
             __builtin_prefetch(seen + at);
 }
@@ -488,7 +486,7 @@ static void fetch_candidate(const walker *w, const e3d_candidate *candidate)
 /* Prefetches what fetch_candidate reads. */
 static void fetch_seen(const walker *w, const e3d_candidate *candidate)
 {
-    if (w->in->choice != E3D_ALL_CANDIDATES)
+    if (w->in->round.choice != E3D_ALL_CANDIDATES)
         __builtin_prefetch(&w->out->seen[candidate->number]);
 }
 
@@ -498,8 +496,8 @@ static unsigned find_next(walker *w, const e3d_candidate *candidate)
 {
     const e3d_mesh *mesh = w->pass->draws->states[candidate->draw].mesh;
     size_t first = (size_t)candidate->group * E3D_GROUP_CLUSTERS, count = (size_t)mesh->cluster_count;
-    unsigned may = w->in->choice == E3D_ALL_CANDIDATES    ? ~0u
-                   : w->in->choice == E3D_SEEN_CANDIDATES ? __atomic_load_n(&w->out->seen[candidate->number], __ATOMIC_RELAXED)
+    unsigned may = w->in->round.choice == E3D_ALL_CANDIDATES    ? ~0u
+                   : w->in->round.choice == E3D_SEEN_CANDIDATES ? __atomic_load_n(&w->out->seen[candidate->number], __ATOMIC_RELAXED)
                                                           : 0;
     unsigned found = 0;
     if (mesh->desc.components != 3 || count <= E3D_GROUP_CLUSTERS)
@@ -516,7 +514,7 @@ static unsigned find_next(walker *w, const e3d_candidate *candidate)
 /* How many candidates a thread takes at once: many, so that it seldom asks; few, so that none waits long for another's last. */
 static int64_t candidates_a_task(const e3d_geometry_in *in)
 {
-    int64_t candidates = (in->end - in->first) / (TASKS_A_THREAD * in->pass->threads);
+    int64_t candidates = (in->round.end - in->round.first) / (TASKS_A_THREAD * in->pass->threads);
     return candidates < 1 ? 1 : candidates > MOST_CANDIDATES_A_TASK ? MOST_CANDIDATES_A_TASK : candidates;
 }
 
@@ -524,9 +522,9 @@ static void walk_candidates(walker *w, atomic_llong *next)
 {
     enum { AHEAD = 6 };
     const e3d_candidate *candidates = w->in->candidates;
-    int64_t end = w->in->end, task = candidates_a_task(w->in);
+    int64_t end = w->in->round.end, task = candidates_a_task(w->in);
     while (!w->state->failed) {
-        int64_t first = w->in->first + atomic_fetch_add(next, task);
+        int64_t first = w->in->round.first + atomic_fetch_add(next, task);
         if (first >= end)
             return;
         for (int64_t i = first; i < first + task && i < end; i++) {
@@ -560,14 +558,14 @@ static void geometry_work(void *argument, int number)
     walker w = {.in = job->in, .out = job->out, .pass = job->in->pass, .state = job->out->bins->of[number]};
     walk_candidates(&w, &job->next);
     e3d_fragments_flush(w.pass, w.state);
-    if (job->in->last)
+    if (job->in->round.last)
         walk_units(w.pass, w.state, &job->next_unit);
 }
 
 int e3d_geometry(const e3d_geometry_in *in, const e3d_geometry_out *out)
 {
     geometry_job job = {.in = in, .out = out};
-    int64_t work = in->end - in->first + in->pass->draws->units / UNITS_A_TASK;
+    int64_t work = in->round.end - in->round.first + in->pass->draws->units / UNITS_A_TASK;
     int failed = 0;
     e3d_pool_run(work > LEAST_WORK ? in->pass->threads : 1, geometry_work, &job);
     for (int32_t t = 0; t < in->pass->threads; t++)

@@ -23,14 +23,19 @@ typedef enum e3d_choice {
     E3D_UNSEEN_CANDIDATES, /* the others */
 } e3d_choice;
 
+typedef struct e3d_round {
+    e3d_choice choice;
+    int64_t first, end; /* candidates */
+    int tested;         /* against the tiles' depths */
+    int last;           /* lines, points and edges are drawn, too */
+} e3d_round;
+
 typedef struct e3d_geometry_in {
     const e3d_prepared *pass;
     const e3d_candidate *candidates;
-    e3d_choice choice;
-    int64_t first, end;            /* candidates */
-    const e3d_tile_depths *depths; /* of the tiles: what they hide is left out; NULL: nothing is tested */
+    e3d_round round;
+    const e3d_tile_depths *depths; /* of the tiles that are kept */
     const e3d_history *history;    /* of what was seen */
-    int last;                      /* lines, points and edges are drawn, too */
 } e3d_geometry_in;
 
 typedef struct e3d_geometry_out {
@@ -38,7 +43,7 @@ typedef struct e3d_geometry_out {
     e3d_view *view; /* instances that aren't ready are finished, here */
     e3d_draws *draws; /* and here */
     uint8_t *marks; /* of each instance */
-    uint8_t *seen;  /* by e3d_candidate.number: a bit for each cluster that shows; NULL: there are no more rounds */
+    uint8_t *seen;  /* by e3d_candidate.number: a bit for each cluster that shows; NULL: there is one round */
 } e3d_geometry_out;
 
 /* 0 when memory is out. */

@@ -8,7 +8,6 @@
 #include "pipeline/geometry/lines.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/geometry/setup.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"

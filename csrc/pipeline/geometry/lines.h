@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "e3d.h"
-#include "pipeline/geometry/state.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
 

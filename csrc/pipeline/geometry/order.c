@@ -11,9 +11,7 @@
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/order.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/prepared.h"
-#include "pipeline/pass/view.h"
 
 typedef struct entry {
     float key; /* 0 where only the order counts */

@@ -9,8 +9,6 @@
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/geometry/setup.h"
-#include "pipeline/geometry/state.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 
 static float clamp(float v, float lo, float hi)

@@ -7,7 +7,6 @@
 #include "e3d.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/prepared.h"
 
 typedef struct e3d_corner {

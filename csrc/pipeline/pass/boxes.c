@@ -8,7 +8,6 @@
 
 #include "core/limits.h"
 #include "core/vectors.h"
-#include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/pass/boxes.h"

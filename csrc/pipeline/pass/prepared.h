@@ -16,6 +16,7 @@ typedef struct e3d_prepared {
     e3d_plan plan;
     const e3d_draws *draws; /* the geometry finishes some instances, here and in the view */
     const e3d_view *view;
+    const e3d_view *frustum; /* that tells what is drawn: the same view, or that of a camera that stands still */
 } e3d_prepared;
 
 static inline int e3d_plans(const e3d_prepared *pass, e3d_plan_item item) { return e3d_plan_has(pass->plan, item); }

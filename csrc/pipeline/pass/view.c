@@ -63,19 +63,9 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     return 1;
 }
 
-int e3d_view_prepare(e3d_view *view, const e3d_frame *frame)
-{
-    find_viewport(view, frame);
-    for (int k = 0; k < 12; k++)
-        view->rows[k] = (float)frame->view_from_world[k];
-    view->mirrors = e3d_mirrors(frame->view_from_world);
-    return find_lights(view, frame);
-}
-
 void e3d_view_free(e3d_view *view)
 {
     e3d_array_free(&view->instance_memory);
-    e3d_array_free(&view->culling_memory);
     e3d_array_free(&view->reach_memory);
 }
 
@@ -103,9 +93,10 @@ void e3d_view_finish_instance(e3d_view *view, e3d_draws *draws, uint32_t number)
 /* What all threads do with the instances. */
 typedef struct instances_job {
     e3d_view *view;
+    const e3d_view *frustum;
+    const double *clip_from_world;
     e3d_draws *draws;
     const e3d_frame *frame;
-    float (*culling)[16];
     atomic_llong next;
 } instances_job;
 
@@ -117,16 +108,13 @@ static void find_instance(const instances_job *job, const e3d_draw_state *state,
     e3d_view_instance *out = &job->view->instances[number];
     double world[16];
     e3d_world_matrix(draw, (int32_t)(number - state->instance_base), world);
-    e3d_clip_matrix(frame->clip_from_world, world, out->clip);
-    if (job->culling)
-        e3d_clip_matrix(frame->frozen_clip_from_world, world, job->culling[number]);
-    const float *cull = job->culling ? job->culling[number] : out->clip;
+    e3d_clip_matrix(job->clip_from_world, world, out->clip);
     int one = mesh->group_count == 1; /* whose box is tried soon, by one thread */
     int later = one && (frame->culling == E3D_CULLING_ALL || frame->culling == E3D_CULLING_ALWAYS); /* if it isn't hidden */
     out->shows = mesh->desc.components == 4 || frame->culling == E3D_CULLING_NONE ||
-                 (mesh->any_finite && (one || e3d_box_state(cull, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
+                 (mesh->any_finite && (one || e3d_box_state(out->clip, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
     out->ready = 0;
-    if (state->units || (out->shows && !later)) /* lines and points are wider than the box */
+    if (state->units || (job->frustum->instances[number].shows && !later)) /* lines and points are wider than the box */
         finish(job->view, world, &job->draws->instances[number], out);
 }
 
@@ -153,19 +141,18 @@ static void instances_work(void *argument, int worker)
     }
 }
 
-int e3d_view_find_instances(e3d_view *view, e3d_draws *draws, const e3d_frame *frame, int threads)
+int e3d_view_prepare(e3d_view *view, const e3d_view *frustum, const double clip_from_world[16], e3d_draws *draws, const e3d_frame *frame,
+                     int threads)
 {
-    size_t room = (size_t)draws->instance_count + 1;
-    instances_job job = {.view = view, .draws = draws, .frame = frame};
-    if (!e3d_array_reserve(&view->instance_memory, room, sizeof(e3d_view_instance)))
+    instances_job job = {.view = view, .frustum = frustum, .clip_from_world = clip_from_world, .draws = draws, .frame = frame};
+    find_viewport(view, frame);
+    for (int k = 0; k < 12; k++)
+        view->rows[k] = (float)frame->view_from_world[k];
+    view->mirrors = e3d_mirrors(frame->view_from_world);
+    if (!find_lights(view, frame) ||
+        !e3d_array_reserve(&view->instance_memory, (size_t)draws->instance_count + 1, sizeof(e3d_view_instance)))
         return 0;
     view->instances = view->instance_memory.data;
-    if (frame->frozen_clip_from_world) {
-        if (!e3d_array_reserve(&view->culling_memory, room, sizeof(float[16])))
-            return 0;
-        job.culling = view->culling_memory.data;
-    }
-    view->culling = (const float(*)[16])job.culling;
     e3d_pool_run(draws->instance_count > 2 * INSTANCES_A_TASK ? threads : 1, instances_work, &job);
     return 1;
 }

@@ -33,23 +33,16 @@ typedef struct e3d_view {
     int mirrors;              /* the camera does: R2 */
     e3d_lighting lighting;
     e3d_view_instance *instances;
-    const float (*culling)[16]; /* clip matrices of another view, whose frustum tells what is drawn; NULL: this one's does */
-    e3d_array instance_memory, culling_memory, reach_memory;
+    e3d_array instance_memory, reach_memory;
 } e3d_view;
 
-/* All but the instances; 0 when memory is out. */
-int e3d_view_prepare(e3d_view *view, const e3d_frame *frame);
-/* The instances of draws that have their places; 0 when memory is out. */
-int e3d_view_find_instances(e3d_view *view, e3d_draws *draws, const e3d_frame *frame, int threads);
+/* Finds the view of draws that have their places. Those instances are drawn that `frustum` shows, which is the same view, or is
+ * prepared already. 0 when memory is out. */
+int e3d_view_prepare(e3d_view *view, const e3d_view *frustum, const double clip_from_world[16], e3d_draws *draws, const e3d_frame *frame,
+                     int threads);
 /* Finds what an instance is drawn with besides its clip matrix, here and in the draws. */
 void e3d_view_finish_instance(e3d_view *view, e3d_draws *draws, uint32_t number);
 void e3d_view_free(e3d_view *view);
-
-/* The clip matrix of the view that culls. */
-static inline const float *e3d_culling_matrix(const e3d_view *view, uint32_t instance)
-{
-    return view->culling ? view->culling[instance] : view->instances[instance].clip;
-}
 
 static inline int64_t e3d_tile_count(const e3d_view *view) { return (int64_t)view->tiles_x * view->tiles_y; }
 

@@ -6,14 +6,12 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
 #include "pipeline/pass/draws.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
@@ -45,13 +43,13 @@ static ALWAYS_INLINE void find_face(const e3d_draws *draws, instance_finder *fin
     piece->local = drawn->faces[piece->local];
 }
 
-static void find_primitive(const e3d_shade_in *in, uint32_t id, instance_finder *finder, e3d_visible_primitive *piece)
+static void find_primitive(const e3d_shade_in *in, const e3d_draws *draws, uint32_t id, instance_finder *finder, e3d_visible_primitive *piece)
 {
     uint32_t order = piece->record->order;
     piece->corners = corners_of(in, id, piece->record);
     if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
-        const e3d_order_entry *entry = e3d_find_order_entry(in->pass->draws, order);
-        const e3d_draw_state *draw = &in->pass->draws->states[entry->draw];
+        const e3d_order_entry *entry = e3d_find_order_entry(draws, order);
+        const e3d_draw_state *draw = &draws->states[entry->draw];
         uint32_t primitives = (uint32_t)draw->primitives, instances = (order - entry->order) / primitives;
         finder->draw = draw;
         finder->instance = entry->instance + (int32_t)instances;
@@ -186,11 +184,12 @@ static void find_named(const e3d_record_table *table, const e3d_shown_piece *of,
 static void find_primitives(const e3d_shade_in *in, const e3d_shown_piece *of, piece_range range, instance_finder *finder,
                             e3d_visible_primitive *pieces)
 {
+    const e3d_draws *draws = in->pass->draws;
     for (int32_t n = range.first; n < range.end; n++) {
         if (pieces[n].drawn)
-            find_face(in->pass->draws, finder, &pieces[n]);
+            find_face(draws, finder, &pieces[n]);
         else
-            find_primitive(in, of[n].id, finder, &pieces[n]);
+            find_primitive(in, draws, of[n].id, finder, &pieces[n]);
         pieces[n].draw = finder->draw;
         pieces[n].instance = finder->instance;
         __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)pieces[n].local));
@@ -219,6 +218,8 @@ static piece_range range_of(int32_t first, int32_t count, int32_t all)
 int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
 {
     enum { SOME = 32 };
+    const e3d_frame *frame = in->pass->frame;
+    const e3d_record_table *table = in->table;
     e3d_shown *shown = &memory->shown;
     instance_finder instance = {0};
     bucket_finder bucket = {0};
@@ -229,9 +230,9 @@ int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
         return 0;
     e3d_visible_primitive *pieces = memory->pieces.data;
     for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
-        find_named(in->table, shown->piece, range_of(n, SOME, all), pieces);
+        find_named(table, shown->piece, range_of(n, SOME, all), pieces);
         find_primitives(in, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
-        if (!find_buckets(in->pass->frame, memory, range_of(n - 2 * SOME, SOME, all), &bucket))
+        if (!find_buckets(frame, memory, range_of(n - 2 * SOME, SOME, all), &bucket))
             return 0;
     }
     memory->pieces.count = (size_t)all;

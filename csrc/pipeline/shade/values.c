@@ -8,7 +8,6 @@
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/draws.h"
-#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"

@@ -2,7 +2,6 @@
  * write-combining buffers drain while the core computes (a head on a background takes 7 % less time with two threads).
  */
 #include "pipeline/geometry/bin.h"
-#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/store/blank.h"
 #include "pipeline/store/outputs.h"

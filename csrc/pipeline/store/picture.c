@@ -1,7 +1,6 @@
 /* A tile's rows to a picture of the caller's, and back. */
 #include <string.h>
 
-#include "kernels/kernels.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"

@@ -6,9 +6,7 @@
 
 #include "core/grow.h"
 #include "core/limits.h"
-#include "e3d.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/vertices.h"
@@ -16,8 +14,6 @@
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/lines.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/geometry/state.h"
-#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
@@ -105,8 +101,8 @@ static int visit_bins(const e3d_tile_job *job, int which, piece_action action)
     job->memory->slots.ids.count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[which];
-        const e3d_bin_block *block = e3d_first_records(set, &set->bins, job->number);
-        for (; block; block = e3d_next_records(set, block))
+        const e3d_bin_block *block = e3d_first_records(set, 0, job->number);
+        for (; block; block = e3d_bin_block_at(set, block->next))
             if (!visit_block(job, which, block, action))
                 return 0;
     }

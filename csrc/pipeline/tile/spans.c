@@ -10,10 +10,8 @@
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/runs.h"
-#include "pipeline/shade/shade.h"
 #include "pipeline/tile/spans.h"
 #include "pipeline/tile/tile_memory.h"
 
@@ -23,9 +21,9 @@ static int are_few(const e3d_bins *bins, int64_t tile)
     uint32_t count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        if (e3d_first_block(&bins->of[t]->fragments.bins, tile) != E3D_NO_BLOCK)
+        if (e3d_first_block(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_BLOCK)
             return 0;
-        for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
             if ((count += block->count) > E3D_MOST_COVERING)
                 return 0;
     }
@@ -37,7 +35,7 @@ static int cover_records(const e3d_kernels *kernels, const e3d_bins *bins, int64
 {
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        for (const e3d_bin_block *block = e3d_first_records(set, &set->bins, tile); block; block = e3d_next_records(set, block))
+        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
             if (!kernels->cover_records(&memory->spans.cover, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count,
                                         &memory->shade.shown))
                 return 0;

@@ -6,9 +6,7 @@
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
-#include "pipeline/geometry/fragments.h"
 #include "pipeline/geometry/records.h"
-#include "pipeline/geometry/state.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/tile/visible.h"
 
@@ -31,7 +29,7 @@ static void draw_records(const e3d_kernels *kernels, const e3d_bins *bins, int64
     int32_t left = bins->threads;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        next[t] = e3d_first_records(set, earlier ? &set->earlier : &set->bins, tile_number);
+        next[t] = e3d_first_records(set, earlier, tile_number);
     }
     while (left) {
         left = 0;
@@ -39,7 +37,7 @@ static void draw_records(const e3d_kernels *kernels, const e3d_bins *bins, int64
             if (!next[t])
                 continue;
             kernels->raster_visible(out, &bins->tables[E3D_SET_SCENE], next[t]->id, (int)next[t]->count);
-            next[t] = e3d_next_records(&bins->of[t]->sets[E3D_SET_SCENE], next[t]);
+            next[t] = e3d_bin_block_at(&bins->of[t]->sets[E3D_SET_SCENE], next[t]->next);
             left += next[t] != NULL;
         }
     }
@@ -57,9 +55,9 @@ static void draw_fragments(const e3d_kernels *kernels, const e3d_bins *bins, int
 {
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_fragment_set *set = &bins->of[t]->fragments;
-        const e3d_fragment_block *block = e3d_first_fragments(set, earlier ? &set->earlier : &set->bins, tile_number), *next;
+        const e3d_fragment_block *block = e3d_first_fragments(set, earlier, tile_number), *next;
         for (; block; block = next) {
-            next = e3d_next_fragments(set, block);
+            next = e3d_fragment_block_at(set, block->next);
             if (next)
                 fetch_block(next);
             kernels->raster_fragments(out, &bins->tables[E3D_SET_SCENE], block);
@@ -82,11 +80,11 @@ void e3d_visible_show(const e3d_kernels *kernels, const e3d_bins *bins, int64_t 
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *records = &bins->of[t]->sets[E3D_SET_SCENE];
         const e3d_fragment_set *fragments = &bins->of[t]->fragments;
-        const e3d_bin_block *block = e3d_first_records(records, &records->bins, tile_number);
-        for (; block; block = e3d_next_records(records, block))
+        const e3d_bin_block *block = e3d_first_records(records, 0, tile_number);
+        for (; block; block = e3d_bin_block_at(records, block->next))
             kernels->show_records(visible, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count, out);
-        const e3d_fragment_block *small = e3d_first_fragments(fragments, &fragments->bins, tile_number);
-        for (; small; small = e3d_next_fragments(fragments, small))
+        const e3d_fragment_block *small = e3d_first_fragments(fragments, 0, tile_number);
+        for (; small; small = e3d_fragment_block_at(fragments, small->next))
             kernels->show_fragments(visible, small, out);
     }
 }

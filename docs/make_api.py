@@ -65,6 +65,7 @@ CHAPTERS = {
         "load_texture",
         "load_scene",
         "save_mesh",
+        "save_scene",
         "save_animation",
         "Resources",
         "ResourceStats",

@@ -51,6 +51,7 @@ _PUBLIC = {
     "load_texture": "loaders",
     "load_scene": "scene.loading",
     "save_mesh": "writers",
+    "save_scene": "writers.scene",
     "save_animation": "files.animation_saving",
     "look_at": "linalg",
     "orbit": "scene.orbiting",

@@ -74,3 +74,4 @@ from .viewer.window import Window as Window
 from .worlds import World as World
 from .worlds import city as city
 from .writers import save_mesh as save_mesh
+from .writers.scene import save_scene as save_scene

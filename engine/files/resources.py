@@ -256,5 +256,6 @@ def _become(thing, fresh) -> None:
     """Put the content of one object into another of its kind."""
     if isinstance(thing, Texture):
         thing.pixels = fresh.pixels
+        thing._path, thing._is_missing = fresh._path, fresh._is_missing
     else:
         thing._become(fresh)

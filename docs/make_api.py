@@ -68,6 +68,7 @@ CHAPTERS = {
         "save_scene",
         "save_animation",
         "Resources",
+        "Resource",
         "ResourceStats",
     ),
     "Windows": ("show", "Window"),

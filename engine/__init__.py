@@ -65,6 +65,7 @@ _PUBLIC = {
     "PointLight": "scene.lights",
     "Animator": "scene.animation",
     "Node": "scene.nodes",
+    "Resource": "files.resources",
     "Resources": "files.resources",
     "ResourceStats": "files.resources",
     "NodeSelection": "scene.selection",

@@ -19,6 +19,7 @@ from .errors import OutOfMemoryError as OutOfMemoryError
 from .errors import RendererBusyError as RendererBusyError
 from .errors import SceneChangedError as SceneChangedError
 from .files.animation_saving import save_animation as save_animation
+from .files.resources import Resource as Resource
 from .files.resources import Resources as Resources
 from .files.resources import ResourceStats as ResourceStats
 from .geometry.mesh import Mesh as Mesh

@@ -19,6 +19,7 @@ from .errors import OutOfMemoryError as OutOfMemoryError
 from .errors import RendererBusyError as RendererBusyError
 from .errors import SceneChangedError as SceneChangedError
 from .files.animation_saving import save_animation as save_animation
+from .files.resources import Resource as Resource
 from .files.resources import Resources as Resources
 from .files.resources import ResourceStats as ResourceStats
 from .geometry.mesh import Mesh as Mesh
@@ -74,3 +75,4 @@ from .viewer.window import Window as Window
 from .worlds import World as World
 from .worlds import city as city
 from .writers import save_mesh as save_mesh
+from .writers.scene import save_scene as save_scene

@@ -6,14 +6,22 @@ keep nothing of their own that matters.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Hashable
 from typing import Any
 
 import numpy as np
 
-from ..errors import Engine3DError
+from ..errors import Engine3DError, InvalidArgumentError, printable
 from ..files.resources import Resources
+from ..files.stamps import FileState
+from ..loaders import load_document
+from ..loaders.loading import document_of
+from ..loaders.sources import Source
+from ..scene.loading import scene_from_document
 from ..scene.scene import Scene
+from ..writers.scene import save_scene
+from .autosave import Recovery, content_of
 from .console import Console
 from .history import Command, History
 from .prompt import Prompt
@@ -32,6 +40,8 @@ class SceneDocument:
 
     Attributes
     ----------
+    path : str or None
+        Absolute; None until the scene is saved for the first time.
     scene : Scene
         Change it by `do` only, so that it can be undone.
     resources : Resources
@@ -46,6 +56,8 @@ class SceneDocument:
 
     def __init__(self, scene: Scene | None = None, *, console: Console | None = None) -> None:
         self.scene = Scene() if scene is None else scene
+        self.path: str | None = None
+        self._state: FileState | None = None  # of the file, as it was opened or saved
         self.resources = Resources()
         self.history = History()
         self.selection = Selection()
@@ -86,6 +98,113 @@ class SceneDocument:
     def redo(self) -> bool:
         """Do the step again that was undone last; return whether there was one."""
         return self._step("Redo", self.history.redo)
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str], *, console: Console | None = None) -> SceneDocument:
+        """Open a scene, or any model as a new scene.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        name = os.path.abspath(os.fspath(path))
+        console = Console() if console is None else console
+        state = FileState(name)  # before it is read
+        with console.warnings_noted():
+            loaded = load_document(name)
+            document = cls(scene_from_document(loaded), console=console)
+        if loaded.scene is not None:
+            document.path, document._state = name, state
+        console.write("action", f"Open {name}")
+        return document
+
+    @classmethod
+    def recover(cls, copy: Recovery, *, console: Console | None = None) -> SceneDocument:
+        """Open what an editor left behind, as a later state of its file that is not saved.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        console = Console() if console is None else console
+        name, data = content_of(copy)
+        with console.warnings_noted(), Source(name, data) as source:
+            loaded = document_of(source, "e3d", split=True)
+            document = cls(scene_from_document(loaded), console=console)
+        document.path = copy.document
+        document.history.mark_unsaved()
+        console.write("action", f"Recover {copy.document or 'a scene without a name'}")
+        return document
+
+    @property
+    def title(self) -> str:
+        """The file's name, with a star while something is not saved."""
+        name = "untitled" if self.path is None else printable(os.path.basename(self.path))
+        return f"{name}*" if self.is_modified else name
+
+    def save_would_overwrite(self, path: str | os.PathLike[str] | None = None) -> str | None:
+        """Return what would be lost if the scene were saved to a path, to be asked about.
+
+        Parameters
+        ----------
+        path : path-like, optional
+            The document's own if left out.
+
+        Returns
+        -------
+        reason : str or None
+            None if nothing would: the file is not there, or is as it was opened or saved last.
+        """
+        name = self._target(path)
+        if not os.path.lexists(name):
+            return None
+        if self.path is None or os.path.realpath(name) != os.path.realpath(self.path):
+            return f"{printable(name)} is there already"
+        if self._state is None:
+            return f"{printable(name)} may have changed since"
+        if self._state.changed():
+            return f"{printable(name)} was changed by another program"
+        return None
+
+    def save(self, path: str | os.PathLike[str] | None = None, *, overwrite: bool = False) -> bool:
+        """Save the scene.
+
+        Parameters
+        ----------
+        path : path-like, optional
+            The document's own if left out, and from now on its own.
+        overwrite : bool
+            Replace also what `save_would_overwrite` tells of.
+
+        Returns
+        -------
+        saved : bool
+            False if it was not; the console tells why.
+        """
+        name = self._target(path)
+        reason = None if overwrite else self.save_would_overwrite(name)
+        if reason is not None:
+            self.console.write("error", f"Save: {reason}")
+            return False
+        try:
+            with self.console.warnings_noted():
+                save_scene(self.scene, name)
+        except Engine3DError as error:
+            self.console.write("error", f"Save: {error}")
+            return False
+        self.path, self._state = name, FileState(name)
+        self.history.mark_saved()
+        self.console.write("action", f"Save {name}")
+        return True
+
+    def changed_on_disk(self) -> bool:
+        """Whether another program wrote the document's file since it was opened or saved."""
+        return self._state is not None and self._state.changed()
+
+    def _target(self, path: str | os.PathLike[str] | None) -> str:
+        if path is None and self.path is None:
+            raise InvalidArgumentError("the scene has no file yet: give a path")
+        return os.path.abspath(os.fspath(self.path if path is None else path))
 
     @property
     def is_modified(self) -> bool:

@@ -51,11 +51,14 @@ class History:
         The oldest first, those that were undone included.
     position : int
         How many of the steps are done.
+    version : int
+        Grows with all that is done, undone or forgotten.
     """
 
     def __init__(self) -> None:
         self.steps: list[Command] = []
         self.position = 0
+        self.version = 0
         self._drag: Hashable = None
         self._saved: Command | None = None
         self._saved_is_reachable = True
@@ -83,6 +86,7 @@ class History:
         if not (continues and last is not None and last.absorb(command)):
             self.steps.append(command)
         self.position = len(self.steps)
+        self.version += 1
         self._drag = drag
 
     def undo(self) -> Command | None:
@@ -93,6 +97,7 @@ class History:
         command = self.steps[self.position - 1]
         command.undo()
         self.position -= 1
+        self.version += 1
         return command
 
     def redo(self) -> Command | None:
@@ -103,12 +108,14 @@ class History:
         command = self.steps[self.position]
         command.do()
         self.position += 1
+        self.version += 1
         return command
 
     def clear(self) -> None:
         """Forget all steps."""
         if self.last is not self._saved:
             self._saved_is_reachable = False
+        self.version += 1
         self.steps.clear()
         self.position, self._drag, self._saved = 0, None, None
 
@@ -125,6 +132,11 @@ class History:
     def mark_saved(self) -> None:
         """Say that what is there now was saved."""
         self._saved, self._saved_is_reachable, self._drag = self.last, True, None
+
+    def mark_unsaved(self) -> None:
+        """Say that what is there now was never saved, whatever is undone."""
+        self._saved_is_reachable, self._drag = False, None
+        self.version += 1
 
     @property
     def is_saved(self) -> bool:

@@ -12,10 +12,10 @@ from .. import linalg
 from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
+from ..scene.placements import Placements
 from ..scene.scene import Scene
 from ..scene.selection import NodeSelection
 from .history import Command
-from .placements import Placements
 from .selection import topmost
 
 

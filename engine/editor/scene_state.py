@@ -18,9 +18,9 @@ from .._support.validation import Closed
 from ..geometry.mesh import Mesh
 from ..materials.material import textures_of
 from ..scene.instances import InstancedMesh
+from ..scene.placements import Placements
 from ..scene.scene import Scene
 from ..spatial.colliders import MeshCollider
-from .placements import Placements
 from .selection import topmost
 
 _SCENE_VALUES = ("background", "ambient", "light_clamp", "warnings")

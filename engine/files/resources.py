@@ -21,12 +21,14 @@ from ..loaders.linked_files import found_files
 from ..loaders.open_files import unreadable
 from ..materials.material import Material, textures_of
 from ..materials.textures import Texture
+from ..scene.usage import uses_in
 from .stamps import FileState
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ..materials.textures import TextureOptions
+    from ..scene.scene import Scene
 
 
 class ResourceStats(NamedTuple):
@@ -47,6 +49,31 @@ class ResourceStats(NamedTuple):
     texture_bytes: int
     loads: int
     shared: int
+
+
+class Resource(NamedTuple):
+    """One thing that is loaded.
+
+    Attributes
+    ----------
+    name : str
+        Its own, or else that of its file.
+    kind : {"mesh", "texture"}
+    thing : Mesh or Texture
+    size : int
+        Bytes of its arrays.
+    path : str or None
+        The file that it was loaded from.
+    users : int
+        How many nodes of the scenes that were asked about use it.
+    """
+
+    name: str
+    kind: str
+    thing: Mesh | Texture
+    size: int
+    path: str | None
+    users: int
 
 
 class Resources:
@@ -119,19 +146,49 @@ class Resources:
             done.append(path)
         return tuple(done)
 
-    @property
-    def stats(self) -> ResourceStats:
-        """Counts and sizes of what is held now."""
+    def listed(self, *scenes: Scene) -> tuple[Resource, ...]:
+        """Return what is held now, each thing once, in the order of loading.
+
+        Parameters
+        ----------
+        *scenes : Scene
+            Those whose nodes are counted as users.
+        """
+        uses = uses_in(scenes)
+        paths = {id(thing): key[1] for key, thing in list(self._by_file.items())}
+        return tuple(
+            Resource(
+                thing.name or os.path.basename(paths.get(id(thing), "")),
+                "mesh" if isinstance(thing, Mesh) else "texture",
+                thing,
+                size_of(thing),
+                paths.get(id(thing)),
+                uses.get(thing, 0),
+            )
+            for thing in self._things()
+        )
+
+    def find(self, name: str) -> Mesh | Texture | None:
+        """Return the first thing of that name that is held, or None."""
+        return next((entry.thing for entry in self.listed() if entry.name == name), None)
+
+    def _things(self) -> list[Mesh | Texture]:
         with self._lock:
             things = {id(thing): thing for thing in self._by_content.values()}
             things.update((id(thing), thing) for thing in self._by_file.values())
-        meshes = [thing for thing in things.values() if isinstance(thing, Mesh)]
-        textures = {id(thing): thing for thing in things.values() if isinstance(thing, Texture)}
+        return list(things.values())
+
+    @property
+    def stats(self) -> ResourceStats:
+        """Counts and sizes of what is held now."""
+        things = self._things()
+        meshes = [thing for thing in things if isinstance(thing, Mesh)]
+        textures = [thing for thing in things if isinstance(thing, Texture)]
         return ResourceStats(
             len(meshes),
             len(textures),
-            sum(array.nbytes for mesh in meshes for array in _arrays(mesh)),
-            sum(texture.pixels.nbytes for texture in textures.values()),
+            sum(map(size_of, meshes)),
+            sum(map(size_of, textures)),
             self._loads,
             self._shared,
         )
@@ -224,8 +281,11 @@ def _read(load, path: str, options: dict) -> tuple[Mesh | Texture, dict[str, Fil
     return thing, states
 
 
-def _arrays(mesh: Mesh) -> list:
-    return [array for array in mesh._arrays.values() if array is not None]
+def size_of(thing: Mesh | Texture) -> int:
+    """Return the bytes of a thing's arrays, as Python holds them."""
+    if isinstance(thing, Texture):
+        return thing.pixels.nbytes
+    return sum(array.nbytes for array in thing._arrays.values() if array is not None)
 
 
 def _content(thing) -> tuple:
@@ -256,5 +316,6 @@ def _become(thing, fresh) -> None:
     """Put the content of one object into another of its kind."""
     if isinstance(thing, Texture):
         thing.pixels = fresh.pixels
+        thing._path, thing._is_missing = fresh._path, fresh._is_missing
     else:
         thing._become(fresh)

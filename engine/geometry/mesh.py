@@ -113,7 +113,8 @@ class Mesh(Closed):
     edge_visible: _OptionalFlags = ArrayAttribute(check_flags3, optional=True)
     position_ids: _OptionalIntegers = ArrayAttribute(check_indices, optional=True)
     _given_normals: _OptionalFloats = ArrayAttribute(check_vectors3, optional=True)
-    _FORGOTTEN = ("_derived",)
+    _origin: Any = None  # see origins.py
+    _FORGOTTEN = ("_derived", "_origin")
 
     def __init__(
         self,
@@ -313,6 +314,7 @@ class Mesh(Closed):
                 break
         if anew:
             self._groups = {}
+        self._origin = None
         self._derived.clear()
         renew(self)
 
@@ -338,6 +340,7 @@ class Mesh(Closed):
         self._derived.clear()
         self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
+        self._origin = other._origin
         renew(self)
 
 

@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..geometry.mesh import Mesh
+from ..materials.material import Material
+from .json_values import JsonValue
 
 
 class DocumentObject(NamedTuple):
@@ -81,6 +83,36 @@ class CameraRecord:
 
 
 @dataclass
+class SceneRecord:
+    """The tree of a scene's file; what nodes hold is checked by whoever builds a scene of it.
+
+    Attributes
+    ----------
+    values : JsonValue
+        Background and light.
+    materials : list of Material
+    meshes : dict of int to Mesh
+        Those of the objects that are meshes, by number.
+    objects, nodes : list of JsonValue
+    places : list of dict
+        The parts of each node's pose, as `Scene.add` takes them.
+    parents : list of int
+        Of each node; -1: none.
+    children : dict of int to list of int
+        Of each node that has some, in their order.
+    """
+
+    values: JsonValue
+    materials: list[Material]
+    meshes: dict[int, Mesh]
+    objects: list[JsonValue]
+    nodes: list[JsonValue]
+    places: list[dict[str, list]]
+    parents: list[int]
+    children: dict[int, list[int]]
+
+
+@dataclass
 class Document:
     """Everything that a file holds.
 
@@ -98,6 +130,8 @@ class Document:
         (``objects``, ``groups``, ``materials``).
     warnings : list of str
         What was left out or replaced, one line each.
+    scene : SceneRecord or None
+        The tree of nodes, of a file that holds one; its objects then are what of it shows.
     """
 
     format: str
@@ -106,3 +140,4 @@ class Document:
     cameras: list[CameraRecord] = field(default_factory=list)
     counts: dict = field(default_factory=dict)
     warnings: list[str] = field(default_factory=list)
+    scene: SceneRecord | None = None

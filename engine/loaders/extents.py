@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import linalg
-from .documents import Document
+from .documents import Document, DocumentObject
 
 _NEAREST = 2.0**-20  # to the eye: E3D_W_MIN of csrc/core/limits.h
 # A camera that shows a whole model comes as near as two thirds of its size.
@@ -21,18 +20,18 @@ _COARSEST = 2.0**-12
 
 def extent_warnings(document: Document) -> list[str]:
     """Return what is to be said about the size and the place of a document's meshes."""
-    meshes = [(entry.mesh.bounds, entry.pose) for entry in document.objects if _is_box(entry.mesh)]
-    if not meshes:
+    boxed = [entry for entry in document.objects if _is_box(entry.mesh)]
+    if not boxed:
         return []
     found = []
-    size = _size([_posed(bounds, pose) for bounds, pose in meshes])
+    size = _size(_posed_boxes(boxed))
     if 0.0 < size < _LEAST_SIZE:
         found.append(
             f"the model is {size:.2g} units across, too small to be drawn: nothing nearer to the "
             f"camera than {_NEAREST:.2g} is; scale it up"
         )
-    boxes = [bounds for bounds, pose in meshes if pose is None]
-    if boxes:
+    boxes = np.array([entry.mesh.bounds for entry in boxed if entry.pose is None])
+    if len(boxes):
         size, reach = _size(boxes), float(np.abs(boxes).max())
         apart = float(np.spacing(np.float32(reach)))
         if reach > 0.0 and apart > _COARSEST * size:
@@ -50,15 +49,16 @@ def _is_box(mesh) -> bool:
     return int(np.isfinite(mesh.positions).all(axis=1).sum()) > 1
 
 
-def _size(boxes: list[np.ndarray]) -> float:
-    """The longest side of the box around boxes."""
-    array = np.array(boxes)
-    return float((array[:, 1].max(axis=0) - array[:, 0].min(axis=0)).max())
+def _size(boxes: np.ndarray) -> float:
+    """The longest side of the box around boxes, (N, 2, 3)."""
+    return float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())
 
 
-def _posed(bounds: np.ndarray, pose: np.ndarray | None) -> np.ndarray:
-    if pose is None:
-        return bounds
-    corners = np.array([[bounds[k >> axis & 1, axis] for axis in range(3)] for k in range(8)])
-    corners = linalg.transform_points(pose, corners)
-    return np.stack([corners.min(axis=0), corners.max(axis=0)])
+def _posed_boxes(entries: list[DocumentObject]) -> np.ndarray:
+    """The boxes around the boxes of objects where these stand, (N, 2, 3)."""
+    boxes = np.array([entry.mesh.bounds for entry in entries])
+    poses = np.array([np.eye(4) if entry.pose is None else entry.pose for entry in entries])
+    middle, half = boxes.sum(axis=1) * 0.5, (boxes[:, 1] - boxes[:, 0]) * 0.5
+    middle = (poses[:, :3, :3] * middle[:, np.newaxis]).sum(axis=2) + poses[:, :3, 3]
+    half = (np.abs(poses[:, :3, :3]) * half[:, np.newaxis]).sum(axis=2)
+    return np.stack([middle - half, middle + half], axis=1)

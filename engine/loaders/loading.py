@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import Engine3DWarning, FileFormatError, InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..geometry.origins import FileOrigin, remember_origin
 from ..materials.textures import Texture
 from .documents import Document
 from .extents import extent_warnings
@@ -63,12 +64,7 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
     """
     with read_source(path) as source:
         document = _read_document(source, format, progress, split=False)
-    meshes = [entry.mesh for entry in document.objects]
-    with _faults_of(source):
-        mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
-    mesh.name = mesh.name or source.stem
-    mesh.warnings = list(document.warnings)
-    return mesh
+    return whole_mesh(document, source, format)
 
 
 def load_document(
@@ -91,7 +87,42 @@ def load_document(
     with read_source(path) as source:
         if companion is not None:
             source = source._replace(companion=companion)
-        return _read_document(source, format, progress, split=True)
+        document = _read_document(source, format, progress, split=True)
+    if companion is None:
+        parts_of(document, source, format)
+    return document
+
+
+def whole_mesh(document: Document, source: Source, format: str | None) -> Mesh:
+    """Return all meshes of a document as one, which knows its file."""
+    meshes = [entry.mesh for entry in document.objects]
+    with _faults_of(source):
+        mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
+    mesh.name = mesh.name or source.stem
+    mesh.warnings = list(document.warnings)
+    _remember(mesh, document, source, format, None)
+    return mesh
+
+
+def parts_of(document: Document, source: Source, format: str | None) -> dict[tuple[str, int], Mesh]:
+    """Return the meshes of a document, each of which knows which part of the file it is.
+
+    A part is named by the object's name, and how many of that name stand before it.
+    """
+    parts: dict[tuple[str, int], Mesh] = {}
+    seen: dict[str, int] = {}
+    for name, mesh, _ in document.objects:
+        part = name, seen.get(name, 0)
+        seen[name] = part[1] + 1
+        parts[part] = mesh
+        _remember(mesh, document, source, format, part)
+    return parts
+
+
+def _remember(mesh: Mesh, document: Document, source: Source, format: str | None, part) -> None:
+    """Note which part of a file a mesh is; of a scene's file, it is no part to be named."""
+    if source.has_name and document.scene is None:
+        remember_origin(mesh, FileOrigin(os.path.abspath(source.path), format, part))
 
 
 def load_texture(
@@ -127,23 +158,32 @@ def texture_of(source: Source, format: str | None = None, **options) -> Texture:
     with _faults_of(source):
         pixels = reader.read(source)
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
-    return Texture(pixels, **options)
+    texture = Texture(pixels, **options)
+    if source.has_name:
+        texture._path = os.path.abspath(source.path)
+    return texture
 
 
 def _read_document(
     source: Source, format: str | None, progress: Progress | None, *, split: bool
 ) -> Document:
-    reader = find_reader(source, "mesh", format)
     if progress is not None:
         source = source._replace(progress=progress)
+    document = document_of(source, format, split=split)
+    for message in document.warnings:
+        warnings.warn(message, Engine3DWarning, stacklevel=3)
+    return document
+
+
+def document_of(source: Source, format: str | None, *, split: bool) -> Document:
+    """Return what an open model file holds, without warning of anything."""
+    reader = find_reader(source, "mesh", format)
     source.progress(0.0)
     # What is beyond the range of numbers becomes infinite, and is dealt with as such.
     with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
         document = reader.read(source, split=split)
         document.warnings.extend(extent_warnings(document))
     source.progress(1.0)
-    for message in document.warnings:
-        warnings.warn(message, Engine3DWarning, stacklevel=3)
     return document
 
 

@@ -5,11 +5,20 @@ In: raw arguments. Out: floats and ints in range, or InvalidArgumentError that n
 
 from __future__ import annotations
 
+import functools
+import inspect
 import operator
-from typing import Any
+from collections.abc import Callable
+from typing import Any, ParamSpec
+
+import numpy as np
 
 from .._support.numbers import as_array, shown
 from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..geometry.origins import PrimitiveOrigin, remember_origin
+
+Parameters = ParamSpec("Parameters")
 
 # Keeps every index below 2**31, and a slip of the keyboard from eating the memory.
 MAX_SEGMENTS = 8192
@@ -56,3 +65,17 @@ def segment_pair(name: str, values: Any, least: tuple[int, int]) -> tuple[int, i
         integer(name, value, low, MAX_SEGMENTS) for value, low in zip(values, least, strict=True)
     )
     return first, second
+
+
+def names_itself(make: Callable[Parameters, Mesh]) -> Callable[Parameters, Mesh]:
+    """Let a function's meshes know by which arguments it makes them, as scene files say."""
+
+    @functools.wraps(make)
+    def named(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Mesh:
+        mesh = make(*args, **kwargs)
+        given = inspect.signature(make).bind(*args, **kwargs).arguments
+        plain = {name: np.asarray(value).tolist() for name, value in given.items()}
+        remember_origin(mesh, PrimitiveOrigin(make.__name__, plain))
+        return mesh
+
+    return named

@@ -13,7 +13,7 @@ from .. import linalg
 from .._support.numbers import as_array, floats
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from .arguments import MAX_SEGMENTS, integer, positives, segment_pair
+from .arguments import MAX_SEGMENTS, integer, names_itself, positives, segment_pair
 from .faces import grid_quads, split_quads
 
 # Texture coordinates of a quad's corners: lower left, lower right, upper right, upper left.
@@ -34,6 +34,7 @@ _BOX_FACES = np.array(
 )
 
 
+@names_itself
 def box(size: float | npt.ArrayLike = (1.0, 1.0, 1.0)) -> Mesh:
     """Return an axis-aligned box with the whole texture on each face.
 
@@ -74,6 +75,7 @@ def _corner_numbers(corners: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
     return (positive * (1, 2, 4)).sum(axis=1).astype(np.int32)
 
 
+@names_itself
 def plane(size: float | npt.ArrayLike = (1.0, 1.0), segments: int | npt.ArrayLike = 1) -> Mesh:
     """Return a horizontal rectangle that faces +Y, such as a floor.
 
@@ -114,6 +116,7 @@ def plane(size: float | npt.ArrayLike = (1.0, 1.0), segments: int | npt.ArrayLik
     )
 
 
+@names_itself
 def quad(
     p0: npt.ArrayLike = (-0.5, -0.5, 0.0),
     p1: npt.ArrayLike = (0.5, -0.5, 0.0),

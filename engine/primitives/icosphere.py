@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from .. import linalg
 from ..geometry.mesh import Mesh
-from .arguments import integer, positive
+from .arguments import integer, names_itself, positive
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.intp]
@@ -22,6 +22,7 @@ IntArray = npt.NDArray[np.intp]
 MAX_SUBDIVISIONS = 9
 
 
+@names_itself
 def icosphere(radius: float = 0.5, subdivisions: int = 3) -> Mesh:
     """Return a sphere made from an icosahedron whose triangles are cut in four again and again.
 

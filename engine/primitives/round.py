@@ -13,7 +13,7 @@ import numpy.typing as npt
 from .. import linalg
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from .arguments import MAX_SEGMENTS, integer, positive, segment_pair
+from .arguments import MAX_SEGMENTS, integer, names_itself, positive, segment_pair
 from .faces import BoolArray, IntArray, grid_points, grid_quads, split_quads
 
 FloatArray = npt.NDArray[np.float64]
@@ -37,6 +37,7 @@ def _wedges(first: int, ring: int, count: int, upward: bool) -> tuple[IntArray, 
     return faces, np.ones((count, 3), np.bool_)
 
 
+@names_itself
 def uv_sphere(radius: float = 0.5, segments: npt.ArrayLike = (32, 16)) -> Mesh:
     """Return a sphere of meridians and parallels, as on a globe.
 
@@ -100,6 +101,7 @@ def _globe_uvs(around: int, bands: int) -> FloatArray:
     return np.vstack((south, rings, north))
 
 
+@names_itself
 def cylinder(radius: float = 0.5, height: float = 1.0, segments: int = 32) -> Mesh:
     """Return a closed cylinder about the Y axis.
 
@@ -166,6 +168,7 @@ def _fan(first: int, count: int, upward: bool) -> tuple[IntArray, BoolArray]:
     return faces.astype(np.int32), np.tile((True, False, False), (count, 1))
 
 
+@names_itself
 def torus(
     major_radius: float = 0.35, minor_radius: float = 0.15, segments: npt.ArrayLike = (48, 24)
 ) -> Mesh:

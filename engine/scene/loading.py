@@ -15,6 +15,7 @@ from .. import linalg
 from ..errors import InvalidArgumentError
 from ..loaders import CameraRecord, Document, LightRecord, load_document
 from ..loaders.sources import File
+from ._scene_records import fill_scene
 from .cameras import PerspectiveCamera
 from .lights import DirectionalLight, PointLight
 from .scene import Scene
@@ -54,6 +55,9 @@ def scene_from_document(document: Document) -> Scene:
     """Return the scene that a document describes."""
     scene = Scene()
     scene.warnings.extend(document.warnings)
+    if document.scene is not None:
+        fill_scene(scene, document.scene)
+        return scene
     for name, mesh, pose in document.objects:
         scene.add(mesh, name=name, pose=pose)
     bounds = scene.bounds

@@ -54,7 +54,8 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     scene = scene_from_document(document)
-    scene.background = BACKGROUND
+    if document.scene is None:
+        scene.background = BACKGROUND
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),

@@ -207,3 +207,30 @@ def test_arguments(tmp_path):
 def test_only_paths_are_loaded(path):
     with pytest.raises(e3d.InvalidArgumentError, match="by their paths"):
         e3d.Resources().load_mesh(path)
+
+
+def test_what_is_held_is_listed_with_its_users(folder):
+    resources = e3d.Resources()
+    ball = resources.load_mesh(folder / "m.obj")
+    texture = ball.materials[0].texture
+    own = resources.share(e3d.Mesh([[0, 0, 0]], points=[0], name="own"))
+    resources.load_mesh(folder / "m.obj")
+    scene, other = e3d.Scene(), e3d.Scene()
+    for _ in range(3):
+        scene.add(ball)
+    gone = scene.add(ball)
+    scene.add(e3d.InstancedMesh(ball, [(0, 0, 0, 1)]))
+    other.add(own)
+    scene.remove(gone)
+    listed = {entry.thing: entry for entry in resources.listed(scene, other)}
+    assert len(listed) == len(resources.listed()) == 3
+    assert [listed[thing].kind for thing in (ball, texture, own)] == ["mesh", "texture", "mesh"]
+    assert [listed[thing].users for thing in (ball, texture, own)] == [4, 4, 1]
+    assert listed[ball].path == str((folder / "m.obj").resolve()) and listed[own].path is None
+    assert listed[own].size == own.positions.nbytes + own.points.nbytes
+    assert listed[texture].size == texture.pixels.nbytes
+    assert resources.listed()[0].users == 0
+    assert resources.find("own") is own and resources.find("none") is None
+    assert resources.find(listed[ball].name) is ball
+    stats = resources.stats
+    assert stats.mesh_bytes == listed[ball].size + listed[own].size

@@ -184,6 +184,38 @@ _JSON = _gltf({})
 GLB = struct.pack("<4sIIII", b"glTF", 2, 28 + len(_JSON) + len(_NUMBERS), len(_JSON), 0x4E4F534A)
 GLB += _JSON + struct.pack("<II", len(_NUMBERS), 0x4E4942) + _NUMBERS
 
+SCENE = b"""{
+"format": "engine3d scene",
+"version": 1,
+"scene": {"background": [20, 30, 40], "ambient": [0.1, 0.1, 0.2], "light_clamp": [0.1, 1.0]},
+"textures": [{"file": "house.tga", "wrap": "clamp"}],
+"materials": [{"color": [0.5, 1.0, 0.25], "texture": 0, "extras": {"a": [1]}}, {}],
+"objects": [
+{"kind": "mesh", "file": "house.obj"},
+{"kind": "mesh", "file": "house.obj", "part": "walls", "materials": [0, 1]},
+{"kind": "mesh", "primitive": "uv_sphere", "arguments": {"segments": [8, 5]}, "materials": [1]},
+{"kind": "mesh", "name": "t", "materials": [0], "groups": {},
+"arrays": {"positions": {"type": "float32", "shape": [3, 3],
+"base64": "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"},
+"faces": {"type": "int32", "shape": [1, 3], "base64": "AAAAAAEAAAACAAAA"}}},
+{"kind": "instances", "mesh": 3,
+"poses": {"type": "float32", "shape": [1, 4], "base64": "AAAAAAAAwD8AAAAAAACAPw=="}},
+{"kind": "point light", "intensity": 9.0, "range": 3.0, "falloff": "window"},
+{"kind": "perspective camera", "zfar": null}
+],
+"nodes": [
+{"name": "top", "scale": [0.8, 0.8, 0.8], "children": [2, 1, 3]},
+{"object": 0, "rotation": [0, 1, 0, 0], "collider": {"kind": "box"}},
+{"object": 2, "pose": [1, 0, 0, 0.5, 0, 2, 0, 0, 0, 0, -1, 0], "children": [4, 5]},
+{"object": 3, "static": true, "collider": {"kind": "mesh", "mesh": 2}},
+{"object": 4, "hidden": true},
+{"object": 1, "collider": {"kind": "sphere", "radius": 2.0}},
+{"object": 5, "translation": [1, 2, 3]},
+{"object": 6, "translation": [0, 0, 5]}
+]
+}
+"""
+
 FILES = {
     "house.obj": OBJ,
     "house.mtl": MTL,
@@ -196,4 +228,5 @@ FILES = {
     "a.off": OFF,
     "a.gltf": GLTF,
     "a.glb": GLB,
+    "a.json": SCENE,
 }

@@ -36,6 +36,12 @@ def frame():
     return e3d.render(drawn(), size=(16, 12), threads=1, outputs=("color", "depth"))
 
 
+def resource():
+    resources = e3d.Resources()
+    mesh = resources.share(painted())
+    return resources.listed()[0]._replace(thing=mesh)
+
+
 POSE = np.eye(4)
 COPIED = {
     "Mesh": lambda: drawn().find("ball").object,
@@ -56,6 +62,7 @@ COPIED = {
     "Canvas": lambda: e3d.Canvas(4, 3),
     "Frame": frame,
     "ResourceStats": lambda: e3d.Resources().stats,
+    "Resource": lambda: resource(),
     "RayHits": lambda: drawn().raycast_many((0, 0, 5), (0, 0, -1)),
     "RasterizeResult": lambda: e3d.rasterize(np.zeros((3, 4), np.float32), [[0, 1, 2]], 4, 4),
     "RenderOptions": lambda: e3d.RenderOptions(line_color=(1, 2, 3)),

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import linalg
-from ..scene.nodes import Node
-from ..scene.scene import Scene
+from .nodes import Node
+from .scene import Scene
 
 
 class Placements:

@@ -1,0 +1,194 @@
+"""What is not saved yet, kept for the case of a crash.
+
+In: a document, now and then. Out: a copy of its scene in the user's cache folder, at most a minute
+old, which the next editor finds if this one ended without a word. A copy belongs to the process
+that locks it (flock, which the system lets go of when a process ends, however it does).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import json
+import os
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..errors import FileAccessError
+from ..files.atomic_write import atomic_write
+from ..writers.scene import scene_text
+from .user_folders import cache_folder
+
+if TYPE_CHECKING:
+    from .document import SceneDocument
+
+#: Seconds between two copies of a scene that goes on changing.
+PERIOD = 30.0
+_ROOT = "/"  # what a copy names is named from here, so that it may stand anywhere
+
+
+class Recovery(NamedTuple):
+    """A copy that an editor left behind.
+
+    Attributes
+    ----------
+    path : str
+        Of the copy.
+    document : str or None
+        The file of which it is a later state; None if it never had one.
+    time : float
+        When it was made, in seconds since the epoch.
+    """
+
+    path: str
+    document: str | None
+    time: float
+
+
+class Autosave:
+    """Copies of one document.
+
+    Parameters
+    ----------
+    document : SceneDocument
+    folder : path-like, optional
+        The user's own if left out.
+    """
+
+    def __init__(self, document: SceneDocument, folder: str | os.PathLike | None = None) -> None:
+        self._document = document
+        self._folder = _folder() if folder is None else Path(folder)
+        self._lock: int | None = None
+        self._path: Path | None = None
+        self._version = document.history.version
+        self._changed_since: float | None = None
+
+    def tick(self, now: float | None = None) -> bool:
+        """Make a copy if one is due; to be called often. Return whether one was made.
+
+        Parameters
+        ----------
+        now : float, optional
+            Seconds of ``time.monotonic()``.
+        """
+        now = time.monotonic() if now is None else now
+        history = self._document.history
+        if history.is_saved:
+            self.discard()
+            return False
+        if history.version == self._version:
+            return False
+        if self._changed_since is None:
+            self._changed_since = now
+        if now - self._changed_since < PERIOD:
+            return False
+        return self.save()
+
+    def save(self) -> bool:
+        """Make a copy now; a warning of the console tells if that fails."""
+        document = self._document
+        self._version, self._changed_since = document.history.version, None
+        try:
+            path = self._owned_path()
+            content, _ = scene_text(document.scene, _ROOT)
+            saying = {"document": document.path, "time": time.time()}
+            with atomic_write(path) as file:
+                file.write(b'{"autosave": ' + json.dumps(saying).encode("ascii") + b",\n")
+                file.write(content.removeprefix(b"{\n"))
+        except (OSError, FileAccessError) as error:
+            document.console.write("warning", f"no copy was made in case of a crash: {error}")
+            return False
+        return True
+
+    def discard(self) -> None:
+        """Remove the copy: what it holds is saved, or not wanted."""
+        self._version, self._changed_since = self._document.history.version, None
+        if self._path is not None:
+            _remove(self._path)
+        if self._lock is not None:
+            os.close(self._lock)
+        self._path = self._lock = None
+
+    def _owned_path(self) -> Path:
+        """The path of the copy, which is this process's from now on."""
+        if self._path is None:
+            self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            path = self._folder / f"{os.urandom(8).hex()}.e3d.json"
+            flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC
+            self._lock = os.open(_lock_of(path), flags, 0o600)
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            os.close(os.open(path, flags, 0o600))  # private from the beginning
+            self._path = path
+        return self._path
+
+
+def left_behind(folder: str | os.PathLike | None = None) -> tuple[Recovery, ...]:
+    """Return the copies of editors that ended without saving or discarding, the latest first."""
+    place = _folder() if folder is None else Path(folder)
+    found = []
+    for path in sorted(place.glob("*.e3d.json")):
+        saying = None if _is_locked(path) else _saying(path)
+        if saying is not None:
+            found.append(Recovery(str(path), *saying))
+    return tuple(sorted(found, key=lambda copy: -copy.time))
+
+
+def forget(copy: Recovery) -> None:
+    """Remove a copy that was left behind."""
+    _remove(Path(copy.path))
+
+
+def content_of(copy: Recovery) -> tuple[str, bytes]:
+    """Return a path that the names in a copy start from, and the copy's scene.
+
+    Raises
+    ------
+    FileAccessError
+    """
+    try:
+        data = Path(copy.path).read_bytes()
+    except OSError as error:
+        raise FileAccessError(f"cannot read: {error.strerror}", copy.path) from error
+    return os.path.join(_ROOT, os.path.basename(copy.path)), b"{" + data.partition(b"\n")[2]
+
+
+def _folder() -> Path:
+    return cache_folder() / "unsaved"
+
+
+def _lock_of(path: Path) -> Path:
+    return path.with_suffix(".lock")
+
+
+def _is_locked(path: Path) -> bool:
+    """Whether a process that is alive owns a copy."""
+    try:
+        handle = os.open(_lock_of(path), os.O_RDWR | os.O_CLOEXEC)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return False
+    except OSError:
+        return True
+    finally:
+        os.close(handle)
+
+
+def _saying(path: Path) -> tuple[str | None, float] | None:
+    """What the first line of a copy says: which document it is of, and when it was made."""
+    try:
+        with open(path, "rb") as file:
+            line = file.readline(1 << 16)
+        saying: Any = json.loads(line.removesuffix(b",\n") + b"}")["autosave"]
+        document, made = saying["document"], float(saying["time"])
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return None
+    return document if isinstance(document, str) else None, made
+
+
+def _remove(path: Path) -> None:
+    for each in (path, _lock_of(path)):
+        with contextlib.suppress(OSError):
+            each.unlink()

@@ -1,0 +1,429 @@
+"""Scenes as engine3d writes them: a tree of nodes in JSON, and the files that it names.
+
+In: the bytes of a file. Out: a `Document` whose ``scene`` holds the tree, with meshes, materials
+and textures made; what nodes hold besides is left to whoever builds a scene of it. The objects of
+the document are what shows, with the nodes' poses. docs/formats.md has the format.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import copy
+import math
+import os
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from .. import linalg, primitives
+from ..errors import FileFormatError, InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..geometry.origins import FileOrigin, remember_origin
+from ..materials.material import TEXTURE_SLOTS, Material
+from ..materials.textures import Texture
+from .documents import Document, SceneRecord
+from .images import read_image
+from .json_values import JsonValue, parsed_json
+from .linked_files import LinkedFileError, LinkedFiles
+from .loading import document_of, parts_of, texture_of, whole_mesh
+from .posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
+from .registry import Reader, find_reader
+from .sources import Source
+from .text import shown
+from .warning_list import WarningList
+
+FORMAT = "engine3d scene"
+VERSION = 1
+#: Keys of a file, but for ``format`` and ``version``.
+LISTS = ("textures", "materials", "objects", "nodes")
+
+# A node takes about a kilobyte, however little the file says of it.
+_NODES, _BYTES_OF_A_NODE = 20_000, 32
+# Each instance takes some kilobytes as an object of the document.
+_MAX_OBJECTS = 50_000
+_MAX_NAME = 4096
+_IDENTITY = {"translation": (0.0, 0, 0), "rotation": (0.0, 0, 0, 1), "scale": (1.0, 1, 1)}
+_PARTS = {**{key: len(part) for key, part in _IDENTITY.items()}, "pose": 12}
+_SIGNATURE = re.compile(rb'\A(?:\xef\xbb\xbf)?\s*\{\s*"format"\s*:\s*"engine3d scene"')
+_ARRAYS = {name.removeprefix("_given_") for name in Mesh([])._arrays}
+
+
+def read_scene_file(source: Source, split: bool = False) -> Document:
+    """Read a scene.
+
+    Parameters
+    ----------
+    source : Source
+    split : bool
+        Keep the poses apart; otherwise they are applied to what shows.
+
+    Raises
+    ------
+    FileFormatError
+        The file is damaged, or of a newer version; the message names the place.
+    """
+    root = parsed_json(source)
+    _check_format(root)
+    warnings = WarningList(source.path)
+    for key in root.members():
+        if key not in ("format", "version", "scene", *LISTS):
+            warnings.add(f"{shown(key)} is not known")
+    reading = _Reading(source, root, warnings)
+    record = reading.record()
+    parts = _parts(record, source)
+    objects = document_objects(source, parts, MAX_REPEATED + source.size, split) if parts else []
+    if not (objects or split):
+        raise FileFormatError("no vertices in this scene", source.path)
+    counts = {
+        **counts_of(objects),
+        "nodes": len(record.nodes),
+        "materials": [material.name for material in record.materials],
+    }
+    told = [*warnings.messages(), *reading.told]
+    return Document("e3d", objects, counts=counts, warnings=told, scene=record)
+
+
+def _check_format(root: JsonValue) -> None:
+    if not isinstance(root.value, dict) or root.value.get("format") != FORMAT:
+        raise root.error(f'not a scene of engine3d: it does not begin with "format": "{FORMAT}"')
+    version = root.need("version").value
+    if type(version) is not int or version < 1:
+        raise root.need("version").wrong("a version")
+    if version > VERSION:
+        raise root.error(f"a scene of version {version}, which a newer engine3d reads")
+
+
+class _Reading:
+    """Makes textures, materials and meshes, in this order."""
+
+    def __init__(self, source: Source, root: JsonValue, warnings: WarningList) -> None:
+        self._source, self._root, self._warnings = source, root, warnings
+        self._files = LinkedFiles(source.folder)
+        self._meshes: dict[tuple, dict[Any, Mesh]] = {}
+        self._given: dict[tuple, int] = {}  # how often each part was given out
+        self._materials_of: dict[Mesh, list[Material]] = {}  # as they were read
+        self._copies: dict[tuple[int, int], Material] = {}
+        self.told: list[str] = []  # by the files that are named
+        self._vertices_left = MAX_REPEATED + source.size
+
+    def record(self) -> SceneRecord:
+        root = self._root
+        self._textures = [self._texture(entry) for entry in root.entries("textures")]
+        self._materials = [self._material(entry) for entry in root.entries("materials")]
+        objects = root.entries("objects")
+        meshes = {
+            number: self._mesh(entry)
+            for number, entry in enumerate(objects)
+            if entry.need("kind").text() == "mesh"
+        }
+        nodes = root.entries("nodes")
+        if len(nodes) > _NODES + self._source.size // _BYTES_OF_A_NODE:
+            raise root.error(f"{len(nodes)} nodes are more than the file can say something of")
+        return SceneRecord(
+            root.get("scene") or JsonValue({}, self._source.path, "scene"),
+            self._materials,
+            meshes,
+            objects,
+            nodes,
+            [_pose_parts(node) for node in nodes],
+            *_links(nodes),
+        )
+
+    def _texture(self, entry: JsonValue) -> Texture:
+        held = entry.members()
+        options = {key: held[key].text() for key in held if key not in ("file", "png")}
+        png = entry.get("png")
+        try:
+            if png is None:
+                return self._texture_of_file(entry.need("file"), options)
+            content = base64.b64decode(png.text(), validate=True)
+            name = f"{self._source.path}: {png.where}"
+            pixels = read_image(Source(name, content))
+            return Texture(pixels, **options)
+        except binascii.Error:
+            raise png.error("is not base64") from None
+        except (InvalidArgumentError, TypeError) as error:
+            raise entry.error(str(error)) from None
+
+    def _texture_of_file(self, file: JsonValue, options: dict[str, str]) -> Texture:
+        name = file.text()
+        try:
+            with self._files.read(self._files.find(name)) as source:
+                return texture_of(source, **options)
+        except (LinkedFileError, FileFormatError, OSError) as error:
+            self._warnings.add(f"{file.where}: texture {shown(name)} is left out: {error}")
+        texture = Texture(np.full((1, 1, 3), 255, np.uint8), **options)
+        texture._path, texture._is_missing = self._place_of(name), True
+        return texture
+
+    def _material(self, entry: JsonValue) -> Material:
+        values = {key: held.value for key, held in entry.members().items()}
+        for slot in TEXTURE_SLOTS:
+            if slot in values:
+                number = entry.need(slot).index(len(self._textures), "textures")
+                values[slot] = self._textures[number]
+        try:
+            return Material(**values)
+        except (InvalidArgumentError, TypeError) as error:
+            raise entry.error(str(error)) from None
+
+    def _mesh(self, entry: JsonValue) -> Mesh:
+        if entry.get("file") is not None:
+            mesh = self._mesh_of_file(entry)
+        elif entry.get("primitive") is not None:
+            mesh = self._primitive(entry)
+        else:
+            mesh = self._mesh_of_arrays(entry)
+        try:
+            if (materials := entry.get("materials")) is not None:
+                mesh.materials = self._chosen(materials)
+        except InvalidArgumentError as error:
+            raise entry.error(str(error)) from None
+        if (name := entry.get("name")) is not None:
+            mesh.name = name.text()
+        return mesh
+
+    def _chosen(self, materials: JsonValue) -> list[Material]:
+        count = len(self._materials)
+        return [self._materials[number.index(count, "materials")] for number in materials]
+
+    def _mesh_of_arrays(self, entry: JsonValue) -> Mesh:
+        held = entry.need("arrays")
+        for key in held.members():
+            if key not in _ARRAYS:
+                raise held.error(f"meshes have no array {shown(key)}")
+        arrays = {key: value.array() for key, value in held.members().items()}
+        groups = entry.get("groups")
+        materials = entry.get("materials")
+        chosen = None if materials is None else self._chosen(materials)
+        try:
+            mesh = Mesh(arrays.pop("positions", ()), **arrays, materials=chosen)
+            if groups is not None:
+                mesh.groups = {key: value.array() for key, value in groups.members().items()}
+        except InvalidArgumentError as error:
+            raise entry.error(str(error)) from None
+        return mesh
+
+    def _primitive(self, entry: JsonValue) -> Mesh:
+        name = entry.need("primitive")
+        if name.text() not in primitives.__all__:
+            raise name.wrong(f"one of {', '.join(primitives.__all__)}")
+        given = entry.get("arguments")
+        members = {} if given is None else given.members()
+        arguments = {key: value.value for key, value in members.items()}
+        self._vertices_left -= _vertices_of(arguments)
+        if self._vertices_left < 0:
+            raise entry.error("more vertices of primitives than such a file may ask for")
+        try:
+            return getattr(primitives, name.value)(**arguments)
+        except (InvalidArgumentError, TypeError) as error:
+            raise entry.error(str(error)) from None
+
+    def _mesh_of_file(self, entry: JsonValue) -> Mesh:
+        """A mesh of a file, or an empty one that keeps its place, with a warning."""
+        name, part = entry.need("file").text(), None
+        if (text := entry.get("part")) is not None:
+            place = entry.get("occurrence")
+            part = text.text(), 0 if place is None else place.index(2**31, "parts")
+        format = None if entry.get("format") is None else entry.need("format").text()
+        try:
+            return self._part(name, format, part)
+        except (LinkedFileError, FileFormatError, OSError) as error:
+            self._warnings.add(f"{entry.where}: mesh {shown(name)} is left out: {error}")
+        except InvalidArgumentError as error:
+            raise entry.error(str(error)) from None
+        mesh = Mesh([], name=part[0] if part else "")
+        path = self._place_of(name)
+        if path is not None:
+            remember_origin(mesh, FileOrigin(path, format, part, is_missing=True))
+        return mesh
+
+    def _part(self, name: str, format: str | None, part: tuple[str, int] | None) -> Mesh:
+        """A part of a file, or all of it; each file is read once, and each mesh given out once."""
+        key = name, format, part is not None
+        if key not in self._meshes:
+            self._meshes[key] = self._read(*key)
+        mesh = self._meshes[key].get(part)
+        if mesh is None:
+            raise LinkedFileError(f"it has no part {shown(part[0])} number {part[1]}")
+        times = self._given[key, part] = self._given.get((key, part), -1) + 1
+        return self._twin(mesh, times) if times else mesh
+
+    def _twin(self, mesh: Mesh, times: int) -> Mesh:
+        """A mesh that is used once more: parts of a file share materials only if all are new."""
+        twin = copy.copy(mesh)
+        twin.materials = [
+            self._copies.setdefault((id(material), times), copy.copy(material))
+            for material in self._materials_of[mesh]
+        ]
+        twin._origin = mesh._origin
+        return twin
+
+    def _read(self, name: str, format: str | None, split: bool) -> dict[Any, Mesh]:
+        with self._files.read(self._files.find(name)) as source:
+            if find_reader(source, "mesh", format).read is read_scene_file:
+                raise FileFormatError("a scene within a scene is not read", source.path)
+            document = document_of(source, format, split=split)
+            self.told += document.warnings
+            parts: dict[Any, Mesh] = (
+                dict(parts_of(document, source, format))
+                if split
+                else {None: whole_mesh(document, source, format)}
+            )
+            self._materials_of.update((mesh, mesh.materials) for mesh in parts.values())
+            return parts
+
+    def _place_of(self, name: str) -> str | None:
+        """Where a file would be that was not found, if it has a place."""
+        folder = self._source.folder
+        if folder is None or "\0" in name or len(name) > _MAX_NAME:
+            return None
+        return os.path.abspath(os.path.join(folder, name))
+
+
+def _vertices_of(arguments: dict[str, Any]) -> int:
+    """About how many vertices a primitive has."""
+    segments = arguments.get("segments", 1)
+    counts = segments if isinstance(segments, list) else [segments]
+    whole = [count for count in counts if type(count) is int and count > 0]
+    subdivisions = arguments.get("subdivisions", 0)
+    if type(subdivisions) is int and 0 < subdivisions < 32:
+        whole.append(4**subdivisions * 10)
+    return math.prod(count + 1 for count in whole)
+
+
+def _links(nodes: list[JsonValue]) -> tuple[list[int], dict[int, list[int]]]:
+    """The parent of each node, and the children of those that have some."""
+    parents = [-1] * len(nodes)
+    children: dict[int, list[int]] = {}
+    for number, node in enumerate(nodes):
+        held = node.get("children")
+        for child in () if held is None else held:
+            index = child.index(len(nodes), "nodes")
+            if parents[index] >= 0:
+                raise child.error(f"nodes[{index}] is a child of nodes[{parents[index]}] already")
+            parents[index] = number
+            children.setdefault(number, []).append(index)
+    state = bytearray(len(nodes))  # 1: on the way up from here, 2: leads to the top
+    for number in range(len(nodes)):
+        way = []
+        while number >= 0 and not state[number]:
+            state[number] = 1
+            way.append(number)
+            number = parents[number]
+        if number >= 0 and state[number] == 1:
+            raise nodes[number].error("is below itself")
+        for passed in way:
+            state[passed] = 2
+    return parents, children
+
+
+def _pose_parts(node: JsonValue) -> dict[str, list]:
+    """The parts of a node's pose, as `Scene.add` takes them."""
+    found: dict[str, list] = {}
+    for key, count in _PARTS.items():
+        if (held := node.get(key)) is not None:
+            found[key] = held.numbers(count)
+    if "rotation" in found and not 0.0 < sum(x * x for x in found["rotation"]) < math.inf:
+        raise node.need("rotation").wrong("a quaternion that has a length")
+    if "pose" in found:
+        if len(found) > 1:
+            raise node.error("give pose or translation, rotation and scale, not both")
+        rows = found["pose"]
+        found["pose"] = [rows[0:4], rows[4:8], rows[8:12], [0.0, 0.0, 0.0, 1.0]]
+    return found
+
+
+def _parts(record: SceneRecord, source: Source) -> list[PosedPart]:
+    """What shows, with poses in the world; an instance each."""
+    worlds, is_shown = _world_poses(record), _shown(record)
+    parts: list[PosedPart] = []
+    for number, node in enumerate(record.nodes):
+        held = node.get("object")
+        if held is None or not is_shown[number]:
+            continue
+        index = held.index(len(record.objects), "objects")
+        name = "" if node.get("name") is None else node.need("name").text()
+        if index in record.meshes:
+            parts.append(PosedPart(name, record.meshes[index], worlds[number]))
+        for mesh, pose in _instances(record, index):
+            parts.append(PosedPart(name, mesh, linalg.multiply(worlds[number], pose)))
+            if len(parts) > _MAX_OBJECTS:
+                raise FileFormatError(f"more than {_MAX_OBJECTS} instances", source.path)
+    return parts
+
+
+def _instances(record: SceneRecord, index: int) -> Iterator[tuple[Mesh, np.ndarray]]:
+    """The meshes that an object of instances is, and where in the space of its node."""
+    entry = record.objects[index]
+    if entry.need("kind").value != "instances":
+        return
+    mesh = mesh_of(record, entry.need("mesh"))
+    for row in entry.need("poses").array().astype(np.float64):
+        pose = np.eye(4)
+        if row.shape == (4,):
+            pose[:3, :3] *= row[3]
+            pose[:3, 3] = row[:3]
+        yield mesh, pose if row.shape == (4,) else row
+
+
+def mesh_of(record: SceneRecord, number: JsonValue) -> Mesh:
+    """Return the mesh that a number means."""
+    index = number.index(len(record.objects), "objects")
+    if index not in record.meshes:
+        raise number.error(f"objects[{index}] is no mesh")
+    return record.meshes[index]
+
+
+def _shown(record: SceneRecord) -> list[bool]:
+    """Whether each node, and all above it, are not hidden."""
+    hidden = [node.get("hidden") for node in record.nodes]
+    is_shown = [held is None or not held.flag() for held in hidden]
+    for level in _levels(record):
+        for number in level:
+            is_shown[number] &= record.parents[number] < 0 or is_shown[record.parents[number]]
+    return is_shown
+
+
+def _world_poses(record: SceneRecord) -> np.ndarray:
+    """The poses of the nodes in the world, (N, 4, 4) float64."""
+    worlds = _poses(record.places)
+    parents = np.array(record.parents)
+    for level in _levels(record)[1:]:
+        worlds[level] = linalg.multiply(worlds[parents[level]], worlds[level])
+    return worlds
+
+
+def _levels(record: SceneRecord) -> list[list[int]]:
+    """The nodes that stand at the top, those below these, and so on."""
+    level = [number for number, parent in enumerate(record.parents) if parent < 0]
+    levels = []
+    while level:
+        levels.append(level)
+        level = [child for number in level for child in record.children.get(number, ())]
+    return levels
+
+
+def _poses(places: list[dict[str, list]]) -> np.ndarray:
+    """The poses that parts of poses are, (N, 4, 4) float64."""
+    parts = {
+        key: np.array([place.get(key, default) for place in places]).reshape(-1, len(default))
+        for key, default in _IDENTITY.items()
+    }
+    poses = linalg.quaternion_to_matrix(parts["rotation"])
+    poses[:, :3, :3] *= parts["scale"][:, np.newaxis, :]
+    poses[:, :3, 3] = parts["translation"]
+    for number, place in enumerate(places):
+        if "pose" in place:
+            poses[number] = place["pose"]
+    return poses
+
+
+def _is_scene(head: bytes) -> bool:
+    return _SIGNATURE.match(head) is not None
+
+
+READERS = (Reader("e3d", "engine3d scene", "mesh", (".json",), read_scene_file, _is_scene),)

@@ -1,0 +1,112 @@
+"""From the tree of a scene's file to a scene.
+
+In: a `SceneRecord`, whose meshes are made. Out: nodes with what they hold, in the order of the
+file. What is wrong is a `FileFormatError` that names its place.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import InvalidArgumentError
+from ..loaders.documents import SceneRecord
+from ..loaders.json_values import JsonValue
+from ..loaders.scene_file import mesh_of
+from ..spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
+from .instances import InstancedMesh
+from .nodes import Node
+from .object_kinds import KINDS
+from .scene import Scene
+
+_NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
+_NODE_KEYS |= {"collider", "children"}
+
+
+def fill_scene(scene: Scene, record: SceneRecord) -> None:
+    """Add the nodes of a record to an empty scene, and take over its background and light."""
+    for key, value in record.values.members().items():
+        if key not in ("background", "ambient", "light_clamp"):
+            raise value.error("is no property of a scene")
+        _try(value, lambda key=key, value=value: setattr(scene, key, value.value))
+    objects = [_object(record, number) for number in range(len(record.objects))]
+    pairs = zip(record.nodes, record.places, strict=True)
+    nodes = [_node(scene, objects, entry, place) for entry, place in pairs]
+    for number, children in record.children.items():
+        for child in children:
+            nodes[child].reparent(nodes[number])
+    for node, entry in zip(nodes, record.nodes, strict=True):
+        if (collider := entry.get("collider")) is not None:
+            _try(collider, lambda n=node, c=collider: setattr(n, "collider", _collider(record, c)))
+
+
+def _try(place: JsonValue, do) -> Any:
+    """Let an error say where in the file it comes from."""
+    try:
+        return do()
+    except (InvalidArgumentError, TypeError) as error:
+        raise place.error(str(error)) from None
+
+
+def _object(record: SceneRecord, number: int) -> Any:
+    if number in record.meshes:
+        return record.meshes[number]
+    entry = record.objects[number]
+    kind = entry.need("kind")
+    if kind.value == "instances":
+        return _instances(record, entry)
+    if not (isinstance(kind.value, str) and kind.value in KINDS):
+        raise kind.wrong(f"one of mesh, instances, {', '.join(KINDS)}")
+    values = {key: held.value for key, held in entry.members().items() if key != "kind"}
+
+    def make():
+        obj = KINDS[kind.value](**values)
+        if hasattr(obj, "check"):
+            obj.check()
+        return obj
+
+    return _try(entry, make)
+
+
+def _instances(record: SceneRecord, entry: JsonValue) -> InstancedMesh:
+    mesh, poses = mesh_of(record, entry.need("mesh")), entry.need("poses").array()
+    colors = entry.get("colors")
+    held = None if colors is None else colors.array()
+    return _try(entry, lambda: InstancedMesh(mesh, poses, colors=held))
+
+
+def _node(scene: Scene, objects: list, entry: JsonValue, place: dict) -> Node:
+    for key in entry.value:
+        if key not in _NODE_KEYS:
+            raise entry.need(key).error("is no property of a node")
+    held, name = entry.get("object"), entry.get("name")
+    obj = None if held is None else objects[held.index(len(objects), "objects")]
+    node = _try(
+        entry,
+        lambda: scene.add(
+            obj,
+            name="" if name is None else name.text(),
+            static=_is(entry, "static"),
+            **place,
+        ),
+    )
+    if _is(entry, "hidden"):
+        node.visible = False
+    return node
+
+
+def _is(entry: JsonValue, key: str) -> bool:
+    held = entry.get(key)
+    return held is not None and held.flag()
+
+
+def _collider(record: SceneRecord, entry: JsonValue) -> Collider:
+    kind = entry.need("kind")
+    values = {key: held.value for key, held in entry.members().items() if key != "kind"}
+    if kind.value == "box":
+        return BoxCollider(**values)
+    if kind.value == "sphere":
+        return SphereCollider(**values)
+    if kind.value != "mesh":
+        raise kind.wrong("one of box, sphere, mesh")
+    mesh = entry.get("mesh")
+    return MeshCollider(None if mesh is None else mesh_of(record, mesh))

@@ -2,6 +2,7 @@
 
 import re
 import runpy
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+
+import engine3d
+from engine3d.cli.parser import make_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 LESSONS, COURSE = ROOT / "lessons", ROOT / "docs" / "course"
@@ -136,3 +140,29 @@ def test_lessons_build_on_earlier_ones_only():
         used = re.findall(r'earlier\("(\w+)"\)', text)
         assert all(other in NAMES and other < name for other in used), name
         assert "import engine3d._" not in text and "from engine3d" not in text, name
+
+
+def shown_by():
+    """The second cells of the tables that tell what shows what."""
+    text = (COURSE / "README.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (.*?) \| (.*) \|$", text, re.M)
+    return [cell for what, cell in rows if what != "What"]
+
+
+def test_the_table_of_the_courses_names_every_lesson():
+    cells = shown_by()
+    numbers = re.findall(r"(?:^|of )(\d+)", "\n".join(cells), re.M)
+    assert len(cells) > 30
+    assert {int(number) for number in numbers} == set(range(1, len(NAMES) + 1))
+
+
+def test_what_the_table_of_the_courses_names_exists():
+    code = re.findall(r"`([^`]+)`", "\n".join(shown_by()))
+    words = {word for text in code for word in re.findall(r"e3d\.(\w+)", text)}
+    assert words and all(hasattr(engine3d, word) for word in words)
+    scripts = {word for text in code for word in re.findall(r"\w+/\w+\.py", text)}
+    assert scripts and all((ROOT / script).exists() for script in scripts)
+    commands = [shlex.split(text)[1:] for text in code if text.startswith("engine3d ")]
+    for words in commands:
+        make_parser().parse_args(words)
+    assert len(commands) > 5

@@ -172,6 +172,7 @@ def measure():
 
 
 def steps(width=240, height=176):
+    width, height = width // 8 * 8, height // 8 * 8  # whole cells of the coarse buffer
     yield from occlusion(width, height)
     yield from levels(width, height)
     yield from update_rate(height)

@@ -67,10 +67,39 @@ def test_a_lesson_runs_by_itself_and_draws_its_picture(name, tmp_path, monkeypat
 
 
 def test_a_lesson_runs_from_anywhere(tmp_path):
-    command = [sys.executable, LESSONS / "03_lines.py", "--size", "21x15"]
+    command = [sys.executable, LESSONS / "03_lines.py", "--size", "35x33"]
     done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
     assert done.stdout == "out/03_lines.png: 6 steps\n"
     assert (tmp_path / "out" / "03_lines.png").exists()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_lesson_draws_any_size(name, monkeypatch):
+    monkeypatch.syspath_prepend(str(LESSONS))
+    steps = runpy.run_path(str(LESSONS / f"{name}.py"))["steps"]
+    drawn = list(steps(53, 32))
+    assert len(drawn) >= 3
+    for caption, *pictures in drawn:
+        assert caption and pictures
+        assert all(p.dtype == np.uint8 and p.shape[2:] == (3,) for p in pictures)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--model", "no.obj"], "No such file"),
+        (["--size", "40"], "invalid size value"),
+        (["--size", "0x20"], "invalid size value"),
+        (["--size", "100000x100000"], "invalid size value"),
+        (["--out", "/dev/null/out"], "Not a directory"),
+    ],
+)
+def test_what_is_wrong_is_told_in_a_line(arguments, said, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["02_points.py", *arguments])
+    monkeypatch.syspath_prepend(str(LESSONS))
+    with pytest.raises(SystemExit) as left:
+        runpy.run_path(str(LESSONS / "02_points.py"), run_name="__main__")
+    assert said in f"{left.value}{capsys.readouterr().err}"
 
 
 @pytest.mark.parametrize("name", NAMES)

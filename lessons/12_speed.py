@@ -73,6 +73,8 @@ def steps(width=48, height=24):
         pixels = visited(CORNERS, lanes)
         picture = blank(width, height)
         for x, y in pixels:
+            if x >= width:
+                continue
             picture[y, x] = USEFUL if (x, y) in inside else WASTED
             if x % lanes == 0 and lanes > 1:
                 picture[y, x] = picture[y, x] * 0.8

@@ -8,6 +8,8 @@ Pictures are arrays (H, W, 3) uint8, RGB, top row first.
 import argparse
 import importlib.util
 import inspect
+import subprocess
+import sys
 import textwrap
 from importlib.resources import files
 from pathlib import Path
@@ -21,6 +23,7 @@ MODELS = files("engine3d.data") / "models"
 PAPER, INK = (30, 33, 40), (235, 235, 230)
 MARGIN = 8
 GLYPH_WIDTH, LINE_HEIGHT = 8, 16
+LEAST, MOST = 32, 2000  # pixels along a side
 
 
 def blank(width, height, color=PAPER):
@@ -102,9 +105,20 @@ def sheet(blocks, widest=1040):
     return page
 
 
+def save(path, steps):
+    """Draw all steps, and write their sheet to a file."""
+    blocks = [block(*step) for step in steps]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    e3d.Canvas(sheet(blocks)).image().save(path)
+    print(f"{path}: {len(blocks)} steps")
+
+
 def size(argument):
-    width, _, height = argument.partition("x")
-    return int(width), int(height)
+    """Return (width, height) of an argument such as 320x240."""
+    sides = tuple(int(side) for side in argument.split("x"))
+    if len(sides) != 2 or not all(LEAST <= side <= MOST for side in sides):
+        raise ValueError
+    return sides
 
 
 def main(file, steps, **others):
@@ -125,12 +139,11 @@ def main(file, steps, **others):
         parser.add_argument(f"--{option}", action="store_true", help=summary)
     given = parser.parse_args()
     model = {"model": given.model} if takes_model and given.model else {}
-    for option, function in others.items():
-        if getattr(given, option):
+    chosen = [function for option, function in others.items() if getattr(given, option)]
+    try:
+        for function in chosen:
             function(**model)
-            return
-    blocks = [block(*step) for step in steps(*(given.size or ()), **model)]
-    given.out.mkdir(parents=True, exist_ok=True)
-    path = given.out / f"{name}.png"
-    e3d.Canvas(sheet(blocks)).image().save(path)
-    print(f"{path}: {len(blocks)} steps")
+        if not chosen:
+            save(given.out / f"{name}.png", steps(*(given.size or ()), **model))
+    except (OSError, e3d.Engine3DError, subprocess.CalledProcessError) as error:
+        sys.exit(f"{parser.prog}: {error}")

@@ -1,4 +1,4 @@
-"""The command line: ``engine3d run``, ``render``, ``info``, ``convert``, ``city``, ``bench``.
+"""The command line: ``engine3d run``, ``render``, ``info``, ``convert``, ``learn`` …
 
 In: arguments. Out: an exit status: 0, 1 after an error (one line on standard error that names the
 file and the line), 2 after wrong usage. One file per command; a command's module, and with it NumPy

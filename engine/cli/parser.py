@@ -64,6 +64,7 @@ def make_parser() -> Parser:
     _add_info(commands)
     _add_convert(commands)
     _add_city(commands)
+    _add_learn(commands)
     _add_bench(commands)
     _add_completion(commands, parser)
     parser.commands = commands.choices
@@ -176,6 +177,33 @@ def _add_city(commands) -> None:
     )
 
 
+def _add_learn(commands) -> None:
+    command = commands.add_parser(
+        "learn",
+        help="show how a 3D engine works, lesson by lesson",
+        description="Show the lessons of the course in a window, step by step. Each is a short "
+        "program that draws as a student would. Right and left arrow go from step to step, N and P "
+        "from lesson to lesson, Q leaves.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_learn)
+    command.add_argument(
+        "lesson",
+        metavar="LESSON",
+        nargs="?",
+        default="1",
+        help="its number or name, such as 3 or lines (default: 1)",
+    )
+    command.add_argument("--list", action="store_true", help="list the lessons")
+    command.add_argument("--path", action="store_true", help="print where the program is")
+    command.add_argument(
+        "-o",
+        "--output",
+        metavar="FOLDER",
+        help="write the lesson's pictures to a folder instead of opening a window",
+    )
+
+
 def _add_bench(commands) -> None:
     names = tuple(WORKLOADS)
     command = commands.add_parser(
@@ -242,7 +270,7 @@ def _add_completion(commands, parser: Parser) -> None:
 
 def _missing_command():
     raise UsageError(
-        "say which command: run, render, info, convert, city, bench or completion "
+        "say which command: run, render, info, convert, city, learn, bench or completion "
         "(see engine3d --help)"
     )
 
@@ -275,6 +303,12 @@ def _load_city():
     from .city import city
 
     return city
+
+
+def _load_learn():
+    from .learn import learn
+
+    return learn
 
 
 def _load_bench():

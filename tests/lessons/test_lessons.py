@@ -2,6 +2,7 @@
 
 import re
 import runpy
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+
+import engine3d
+from engine3d.cli.parser import make_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 LESSONS, COURSE = ROOT / "lessons", ROOT / "docs" / "course"
@@ -63,10 +67,39 @@ def test_a_lesson_runs_by_itself_and_draws_its_picture(name, tmp_path, monkeypat
 
 
 def test_a_lesson_runs_from_anywhere(tmp_path):
-    command = [sys.executable, LESSONS / "03_lines.py", "--size", "21x15"]
+    command = [sys.executable, LESSONS / "03_lines.py", "--size", "35x33"]
     done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
     assert done.stdout == "out/03_lines.png: 6 steps\n"
     assert (tmp_path / "out" / "03_lines.png").exists()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_lesson_draws_any_size(name, monkeypatch):
+    monkeypatch.syspath_prepend(str(LESSONS))
+    steps = runpy.run_path(str(LESSONS / f"{name}.py"))["steps"]
+    drawn = list(steps(53, 32))
+    assert len(drawn) >= 3
+    for caption, *pictures in drawn:
+        assert caption and pictures
+        assert all(p.dtype == np.uint8 and p.shape[2:] == (3,) for p in pictures)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--model", "no.obj"], "No such file"),
+        (["--size", "40"], "invalid size value"),
+        (["--size", "0x20"], "invalid size value"),
+        (["--size", "100000x100000"], "invalid size value"),
+        (["--out", "/dev/null/out"], "Not a directory"),
+    ],
+)
+def test_what_is_wrong_is_told_in_a_line(arguments, said, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["02_points.py", *arguments])
+    monkeypatch.syspath_prepend(str(LESSONS))
+    with pytest.raises(SystemExit) as left:
+        runpy.run_path(str(LESSONS / "02_points.py"), run_name="__main__")
+    assert said in f"{left.value}{capsys.readouterr().err}"
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -136,3 +169,29 @@ def test_lessons_build_on_earlier_ones_only():
         used = re.findall(r'earlier\("(\w+)"\)', text)
         assert all(other in NAMES and other < name for other in used), name
         assert "import engine3d._" not in text and "from engine3d" not in text, name
+
+
+def shown_by():
+    """The second cells of the tables that tell what shows what."""
+    text = (COURSE / "README.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (.*?) \| (.*) \|$", text, re.M)
+    return [cell for what, cell in rows if what != "What"]
+
+
+def test_the_table_of_the_courses_names_every_lesson():
+    cells = shown_by()
+    numbers = re.findall(r"(?:^|of )(\d+)", "\n".join(cells), re.M)
+    assert len(cells) > 30
+    assert {int(number) for number in numbers} == set(range(1, len(NAMES) + 1))
+
+
+def test_what_the_table_of_the_courses_names_exists():
+    code = re.findall(r"`([^`]+)`", "\n".join(shown_by()))
+    words = {word for text in code for word in re.findall(r"e3d\.(\w+)", text)}
+    assert words and all(hasattr(engine3d, word) for word in words)
+    scripts = {word for text in code for word in re.findall(r"\w+/\w+\.py", text)}
+    assert scripts and all((ROOT / script).exists() for script in scripts)
+    commands = [shlex.split(text)[1:] for text in code if text.startswith("engine3d ")]
+    for words in commands:
+        make_parser().parse_args(words)
+    assert len(commands) > 5

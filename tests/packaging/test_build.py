@@ -53,6 +53,7 @@ def built_once(source_tree, run_python, tmp_path_factory):
         "engine/_native/__init__.py": "",
         "engine/_native/number.pyx": GATEWAY,
         "data/__init__.py": "",
+        "lessons/__init__.py": "",
         "README.md": "",
         "LICENSE": "",
     }

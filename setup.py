@@ -28,15 +28,17 @@ from setuptools.command.build import build
 from setuptools.command.build_clib import build_clib
 from setuptools.command.build_ext import build_ext
 
+# A release has nothing that only debuggers and profilers read: neither unwind tables nor symbols.
 BUILDS = {
-    "release": ["-O3", "-g0", "-DNDEBUG"],
+    "release": ["-O3", "-g0", "-DNDEBUG", "-fno-asynchronous-unwind-tables"],
     "debug": ["-Og", "-g", "-UNDEBUG"],
     "profile": ["-O3", "-g", "-DNDEBUG", "-fno-omit-frame-pointer"],
     "asan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
     "tsan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
 }
-# What Cython writes checks arguments and calls the core: more optimisation than this gains nothing.
-GATEWAY_FLAGS = {"release": ["-O1"], "profile": ["-O1"]}
+# What Cython writes checks arguments and calls the core: optimised for speed, it would be little
+# faster and much larger.
+GATEWAY_FLAGS = {"release": ["-Os"], "profile": ["-Os"]}
 SANITIZERS = {
     "asan": ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     "tsan": ["-fsanitize=thread"],
@@ -58,6 +60,7 @@ HYGIENE = [
 # Outside the kernels, where files and callers' arrays are read.
 HARDENING = ["-fstack-protector-strong", "-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=2"]
 LINK_FLAGS = ["-pthread", "-Wl,-z,relro,-z,now"]
+STRIPPED = {"release": ["-s"]}
 NATIVE = "engine3d._native"
 CORE_MODULE = f"{NATIVE}._core"
 # What Cython would otherwise write into every module, such as the code of memoryviews.
@@ -84,7 +87,9 @@ IS_X86_64 = sysconfig.get_platform().endswith(("x86_64", "amd64"))
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
-DATA_SUFFIXES = ["obj", "mtl", "tga", "png", "jpg", "asc", "json", "txt", "md"]
+DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md"]
+# Models that nothing in the package draws: in the source, but not in the wheel.
+SOURCE_ONLY = ["models/globe.obj", "models/globe.mtl", "models/globe_stand.*", "models/nautilus*"]
 
 
 def common_flags():
@@ -155,7 +160,7 @@ def extensions():
             # build_ext lists the static libraries once more after these, so their order is free.
             libraries=[*(library for library, _ in static_libraries()), "m"],
             extra_compile_args=[*hardened_flags(), *GATEWAY_FLAGS.get(BUILD, [])],
-            extra_link_args=[*LINK_FLAGS, *SANITIZERS.get(BUILD, [])],
+            extra_link_args=[*LINK_FLAGS, *STRIPPED.get(BUILD, []), *SANITIZERS.get(BUILD, [])],
         )
         for name, sources in parts.items()
     ]
@@ -363,7 +368,10 @@ if __name__ == "__main__":
             "engine3d.lessons": ["*.c", "*.obj", "*.asc"],
         },
         include_package_data=False,
-        exclude_package_data={"engine3d._native": ["kernels_testing.pyi"]},
+        exclude_package_data={
+            "engine3d._native": ["kernels_testing.pyi"],
+            "engine3d.data": SOURCE_ONLY,
+        },
         libraries=static_libraries(),
         ext_modules=extensions(),
         cmdclass={

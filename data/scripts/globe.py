@@ -1,4 +1,4 @@
-"""A globe of an invented world, drawn like an old map, on a turned stand: globe.obj, .mtl, .tga.
+"""A globe of an invented world, drawn like an old map, on a turned stand: globe.obj, .mtl, .webp.
 
 Continents are where a noise on the sphere is high; mountains stand out a little. The ball leans
 as the Earth does and turns on pins in a brass half meridian.
@@ -6,7 +6,7 @@ as the Earth does and turns on pins in a brass half meridian.
 
 import numpy as np
 from globe_map import MAP_HEIGHT, MAP_WIDTH, elevation, map_picture, stand_picture
-from images import paint, tga
+from images import paint, webp
 from model_files import mtl, obj
 from surfaces import Surface, closed_circle, grid, lathe
 
@@ -23,16 +23,16 @@ WOOD, BRASS = (0.03, 0.03, 0.47, 0.97), (0.53, 0.03, 0.97, 0.97)  # halves of th
 def build():
     """Return the model's files, by name, as functions that make them."""
     materials = {
-        "map": {"Kd": (1, 1, 1), "Ks": (0.12, 0.12, 0.12), "Ns": 25, "map_Kd": "globe.tga"},
-        "wood": {"Kd": (1, 1, 1), "Ks": (0.2, 0.2, 0.2), "Ns": 40, "map_Kd": "globe_stand.tga"},
-        "brass": {"Kd": (1, 1, 1), "Ks": (0.8, 0.65, 0.35), "Ns": 60, "map_Kd": "globe_stand.tga"},
+        "map": {"Kd": (1, 1, 1), "Ks": (0.12, 0.12, 0.12), "Ns": 25, "map_Kd": "globe.webp"},
+        "wood": {"Kd": (1, 1, 1), "Ks": (0.2, 0.2, 0.2), "Ns": 40, "map_Kd": "globe_stand.webp"},
+        "brass": {"Kd": (1, 1, 1), "Ks": (0.8, 0.65, 0.35), "Ns": 60, "map_Kd": "globe_stand.webp"},
     }
     title = "A globe of an invented world"
     return {
         "globe.obj": lambda: obj(title, [ball(), *meridian(), *foot()], "globe.mtl"),
         "globe.mtl": lambda: mtl(title, materials),
-        "globe.tga": lambda: tga(paint(map_picture, MAP_WIDTH, MAP_HEIGHT, 2)),
-        "globe_stand.tga": lambda: tga(paint(stand_picture, 256, 128, 2)),
+        "globe.webp": lambda: webp(paint(map_picture, MAP_WIDTH, MAP_HEIGHT, 2)),
+        "globe_stand.webp": lambda: webp(paint(stand_picture, 256, 128, 2)),
     }
 
 

@@ -1,6 +1,6 @@
-"""Painting textures with arithmetic, and writing them as TGA.
+"""Painting textures with arithmetic, and writing them as TGA or WebP.
 
-In: float64 arrays, colours as sRGB values in [0, 1]. Out: bytes of TGA files (24 bits, RLE).
+In: float64 arrays, colours as sRGB values in [0, 1]. Out: bytes of files.
 Pictures are functions of texture coordinates, sampled several times a pixel: `u` runs to the
 right and `v` upwards, as in OBJ files.
 """
@@ -71,8 +71,17 @@ def paint(picture, width, height, samples=2, box=(0.0, 0.0, 1.0, 1.0)):
 
 
 def tga(pixels):
-    """Encode an image in [0, 1] as a TGA file."""
+    """Encode an image in [0, 1] as a TGA file (24 bits, RLE)."""
+    return _encoded(pixels, format="TGA", compression="tga_rle")
+
+
+def webp(pixels):
+    """Encode an image in [0, 1] as a WebP file without loss."""
+    return _encoded(pixels, format="WEBP", lossless=True, quality=100, method=6)
+
+
+def _encoded(pixels, **settings):
     quantised = np.floor(clamp(pixels) * 255.0 + 0.5).astype(np.uint8)
     file = io.BytesIO()
-    Image.fromarray(quantised, "RGB").save(file, format="TGA", compression="tga_rle")
+    Image.fromarray(quantised, "RGB").save(file, **settings)
     return file.getvalue()

@@ -4,7 +4,7 @@ Everything is arithmetic: the land is a sum of noises with two levelled places, 
 profiles turned about an axis, boxes and lofts, the textures are painted by functions.
 """
 
-from images import tga
+from images import webp
 from island_details import details_texture
 from island_land import COTTAGE, SEA_RADIUS, TOWER, ground_texture, land_surface, sea_surface
 from island_objects import (
@@ -22,9 +22,9 @@ from island_objects import (
 from model_files import mtl, obj
 
 MATERIALS = {
-    "ground": {"Kd": (1, 1, 1), "map_Kd": "island_ground.tga"},
-    "sea": {"Kd": (1, 1, 1), "Ks": (0.35, 0.35, 0.35), "Ns": 60, "map_Kd": "island_ground.tga"},
-    "details": {"Kd": (1, 1, 1), "map_Kd": "island_details.tga"},
+    "ground": {"Kd": (1, 1, 1), "map_Kd": "island_ground.webp"},
+    "sea": {"Kd": (1, 1, 1), "Ks": (0.35, 0.35, 0.35), "Ns": 60, "map_Kd": "island_ground.webp"},
+    "details": {"Kd": (1, 1, 1), "map_Kd": "island_details.webp"},
     "lantern": {"Kd": (0.9, 0.8, 0.5), "Ke": (0.9, 0.65, 0.25), "Ks": (0.6, 0.6, 0.6), "Ns": 80},
 }
 
@@ -35,8 +35,8 @@ def build():
     return {
         "island.obj": lambda: obj(title, surfaces(), "island.mtl"),
         "island.mtl": lambda: mtl(title, MATERIALS),
-        "island_ground.tga": lambda: tga(ground_texture(standing())),
-        "island_details.tga": lambda: tga(details_texture()),
+        "island_ground.webp": lambda: webp(ground_texture(standing())),
+        "island_details.webp": lambda: webp(details_texture()),
     }
 
 

@@ -5,7 +5,7 @@ animal's does (Thompson 1917, "On Growth and Form"). Tentacles and corals are tu
 """
 
 import numpy as np
-from images import lerp, paint, smoothstep, tga
+from images import lerp, paint, smoothstep, webp
 from model_files import mtl, obj
 from nautilus_pictures import reef_texture, shell_picture, tile
 from noise import hash01, ridged_noise, value_noise
@@ -20,9 +20,9 @@ END_ANGLE = -70.0 * np.pi / 180.0  # where the spiral ends: below its centre, op
 CENTRE = (-0.10, 1.75, 0.0)
 
 MATERIALS = {
-    "shell": {"Kd": (1, 1, 1), "Ks": (0.35, 0.35, 0.35), "Ns": 50, "map_Kd": "nautilus_shell.tga"},
-    "skin": {"Kd": (1, 1, 1), "Ks": (0.2, 0.2, 0.2), "Ns": 20, "map_Kd": "nautilus_reef.tga"},
-    "reef": {"Kd": (1, 1, 1), "map_Kd": "nautilus_reef.tga"},
+    "shell": {"Kd": (1, 1, 1), "Ks": (0.35, 0.35, 0.35), "Ns": 50, "map_Kd": "nautilus_shell.webp"},
+    "skin": {"Kd": (1, 1, 1), "Ks": (0.2, 0.2, 0.2), "Ns": 20, "map_Kd": "nautilus_reef.webp"},
+    "reef": {"Kd": (1, 1, 1), "map_Kd": "nautilus_reef.webp"},
 }
 
 
@@ -32,8 +32,8 @@ def build():
     return {
         "nautilus.obj": lambda: obj(title, [*shell(), *animal(), *reef()], "nautilus.mtl"),
         "nautilus.mtl": lambda: mtl(title, MATERIALS),
-        "nautilus_shell.tga": lambda: tga(paint(shell_picture, 1024, 256, 3)),
-        "nautilus_reef.tga": lambda: tga(reef_texture()),
+        "nautilus_shell.webp": lambda: webp(paint(shell_picture, 1024, 256, 3)),
+        "nautilus_reef.webp": lambda: webp(reef_texture()),
     }
 
 

@@ -115,6 +115,17 @@ def bound_points(const float[:, ::1] points not None):
     return low, high
 
 
+def same_objects(tuple some not None, tuple others not None):
+    """Whether two tuples hold the same objects: each frame asks, of values that ``==`` would confuse."""
+    cdef Py_ssize_t k
+    if len(some) != len(others):
+        return False
+    for k in range(len(some)):
+        if some[k] is not others[k]:
+            return False
+    return True
+
+
 include "mesh_handles.pxi"
 include "draw_list.pxi"
 

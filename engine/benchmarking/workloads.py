@@ -201,7 +201,7 @@ def _layers(plain, count=LAYERS, back_to_front=False):
     positions[:, :, :2] = corners * (1.6 * distance[:, np.newaxis, np.newaxis])
     positions[:, :, 2] = -distance[:, np.newaxis]
     quads = 4 * np.arange(count)[:, np.newaxis, np.newaxis] + [(0, 1, 2), (0, 2, 3)]
-    materials = [Material(texture=load_texture(MODELS / "globe.tga"))]
+    materials = [Material(texture=load_texture(MODELS / "globe.webp"))]
     mesh = Mesh(
         positions.reshape(-1, 3),
         quads.reshape(-1, 3),

@@ -94,7 +94,7 @@ def _sun() -> Mesh:
 
 def _earth() -> Mesh:
     ball = uv_sphere(EARTH_RADIUS, (64, 32))
-    texture = load_texture(Path(str(files("engine3d.data"))) / "models" / "globe.tga")
+    texture = load_texture(Path(str(files("engine3d.data"))) / "models" / "globe.webp")
     ball.materials = [Material(texture=texture)]
     return ball
 

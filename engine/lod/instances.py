@@ -1,8 +1,7 @@
 """Instances that are drawn coarser the smaller they are on the screen.
 
 In: meshes from fine to coarse with their errors, poses, and before each frame a camera. Out: an
-`InstancedMesh` per level, of those instances whose error is then less than some pixels. An instance
-turns coarser only well within the limit, so that it does not flicker between two levels.
+`InstancedMesh` per level, of those instances whose error is then less than some pixels.
 """
 
 from __future__ import annotations

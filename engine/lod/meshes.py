@@ -91,11 +91,8 @@ class DetailedMeshes:
 
         Parameters
         ----------
-        camera : Camera
-        pose : (4, 4) float
-            World from camera.
-        size : (int, int)
-            Width and height of the picture in pixels.
+        camera, pose, size
+            As for `DetailedInstances.update`.
 
         Raises
         ------

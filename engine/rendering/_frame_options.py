@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from operator import is_
+from dataclasses import fields
 
 from .._native import rasterizer as _native
+from .._native.rasterizer import same_objects
 from ..materials.display_colors import display_color, shading_color
 from ..scene.scene import Scene
 from ._native_handles import MeshNeeds
 from .options import RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
+#: The keyword arguments of a frame that name options, without the outputs.
+KEYWORDS = tuple(one.name for one in fields(RenderOptions) if one.name != "outputs")
 _MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
 # Modes whose colours go through the sRGB encoder; the others give display values.
 _ENCODED_MODES = ("lit", "unlit")
@@ -102,21 +105,27 @@ class OptionsCache:
         # By the identity of options: these, the scene's colours, and what they are together.
         self._found: dict[int, tuple[tuple, FrameOptions]] = {}
 
-    def of_keywords(self, keywords: dict, outputs: Iterable[str]) -> RenderOptions:
+    def of_keywords(self, given: tuple, outputs: Iterable[str]) -> RenderOptions:
         """Return the options that the keyword arguments of a frame name.
+
+        Parameters
+        ----------
+        given : tuple
+            Their values, in the order of `KEYWORDS`.
+        outputs : iterable of str
 
         Raises
         ------
         InvalidArgumentError
         """
         names = outputs if type(outputs) is tuple else check_outputs(outputs)
-        given = tuple(keywords.values())
         try:
             known = self._named.get(names)
         except TypeError:  # what cannot be hashed names no output
             names = check_outputs(names)
-        if known is not None and all(map(is_, given, known[0])):
+        if known is not None and same_objects(given, known[0]):
             return known[1]
+        keywords = dict(zip(KEYWORDS, given, strict=True))
         options = RenderOptions(outputs=names, **keywords)
         if type(keywords["line_color"]) is tuple:
             _keep(self._named, names, (given, options))
@@ -126,7 +135,7 @@ class OptionsCache:
         """Return what the options are for a scene as it is now."""
         seen = options, scene.background, scene.ambient, scene.light_clamp
         known = self._found.get(id(options))
-        if known is None or not all(map(is_, seen, known[0])):
+        if known is None or not same_objects(seen, known[0]):
             known = seen, FrameOptions(scene, self._color_space, options)
             _keep(self._found, id(options), known)
         return known[1]

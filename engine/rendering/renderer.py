@@ -292,21 +292,21 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            keywords = {
-                "mode": mode,
-                "wireframe": wireframe,
-                "cull": cull,
-                "shading": shading,
-                "normals": normals,
-                "hidden_surfaces": hidden_surfaces,
-                "line_width": line_width,
-                "line_color": line_color,
-                "hidden_lines": hidden_lines,
-                "point_size": point_size,
-                "culling": culling,
-                "batching": batching,
-            }
-            named = self._options.of_keywords(keywords, outputs)
+            given = (
+                mode,
+                wireframe,
+                cull,
+                shading,
+                normals,
+                hidden_surfaces,
+                line_width,
+                line_color,
+                hidden_lines,
+                point_size,
+                culling,
+                batching,
+            )
+            named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)
 
     def _draw(

@@ -128,7 +128,6 @@ class PerspectiveCamera(Camera):
     aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
-        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         _check_range(self)
         aspect = width / height if self.aspect is None else self.aspect
         return linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
@@ -147,7 +146,7 @@ class OrthographicCamera(Camera):
     xmag : float, optional
         Half the width; from ``ymag`` and the image's aspect if left out.
     znear, zfar : float
-        Distances of the near and far planes, ``znear < zfar``; they may be 0 or negative.
+        As for `PerspectiveCamera`, but they may be 0 or negative, and not infinite.
 
     Raises
     ------
@@ -173,7 +172,6 @@ class OrthographicCamera(Camera):
     zfar: NumberAttribute = CheckedAttribute(finite)
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
-        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         _check_range(self)
         xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
         return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
@@ -228,7 +226,6 @@ class IntrinsicsCamera(Camera):
     zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
-        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         _check_range(self)
         # The depth rows are those of any perspective; only the pixel grid differs.
         matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)

@@ -93,8 +93,7 @@ class PointLight(PlacedByNode):
     ----------
     color : sequence of 3 numbers
     intensity : float
-        Multiplies the colour; at distance 1 with ``"inverse_square"`` a white surface that faces
-        the light gets ``color * intensity``.
+        As for `DirectionalLight`; with ``"inverse_square"`` at distance 1.
     range : float
         World units; the light adds exactly nothing from this distance on. May be infinite with
         ``"inverse_square"``.
@@ -104,7 +103,7 @@ class PointLight(PlacedByNode):
     Attributes
     ----------
     version : int
-        Grows with every assignment.
+        As for `DirectionalLight`.
 
     Raises
     ------

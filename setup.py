@@ -115,7 +115,12 @@ def build_base():
 def static_libraries():
     """The (name, build_info) pairs that `build_clib` compiles; the ISA files only on x86-64."""
     sources = {
-        "e3d_core": ["csrc/core/*.c", "csrc/pipeline/*/*.c", "csrc/kernels/dispatch.c"],
+        "e3d_core": [
+            "csrc/core/*.c",
+            "csrc/pipeline/*/*.c",
+            "csrc/kernels/dispatch.c",
+            "csrc/ui/*.c",
+        ],
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/*.c"],
         "e3d_canvas": ["csrc/canvas/*.c"],

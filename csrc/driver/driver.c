@@ -13,6 +13,7 @@
 #include "driver/compare.h"
 #include "driver/graph_scene.h"
 #include "driver/passes.h"
+#include "driver/ui_scene.h"
 
 typedef struct options {
     long scenes, first;
@@ -86,6 +87,8 @@ int main(int count, char **arguments)
         failures += report("canvas", i, compare_canvas(r, CANVAS_SIDE, CANVAS_CALLS, title));
         snprintf(title, sizeof title, "graph %04ld", i);
         failures += report("graph", i, compare_graph(r, &o.plan, title));
+        snprintf(title, sizeof title, "ui %04ld", i);
+        failures += report("ui", i, compare_ui(r, &o.plan, title));
     }
     if (failures > 0)
         fprintf(stderr, "driver: %d scenes differ between runs\n", failures);

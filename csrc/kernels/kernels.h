@@ -9,10 +9,12 @@
 #include "core/limits.h"
 #include "core/mesh.h"
 #include "e3d.h"
+#include "e3d_canvas.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
+#include "kernels/types/ui.h"
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
 
@@ -100,6 +102,8 @@ typedef struct e3d_kernels {
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
     /* Copies rows with non-temporal stores; e3d_stream_end() must follow before other threads are told. */
     void (*stream)(const e3d_pixel_rows *rows);
+    /* Draws rows of a shape of the user interface over the picture, which is at least E3D_UI_LEAST_WIDTH wide (of portable kernels: any). */
+    void (*ui)(const e3d_canvas *picture, const e3d_ui_shape *shape, const e3d_ui_rows *rows);
 } e3d_kernels;
 
 /* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */

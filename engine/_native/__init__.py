@@ -13,7 +13,9 @@ from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
 from importlib.util import spec_from_file_location
 from os.path import dirname, exists, join
 
-MODULES = ("canvas", "images", "loaders", "navigation", "rasterizer", "scene_graph", "writers")
+MODULES = (
+    *("canvas", "images", "loaders", "navigation", "rasterizer", "scene_graph", "ui", "writers"),
+)
 
 
 class _CoreFinder:

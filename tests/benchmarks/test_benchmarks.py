@@ -32,6 +32,13 @@ def test_lines():
         assert row["dda_ns_per_line"] > 0 and row["bresenham_ns_per_line"] > 0
 
 
+def test_user_interface():
+    pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[editor]")
+    rows = report("user_interface.py", "--repeats", "1")["rows"]
+    assert [row["backend"] for row in rows] == e3d.backends()
+    assert all(row["triangles"] > 5000 and row["milliseconds"] > 0 for row in rows)
+
+
 def test_loaders():
     rows = report(
         "loaders.py", "--megabytes", "0.02", "--repeat", "1", "--only", "engine3d", "NumPy"

@@ -52,6 +52,7 @@ FOLDERS = {
     },
     "reference": {"core", "include"},
     "scene": {"core", "include"},
+    "ui": {"core", "include", "kernels", "reference"},
     "writers": {"include"},
 }
 MAX_HEADER_LINES = 260

@@ -23,6 +23,7 @@
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
 #include "kernels/generic/stream.inl"
+#include "kernels/generic/ui.inl"
 
 const e3d_kernels E3D_TABLE = {
     .face_away = kernel_face_away,
@@ -61,4 +62,5 @@ const e3d_kernels E3D_TABLE = {
     .average = kernel_average,
     .paint = kernel_paint,
     .stream = kernel_stream,
+    .ui = kernel_ui,
 };

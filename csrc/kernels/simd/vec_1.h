@@ -84,7 +84,9 @@ static inline vi32 v_min16(vi32 a, vi32 b) {
 static inline vi32 v_max16(vi32 a, vi32 b) {
     return halves_of(v_maxi(half_low(a), half_low(b)), v_maxi(half_high(a), half_high(b)));
 }
+static inline vi32 v_mul16(vi32 a, vi32 b) { return halves_of(half_low(a) * half_low(b), half_high(a) * half_high(b)); }
 #define v_sra16(a, n) halves_of(half_low(a) >> (n), half_high(a) >> (n))
+#define v_shr16(a, n) halves_of((uint16_t)half_low(a) >> (n), (uint16_t)half_high(a) >> (n))
 /* Products of the signed 16-bit halves, both added. */
 static inline vi32 v_madd16(vi32 a, vi32 b) {
     return v_addi(half_low(a) * half_low(b), half_high(a) * half_high(b));

@@ -89,9 +89,11 @@ static inline vi32 v_add16(vi32 a, vi32 b) { return _mm_add_epi16(a, b); }
 static inline vi32 v_sub16(vi32 a, vi32 b) { return _mm_sub_epi16(a, b); }
 static inline vi32 v_min16(vi32 a, vi32 b) { return _mm_min_epi16(a, b); }
 static inline vi32 v_max16(vi32 a, vi32 b) { return _mm_max_epi16(a, b); }
+static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm_mullo_epi16(a, b); }
 static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm_madd_epi16(a, b); }
 static inline vi32 v_madd8(vi32 a, vi32 b) { return _mm_maddubs_epi16(a, b); }
 #define v_sra16(a, n) _mm_srai_epi16(a, n)
+#define v_shr16(a, n) _mm_srli_epi16(a, n)
 #define v_shl(a, n) _mm_slli_epi32(a, n)
 #define v_shr(a, n) _mm_srli_epi32(a, n)
 #define v_sra(a, n) _mm_srai_epi32(a, n)

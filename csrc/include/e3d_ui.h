@@ -1,0 +1,81 @@
+/* Triangles of a user interface: two-dimensional, textured, blended, each list of them cut by scissor rectangles.
+ *
+ * In:  a picture and lists as Dear ImGui makes them (ImDrawVert, 16- or 32-bit indices, commands).
+ * Out: the picture's pixels, blended over in the order of the list. docs/exactness.md, section 11, has the rules.
+ * Always: every backend gives the same bytes. Any position, uv and colour is legal: what lies outside is clipped, and a triangle
+ *      with a position that is no number draws nothing. One thread, no allocation; the whole picture is the call's as long as
+ *      it lasts.
+ */
+#ifndef E3D_UI_H
+#define E3D_UI_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "e3d_backends.h"
+#include "e3d_canvas.h"
+#include "e3d_status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The longest side of a picture, and of a texture: texel coordinates in 1/256 are exact in float32. */
+#define E3D_UI_MAX_SIDE 16384
+
+typedef struct e3d_ui_vertex {
+    float x, y;      /* pixels, y down */
+    float u, v;      /* (0, 0) is the texture's top left corner, (1, 1) the other one */
+    uint8_t rgba[4]; /* straight alpha; the texture is multiplied by it */
+} e3d_ui_vertex;
+
+typedef enum e3d_ui_format {
+    E3D_UI_RGBA8 = 0,
+    E3D_UI_A8 = 1,    /* white, of that alpha */
+    E3D_UI_RGBX8 = 2, /* opaque: the fourth byte isn't looked at */
+} e3d_ui_format;
+
+typedef enum e3d_ui_filter {
+    E3D_UI_BILINEAR = 0,
+    E3D_UI_NEAREST = 1,
+} e3d_ui_filter;
+
+/* Coordinates beyond its sides take the texels at the sides. */
+typedef struct e3d_ui_texture {
+    const uint8_t *pixels; /* top row first; unless of A8 aligned to 4 bytes; shares no byte with the picture */
+    int32_t width;         /* 1 ... E3D_UI_MAX_SIDE */
+    int32_t height;
+    int32_t stride; /* bytes from a row to the one below it; a multiple of a texel's; height * stride is below 2^31 */
+    e3d_ui_format format;
+    e3d_ui_filter filter;
+} e3d_ui_texture;
+
+/* Triangles of three indices each, to which `first_vertex` is added. Pixels in [left, right) x [top, bottom) may change. */
+typedef struct e3d_ui_command {
+    int32_t left, top, right, bottom;
+    uint32_t first_index;
+    uint32_t index_count; /* a multiple of 3 */
+    uint32_t first_vertex;
+    uint32_t texture; /* its place in the list's textures */
+} e3d_ui_command;
+
+typedef struct e3d_ui_list {
+    const e3d_ui_vertex *vertices;
+    const void *indices; /* uint16_t or uint32_t, as `index_bytes` says */
+    const e3d_ui_command *commands;
+    const e3d_ui_texture *textures;
+    uint32_t vertex_count;
+    uint32_t index_count;
+    uint32_t command_count;
+    uint32_t texture_count;
+    uint32_t index_bytes; /* 2 or 4 */
+} e3d_ui_list;
+
+/* Draws all commands. E3D_INVALID_ARGUMENT where a count, a size, an index or a texture is out of its range: then nothing is drawn. */
+e3d_status e3d_ui_draw(e3d_backend backend, const e3d_canvas *picture, const e3d_ui_list *list);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

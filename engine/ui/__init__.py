@@ -1,0 +1,1 @@
+"""Drawing user interfaces: lists of two-dimensional, textured triangles with scissor rectangles."""

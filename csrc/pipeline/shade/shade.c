@@ -1,7 +1,6 @@
 /* shade, second half: visible samples, bucket by bucket and batch by batch, to colours and outputs (R20-R32). */
 #include <string.h>
 
-#include "core/cpu.h"
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
@@ -165,7 +164,6 @@ static void paint_batch(const e3d_context *context, e3d_worker *worker, const e3
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = e3d_plans(context, E3D_PLAN_ENCODES_SRGB),
-        .looks_ahead = e3d_cpu_looks_ahead(),
         .samples = context->frame->samples_axis > 1 ? &worker->tile->pixels.samples : NULL,
     };
     context->kernels->paint(&worker->tile->batch, &worker->tile->surfaces, &paint, worker->tile->pixels.rgba);

@@ -4,15 +4,10 @@
  * because a container's quota does not show in the mask.
  */
 #define _GNU_SOURCE
-#ifdef E3D_HAVE_X86
-#include <cpuid.h>
-#endif
 #include <sched.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <unistd.h>
 
-#include "core/cpu.h"
 #include "core/limits.h"
 #include "e3d.h"
 
@@ -43,29 +38,6 @@ e3d_backend e3d_backend_best(void)
         if (e3d_backend_available((e3d_backend)b))
             return (e3d_backend)b;
     return E3D_BACKEND_PORTABLE;
-}
-
-#ifdef E3D_HAVE_X86
-static int has_fp16(void)
-{
-    unsigned a, b, c, d;
-    return __get_cpuid_count(7, 0, &a, &b, &c, &d) && d >> 23 & 1;
-}
-#endif
-
-int e3d_cpu_looks_ahead(void)
-{
-#ifdef E3D_HAVE_X86
-    static atomic_int known = -1; /* CPUID traps in a virtual machine, which takes long */
-    int ahead = atomic_load_explicit(&known, memory_order_relaxed);
-    if (ahead < 0) {
-        ahead = has_fp16();
-        atomic_store_explicit(&known, ahead, memory_order_relaxed);
-    }
-    return ahead;
-#else
-    return 0;
-#endif
 }
 
 static int affinity_count(void)

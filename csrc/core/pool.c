@@ -1,10 +1,9 @@
 /* The process's one thread pool: made at the first frame, remade after a fork.
  *
  * Helpers sleep on a condition variable between jobs. A frame is several jobs, so before they sleep they watch for the next one
- * (they spin) for about as long as waking up takes: a small picture takes 6 % less time. While frames follow each other closely,
- * and nobody else wants the CPU, they watch from one frame to the next. A helper that has not come when the caller runs out of
- * work is not waited for. A second caller does not wait for the pool: it works alone, which cannot deadlock and gives the same
- * picture. So does the owner as long as helpers are waited for more than they help (helping.h).
+ * (they spin) for about as long as waking up takes: a small picture takes 4 % less time. A helper that has not come when the
+ * caller runs out of work is not waited for. A second caller does not wait for the pool: it works alone, which cannot deadlock
+ * and gives the same picture. So does the owner as long as helpers are waited for more than they help (helping.h).
  */
 #include "core/pool.h"
 
@@ -31,7 +30,6 @@ static struct {
     pthread_mutex_t lock;  /* guards what follows */
     pthread_cond_t start, done;
     int threads;           /* made so far, without the caller */
-    int called;            /* helpers, to the last job */
     int wanted, running;   /* helpers that may still join it (none once it is over); that are at work */
     int64_t used;          /* the CPU time of those that have returned */
     unsigned long job;
@@ -61,84 +59,54 @@ static void in_child(void) /* no thread came along */
     pthread_mutex_init(&pool.lock, NULL);
     pthread_cond_init(&pool.start, NULL);
     pthread_cond_init(&pool.done, NULL);
-    pool.threads = pool.called = pool.wanted = pool.running = 0;
+    pool.threads = pool.wanted = pool.running = 0;
 }
 
 static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
 
-enum {
-    WAKING_NS = 30000, /* about what a thread takes to wake up */
-    SOON_NS = 400000,  /* what passes between the frames of a program that does little else */
-    SLICE_NS = 500000  /* for how long another thread has the CPU, at least, once the scheduler gives it away */
-};
+enum { WAKING_NS = 30000 }; /* about what a thread takes to wake up */
 
-/* Spins until the number reaches a job's, but not for longer than `patience` nanoseconds. */
-static void watch(const atomic_ulong *number, unsigned long job, int64_t patience)
+/* Spins until the number reaches a job's, but not for longer than waking up takes. */
+static void watch(const atomic_ulong *number, unsigned long job)
 {
     if (!atomic_load(&pool.watches))
         return;
-    for (int64_t end = e3d_now_ns() + patience; atomic_load(number) < job && e3d_now_ns() < end;)
+    for (int64_t end = e3d_now_ns() + WAKING_NS; atomic_load(number) < job && e3d_now_ns() < end;)
         pause_briefly();
 }
 
-/* For how long a thread watches for the next job. */
-typedef struct patience {
-    int64_t ns;
-    int64_t began;      /* when it began to watch */
-    int64_t came, used; /* when the last job came, and the thread's CPU time then */
-    int wary;           /* for how many jobs it watches briefly: watching took a CPU from others */
-} patience;
-
-/* Sets the patience when a job has come. One that comes at once is of the same frame, and changes nothing. */
-static void learn_patience(patience *p)
-{
-    enum { WARY_JOBS = 256 };
-    int64_t now = e3d_now_ns(), used = e3d_thread_ns(), idle = now - p->began;
-    int64_t lost = (now - p->came) - (used - p->used);
-    p->wary = p->ns == SOON_NS && lost > SLICE_NS ? WARY_JOBS : p->wary - (p->wary > 0);
-    if (p->wary || idle > SOON_NS)
-        p->ns = WAKING_NS;
-    else if (idle > WAKING_NS)
-        p->ns = SOON_NS;
-    p->came = now;
-    p->used = used;
-}
-
-/* Waits, with the lock held, for a job to join after the one that was seen; returns its number. */
+/* Waits for a job to join after the one that was seen; returns its number, with the lock held. */
 static unsigned long await_job(int worker, unsigned long seen)
 {
-    while (pool.job == seen || worker > pool.wanted) {
-        int late = pool.job != seen && worker <= pool.called;
-        seen = pool.job;
-        if (late) {
-            pthread_mutex_unlock(&pool.lock);
-            watch(&pool.posted, seen + 1, WAKING_NS);
-            pthread_mutex_lock(&pool.lock);
-        }
-        if (pool.job == seen)
+    for (;;) {
+        watch(&pool.posted, seen + 1);
+        pthread_mutex_lock(&pool.lock);
+        while (pool.job == seen)
             pthread_cond_wait(&pool.start, &pool.lock);
+        if (worker <= pool.wanted)
+            return pool.job;
+        seen = pool.job; /* it needs no more helpers */
+        pthread_mutex_unlock(&pool.lock);
     }
-    return pool.job;
 }
 
 static void *helper(void *number)
 {
     int worker = (int)(intptr_t)number;
-    unsigned long seen = 0;
-    patience own = {.ns = WAKING_NS};
     pthread_mutex_lock(&pool.lock);
-    seen = pool.job - 1; /* made for the job that is about to start */
+    unsigned long seen = pool.job - 1; /* made for the job that is about to start */
+    pthread_mutex_unlock(&pool.lock);
     for (;;) {
         seen = await_job(worker, seen);
         pool.running++;
         void (*work)(void *, int) = pool.work;
         void *argument = pool.argument;
         pthread_mutex_unlock(&pool.lock);
-        learn_patience(&own);
+        int64_t began = e3d_thread_ns();
         e3d_fpenv saved = e3d_fpenv_enter();
         work(argument, worker);
         e3d_fpenv_leave(saved);
-        int64_t used = e3d_thread_ns() - own.used;
+        int64_t used = e3d_thread_ns() - began;
         pthread_mutex_lock(&pool.lock);
         pool.used += used;
         int last = --pool.running == 0 && !pool.wanted;
@@ -147,9 +115,6 @@ static void *helper(void *number)
         pthread_mutex_unlock(&pool.lock);
         if (last)
             atomic_store(&pool.finished, seen);
-        own.began = e3d_now_ns();
-        watch(&pool.posted, seen + 1, own.ns);
-        pthread_mutex_lock(&pool.lock);
     }
     return NULL;
 }
@@ -181,7 +146,7 @@ static int64_t await_helpers(void)
     if (pool.running) {
         unsigned long job = pool.job;
         pthread_mutex_unlock(&pool.lock);
-        watch(&pool.finished, job, WAKING_NS);
+        watch(&pool.finished, job);
         pthread_mutex_lock(&pool.lock);
     }
     while (pool.running)
@@ -196,7 +161,7 @@ static void post_job(int helpers, void (*work)(void *, int), void *argument)
     pthread_mutex_lock(&pool.lock);
     pool.job++;
     make_helpers(helpers);
-    pool.called = pool.wanted = helpers < pool.threads ? helpers : pool.threads;
+    pool.wanted = helpers < pool.threads ? helpers : pool.threads;
     pool.work = work;
     pool.argument = argument;
     pool.used = 0;

@@ -152,7 +152,6 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *specular
         const float *emissive
         int srgb
-        int looks_ahead
         e3d_samples *samples
 
     ctypedef struct e3d_kernels:

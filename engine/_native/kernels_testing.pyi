@@ -168,7 +168,6 @@ class Kernels:
         specular: _Floats | None,
         emissive: _Floats | None,
         srgb: bool,
-        looks_ahead: bool,
         rgba: _Words,
         samples: _Floats | None = ...,
     ) -> None: ...

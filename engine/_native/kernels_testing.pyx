@@ -485,7 +485,7 @@ cdef class Kernels:
 
     def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
-              const float[::1] specular, const float[::1] emissive, bint srgb, bint looks_ahead, uint32_t[::1] rgba,
+              const float[::1] specular, const float[::1] emissive, bint srgb, uint32_t[::1] rgba,
               float[:, ::1] samples=None):
         """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
         ``specular`` and ``emissive`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements. ``samples``,
@@ -512,7 +512,6 @@ cdef class Kernels:
         paint.specular = NULL if specular is None else &specular[0]
         paint.emissive = NULL if emissive is None else &emissive[0]
         paint.srgb = srgb
-        paint.looks_ahead = looks_ahead
         paint.samples = NULL if samples is None else samples_of(samples)
         for _ in range(self.rounds):
             self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],

@@ -62,7 +62,7 @@ def random_texture(rng, filter_name, bits):
 
 
 def random_material(rng, texture, lit):
-    """The arguments of paint from `wanted` to `looks_ahead`, some of the choices at random."""
+    """The arguments of paint from `wanted` to `srgb`, some of the choices at random."""
     wanted = WANT_SURFACE | (WANT_UV if texture else 0)
     by_vertex, by_instance = (bool(rng.integers(2)) for _ in range(2))
     if by_vertex:
@@ -94,7 +94,6 @@ def random_material(rng, texture, lit):
         "specular": rng.random(3).astype(np.float32) if shiny else None,
         "emissive": emissive if rng.integers(2) else None,
         "srgb": bool(rng.integers(2)),
-        "looks_ahead": bool(rng.integers(2)),
     }
 
 

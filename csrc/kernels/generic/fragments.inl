@@ -43,7 +43,7 @@ static inline void fragment_add_vectors(const e3d_vertices *v, const uint8_t *in
         count += v_pack(list + count, v_addi(v_iota(), v_seti(i)), (uint32_t)(triangles >> i) & setup_tail(V_LANES));
     v_table(v->sx, v->count, &x);
     v_table(v->sy, v->count, &y);
-    v_table((const int32_t *)v->zn, v->count, &zn);
+    v_table(v->zn, v->count, &zn);
     for (int i = 0, n = to->count; i < count; i += V_LANES, n += V_LANES) {
         vi32 triangle = v_loadi(list + i);
         for (int k = 0; k < 3; k++) {
@@ -90,8 +90,7 @@ static inline void fragment_sort(e3d_small_triangles *triangles, int first, int 
         x[k] = v_loadi(triangles->x[k] + first);
         y[k] = v_loadi(triangles->y[k] + first);
     }
-    setup_span across = setup_samples(setup_min3(x[0], x[1], x[2]), setup_max3(x[0], x[1], x[2]), viewport->width);
-    setup_span down = setup_samples(setup_min3(y[0], y[1], y[2]), setup_max3(y[0], y[1], y[2]), viewport->height);
+    setup_span across = setup_box(x, viewport->width), down = setup_box(y, viewport->height);
     uint32_t tinies = v_bits(v_mand(setup_narrow(across, 2), setup_narrow(down, 2))), asked = setup_tail(left);
     if (asked & ~tinies)
         fragment_move(triangles, first, asked & ~tinies, wide);
@@ -129,10 +128,8 @@ static inline uint32_t fragment_begin(const e3d_small_triangles *triangles, int 
         c->at.zn[k] = c->at.iw[k] = v_loadf(triangles->zn[k] + first);
     }
     record_swap(&c->at, v_negi(setup_area(c->at.x, c->at.y)));
-    c->across = setup_samples(setup_min3(c->at.x[0], c->at.x[1], c->at.x[2]), setup_max3(c->at.x[0], c->at.x[1], c->at.x[2]),
-                              viewport->width);
-    c->down = setup_samples(setup_min3(c->at.y[0], c->at.y[1], c->at.y[2]), setup_max3(c->at.y[0], c->at.y[1], c->at.y[2]),
-                            viewport->height);
+    c->across = setup_box(c->at.x, viewport->width);
+    c->down = setup_box(c->at.y, viewport->height);
     v->plane = record_plane_of(&c->at, c->across, c->down, &finite);
     v->x = c->across.first;
     v->y = c->down.first;

@@ -143,42 +143,40 @@ static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, i
         each_vector(batch, surfaces, stage_interpolate, &wanted);
 }
 
-/* R24: color *= tint */
-static ALWAYS_INLINE void stage_vertex_color(e3d_batch *batch, const sample_vector *v, const void *how)
+/* R24: color *= tint, or base * tint where a base is given. */
+static ALWAYS_INLINE void tint_vector(e3d_batch *batch, const sample_vector *v, int c, const float *base, vf32 tint)
 {
-    (void)how;
+    vf32 color = base ? v_setf(base[c]) : v_loadf(batch->color[c] + v->i);
+    v_storef(batch->color[c] + v->i, v_mul(color, tint));
+}
+
+static ALWAYS_INLINE void stage_vertex_color(e3d_batch *batch, const sample_vector *v, const void *base)
+{
     vf32 r = v_loadf(batch->r + v->i), w[3];
     for (int k = 0; k < 3; k++)
         w[k] = v_loadf(batch->weight[k] + v->i);
-    for (int c = 0; c < 3; c++) {
-        vf32 tint = v_mul(weighted_sum(v->s->color[c], &v->elements, v->same, w), r);
-        v_storef(batch->color[c] + v->i, v_mul(v_loadf(batch->color[c] + v->i), tint));
-    }
-}
-
-static ALWAYS_INLINE void stage_instance_color(e3d_batch *batch, const sample_vector *v, const void *how)
-{
-    (void)how;
-    for (int c = 0; c < 3; c++) {
-        vf32 tint = take(v->s->instance_color[c], &v->elements, v->same);
-        v_storef(batch->color[c] + v->i, v_mul(v_loadf(batch->color[c] + v->i), tint));
-    }
-}
-
-/* R24, of a constant base colour: color = base * tint */
-static ALWAYS_INLINE void stage_instance_base(e3d_batch *batch, const sample_vector *v, const void *how)
-{
-    const float *base = how;
     for (int c = 0; c < 3; c++)
-        v_storef(batch->color[c] + v->i, v_mul(v_setf(base[c]), take(v->s->instance_color[c], &v->elements, v->same)));
+        tint_vector(batch, v, c, base, v_mul(weighted_sum(v->s->color[c], &v->elements, v->same, w), r));
+}
+
+static ALWAYS_INLINE void stage_instance_color(e3d_batch *batch, const sample_vector *v, const void *base)
+{
+    for (int c = 0; c < 3; c++)
+        tint_vector(batch, v, c, base, take(v->s->instance_color[c], &v->elements, v->same));
+}
+
+/* Tints the colours of a batch, or those of a constant base, which are not written yet. */
+static inline void tint_all(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance, const float *base)
+{
+    if (by_vertex)
+        each_vector(batch, surfaces, stage_vertex_color, base);
+    if (by_instance)
+        each_vector(batch, surfaces, stage_instance_color, by_vertex ? NULL : base);
 }
 
 static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
 {
-    if (by_vertex)
-        each_vector(batch, surfaces, stage_vertex_color, NULL);
-    if (by_instance)
-        each_vector(batch, surfaces, stage_instance_color, NULL);
+    tint_all(batch, surfaces, by_vertex, by_instance, NULL);
 }
 
 /* R27 */

@@ -171,29 +171,35 @@ static inline int light_choose(const e3d_lighting *lighting, int first, int end,
 
 /* ---- the sums ---- */
 
-static inline void light_start(e3d_batch *batch, const e3d_lighting *lighting)
+/* Loads one vector, which only the ambient light lights yet. */
+static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, float shininess)
 {
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < batch->count; i += V_LANES) {
-            v_storef(batch->energy[k] + i, v_setf(lighting->ambient[k]));
-            v_storef(batch->shine[k] + i, v_setf(0.0f));
-        }
+    lit_lanes lit;
+    for (int k = 0; k < 3; k++) {
+        lit.position[k] = v_loadf(batch->position[k] + i);
+        lit.normal[k] = v_loadf(batch->normal[k] + i);
+        lit.view[k] = lit.shine[k] = v_setf(0.0f);
+        lit.energy[k] = v_setf(lighting->ambient[k]);
+    }
+    if (shininess > 0.0f)
+        light_view(lighting, &lit);
+    return lit;
 }
 
-static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, const int32_t *chosen, int count,
-                             float shininess)
+static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
+{
+    return v_min(v_max(energy, v_setf(lighting->clamp[0])), v_setf(lighting->clamp[1]));
+}
+
+/* Adds the chosen ones of the lights from `first` on. */
+static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count, float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
-        lit_lanes lit;
-        for (int k = 0; k < 3; k++) {
-            lit.position[k] = v_loadf(batch->position[k] + i);
-            lit.normal[k] = v_loadf(batch->normal[k] + i);
+        lit_lanes lit = light_begin(batch, i, lighting, shininess);
+        for (int k = 0; k < 3 && first; k++) {
             lit.energy[k] = v_loadf(batch->energy[k] + i);
             lit.shine[k] = v_loadf(batch->shine[k] + i);
-            lit.view[k] = v_setf(0.0f);
         }
-        if (shininess > 0.0f)
-            light_view(lighting, &lit);
         for (int n = 0; n < count; n++)
             light_one(lighting, chosen[n], shininess, &lit);
         for (int k = 0; k < 3; k++) {
@@ -203,23 +209,18 @@ static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, con
     }
 }
 
-static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
-{
-    return v_min(v_max(energy, v_setf(lighting->clamp[0])), v_setf(lighting->clamp[1]));
-}
-
 static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
 {
     enum { AT_ONCE = 256 };
     int32_t chosen[AT_ONCE + E3D_PAD];
     light_box box;
-    int boxed = lighting->light_count > E3D_FEW_LIGHTS && light_bounds(batch, &box);
-    light_start(batch, lighting);
-    for (int first = 0; first < lighting->light_count; first += AT_ONCE) {
+    int boxed = lighting->light_count > E3D_FEW_LIGHTS && light_bounds(batch, &box), first = 0;
+    do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
-        light_add(batch, lighting, chosen, count, shininess);
-    }
+        light_add(batch, lighting, first, chosen, count, shininess);
+        first = end;
+    } while (first < lighting->light_count);
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < batch->count; i += V_LANES)
             v_storef(batch->energy[k] + i, light_clamp(lighting, v_loadf(batch->energy[k] + i)));

@@ -1,7 +1,6 @@
 /* raster: the samples of a tile that a piece covers, and its depth there (R12, R14-R17).
  *
- * Four uses of one loop: depth test, overwrite, count, mark. Narrow pieces take strips of unaligned
- * vectors; wider ones go block by block, and a block inside all edges skips them.
+ * Four uses of one loop: depth test, overwrite, count, mark. A piece is drawn in strips: columns of unaligned vectors.
  */
 #ifndef E3D_KERNELS_RASTER_INL
 #define E3D_KERNELS_RASTER_INL
@@ -11,7 +10,7 @@
 #include "kernels/types/visible.h"
 
 enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
-enum { RASTER_BLOCK = 8, RASTER_COLUMNS = V_LANES > 8 ? V_LANES : 8 };
+enum { RASTER_BLOCK = 8 };
 
 typedef struct raster_constants {
     vf32 z0, gx, gy, zmin, zmax;
@@ -107,113 +106,20 @@ static inline void raster_strip(int use, const e3d_piece *p, int x, const raster
     }
 }
 
-/* Draws a box narrower than a block: strips from its own first column on, or as far to the right as the tile allows. */
-static inline void raster_narrow(int use, const e3d_piece *p, const raster_constants *c,
-                                 const e3d_tile_buffers *tile)
-{
-    int strips = V_LANES >= RASTER_BLOCK ? 1 : (p->x1 - p->x0) / V_LANES + 1;
-    int most = E3D_TILE - strips * V_LANES;
-    int x = p->x0 < most ? p->x0 : most;
-    for (int i = 0; i < strips; i++)
-        raster_strip(use, p, x + i * V_LANES, c, tile);
-}
-
-/* An edge function at the corner of a block where it is greatest (least). */
-static inline int32_t raster_most(int32_t e, int32_t a, int32_t b)
-{
-    return e + (a > 0 ? a * (RASTER_COLUMNS - 1) : 0) + (b > 0 ? b * (RASTER_BLOCK - 1) : 0);
-}
-
-static inline int32_t raster_least(int32_t e, int32_t a, int32_t b)
-{
-    return e + (a < 0 ? a * (RASTER_COLUMNS - 1) : 0) + (b < 0 ? b * (RASTER_BLOCK - 1) : 0);
-}
-
-static inline void raster_full_block(int use, const e3d_piece *p, int x, int y0, int y1,
-                                     const raster_constants *c, const e3d_tile_buffers *tile)
-{
-    vmask all = v_eqi(c->slot, c->slot);
-    for (int i = x; i < x + RASTER_COLUMNS; i += V_LANES) {
-        vf32 column = raster_column(c, i - p->base_x);
-        for (int y = y0; y <= y1; y++)
-            raster_write(use, all, raster_z(c, column, y - p->base_y), y * E3D_TILE + i, c, p, tile);
-    }
-}
-
-static inline void raster_edge_block(int use, const e3d_piece *p, const int32_t corner[3], int x, int y0,
-                                     int y1, int top, const raster_constants *c,
-                                     const e3d_tile_buffers *tile)
-{
-    for (int i = 0; i < RASTER_COLUMNS; i += V_LANES) {
-        vf32 column = raster_column(c, x + i - p->base_x);
-        vi32 e[3];
-        for (int k = 0; k < 3; k++)
-            e[k] = v_addi(v_seti(corner[k] + p->a[k] * i + p->b[k] * (y0 - top)),
-                          raster_step(p->a[k]));
-        for (int y = y0; y <= y1; y++) {
-            vmask inside = v_mnot(v_negi(v_ori(v_ori(e[0], e[1]), e[2])));
-            if (v_any(inside)) {
-                vf32 z = raster_z(c, column, y - p->base_y);
-                raster_write(use, inside, z, y * E3D_TILE + x + i, c, p, tile);
-            }
-            for (int k = 0; k < 3; k++)
-                e[k] = v_addi(e[k], v_seti(p->b[k]));
-        }
-    }
-}
-
-static inline void raster_block(int use, const e3d_piece *p, int x, int top, const raster_constants *c,
-                                const e3d_tile_buffers *tile)
-{
-    int32_t corner[3];
-    int full = 1;
-    for (int k = 0; k < 3; k++) {
-        corner[k] = p->e[k] + p->a[k] * x + p->b[k] * top;
-        if (raster_most(corner[k], p->a[k], p->b[k]) < 0)
-            return;
-        full &= raster_least(corner[k], p->a[k], p->b[k]) >= 0;
-    }
-    int y0 = p->y0 > top ? p->y0 : top;
-    int y1 = p->y1 < top + RASTER_BLOCK - 1 ? p->y1 : top + RASTER_BLOCK - 1;
-    if (full)
-        raster_full_block(use, p, x, y0, y1, c, tile);
-    else
-        raster_edge_block(use, p, corner, x, y0, y1, top, c, tile);
-}
-
-static inline int raster_is_narrow(const e3d_piece *p)
-{
-    return p->x1 - p->x0 < RASTER_BLOCK;
-}
-
+/* Draws strips from the box's first column on, or as far to the right as the tile allows. */
 static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buffers *tile)
 {
     raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
                           v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
-    if (raster_is_narrow(p)) {
-        raster_narrow(use, p, &c, tile);
-        return;
-    }
-    for (int top = p->y0 & ~(RASTER_BLOCK - 1); top <= p->y1; top += RASTER_BLOCK)
-        for (int x = p->x0 & ~(RASTER_COLUMNS - 1); x <= p->x1; x += RASTER_COLUMNS)
-            raster_block(use, p, x, top, &c, tile);
+    int strips = (p->x1 - p->x0) / V_LANES + 1, most = E3D_TILE - strips * V_LANES;
+    int x = p->x0 < most ? p->x0 : most;
+    for (int i = 0; i < strips; i++)
+        raster_strip(use, p, x + i * V_LANES, &c, tile);
 }
-
-/* Narrow pieces would leave most lanes of a wide vector empty: an ISA file may name a table of shorter vectors for them. */
-#ifdef E3D_NARROW_TABLE
-#define RASTER_NARROW(name)                    \
-    if (raster_is_narrow(piece)) {             \
-        E3D_NARROW_TABLE.raster_##name(piece, tile); \
-        return;                                \
-    }
-#else
-#define RASTER_NARROW(name)
-#endif
 
 #define RASTER_KERNEL(name, use)                                                            \
     static void kernel_raster_##name(const e3d_piece *piece, const e3d_tile_buffers *tile)  \
     {                                                                                       \
-        RASTER_NARROW(name)                                                                 \
         raster_piece(use, piece, tile);                                                     \
     }
 

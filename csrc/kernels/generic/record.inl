@@ -25,32 +25,28 @@ static inline vi32 record_places(const uint8_t *indices, const uint8_t *triangle
     return v_lookup8(indices + k * E3D_CLUSTER_TRIANGLES, v_loadu8(triangles));
 }
 
-static inline void record_find_words(const int32_t *words, int vertices, const vi32 places[3], vi32 out[3])
+static inline void record_find(const void *numbers, int vertices, const vi32 places[3], vi32 out[3])
 {
     vtable table;
-    v_table(words, vertices, &table);
+    v_table(numbers, vertices, &table);
     for (int k = 0; k < 3; k++)
         out[k] = v_lookup(&table, places[k]);
-}
-
-static inline void record_find_floats(const float *floats, int vertices, const vi32 places[3], vf32 out[3])
-{
-    vtablef table;
-    v_tablef(floats, vertices, &table);
-    for (int k = 0; k < 3; k++)
-        out[k] = v_lookupf(&table, places[k]);
 }
 
 static inline record_corners record_fetch(const e3d_vertices *v, const uint8_t *indices, const uint8_t *triangles)
 {
     record_corners c;
-    vi32 places[3];
+    vi32 places[3], zn[3], iw[3];
     for (int k = 0; k < 3; k++)
         places[k] = record_places(indices, triangles, k);
-    record_find_words(v->sx, v->count, places, c.x);
-    record_find_words(v->sy, v->count, places, c.y);
-    record_find_floats(v->zn, v->count, places, c.zn);
-    record_find_floats(v->iw, v->count, places, c.iw);
+    record_find(v->sx, v->count, places, c.x);
+    record_find(v->sy, v->count, places, c.y);
+    record_find(v->zn, v->count, places, zn);
+    record_find(v->iw, v->count, places, iw);
+    for (int k = 0; k < 3; k++) {
+        c.zn[k] = v_asf(zn[k]);
+        c.iw[k] = v_asf(iw[k]);
+    }
     return c;
 }
 
@@ -172,8 +168,7 @@ static inline void record_try(const e3d_record_request *q, int first, record_lis
         x[k] = v_gatheri(q->vertices->sx, i);
         y[k] = v_gatheri(q->vertices->sy, i);
     }
-    vi32 xlo = setup_min3(x[0], x[1], x[2]), xhi = setup_max3(x[0], x[1], x[2]);
-    vi32 ylo = setup_min3(y[0], y[1], y[2]), yhi = setup_max3(y[0], y[1], y[2]);
+    vi32 xlo = setup_least(x), xhi = setup_most(x), ylo = setup_least(y), yhi = setup_most(y);
     setup_span across = setup_samples(xlo, xhi, q->viewport->width);
     setup_span down = setup_samples(ylo, yhi, q->viewport->height);
     vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* 32 bits don't hold their products */
@@ -248,10 +243,7 @@ static inline int record_vector(const e3d_record_request *q, const record_list *
     if (q->cull > 0)
         drop = v_mor(drop, v_gt(sign, none));
     record_swap(&c, swapped);
-    setup_span across = setup_samples(setup_min3(c.x[0], c.x[1], c.x[2]), setup_max3(c.x[0], c.x[1], c.x[2]),
-                                      q->viewport->width);
-    setup_span down = setup_samples(setup_min3(c.y[0], c.y[1], c.y[2]), setup_max3(c.y[0], c.y[1], c.y[2]),
-                                    q->viewport->height);
+    setup_span across = setup_box(c.x, q->viewport->width), down = setup_box(c.y, q->viewport->height);
     drop = v_mor(drop, v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last)));
     vmask finite;
     record_plane p = record_plane_of(&c, across, down, &finite);

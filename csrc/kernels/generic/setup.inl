@@ -25,8 +25,11 @@ static inline setup_span setup_samples(vi32 lo, vi32 hi, int32_t size)
                         v_mini(v_sra(v_subi(hi, v_seti(128)), 8), v_seti(size - 1))};
 }
 
-static inline vi32 setup_min3(vi32 a, vi32 b, vi32 c) { return v_mini(v_mini(a, b), c); }
-static inline vi32 setup_max3(vi32 a, vi32 b, vi32 c) { return v_maxi(v_maxi(a, b), c); }
+static inline vi32 setup_least(const vi32 v[3]) { return v_mini(v_mini(v[0], v[1]), v[2]); }
+static inline vi32 setup_most(const vi32 v[3]) { return v_maxi(v_maxi(v[0], v[1]), v[2]); }
+
+/* The same of three corners. */
+static inline setup_span setup_box(const vi32 v[3], int32_t size) { return setup_samples(setup_least(v), setup_most(v), size); }
 
 static inline vi32 setup_area(const vi32 x[3], const vi32 y[3])
 {
@@ -58,8 +61,7 @@ typedef struct setup_boxes {
 
 static inline setup_boxes setup_boxes_of(const vi32 x[3], const vi32 y[3], int cull, const e3d_viewport *viewport)
 {
-    vi32 xlo = setup_min3(x[0], x[1], x[2]), xhi = setup_max3(x[0], x[1], x[2]);
-    vi32 ylo = setup_min3(y[0], y[1], y[2]), yhi = setup_max3(y[0], y[1], y[2]);
+    vi32 xlo = setup_least(x), xhi = setup_most(x), ylo = setup_least(y), yhi = setup_most(y);
     setup_span across = setup_samples(xlo, xhi, viewport->width);
     setup_span down = setup_samples(ylo, yhi, viewport->height);
     vmask empty = v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last));

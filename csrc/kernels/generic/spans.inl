@@ -37,8 +37,7 @@ static inline uint32_t spans_refused(const e3d_record *const r[V_LANES])
     v_load_rows((const void *const *)r, corners);
     const vi32 *x = corners, *y = corners + 3;
     vi32 side = v_seti(256 * RECORDS_SIDE);
-    vi32 wide = v_subi(setup_max3(x[0], x[1], x[2]), setup_min3(x[0], x[1], x[2]));
-    vi32 tall = v_subi(setup_max3(y[0], y[1], y[2]), setup_min3(y[0], y[1], y[2]));
+    vi32 wide = v_subi(setup_most(x), setup_least(x)), tall = v_subi(setup_most(y), setup_least(y));
     for (int l = 0; l < V_LANES; l++)
         far[l] = r[l]->zmax;
     vmask within = v_gt(v_setf(E3D_BEYOND_FAR), v_loadf(far));
@@ -63,9 +62,9 @@ static inline void spans_find(const e3d_record *const r[V_LANES], const e3d_cove
     v_load_rows((const void *const *)r, corners);
     const vi32 *x = corners, *y = corners + 3;
     vi32 up = v_seti(127), half = v_seti(128), tile_x = v_seti(cover->x), tile_y = v_seti(cover->y);
-    vi32 x0 = records_in_tile(v_subi(v_sra(v_addi(setup_min3(x[0], x[1], x[2]), up), 8), tile_x));
-    vi32 y0 = records_in_tile(v_subi(v_sra(v_addi(setup_min3(y[0], y[1], y[2]), up), 8), tile_y));
-    vi32 y1 = v_subi(v_sra(v_subi(setup_max3(y[0], y[1], y[2]), half), 8), tile_y);
+    vi32 x0 = records_in_tile(v_subi(v_sra(v_addi(setup_least(x), up), 8), tile_x));
+    vi32 y0 = records_in_tile(v_subi(v_sra(v_addi(setup_least(y), up), 8), tile_y));
+    vi32 y1 = v_subi(v_sra(v_subi(setup_most(y), half), 8), tile_y);
     v_storei(out->y0, y0);
     v_storei(out->y1, v_mini(y1, v_seti(cover->height - 1)));
     for (int k = 0; k < 3; k++) {

@@ -127,14 +127,9 @@ static inline level_lanes texture_one_level(const texture_levels *levels, int l)
 }
 
 /* Looks up a number of each lane's level: in a register where a vector holds those of all levels, else by a gather. */
-static inline vi32 level_numbers(const int32_t numbers[E3D_MAX_LEVELS], vi32 level)
+static inline vf32 level_number(const void *numbers, vi32 level)
 {
-    return V_LANES >= E3D_MAX_LEVELS ? v_asi(v_pick(numbers, v_picker(level))) : v_gatheri(numbers, level);
-}
-
-static inline vf32 level_floats(const float floats[E3D_MAX_LEVELS], vi32 level)
-{
-    return V_LANES >= E3D_MAX_LEVELS ? v_pick(floats, v_picker(level)) : v_gatherf(floats, level);
+    return V_LANES >= E3D_MAX_LEVELS ? v_pick(numbers, v_picker(level)) : v_asf(v_gatheri(numbers, level));
 }
 
 /* The level of each lane. Mostly all are at `guess`, and then nothing is looked up. */
@@ -142,8 +137,8 @@ static inline level_lanes texture_levels_of(const texture_levels *levels, vi32 l
 {
     if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
         return texture_one_level(levels, guess);
-    return (level_lanes){level_numbers(levels->start, level), level_numbers(levels->stride, level),
-                         {level_floats(levels->scale[0], level), level_floats(levels->scale[1], level)}};
+    return (level_lanes){v_asi(level_number(levels->start, level)), v_asi(level_number(levels->stride, level)),
+                         {level_number(levels->scale[0], level), level_number(levels->scale[1], level)}};
 }
 
 static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)
@@ -275,62 +270,30 @@ static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filt
     return a;
 }
 
-/* The colours of one vector. */
-static ALWAYS_INLINE void texture_color(const texture_plan *plan, int filter, int bits, int i, vf32 color[3])
+/* All three steps. */
+static ALWAYS_INLINE void texture_filter(texture_plan *plan, int filter, int bits, e3d_batch *batch)
 {
-    texel_lanes texel = texture_read(plan, filter, bits, i);
-    for (int k = 0; k < 3; k++)
-        color[k] = v_mul(texel.c[k], v_setf(plan->scale[k]));
-}
-
-static ALWAYS_INLINE void texture_color_all(const texture_plan *plan, int filter, int bits, e3d_batch *batch)
-{
+    texture_find_all(plan, filter, bits, batch);
+    texture_ask_all(plan, filter, bits, batch->count);
     for (int i = 0; i < batch->count; i += V_LANES) {
-        vf32 color[3];
-        texture_color(plan, filter, bits, i, color);
+        texel_lanes texel = texture_read(plan, filter, bits, i);
         for (int k = 0; k < 3; k++)
-            v_storef(batch->color[k] + i, color[k]);
+            v_storef(batch->color[k] + i, v_mul(texel.c[k], v_setf(plan->scale[k])));
     }
 }
 
-/* Whether it is the usual texture in raw colours: the loops know its filter and texels as constants. */
-static inline int texture_is_bilinear8(const e3d_texture_view *view)
-{
-    return view->filter == E3D_BILINEAR && view->channel_bits == 8;
-}
-
-/* Likewise, the usual texture by default: sRGB with mip levels. Knowing it takes 3 % off the textured head. */
-static inline int texture_is_trilinear16(const e3d_texture_view *view)
-{
-    return view->filter == E3D_TRILINEAR && view->channel_bits == 16;
-}
-
-/* The first two steps; texture_color is the third. */
-static void texture_prepare(texture_plan *plan, const e3d_texture_view *view, const float base[3], const e3d_batch *batch)
-{
-    texture_begin(plan, view, base);
-    if (texture_is_bilinear8(view)) {
-        texture_find_all(plan, E3D_BILINEAR, 8, batch);
-        texture_ask_all(plan, E3D_BILINEAR, 8, batch->count);
-    } else if (texture_is_trilinear16(view)) {
-        texture_find_all(plan, E3D_TRILINEAR, 16, batch);
-        texture_ask_all(plan, E3D_TRILINEAR, 16, batch->count);
-    } else {
-        texture_find_all(plan, view->filter, view->channel_bits, batch);
-        texture_ask_all(plan, view->filter, view->channel_bits, batch->count);
-    }
-}
-
+/* The loops know filter and texels of the usual textures as constants: of raw colours, and of sRGB with mip levels. The latter takes
+ * 3 % off the head. */
 static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
 {
     texture_plan plan;
-    texture_prepare(&plan, view, base, batch);
-    if (texture_is_bilinear8(view))
-        texture_color_all(&plan, E3D_BILINEAR, 8, batch);
-    else if (texture_is_trilinear16(view))
-        texture_color_all(&plan, E3D_TRILINEAR, 16, batch);
+    texture_begin(&plan, view, base);
+    if (view->filter == E3D_BILINEAR && view->channel_bits == 8)
+        texture_filter(&plan, E3D_BILINEAR, 8, batch);
+    else if (view->filter == E3D_TRILINEAR && view->channel_bits == 16)
+        texture_filter(&plan, E3D_TRILINEAR, 16, batch);
     else
-        texture_color_all(&plan, view->filter, view->channel_bits, batch);
+        texture_filter(&plan, view->filter, view->channel_bits, batch);
 }
 
 #endif

@@ -63,8 +63,7 @@ static inline void records_keep_edge(const record_edge *e, int k, records_lanes 
 static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_visible_tile *tile, vi32 first[2], records_lanes *out)
 {
     vi32 zero = v_seti(0), up = v_seti(127), down = v_seti(128), side = v_seti(256 * RECORDS_SIDE);
-    vi32 left = setup_min3(x[0], x[1], x[2]), right = setup_max3(x[0], x[1], x[2]);
-    vi32 top = setup_min3(y[0], y[1], y[2]), bottom = setup_max3(y[0], y[1], y[2]);
+    vi32 left = setup_least(x), right = setup_most(x), top = setup_least(y), bottom = setup_most(y);
     vi32 base_x = v_subi(v_maxi(v_sra(v_addi(left, up), 8), zero), v_seti(tile->x));
     vi32 base_y = v_subi(v_maxi(v_sra(v_addi(top, up), 8), zero), v_seti(tile->y));
     vi32 x0 = records_in_tile(base_x), x1 = records_in_tile(v_subi(v_sra(v_subi(right, down), 8), v_seti(tile->x)));

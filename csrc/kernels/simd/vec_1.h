@@ -34,16 +34,7 @@ static inline void v_streami(void *p, vi32 a) { memcpy(p, &a, 4); }
 static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
 /* Of 64 bytes, which are aligned to four; whole fours are read, or all. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) { return bytes[i]; }
-static inline vf32 v_gatherf(const float *base, vi32 i) { return base[i]; }
-static inline vi32 v_gatheri(const void *base, vi32 i) { return ((const int32_t *)base)[i]; }
-
-/* A table of at most 128 numbers, of which `count` are looked up often. */
-typedef const int32_t *vtable;
-static inline void v_table(const int32_t *base, int count, vtable *out) { (void)count; *out = base; }
-static inline vi32 v_lookup(const vtable *t, vi32 i) { return (*t)[i]; }
-typedef const float *vtablef;
-static inline void v_tablef(const float *base, int count, vtablef *out) { (void)count; *out = base; }
-static inline vf32 v_lookupf(const vtablef *t, vi32 i) { return (*t)[i]; }
+static inline vi32 v_gatheri(const void *base, vi32 i) { return v_loadi((const char *)base + 4 * (intptr_t)i); }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return a + b; }
 static inline vf32 v_sub(vf32 a, vf32 b) { return a - b; }
@@ -167,19 +158,9 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     return (vi32)pixel;
 }
 
-/* A curve of 64 straight pieces: the base of each in the upper half of a number, the rise in the lower. */
-typedef const int32_t *vcurve;
-static inline void v_curve(const int32_t pieces[64], vcurve *out) { *out = pieces; }
-/* Its values at three places of each lane, over 256, to bytes of one lane, with an alpha of 255. The low half of a place tells how
- * far along a piece it is; of the high half, the low six bits are the number of that piece. */
-static inline vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3]) {
-    vi32 code[3];
-    for (int k = 0; k < 3; k++) {
-        uint32_t piece = (uint32_t)(*curve)[place[k] >> 16 & 63];
-        code[k] = (vi32)(((piece >> 16) + ((piece & 0xFFFF) * ((uint32_t)place[k] & 0xFFFF) >> 16)) >> 8);
-    }
-    return v_rgba(code);
-}
+static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) { return pieces[at[0]]; }
+static inline vi32 curve_rise(vi32 piece, vi32 along) { return (int32_t)(((uint32_t)piece & 0xFFFF) * (uint32_t)along >> 16); }
+#include "kernels/simd/tables_memory.h"
 
 /* The texels of 8-bit channels at[lane] and at[lane] + 1 of each lane, and those below: red, green and blue, in the bytes of a
  * lane upper left, lower left, upper right, lower right. Sixteen bytes are read from each left one on. */

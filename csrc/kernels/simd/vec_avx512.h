@@ -14,17 +14,33 @@
 typedef __m512 vf32;
 typedef __m512i vi32;
 typedef __mmask16 vmask;
+typedef __m512d vf64;
 
-static inline vf32 v_setf(float a) { return _mm512_set1_ps(a); }
-static inline vi32 v_seti(int32_t a) { return _mm512_set1_epi32(a); }
+#define MM(op) _mm512_##op
+#define MMW(op) _mm512_##op##_si512
+static inline __m512i quarters(__m128i a) { return _mm512_broadcast_i32x4(a); }
+static inline vf32 v_asf(vi32 a) { return _mm512_castsi512_ps(a); }
+/* By halves of eight lanes: a vector of them takes half as long to join, on processors that work on halves. */
+static inline vi32 halves_join(__m256i low, __m256i high) { return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1); }
+static inline __m128i pairs_low(const void *texels, int32_t at) {
+    return _mm_loadl_epi64((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
+}
+/* The texels of two lanes, four apart, and those below, by masked broadcasts: more units do loads and blends than shuffles. */
+static inline __m256i quads_two(const void *texels, const void *below, const int32_t *at) {
+    __m256i two = _mm256_castsi128_si256(pairs_low(texels, at[0]));
+    two = _mm256_mask_broadcastq_epi64(two, 2, pairs_low(below, at[0]));
+    two = _mm256_mask_broadcastq_epi64(two, 4, pairs_low(texels, at[4]));
+    return _mm256_mask_broadcastq_epi64(two, 8, pairs_low(below, at[4]));
+}
+static inline __m512i quads_apart(const void *texels, const void *below, const int32_t *at) {
+    return halves_join(quads_two(texels, below, at), quads_two(texels, below, at + 8));
+}
+#include "kernels/simd/words_x86.h"
+
 static inline vi32 v_iota(void) {
     return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 static inline vi32 v_onebit(void) { return _mm512_sllv_epi32(_mm512_set1_epi32(1), v_iota()); }
-static inline vf32 v_loadf(const float *p) { return _mm512_loadu_ps(p); }
-static inline vi32 v_loadi(const void *p) { return _mm512_loadu_si512(p); }
-static inline void v_storef(float *p, vf32 a) { _mm512_storeu_ps(p, a); }
-static inline void v_storei(void *p, vi32 a) { _mm512_storeu_si512(p, a); }
 /* The run of one lane, and others that would be in their places too. */
 static ALWAYS_INLINE __mmask16 run_of(const int32_t *at, int lane, vi32 row) {
     return _mm512_cmpeq_epi32_mask(row, _mm512_set1_epi32(at[lane] - lane));
@@ -39,9 +55,6 @@ static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a)
     _mm512_mask_storeu_epi32(base + at[15] - 15, last, a);
     return 1;
 }
-static inline void v_streami(void *p, vi32 a) { _mm512_stream_si512((__m512i *)p, a); }
-/* By halves of eight lanes: a vector of them takes half as long to join, on processors that work on halves. */
-static inline vi32 halves_join(__m256i low, __m256i high) { return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1); }
 /* Lanes 0-7 and 8-15 by themselves. */
 static inline vi32 v_load_halves(const void *low, const void *high) {
     return halves_join(_mm256_loadu_si256((const __m256i *)low), _mm256_loadu_si256((const __m256i *)high));
@@ -53,7 +66,6 @@ static inline void v_store_halves(void *low, void *high, vi32 a) {
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)p));
 }
-static inline vf32 v_gatherf(const float *base, vi32 i) { return _mm512_i32gather_ps(i, base, 4); }
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm512_i32gather_epi32(i, base, 4);
 }
@@ -69,12 +81,12 @@ typedef struct vtable {
     int quarters; /* of 32 numbers */
     __m512i part[8];
 } vtable;
-static inline void v_table(const int32_t *base, int count, vtable *out) {
+static inline void v_table(const void *base, int count, vtable *out) {
     out->quarters = (count + 31) / 32;
     for (int k = 0; k < 4; k++)
-        out->part[k] = _mm512_loadu_si512(base + 16 * k);
+        out->part[k] = v_loadi((const int32_t *)base + 16 * k);
     for (int k = 4; k < 8 && count > 64; k++)
-        out->part[k] = _mm512_loadu_si512(base + 16 * k);
+        out->part[k] = v_loadi((const int32_t *)base + 16 * k);
 }
 static inline vi32 v_lookup(const vtable *t, vi32 i) {
     vi32 found = _mm512_permutex2var_epi32(t->part[0], i, t->part[1]);
@@ -89,23 +101,11 @@ static inline vi32 v_lookup(const vtable *t, vi32 i) {
     return _mm512_mask_blend_epi32(_mm512_test_epi32_mask(i, _mm512_set1_epi32(64)), found, low);
 }
 
-typedef vtable vtablef;
-static inline void v_tablef(const float *base, int count, vtablef *out) { v_table((const int32_t *)base, count, out); }
-static inline vf32 v_lookupf(const vtablef *t, vi32 i) { return _mm512_castsi512_ps(v_lookup(t, i)); }
-
-static inline vf32 v_add(vf32 a, vf32 b) { return _mm512_add_ps(a, b); }
-static inline vf32 v_sub(vf32 a, vf32 b) { return _mm512_sub_ps(a, b); }
-static inline vf32 v_mul(vf32 a, vf32 b) { return _mm512_mul_ps(a, b); }
-static inline vf32 v_div(vf32 a, vf32 b) { return _mm512_div_ps(a, b); }
-static inline vf32 v_sqrt(vf32 a) { return _mm512_sqrt_ps(a); }
-static inline vf32 v_min(vf32 a, vf32 b) { return _mm512_min_ps(a, b); }
-static inline vf32 v_max(vf32 a, vf32 b) { return _mm512_max_ps(a, b); }
 static inline vmask v_lt(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
 static inline vmask v_gt(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
 static inline vmask v_ge(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ); }
 static inline vmask v_eq(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
 
-static inline vi32 v_addi(vi32 a, vi32 b) { return _mm512_add_epi32(a, b); }
 static inline vi32 v_sums(vi32 a) {
     const __m512i none = _mm512_setzero_si512();
     a = _mm512_add_epi32(a, _mm512_alignr_epi32(a, none, 15));
@@ -114,35 +114,11 @@ static inline vi32 v_sums(vi32 a) {
     return _mm512_add_epi32(a, _mm512_alignr_epi32(a, none, 8));
 }
 static inline vi32 v_last(vi32 a) { return _mm512_permutexvar_epi32(_mm512_set1_epi32(15), a); }
-static inline vi32 v_subi(vi32 a, vi32 b) { return _mm512_sub_epi32(a, b); }
-static inline vi32 v_muli(vi32 a, vi32 b) { return _mm512_mullo_epi32(a, b); }
-static inline vi32 v_andi(vi32 a, vi32 b) { return _mm512_and_si512(a, b); }
-static inline vi32 v_ori(vi32 a, vi32 b) { return _mm512_or_si512(a, b); }
-static inline vi32 v_xori(vi32 a, vi32 b) { return _mm512_xor_si512(a, b); }
-static inline vi32 v_mini(vi32 a, vi32 b) { return _mm512_min_epi32(a, b); }
-static inline vi32 v_maxi(vi32 a, vi32 b) { return _mm512_max_epi32(a, b); }
 static inline vmask v_gti(vi32 a, vi32 b) { return _mm512_cmpgt_epi32_mask(a, b); }
 static inline vmask v_eqi(vi32 a, vi32 b) { return _mm512_cmpeq_epi32_mask(a, b); }
 static inline vmask v_negi(vi32 a) { return _mm512_movepi32_mask(a); }
-static inline vi32 v_add16(vi32 a, vi32 b) { return _mm512_add_epi16(a, b); }
-static inline vi32 v_sub16(vi32 a, vi32 b) { return _mm512_sub_epi16(a, b); }
-static inline vi32 v_min16(vi32 a, vi32 b) { return _mm512_min_epi16(a, b); }
-static inline vi32 v_max16(vi32 a, vi32 b) { return _mm512_max_epi16(a, b); }
-static inline vi32 v_mul16(vi32 a, vi32 b) { return _mm512_mullo_epi16(a, b); }
-static inline vi32 v_madd16(vi32 a, vi32 b) { return _mm512_madd_epi16(a, b); }
-static inline vi32 v_madd8(vi32 a, vi32 b) { return _mm512_maddubs_epi16(a, b); }
-#define v_sra16(a, n) _mm512_srai_epi16(a, n)
-#define v_shr16(a, n) _mm512_srli_epi16(a, n)
-#define v_shl(a, n) _mm512_slli_epi32(a, n)
-#define v_shr(a, n) _mm512_srli_epi32(a, n)
-#define v_sra(a, n) _mm512_srai_epi32(a, n)
 
-static inline vf32 v_float(vi32 a) { return _mm512_cvtepi32_ps(a); }
-static inline vi32 v_rint(vf32 a) { return _mm512_cvtps_epi32(a); }
-static inline vi32 v_trunc(vf32 a) { return _mm512_cvttps_epi32(a); }
 static inline vf32 v_floor(vf32 a) { return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }
-static inline vf32 v_asf(vi32 a) { return _mm512_castsi512_ps(a); }
-static inline vi32 v_asi(vf32 a) { return _mm512_castps_si512(a); }
 
 static inline vf32 v_self(vmask m, vf32 a, vf32 b) { return _mm512_mask_blend_ps(m, b, a); }
 static inline vi32 v_seli(vmask m, vi32 a, vi32 b) { return _mm512_mask_blend_epi32(m, b, a); }
@@ -154,19 +130,12 @@ static inline uint32_t v_bits(vmask m) { return m; }
 static inline int v_count(uint32_t bits) { return __builtin_popcount(bits); }
 static inline int v_any(vmask m) { return m != 0; }
 
-#define V_HALVES 2
-typedef __m512d vf64;
-static inline vf64 v_setd(double a) { return _mm512_set1_pd(a); }
 static inline vf64 v_widenf(vf32 a, int h) {
     return _mm512_cvtps_pd(h ? _mm512_extractf32x8_ps(a, 1) : _mm512_castps512_ps256(a));
 }
 static inline vf64 v_wideni(vi32 a, int h) {
     return _mm512_cvtepi32_pd(h ? _mm512_extracti32x8_epi32(a, 1) : _mm512_castsi512_si256(a));
 }
-static inline vf64 v_addd(vf64 a, vf64 b) { return _mm512_add_pd(a, b); }
-static inline vf64 v_subd(vf64 a, vf64 b) { return _mm512_sub_pd(a, b); }
-static inline vf64 v_muld(vf64 a, vf64 b) { return _mm512_mul_pd(a, b); }
-static inline vf64 v_divd(vf64 a, vf64 b) { return _mm512_div_pd(a, b); }
 static inline vf32 v_narrow(const vf64 a[V_HALVES]) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a[0])), _mm512_cvtpd_ps(a[1]), 1);
 }
@@ -221,35 +190,6 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
-/* Lanes 4 k .. 4 k + 3 in quarter k: unpacking works within quarters. These are both rows of two of them, by masked broadcasts:
- * loads and blends, which more units do than shuffles. */
-static inline __m128i pairs_low(const void *texels, int32_t at) {
-    return _mm_loadl_epi64((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
-}
-static inline __m256i quads_two(const void *texels, const void *below, const int32_t *at) {
-    __m256i two = _mm256_castsi128_si256(pairs_low(texels, at[0]));
-    two = _mm256_mask_broadcastq_epi64(two, 2, pairs_low(below, at[0]));
-    two = _mm256_mask_broadcastq_epi64(two, 4, pairs_low(texels, at[4]));
-    return _mm256_mask_broadcastq_epi64(two, 8, pairs_low(below, at[4]));
-}
-/* Lane 4 n + i is in quarter n of vector i, its red, green and blue side by side: to a vector each. */
-static ALWAYS_INLINE void channels_apart(const __m512i q[4], vi32 out[3]) {
-    __m512i low01 = _mm512_unpacklo_epi32(q[0], q[1]), low23 = _mm512_unpacklo_epi32(q[2], q[3]);
-    __m512i high01 = _mm512_unpackhi_epi32(q[0], q[1]), high23 = _mm512_unpackhi_epi32(q[2], q[3]);
-    out[0] = _mm512_unpacklo_epi64(low01, low23);
-    out[1] = _mm512_unpackhi_epi64(low01, low23);
-    out[2] = _mm512_unpacklo_epi64(high01, high23);
-}
-static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const int32_t *at, vi32 out[3]) {
-    __m512i q[4], order = _mm512_broadcast_i32x4(pairs_quad());
-    for (int i = 0; i < 4; i++)
-        q[i] = _mm512_shuffle_epi8(halves_join(quads_two(texels, below, at + i), quads_two(texels, below, at + i + 8)), order);
-    channels_apart(q, out);
-}
-static inline vi32 v_rgba(const vi32 c[3]) {
-    __m512i low = _mm512_packs_epi32(c[0], c[1]), high = _mm512_packs_epi32(c[2], _mm512_set1_epi32(255));
-    return _mm512_shuffle_epi8(_mm512_packus_epi16(low, high), _mm512_broadcast_i32x4(pairs_pixels()));
-}
 /* In registers, as words: two places of a lane are looked up at once. */
 typedef struct vcurve {
     __m512i base[2], rise[2];
@@ -270,8 +210,8 @@ static ALWAYS_INLINE vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3])
     __m512i piece = _mm512_mask_blend_epi16(high, _mm512_srli_epi32(place[0], 16), place[1]);
     __m512i t = _mm512_mask_blend_epi16(high, place[0], _mm512_slli_epi32(place[1], 16));
     __m512i red_green = curve_words(curve, piece, t), blue = curve_words(curve, _mm512_srli_epi32(place[2], 16), place[2]);
-    red_green = _mm512_shuffle_epi8(red_green, _mm512_broadcast_i32x4(pairs_second(0)));
-    blue = _mm512_shuffle_epi8(blue, _mm512_broadcast_i32x4(pairs_second(2)));
+    red_green = _mm512_shuffle_epi8(red_green, quarters(pairs_second(0)));
+    blue = _mm512_shuffle_epi8(blue, quarters(pairs_second(2)));
     return _mm512_ternarylogic_epi32(red_green, blue, _mm512_set1_epi32((int32_t)0xFF000000), 0xFE); /* or */
 }
 
@@ -284,15 +224,9 @@ static ALWAYS_INLINE void rows_pairs(const void *texels, const int32_t *at, __m5
     out[0] = halves_join(pairs_two(texels, index_first(a), index_first(b)), pairs_two(texels, index_first(c), index_first(d)));
     out[1] = halves_join(pairs_two(texels, index_second(a), index_second(b)), pairs_two(texels, index_second(c), index_second(d)));
 }
-/* The weight of one lane, to each of a pair's channels: 2^7 of it, for vpmulhrsw. */
-static inline __m512i rows_weights(vi32 weight) { return _mm512_or_si512(_mm512_slli_epi32(weight, 7), _mm512_slli_epi32(weight, 23)); }
-static inline __m512i rows_blend(__m512i upper, __m512i lower, __m512i weight) {
-    return _mm512_add_epi16(upper, _mm512_mulhrs_epi16(_mm512_sub_epi16(lower, upper), weight));
-}
 static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 weight, vi32 out[3]) {
-    __m512i q[4], twice = rows_weights(weight), halves = _mm512_broadcast_i32x4(pairs_halves());
-    const __m512i each[4] = {_mm512_shuffle_epi32(twice, 0x00), _mm512_shuffle_epi32(twice, 0x55), _mm512_shuffle_epi32(twice, 0xAA),
-                             _mm512_shuffle_epi32(twice, 0xFF)};
+    __m512i q[4], each[4], halves = quarters(pairs_halves());
+    rows_weights(weight, each);
     for (int i = 0; i < 4; i += 2) {
         __m512i upper[2], lower[2];
         rows_pairs(texels, top + i, upper);

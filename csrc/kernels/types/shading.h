@@ -98,7 +98,6 @@ typedef struct e3d_paint {
     float shininess;
     const float *specular, *emissive; /* of lit samples; NULL where all are 0 */
     int srgb;
-    int looks_ahead;      /* what e3d_cpu_looks_ahead says */
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
 } e3d_paint;
 

@@ -1,5 +1,4 @@
 /* shade, second half: visible samples, bucket by bucket and batch by batch, to colours and outputs (R20-R32). */
-#include "core/cpu.h"
 #include "core/grow.h"
 #include "core/limits.h"
 #include "core/srgb_tables.h"
@@ -173,7 +172,6 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = e3d_plans(pass, E3D_PLAN_ENCODES_SRGB),
-        .looks_ahead = e3d_cpu_looks_ahead(),
         .samples = pass->frame->samples_axis > 1 ? &out->pixels->samples : NULL,
     };
     pass->kernels->paint(&out->memory->batch, &out->memory->surfaces, &paint, out->pixels->rgba);

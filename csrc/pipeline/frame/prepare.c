@@ -13,12 +13,10 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
-#include "pipeline/store/blank.h"
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
 #include "pipeline/tile/tile.h"
-#include "pipeline/tile/tile_memory.h"
 
 /* Before a pass, no tile is drawn and no instance shows. */
 static int clear_marks(e3d_renderer *renderer)
@@ -49,12 +47,11 @@ static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
 {
     const e3d_bins *bins = &renderer->bins;
     e3d_resolve_prepare(&out->pass, &out->store);
-    out->blank = (e3d_blank_in){&out->store, bins, &renderer->tiles.queue, renderer->tiles.progress};
     out->shade.pass = &out->pass;
     out->shade.table = &bins->tables[E3D_SET_SCENE];
     out->shade.corners = bins->corners;
     out->shade.store = &out->store;
-    out->shade.blank = &out->blank;
+    out->shade.bins = bins;
     e3d_shade_prepare(&out->shade);
     out->tiles = (e3d_tiles_in){.pass = &out->pass, .bins = bins, .shade = &out->shade, .poll = renderer->poll};
 }

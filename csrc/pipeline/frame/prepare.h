@@ -7,7 +7,6 @@
 #include "pipeline/frame/renderer.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/shade.h"
-#include "pipeline/store/blank.h"
 #include "pipeline/store/store.h"
 #include "pipeline/tile/tile.h"
 
@@ -17,7 +16,6 @@ typedef struct e3d_context {
     e3d_prepared pass;
     e3d_history *history;
     e3d_store store;
-    e3d_blank_in blank;
     e3d_shade_in shade;
     e3d_tiles_in tiles;
 } e3d_context;

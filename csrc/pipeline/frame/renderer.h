@@ -14,7 +14,6 @@
 #include "pipeline/store/queue.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/tile.h"
-#include "pipeline/tile/tile_memory.h"
 
 /* A thread. Each stage finds its own part of all threads. */
 typedef struct e3d_worker {

@@ -40,10 +40,10 @@ typedef struct e3d_geometry_in {
 
 typedef struct e3d_geometry_out {
     e3d_bins *bins;
-    e3d_view *view; /* instances that aren't ready are finished, here */
+    e3d_view *view;   /* instances that aren't ready are finished, here */
     e3d_draws *draws; /* and here */
-    uint8_t *marks; /* of each instance */
-    uint8_t *seen;  /* by e3d_candidate.number: a bit for each cluster that shows; NULL: there is one round */
+    uint8_t *marks;   /* of each instance */
+    uint8_t *seen;    /* by e3d_candidate.number: a bit for each cluster that shows; NULL: there is one round */
 } e3d_geometry_out;
 
 /* 0 when memory is out. */

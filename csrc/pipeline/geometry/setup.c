@@ -80,15 +80,6 @@ int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more)
            e3d_array_reserve(&set->records, set->records.count + more, sizeof(e3d_record));
 }
 
-/* Counts the record in; it is binned now, or after sorting. */
-static int accept(const e3d_prepared *pass, e3d_geometry_state *state, e3d_record_set *set, const e3d_box *box, int sorted)
-{
-    uint32_t number = (uint32_t)set->records.count++;
-    state->counters.records++;
-    const e3d_tile_span span = e3d_span_of(box);
-    return sorted || e3d_bin_records(pass->view, state, set, number, &span, 1);
-}
-
 static int is_culled(const e3d_primitive *primitive, int front)
 {
     return (primitive->cull == E3D_CULL_BACK && !front) || (primitive->cull == E3D_CULL_FRONT && front);
@@ -122,7 +113,13 @@ void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_cor
     record->order = primitive->order;
     record->meta = (front ? 0 : E3D_RECORD_BACK) | (area < 0 ? E3D_RECORD_SWAPPED : 0) |
                    (primitive->face ? E3D_RECORD_FACE : 0);
-    if ((primitive->cut && !append_corners(set, c, &record->meta)) || (sorted && !append_key(set, c)) ||
-        !accept(pass, state, set, &box, sorted))
+    if ((primitive->cut && !append_corners(set, c, &record->meta)) || (sorted && !append_key(set, c))) {
+        state->failed = 1;
+        return;
+    }
+    const e3d_tile_span span = e3d_span_of(&box);
+    uint32_t number = (uint32_t)set->records.count++;
+    state->counters.records++;
+    if (!sorted && !e3d_bin_records(pass->view, state, set, number, &span, 1)) /* or after sorting */
         state->failed = 1;
 }

@@ -182,7 +182,7 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     const e3d_prepared *pass = in->pass;
     e3d_batch *batch = &out->memory->batch;
     out->memory->shaded += batch->count;
-    e3d_blank_some(in->blank, out->blank);
+    e3d_blank_some(in->store, in->bins, out->blank);
     if (is_painted(pass, bucket)) {
         paint_batch(pass, bucket, wanted, out);
         return;

@@ -14,13 +14,15 @@
 #include "pipeline/store/blank.h"
 #include "pipeline/store/store.h"
 
+typedef struct e3d_bins e3d_bins;
+
 typedef struct e3d_shade_in {
     const e3d_prepared *pass;
     const e3d_record_table *table; /* of what shows */
     const float *const *corners;   /* c[k][j] of the cut records of each thread */
     const e3d_store *store;
-    const e3d_blank_in *blank; /* tiles that are cleared between batches */
-    float unorm8[256];         /* values of 8-bit vertex and instance colours (R23) */
+    const e3d_bins *bins; /* tiles without any are cleared between batches */
+    float unorm8[256];    /* values of 8-bit vertex and instance colours (R23) */
 } e3d_shade_in;
 
 /* A thread's memory, of one tile. */
@@ -34,7 +36,7 @@ typedef struct e3d_shade_memory {
     int64_t shaded;                     /* samples, of all tiles */
 } e3d_shade_memory;
 
-/* What shading writes: its own memory, a tile's pixels, and the rows of others that are cleared meanwhile. */
+/* Its own memory, a tile's pixels, and the tiles that are cleared meanwhile. */
 typedef struct e3d_shade_out {
     e3d_shade_memory *memory;
     e3d_store_memory *pixels;

@@ -11,16 +11,16 @@
 #include "pipeline/store/tile_state.h"
 
 /* Looks at a few tiles for the next blank one; whether there may be more. */
-static int find_blank(const e3d_blank_in *in, e3d_blank_state *state)
+static int find_blank(const e3d_view *view, const e3d_bins *bins, e3d_blank_state *state)
 {
     enum { TILES = 8 };
     for (int k = 0; k < TILES; k++) {
-        int64_t tile = e3d_take_tile(in->queue, state->thread, E3D_TO_CLEAR);
+        int64_t tile = e3d_take_tile(state->queue, state->thread, E3D_TO_CLEAR);
         if (tile < 0)
             return 0;
-        if (e3d_tile_state_of(&in->tiles[tile]) == E3D_TILE_UNTOUCHED && !e3d_has_bins(in->bins, tile)) {
-            e3d_tile_set_state(&in->tiles[tile], E3D_TILE_CLEARED);
-            state->tile = e3d_tile_at(in->store->pass->view, tile);
+        if (e3d_tile_state_of(&state->progress[tile]) == E3D_TILE_UNTOUCHED && !e3d_has_bins(bins, tile)) {
+            e3d_tile_set_state(&state->progress[tile], E3D_TILE_CLEARED);
+            state->tile = e3d_tile_at(view, tile);
             return 1;
         }
     }
@@ -36,22 +36,22 @@ static void clear(const e3d_store *store, const e3d_tile *tile)
         e3d_write_tile(store->pass, tile, color, sizeof(uint32_t), store->background.row, 0);
 }
 
-void e3d_blank_some(const e3d_blank_in *in, e3d_blank_state *state)
+void e3d_blank_some(const e3d_store *store, const e3d_bins *bins, e3d_blank_state *state)
 {
     enum { SOME_ROWS = 8 };
     e3d_tile *left = &state->tile, some;
     if (!left->height)
-        state->more = state->more && find_blank(in, state);
+        state->more = state->more && find_blank(store->pass->view, bins, state);
     some = *left;
     some.height = left->height < SOME_ROWS ? left->height : SOME_ROWS;
     if (some.height)
-        clear(in->store, &some);
+        clear(store, &some);
     left->y += some.height;
     left->height -= some.height;
 }
 
-void e3d_blank_rest(const e3d_blank_in *in, e3d_blank_state *state)
+void e3d_blank_rest(const e3d_store *store, const e3d_bins *bins, e3d_blank_state *state)
 {
     while (state->more || state->tile.height)
-        e3d_blank_some(in, state);
+        e3d_blank_some(store, bins, state);
 }

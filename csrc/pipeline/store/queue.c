@@ -16,7 +16,7 @@ void e3d_queue_tiles(e3d_queue *queue, int64_t tiles)
 
 /* Takes a sixteenth of what a share has left at a time: an atomic operation waits until all non-temporal stores before it are
  * written. */
-static int take_more(const e3d_queue *queue, int thread, e3d_to_do what)
+static int take_more(e3d_queue *queue, int thread, e3d_to_do what)
 {
     enum { PARTS = 16 };
     int threads = queue->threads;
@@ -32,7 +32,7 @@ static int take_more(const e3d_queue *queue, int thread, e3d_to_do what)
     return 0;
 }
 
-int64_t e3d_take_tile(const e3d_queue *queue, int thread, e3d_to_do what)
+int64_t e3d_take_tile(e3d_queue *queue, int thread, e3d_to_do what)
 {
     e3d_taken_tiles *taken = &queue->of[thread]->taken[what];
     if (taken->next == taken->end && !take_more(queue, thread, what))

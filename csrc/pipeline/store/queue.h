@@ -38,6 +38,6 @@ typedef struct e3d_queue {
 void e3d_queue_tiles(e3d_queue *queue, int64_t tiles);
 
 /* The next tile that a thread may do this with; -1 when none is left. */
-int64_t e3d_take_tile(const e3d_queue *queue, int thread, e3d_to_do what);
+int64_t e3d_take_tile(e3d_queue *queue, int thread, e3d_to_do what);
 
 #endif

@@ -1,4 +1,4 @@
-/* What the store's stages share: what a pass writes beside what is shaded, and a thread's pixels. */
+/* What the stages of the store share: a pass's outputs and background, and a thread's pixels. */
 #ifndef E3D_STORE_H
 #define E3D_STORE_H
 

@@ -18,7 +18,6 @@
 #include "pipeline/store/tile_state.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/tile.h"
-#include "pipeline/tile/tile_memory.h"
 #include "pipeline/tile/visible.h"
 
 /* ---- memory ---- */

@@ -20,7 +20,6 @@
 #include "pipeline/store/resolve.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/tile.h"
-#include "pipeline/tile/tile_memory.h"
 
 void e3d_marks_init(e3d_marks_memory *marks)
 {

@@ -23,7 +23,6 @@
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/spans.h"
 #include "pipeline/tile/tile.h"
-#include "pipeline/tile/tile_memory.h"
 #include "pipeline/tile/visible.h"
 
 /* Whether the tile's pixels are written, but for what the last round added. Those of several samples are averages by now, and so all of
@@ -225,6 +224,13 @@ typedef struct tiles_job {
     atomic_int status; /* e3d_status: what isn't E3D_OK stops all */
 } tiles_job;
 
+/* The first reason stands. */
+static void stop(tiles_job *job, e3d_status reason)
+{
+    int none = E3D_OK;
+    atomic_compare_exchange_strong(&job->status, &none, (int)reason);
+}
+
 /* The calling thread asks at most every 20 ms; who is asked may look less often. */
 static void poll(tiles_job *job, int64_t now)
 {
@@ -233,7 +239,7 @@ static void poll(tiles_job *job, int64_t now)
         return;
     job->last_poll = now;
     if (poll->ask(poll->user))
-        atomic_store(&job->status, E3D_CANCELLED);
+        stop(job, E3D_CANCELLED);
 }
 
 static void tiles_work(void *argument, int thread)
@@ -241,18 +247,18 @@ static void tiles_work(void *argument, int thread)
     tiles_job *job = argument;
     e3d_tile_memory *memory = job->out->of[thread];
     memory->lap = e3d_now_ns();
-    memory->blank = (e3d_blank_state){.thread = thread, .more = 1};
+    memory->blank = (e3d_blank_state){.queue = &job->out->queue, .progress = job->out->progress, .thread = thread, .more = 1};
     while (atomic_load(&job->status) == E3D_OK) {
         int64_t tile = e3d_take_tile(&job->out->queue, thread, E3D_TO_DRAW);
         if (tile < 0)
             break;
         if (!draw_tile(job->in, job->out, memory, tile))
-            atomic_store(&job->status, E3D_OUT_OF_MEMORY);
+            stop(job, E3D_OUT_OF_MEMORY);
         if (thread == 0)
             poll(job, memory->lap);
     }
     if (atomic_load(&job->status) == E3D_OK)
-        e3d_blank_rest(job->in->shade->blank, &memory->blank);
+        e3d_blank_rest(job->in->shade->store, job->in->bins, &memory->blank);
     e3d_lap(memory, &memory->ns_resolve);
     e3d_stream_end();
 }

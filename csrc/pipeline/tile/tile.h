@@ -2,6 +2,9 @@
 #ifndef E3D_TILE_H
 #define E3D_TILE_H
 
+#include <stdint.h>
+
+#include "core/clock.h"
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/visible.h"
@@ -10,10 +13,33 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
+#include "pipeline/store/blank.h"
 #include "pipeline/store/queue.h"
+#include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/slots.h"
+#include "pipeline/tile/spans.h"
 
-typedef struct e3d_tile_memory e3d_tile_memory;
+/* A thread's memory, of one tile: the sum of what the stages keep for that long. */
+typedef struct e3d_tile_memory {
+    e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
+    e3d_marks_memory marks;
+    e3d_store_memory pixels;
+    e3d_shade_memory shade;
+    e3d_spans_memory spans;
+    e3d_slots_state slots;
+    e3d_blank_state blank;
+    int64_t ns_raster, ns_shade, ns_resolve; /* of all tiles */
+    int64_t lap;                             /* when the last stage of a tile ended (e3d_lap) */
+} e3d_tile_memory;
+
+/* Adds to a stage's time what has passed since the thread's last lap. */
+static inline void e3d_lap(e3d_tile_memory *memory, int64_t *stage_ns)
+{
+    int64_t now = e3d_now_ns();
+    *stage_ns += now - memory->lap;
+    memory->lap = now;
+}
 
 /* What is asked between tiles whether to stop; `ask` may be NULL. */
 typedef struct e3d_poll {

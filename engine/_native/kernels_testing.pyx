@@ -22,35 +22,6 @@ from e3d_plan cimport (
     e3d_plan_name, e3d_plan_text
 )
 
-cdef extern from *:
-    """
-    #include <stdint.h>
-    #if defined(__x86_64__) || defined(__i386__)
-    #include <xmmintrin.h>
-    enum { FLOAT_CONTROL_FLUSH = 0x8040, FLOAT_CONTROL_ROUND_UP = 0x4000 };
-    static uint64_t float_control_read(void) { return _mm_getcsr(); }
-    static void float_control_write(uint64_t value) { _mm_setcsr((unsigned)value); }
-    #elif defined(__aarch64__)
-    enum { FLOAT_CONTROL_FLUSH = 1 << 24, FLOAT_CONTROL_ROUND_UP = 1 << 22 };
-    static uint64_t float_control_read(void)
-    {
-        uint64_t value;
-        __asm__ volatile("mrs %0, fpcr" : "=r"(value));
-        return value;
-    }
-    static void float_control_write(uint64_t value) { __asm__ volatile("msr fpcr, %0" : : "r"(value)); }
-    #else
-    enum { FLOAT_CONTROL_FLUSH = 0, FLOAT_CONTROL_ROUND_UP = 0 };
-    static uint64_t float_control_read(void) { return 0; }
-    static void float_control_write(uint64_t value) { (void)value; }
-    #endif
-    """
-    enum:
-        FLOAT_CONTROL_FLUSH
-        FLOAT_CONTROL_ROUND_UP
-    unsigned long long float_control_read() nogil
-    void float_control_write(unsigned long long value) nogil
-
 STRUCT_SIZES = {
     "cluster": sizeof(e3d_cluster),
     "facing": sizeof(e3d_facing),
@@ -88,10 +59,6 @@ LIMITS = {
     "FRAGMENT_ID": E3D_FRAGMENT_ID,
     "MAX_LEVELS": E3D_MAX_LEVELS,
 }
-# Bits of the calling thread's floating-point control register: denormals become zero; rounding is
-# towards +inf. Both are 0 where this file does not know the processor.
-FLUSH_DENORMALS = FLOAT_CONTROL_FLUSH
-ROUND_UP = FLOAT_CONTROL_ROUND_UP
 
 
 def plan_rules():
@@ -123,20 +90,9 @@ def plan_items():
     ]
 
 
-def float_control():
-    """The calling thread's floating-point control register (MXCSR, FPCR)."""
-    return float_control_read()
-
-
-def set_float_control(unsigned long long value):
-    """Set the calling thread's floating-point control register."""
-    float_control_write(value)
-
-
-cdef int check_size(const uint8_t[::1] struct, size_t size) except -1:
-    if <size_t>struct.shape[0] != size:
-        raise ValueError(f"a struct of {size} bytes was expected, not {struct.shape[0]}")
-    return 0
+include "float_control.pxi"
+include "kernel_arguments.pxi"
+include "mesh_clusters.pxi"
 
 
 cdef class Kernels:
@@ -522,152 +478,6 @@ cdef class Kernels:
         cdef e3d_pixel_rows rows = rows_of(to, pitch, source, step, size, count)
         for _ in range(self.rounds):
             self.table.stream(&rows)
-
-
-cdef e3d_pixel_rows rows_of(uint8_t[::1] to, size_t pitch, const uint8_t[::1] source, size_t step, size_t size,
-                            int count):
-    cdef e3d_pixel_rows rows
-    if (count - 1) * pitch + size > to.nbytes or (count - 1) * step + size > source.nbytes:
-        raise ValueError(f"{count} rows of {size} bytes don't fit")
-    rows.to = <char *>&to[0]
-    rows.source = <const char *>&source[0]
-    rows.bytes = size
-    rows.pitch = pitch
-    rows.step = step
-    rows.count = count
-    return rows
-
-
-cdef e3d_samples *samples_of(float[:, ::1] planes) except NULL:
-    if planes.nbytes != sizeof(e3d_samples):
-        raise ValueError(f"{planes.nbytes} bytes, not {sizeof(e3d_samples)}")
-    return <e3d_samples *>&planes[0, 0]
-
-
-cdef enum:
-    MOST_WORKERS = 8
-
-
-cdef int fill_table(e3d_record_table *table, const e3d_record **rows,
-                    const uint8_t[:, ::1] records) except -1:
-    cdef Py_ssize_t workers = records.shape[0], worker
-    table.bits = 0
-    while 1 << table.bits < workers:
-        table.bits += 1
-    if 1 << table.bits != workers or workers > MOST_WORKERS:
-        raise ValueError(f"{workers} workers are not a power of two up to {MOST_WORKERS}")
-    for worker in range(workers):
-        rows[worker] = <const e3d_record *>&records[worker, 0]
-    table.records = rows
-    table.drawn = NULL
-    return 0
-
-
-cdef int fill_drawn(e3d_record_table *table, const e3d_drawn_cluster **clusters,
-                    const uint8_t[:, ::1] drawn) except -1:
-    cdef Py_ssize_t worker
-    if drawn is None:
-        return 0
-    if drawn.shape[0] != 1 << table.bits:
-        raise ValueError(f"{drawn.shape[0]} workers, not {1 << table.bits}")
-    for worker in range(drawn.shape[0]):
-        clusters[worker] = <const e3d_drawn_cluster *>&drawn[worker, 0]
-    table.drawn = clusters
-    return 0
-
-
-ctypedef void (*raster_kernel)(const e3d_piece *piece, const e3d_tile_buffers *tile)
-
-
-cdef int raster(raster_kernel kernel, int rounds, const uint8_t[::1] pieces, float[::1] z,
-                int32_t[::1] slot, const uint32_t[::1] orders) except -1:
-    cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
-    cdef Py_ssize_t count = pieces.shape[0] // <Py_ssize_t>sizeof(e3d_piece), number
-    check_size(pieces, <size_t>count * sizeof(e3d_piece))
-    if not count:
-        return 0
-    cdef const e3d_piece *first = <const e3d_piece *>&pieces[0]
-    for _ in range(rounds):
-        for number in range(count):
-            kernel(first + number, &tile)
-    return 0
-
-
-cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] reach,
-                              const float[::1] ambient, const float[::1] clamp,
-                              const float[::1] eye):
-    cdef e3d_lighting lighting
-    cdef int row
-    lighting.light_count = <int>(lights.shape[0] // sizeof(e3d_light))
-    lighting.lights = <const e3d_light *>&lights[0] if lighting.light_count else NULL
-    for row in range(5):
-        lighting.reach[row] = &reach[row, 0]
-    memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
-    memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
-    memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
-    return lighting
-
-
-cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
-                                   const int32_t[:, ::1] sizes, int filter, int wrap):
-    """The levels lie one after the other in `texels`; `sizes` is (levels, 2): width and height."""
-    cdef e3d_texture_view view
-    cdef Py_ssize_t start = 0, level
-    view.level_count = <int32_t>sizes.shape[0]
-    view.channel_bits = channel_bits
-    view.filter = <e3d_filter>filter
-    view.wrap = <e3d_wrap>wrap
-    for level in range(sizes.shape[0]):
-        view.levels[level].texels = &texels[start]
-        view.levels[level].width = sizes[level, 0]
-        view.levels[level].height = sizes[level, 1]
-        start += channel_bits // 2 * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
-    return view
-
-
-def clusters_of(const float[:, ::1] positions, const int32_t[:, ::1] faces, int threads):
-    """What a mesh is cut into: the order of its faces, clusters and groups.
-
-    Each cluster is (first, triangles, vertices, positions, indices, box, cone): first of its triangles
-    in the order, their number and the vertices', plane after plane the positions' bytes, (3, 64) local indices as bytes, the
-    box as six numbers or None, the cone as axis, cosine and least altitude or None. Each group is
-    (first cluster, clusters, triangles, box).
-    """
-    cdef e3d_mesh_desc desc
-    cdef e3d_mesh *handle
-    memset(&desc, 0, sizeof(desc))
-    desc.components = <int32_t>positions.shape[1]
-    desc.vertices = <int32_t>positions.shape[0]
-    desc.faces_count = <int32_t>faces.shape[0]
-    desc.positions = &positions[0, 0] if desc.vertices else NULL
-    desc.faces = &faces[0, 0] if desc.faces_count else NULL
-    if e3d_mesh_create(&desc, threads, &handle) != E3D_OK:
-        raise ValueError("the mesh is not valid, or too large")
-    try:
-        return mesh_parts(<const e3d_mesh_parts *>handle, desc.faces_count, desc.components)
-    finally:
-        e3d_mesh_destroy(handle)
-
-
-cdef tuple triple(const float *v):
-    return v[0], v[1], v[2]
-
-
-cdef mesh_parts(const e3d_mesh_parts *mesh, int32_t faces_count, int components):
-    cdef const e3d_cluster *c
-    cdef const e3d_group_box *g
-    clusters, groups = [], []
-    for i in range(mesh.cluster_count):
-        c = &mesh.clusters[i]
-        planes = (<const char *>c.positions)[:4 * components * c.stride]
-        indices = (<const char *>e3d_cluster_indices(c, components))[:3 * E3D_CLUSTER_TRIANGLES]
-        box = triple(c.lo) + triple(c.hi) if c.any_finite else None
-        cone = (triple(c.axis), c.cosine, c.altitude) if c.altitude > 0 else None
-        clusters.append((c.first, c.triangles, c.vertices, planes, indices, box, cone))
-    for i in range(mesh.group_count):
-        g = &mesh.groups[i]
-        groups.append((g.first_cluster, g.clusters, g.triangles, triple(g.lo) + triple(g.hi) if g.any_finite else None))
-    return [mesh.faces[i] for i in range(faces_count)], clusters, groups
 
 
 def jobs_alone(const double[:, ::1] rates, int64_t passed, uint8_t[::1] alone):

@@ -1,6 +1,13 @@
-"""A model and a folder of their own for the tests of commands."""
+"""A model and a folder of their own for the tests of commands, and how these begin and look."""
 
+import subprocess
+import sys
+
+import numpy as np
 import pytest
+from PIL import Image
+
+SMALL = ("--resolution", "48x32")
 
 OBJ = """o square
 v 0 0 0
@@ -27,3 +34,13 @@ def no_screen(monkeypatch, tmp_path):
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.chdir(tmp_path)
+
+
+def pixels(path):
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGBA"))
+
+
+def start(*arguments, **options):
+    command = [sys.executable, "-m", "engine3d", *map(str, arguments)]
+    return subprocess.Popen(command, stdout=-1, stderr=-1, **options)

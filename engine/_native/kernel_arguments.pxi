@@ -1,0 +1,110 @@
+# Part of kernels_testing.pyx: what kernels take, made of arrays.
+#
+# In:  arrays, whose sizes are checked as far as they say how many structs they hold.
+# Out: the structs of csrc/kernels/types/, which point into the arrays.
+
+cdef int check_size(const uint8_t[::1] struct, size_t size) except -1:
+    if <size_t>struct.shape[0] != size:
+        raise ValueError(f"a struct of {size} bytes was expected, not {struct.shape[0]}")
+    return 0
+
+
+cdef e3d_pixel_rows rows_of(uint8_t[::1] to, size_t pitch, const uint8_t[::1] source, size_t step, size_t size,
+                            int count):
+    cdef e3d_pixel_rows rows
+    if (count - 1) * pitch + size > to.nbytes or (count - 1) * step + size > source.nbytes:
+        raise ValueError(f"{count} rows of {size} bytes don't fit")
+    rows.to = <char *>&to[0]
+    rows.source = <const char *>&source[0]
+    rows.bytes = size
+    rows.pitch = pitch
+    rows.step = step
+    rows.count = count
+    return rows
+
+
+cdef e3d_samples *samples_of(float[:, ::1] planes) except NULL:
+    if planes.nbytes != sizeof(e3d_samples):
+        raise ValueError(f"{planes.nbytes} bytes, not {sizeof(e3d_samples)}")
+    return <e3d_samples *>&planes[0, 0]
+
+
+cdef enum:
+    MOST_WORKERS = 8
+
+
+cdef int fill_table(e3d_record_table *table, const e3d_record **rows,
+                    const uint8_t[:, ::1] records) except -1:
+    cdef Py_ssize_t workers = records.shape[0], worker
+    table.bits = 0
+    while 1 << table.bits < workers:
+        table.bits += 1
+    if 1 << table.bits != workers or workers > MOST_WORKERS:
+        raise ValueError(f"{workers} workers are not a power of two up to {MOST_WORKERS}")
+    for worker in range(workers):
+        rows[worker] = <const e3d_record *>&records[worker, 0]
+    table.records = rows
+    table.drawn = NULL
+    return 0
+
+
+cdef int fill_drawn(e3d_record_table *table, const e3d_drawn_cluster **clusters,
+                    const uint8_t[:, ::1] drawn) except -1:
+    cdef Py_ssize_t worker
+    if drawn is None:
+        return 0
+    if drawn.shape[0] != 1 << table.bits:
+        raise ValueError(f"{drawn.shape[0]} workers, not {1 << table.bits}")
+    for worker in range(drawn.shape[0]):
+        clusters[worker] = <const e3d_drawn_cluster *>&drawn[worker, 0]
+    table.drawn = clusters
+    return 0
+
+
+ctypedef void (*raster_kernel)(const e3d_piece *piece, const e3d_tile_buffers *tile)
+
+
+cdef int raster(raster_kernel kernel, int rounds, const uint8_t[::1] pieces, float[::1] z,
+                int32_t[::1] slot, const uint32_t[::1] orders) except -1:
+    cdef e3d_tile_buffers tile = [&z[0], &slot[0], &orders[0]]
+    cdef Py_ssize_t count = pieces.shape[0] // <Py_ssize_t>sizeof(e3d_piece), number
+    check_size(pieces, <size_t>count * sizeof(e3d_piece))
+    if not count:
+        return 0
+    cdef const e3d_piece *first = <const e3d_piece *>&pieces[0]
+    for _ in range(rounds):
+        for number in range(count):
+            kernel(first + number, &tile)
+    return 0
+
+
+cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] reach,
+                              const float[::1] ambient, const float[::1] clamp,
+                              const float[::1] eye):
+    cdef e3d_lighting lighting
+    cdef int row
+    lighting.light_count = <int>(lights.shape[0] // sizeof(e3d_light))
+    lighting.lights = <const e3d_light *>&lights[0] if lighting.light_count else NULL
+    for row in range(5):
+        lighting.reach[row] = &reach[row, 0]
+    memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
+    memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
+    memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
+    return lighting
+
+
+cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
+                                   const int32_t[:, ::1] sizes, int filter, int wrap):
+    """The levels lie one after the other in `texels`; `sizes` is (levels, 2): width and height."""
+    cdef e3d_texture_view view
+    cdef Py_ssize_t start = 0, level
+    view.level_count = <int32_t>sizes.shape[0]
+    view.channel_bits = channel_bits
+    view.filter = <e3d_filter>filter
+    view.wrap = <e3d_wrap>wrap
+    for level in range(sizes.shape[0]):
+        view.levels[level].texels = &texels[start]
+        view.levels[level].width = sizes[level, 0]
+        view.levels[level].height = sizes[level, 1]
+        start += channel_bits // 2 * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
+    return view

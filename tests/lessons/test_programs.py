@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import engine3d
+
 ROOT = Path(__file__).resolve().parents[2]
 LESSONS, COURSE = ROOT / "lessons", ROOT / "docs" / "course"
 NAMES = runpy.run_path(str(COURSE / "make.py"))["lesson_names"]()
@@ -41,6 +43,18 @@ def test_a_lesson_runs_from_anywhere(tmp_path):
     done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
     assert done.stdout == "out/03_lines.png: 6 steps\n"
     assert (tmp_path / "out" / "03_lines.png").exists()
+
+
+def test_a_lesson_opens_a_window_if_asked(tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr(engine3d, "show", lambda picture, title: shown.append((picture, title)))
+    monkeypatch.setattr(sys, "argv", ["02", "--window", "--out", str(tmp_path)])
+    monkeypatch.syspath_prepend(str(LESSONS))
+    runpy.run_path(str(LESSONS / "02_points.py"), run_name="__main__")
+    ((picture, title),) = shown
+    with Image.open(tmp_path / "02_points.png") as written:
+        assert np.array_equal(np.asarray(written), picture)
+    assert title == "02_points"
 
 
 @pytest.mark.parametrize("name", NAMES)

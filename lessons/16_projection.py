@@ -103,7 +103,7 @@ def engine_floor(width, height):
     return e3d.render(scene, camera, size=(width, height), mode="unlit").color[:, :, :3]
 
 
-def steps(width=240, height=180):
+def steps(width=200, height=150):
     yield "without perspective: three cubes in a row", draw_cubes(width, height, False)
     yield "on the virtual screen: divided by z", draw_cubes(width, height, True)
 

@@ -93,7 +93,7 @@ def engine_floor(width, height):
     return frame.color[:, :, :3]
 
 
-def steps(width=200, height=150):
+def steps(width=180, height=132):
     yield "one E for each of 6 x 6 faces", per_face(width, height, 6)
     yield "24 x 24 faces", per_face(width, height, 24)
     yield "more than 1 does not fit into a byte: it wraps", per_pixel(width, height, white(None))

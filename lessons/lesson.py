@@ -6,6 +6,7 @@ Pictures are arrays (H, W, 3) uint8, RGB, top row first.
 """
 
 import argparse
+import functools
 import importlib.util
 import inspect
 import subprocess
@@ -50,6 +51,7 @@ def text(lines, width, height, scale=1):
     return canvas.pixels[:, :, :3].copy()
 
 
+@functools.cache
 def earlier(name):
     """Return the module of another lesson: `earlier("03_lines").bresenham`."""
     spec = importlib.util.spec_from_file_location(f"lesson_{name}", FOLDER / f"{name}.py")
@@ -106,11 +108,13 @@ def sheet(blocks, widest=1040):
 
 
 def save(path, steps):
-    """Draw all steps, and write their sheet to a file."""
+    """Draw all steps, and write their sheet to a file; return it."""
     blocks = [block(*step) for step in steps]
+    page = sheet(blocks)
     path.parent.mkdir(parents=True, exist_ok=True)
-    e3d.Canvas(sheet(blocks)).image().save(path)
+    e3d.Canvas(page).image().save(path)
     print(f"{path}: {len(blocks)} steps")
+    return page
 
 
 def size(argument):
@@ -130,6 +134,7 @@ def main(file, steps, **others):
     name = Path(file).stem
     parser = argparse.ArgumentParser(prog=f"python lessons/{name}.py")
     parser.add_argument("-o", "--out", default="out", type=Path, help="folder (default: out)")
+    parser.add_argument("--window", action="store_true", help="show them in a window as well")
     parser.add_argument("--size", type=size, metavar="WxH", help="of each picture, in pixels")
     takes_model = "model" in inspect.signature(steps).parameters
     if takes_model:
@@ -144,6 +149,9 @@ def main(file, steps, **others):
         for function in chosen:
             function(**model)
         if not chosen:
-            save(given.out / f"{name}.png", steps(*(given.size or ()), **model))
+            path = given.out / f"{name}.png"
+            page = save(path, steps(*(given.size or ()), **model))
+            if given.window:
+                e3d.show(page, title=name)
     except (OSError, e3d.Engine3DError, subprocess.CalledProcessError) as error:
         sys.exit(f"{parser.prog}: {error}")

@@ -57,7 +57,16 @@ CHAPTERS = {
         "frame_scene",
     ),
     "Meshes": ("Mesh", "Material", "Texture"),
-    "Primitives": ("box", "plane", "quad", "uv_sphere", "icosphere", "cylinder", "torus"),
+    "Primitives": (
+        "box",
+        "hexahedron",
+        "plane",
+        "quad",
+        "uv_sphere",
+        "icosphere",
+        "cylinder",
+        "torus",
+    ),
     "Worlds": ("city", "World", "NavigationGrid", "Walker"),
     "Levels of detail": ("DetailedInstances", "DetailedMeshes", "Impostor", "simplify"),
     "Files": (

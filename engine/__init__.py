@@ -34,6 +34,7 @@ _PUBLIC = {
     "InstancedMesh": "scene.instances",
     "box": "primitives",
     "cylinder": "primitives",
+    "hexahedron": "primitives",
     "icosphere": "primitives",
     "plane": "primitives",
     "quad": "primitives",

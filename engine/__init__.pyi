@@ -36,6 +36,7 @@ from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
 from .primitives import box as box
 from .primitives import cylinder as cylinder
+from .primitives import hexahedron as hexahedron
 from .primitives import icosphere as icosphere
 from .primitives import plane as plane
 from .primitives import quad as quad

@@ -78,7 +78,6 @@ class SceneDocument:
         done : bool
             False if it failed: the scene is as it was, and the console tells why.
         """
-        count = len(self.scene.nodes)
         try:
             with self.console.warnings_noted():
                 self.history.do(command, drag)
@@ -87,7 +86,7 @@ class SceneDocument:
             return False
         if command is self.history.last:  # not a part of a drag that goes on
             self.console.write("action", command.label)
-        if len(self.scene.nodes) > count:
+        if command.makes_nodes:
             self.selection.set(command.nodes)
         return True
 

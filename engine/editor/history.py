@@ -21,10 +21,13 @@ class Command(ABC):
         What it does, for menus and the console: "Delete 3 nodes".
     nodes : tuple of Node
         What it is about: worth selecting once it was done or undone.
+    makes_nodes : bool
+        Whether these are new, and so to be selected when it is done the first time.
     """
 
     label: str
     nodes: tuple[Node, ...] = ()
+    makes_nodes = False
 
     @abstractmethod
     def do(self) -> None:

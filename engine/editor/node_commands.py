@@ -9,6 +9,7 @@ import copy
 from collections.abc import Callable, Iterable, Sequence
 
 from .. import linalg
+from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
@@ -34,6 +35,8 @@ class AddNodes(Command):
         ``add(scene)`` adds the nodes, the first time; it may do nothing else to the scene.
     label : str
     """
+
+    makes_nodes = True
 
     def __init__(self, scene: Scene, add: Callable[[Scene], object], label: str) -> None:
         self.label = label
@@ -150,6 +153,8 @@ class Reparent(Command):
 class GroupNodes(Command):
     """Put nodes under a new one, which hangs where the first of them did."""
 
+    makes_nodes = True
+
     def __init__(self, scene: Scene, nodes: Iterable[Node], name: str = "group") -> None:
         self._members = topmost(nodes)
         self.label = counted("Group", self._members)
@@ -169,6 +174,44 @@ class GroupNodes(Command):
 
     def undo(self) -> None:
         self._reparent.undo()
+        self._add.undo()
+
+
+class JoinNodes(Command):
+    """Put one mesh in the place of those of several nodes, which are deleted.
+
+    One mesh is drawn faster than many small ones. What hangs below the nodes, and is not one of
+    them, is deleted with them.
+
+    Parameters
+    ----------
+    scene : Scene
+    nodes : iterable of Node
+        At least one of them holds a Mesh; the others go as they are.
+    """
+
+    makes_nodes = True
+
+    def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
+        chosen = [node for node in nodes if isinstance(node.object, Mesh)]
+        if not chosen:
+            raise InvalidArgumentError("none of the nodes holds a mesh to be joined")
+        self.label = counted("Join", chosen)
+        self._scene = scene
+        name, meshes = chosen[0].name, [node.object for node in chosen]
+        poses = [node.world_pose for node in chosen]
+        self._add = AddNodes(
+            scene, lambda scene: scene.add(Mesh.concatenate(meshes, name, poses=poses)), ""
+        )
+        self._delete = DeleteNodes(scene, chosen)
+
+    def do(self) -> None:
+        self._add.do()
+        self._delete.do()
+        self.nodes = self._add.nodes
+
+    def undo(self) -> None:
+        self._delete.undo()
         self._add.undo()
 
 
@@ -243,20 +286,26 @@ def next_sibling(node: Node) -> Node | None:
 
 
 def copy_below(scene: Scene, node: Node, parent: Node | None) -> Node:
-    """Add a copy of a node, and of all below it, to its scene or another; return the copy."""
-    made: dict[Node, Node] = {}
-    for slot in node._arrays.below(node._slot):
-        original = node._arrays.nodes[slot]
-        above = parent if original is node else made[original.parent]
-        made[original] = _copied(scene, original, above)
+    """Add a copy of a node of any scene, and of all below it; return the copy.
+
+    The copies are drawn in the order of the originals.
+    """
+    nodes = [node._arrays.nodes[slot] for slot in node._arrays.below(node._slot)]
+    made = {
+        original: _copied(scene, original)
+        for original in sorted(nodes, key=lambda original: original.id)
+    }
+    for original in nodes[1:]:  # parents first, siblings in their order
+        made[original].reparent(made[original.parent])
+    made[node].reparent(parent)
     return made[node]
 
 
-def _copied(scene: Scene, node: Node, parent: Node | None) -> Node:
+def _copied(scene: Scene, node: Node) -> Node:
     obj = node.object
     if not isinstance(obj, (Mesh, InstancedMesh)):
         obj = copy.copy(obj)
-    twin = scene.add(obj, name=node.name, parent=parent, pose=node.pose, static=node.static)
+    twin = scene.add(obj, name=node.name, pose=node.pose, static=node.static)
     if not node.visible:
         twin.visible = False
     twin.collider = node.collider

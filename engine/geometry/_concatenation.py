@@ -1,24 +1,56 @@
 """Joining several meshes into one, in their order.
 
-In: meshes. Out: one mesh whose arrays are theirs one after the other, with the indices moved along.
-What only some of them have is filled in for the others.
+In: meshes, and perhaps their poses. Out: one mesh whose arrays are theirs one after the other, with
+the indices moved along. What only some of them have is filled in for the others.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
+from .._support.validation import matrix4
 from ..errors import InvalidArgumentError
+from ..linalg import compose
 from ..materials.colors import srgb_to_linear_table
 from ..materials.material import Material
+from .posing import posed_mesh
 from .vertex_attributes import VertexAttribute, attributes_of, vertex_attributes
+
+
+def placed(mesh_type: type, meshes: list, poses) -> list:
+    """Return meshes with their poses applied; see `Mesh.concatenate`."""
+    _check_types(mesh_type, meshes)
+    if not isinstance(poses, Iterable):
+        raise InvalidArgumentError(f"poses must be several poses, not {poses!r}")
+    poses = list(poses)
+    if len(poses) != len(meshes):
+        raise InvalidArgumentError(f"{len(poses)} poses for {len(meshes)} meshes")
+    matrices = [_pose_matrix(pose, number) for number, pose in enumerate(poses)]
+    return [posed_mesh(mesh, matrix) for mesh, matrix in zip(meshes, matrices, strict=True)]
+
+
+def _pose_matrix(pose, number: int) -> np.ndarray:
+    """A pose as a matrix: of a matrix, or of translation, rotation and scale."""
+    what = f"poses[{number}]"
+    if isinstance(pose, (list, tuple)) and len(pose) == 3:
+        pose = compose(*pose)
+    matrix = matrix4(pose, what)
+    if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
+        raise InvalidArgumentError(f"{what} must be affine: its last row is 0 0 0 1")
+    return matrix
+
+
+def _check_types(mesh_type: type, meshes: list) -> None:
+    for mesh in meshes:
+        if not isinstance(mesh, mesh_type):
+            raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
 
 
 def concatenate(mesh_type: type, meshes: list, name: str):
     """Return a ``mesh_type`` that holds everything of ``meshes``; see `Mesh.concatenate`."""
-    for mesh in meshes:
-        if not isinstance(mesh, mesh_type):
-            raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+    _check_types(mesh_type, meshes)
     if not meshes:
         return mesh_type(np.zeros((0, 3), np.float32), name=name)
     starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])[:-1]

@@ -213,17 +213,42 @@ class Mesh(Closed):
         self._groups = check_groups(value, len(self.faces))
 
     @classmethod
-    def concatenate(cls, meshes: Sequence[Mesh], name: str = "") -> Mesh:
+    def concatenate(
+        cls,
+        meshes: Iterable[Mesh],
+        name: str = "",
+        *,
+        poses: Iterable[ArrayLike | Sequence[ArrayLike]] | None = None,
+    ) -> Mesh:
         """Return one mesh that holds everything of several, in their order.
 
         What only some of them have is filled in: computed normals, zero texture coordinates,
-        white vertex colours. Materials that are the same object are kept once.
+        white vertex colours. Materials that are the same object are kept once. One mesh is drawn
+        faster than many small ones; `InstancedMesh` is for copies of the same.
+
+        Parameters
+        ----------
+        meshes : iterable of Mesh
+            One may be there many times.
+        name : str
+        poses : iterable, optional
+            Where each mesh goes: a 4x4 matrix, or translation (3,), rotation (quaternion x, y, z,
+            w) and scale (a number or (3,)). Normals are transformed by the inverse transpose; a
+            pose that mirrors turns the faces over, so that their fronts stay outside.
+
+        Raises
+        ------
+        InvalidArgumentError
+            One is no mesh, a pose is not affine, or there are not as many poses as meshes.
         """
-        from ._concatenation import concatenate
+        from ._concatenation import concatenate, placed
 
         if not isinstance(meshes, Iterable):
             raise InvalidArgumentError(f"meshes must be several Mesh, not {meshes!r}")
-        return concatenate(cls, list(meshes), name)
+        meshes = list(meshes)
+        if poses is not None:
+            meshes = placed(cls, meshes, poses)
+        return concatenate(cls, meshes, name)
 
     @classmethod
     def from_trimesh(cls, geometry: Any) -> Mesh:

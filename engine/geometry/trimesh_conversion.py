@@ -12,12 +12,13 @@ import numpy as np
 from ..errors import InvalidArgumentError
 from ..loaders.images import check_image_size, rgba_pixels
 from ..loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
-from ..loaders.posed_parts import PosedPart, posed_mesh
+from ..loaders.posed_parts import PosedPart
 from ..loaders.warning_list import WarningList
 from ..materials.colors import linear_color, srgb_bytes
 from ..materials.material import Material
 from ..materials.textures import Texture
 from .mesh import Mesh
+from .posing import posed_mesh
 
 
 def mesh_from_trimesh(geometry) -> Mesh:

@@ -12,9 +12,7 @@ import numpy as np
 
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
-from ..geometry.normals import unit_vectors
-from ..geometry.vertex_attributes import attributes_of
-from ..linalg import normal_matrix, transform_directions, transform_points
+from ..geometry.posing import posed_mesh
 from .documents import DocumentObject
 from .sources import Source
 from .text import shown
@@ -73,36 +71,6 @@ def document_objects(
     if split:
         return [DocumentObject(*part) for part in parts]
     return [DocumentObject(part.name, posed_mesh(part.mesh, part.pose)) for part in parts]
-
-
-def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
-    """Return a mesh with a pose applied; a mirroring one turns its faces over."""
-    if np.array_equal(pose, np.eye(4)):
-        return mesh
-    rows = [pose[k, :3] for k in range(3)]
-    mirrored = sum(rows[0][k] * np.cross(rows[1], rows[2])[k] for k in range(3)) < 0
-    order = [0, 2, 1] if mirrored else [0, 1, 2]
-    visible = mesh.edge_visible
-    if visible is not None and mirrored:
-        visible = visible[:, [2, 1, 0]]
-    normals = None
-    if mesh.has_normals:
-        matrix = np.eye(4)
-        matrix[:3, :3] = normal_matrix(pose)
-        normals = unit_vectors(transform_directions(matrix, mesh.normals))
-    return Mesh(
-        transform_points(pose, mesh.positions),
-        mesh.faces[:, order],
-        normals=normals,
-        materials=mesh.materials,
-        material_ids=mesh.material_ids,
-        lines=mesh.lines,
-        points=mesh.points,
-        edge_visible=visible,
-        position_ids=mesh.position_ids,
-        name=mesh.name,
-        **attributes_of(mesh),
-    )
 
 
 def counts_of(objects: list[DocumentObject]) -> dict:

@@ -4,8 +4,8 @@ Each has unit normals, texture coordinates (origin bottom-left) and an edge mask
 diagonals of its quads in wireframe. All default to about a unit cube's size.
 """
 
-from .flat import box, plane, quad
+from .flat import box, hexahedron, plane, quad
 from .icosphere import icosphere
 from .round import cylinder, torus, uv_sphere
 
-__all__ = ["box", "cylinder", "icosphere", "plane", "quad", "torus", "uv_sphere"]
+__all__ = ["box", "cylinder", "hexahedron", "icosphere", "plane", "quad", "torus", "uv_sphere"]

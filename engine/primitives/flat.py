@@ -161,3 +161,52 @@ def quad(
         edge_visible=edge_visible,
         name="quad",
     )
+
+
+# Of each face of a hexahedron, as of a box: lower left, lower right, upper right, upper left.
+_HEXAHEDRON_FACES = np.array(
+    [(5, 1, 2, 6), (0, 4, 7, 3), (7, 6, 2, 3), (0, 1, 5, 4), (4, 5, 6, 7), (1, 0, 3, 2)], np.int32
+)
+
+
+@names_itself
+def hexahedron(corners: npt.ArrayLike) -> Mesh:
+    """Return a box of any eight corners, with the whole texture on each face.
+
+    Each face has one normal, perpendicular to both its diagonals, as that of `quad`. Corners may
+    coincide, so that it is a wedge or a pyramid.
+
+    Parameters
+    ----------
+    corners : array_like, shape (8, 3)
+        Four at the back, then four at the front, each lower left, lower right, upper right, upper
+        left as seen from the front: the order of VTK's hexahedron.
+
+    Returns
+    -------
+    Mesh
+        24 vertices and 12 triangles; faces in the order of `box`.
+
+    Raises
+    ------
+    InvalidArgumentError
+        If the corners aren't 8 finite points, or span no area.
+    """
+    points = floats(corners, "the corners")
+    if points.shape != (8, 3) or not np.all(np.isfinite(points)):
+        raise InvalidArgumentError("the corners of a hexahedron must be 8 finite points")
+    quads = points[_HEXAHEDRON_FACES]
+    across = linalg.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])
+    normals = linalg.normalize(across)
+    if not np.any(normals):
+        raise InvalidArgumentError("the corners of a hexahedron must span an area")
+    faces, edge_visible = split_quads(np.arange(24, dtype=np.int32).reshape(6, 4))
+    return Mesh(
+        quads.reshape(-1, 3),
+        faces,
+        normals=np.repeat(normals, 4, axis=0),
+        uvs=np.tile(_CORNER_UVS, (6, 1)),
+        edge_visible=edge_visible,
+        position_ids=_HEXAHEDRON_FACES.reshape(-1),
+        name="hexahedron",
+    )

@@ -12,6 +12,7 @@ from engine3d.editor.node_commands import (
     DeleteNodes,
     DuplicateNodes,
     GroupNodes,
+    JoinNodes,
     MoveNodes,
     Reparent,
     in_world,
@@ -91,6 +92,10 @@ class Monkey:
     def group(self):
         return GroupNodes(self.scene, self.some_nodes())
 
+    def join(self):
+        meshes = [node for node in self.scene.nodes if isinstance(node.object, e3d.Mesh)]
+        return JoinNodes(self.scene, meshes[:2]) if meshes else self.add()
+
     def move(self):
         offset = self.random.normal(size=3)
         how = self.one([
@@ -157,7 +162,14 @@ class Monkey:
             self.run_python()
         else:
             steps = (self.add, self.duplicate, self.reparent, self.group, self.move, self.move)
-            steps = (*steps, self.set_node, self.set_node, self.set_thing, self.set_thing)
+            steps = (
+                *steps,
+                self.join,
+                self.set_node,
+                self.set_node,
+                self.set_thing,
+                self.set_thing,
+            )
             steps = (*steps, *(self.delete,) * (1 + len(self.scene.nodes) // 8))
             self.document.do(self.one(steps)(), drag=self.one([None, "drag"]))
 

@@ -5,6 +5,7 @@ import sys
 import numpy as np
 import pytest
 
+from engine3d import PerspectiveCamera, Scene, linalg, look_at, render, uv_sphere
 from engine3d.errors import InvalidArgumentError
 from engine3d.geometry.mesh import Mesh
 from engine3d.lod import simplify
@@ -287,3 +288,72 @@ def test_groups_are_names_and_indices_of_faces():
     assert list(mesh.groups) == ["half", "none"]
     mesh.faces = mesh.faces[:1]
     assert mesh.groups == {}
+
+
+def directed_volume(mesh):
+    """Six times the volume, positive where the fronts of the faces are outside."""
+    a, b, c = mesh.positions[mesh.faces].astype(np.float64).transpose(1, 0, 2)
+    return float((a * np.cross(b, c)).sum())
+
+
+def test_meshes_are_joined_at_their_poses():
+    ball = uv_sphere(1.0, (8, 5))
+    ball.groups = {"half": np.arange(20)}
+    triangle = Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])  # without normals
+    turn = linalg.rotation_axis((1, 2, 3), 0.7)
+    squeezed = linalg.multiply(turn, linalg.scaling((1, 2, 0.5)))
+    mirror = np.diag([-1.0, 1, 1, 1])
+    parts = ((5, 0, 0), (0, 0, 1, 1), 2.0)
+    meshes, poses = [ball, ball, ball, triangle, ball], [squeezed, mirror, parts, turn, np.eye(4)]
+    joined = Mesh.concatenate(meshes, "crowd", poses=poses)
+    assert joined.name == "crowd" and len(joined.faces) == 4 * len(ball.faces) + 1
+    assert joined.groups["half"].tolist()[:1] == [0] and len(joined.groups["half"]) == 80
+    start = 0
+    for mesh, pose in zip(meshes, poses, strict=True):
+        matrix = linalg.compose(*pose) if pose is parts else pose
+        end = start + len(mesh.positions)
+        expected = linalg.transform_points(matrix, mesh.positions).astype(np.float32)
+        assert np.array_equal(joined.positions[start:end], expected)
+        normals = mesh.normals.astype(np.float64) @ np.linalg.inv(matrix[:3, :3])
+        normals /= np.linalg.norm(normals, axis=1)[:, np.newaxis]
+        np.testing.assert_allclose(joined.normals[start:end], normals, atol=1e-6)
+        start = end
+    volume = directed_volume(ball)
+    for number, factor in ((0, 1), (1, 1), (2, 8)):
+        part = Mesh(joined.positions, joined.faces[number * len(ball.faces) :][: len(ball.faces)])
+        assert directed_volume(part) == pytest.approx(factor * volume, rel=1e-5)
+        assert directed_volume(part) > 0
+
+
+def test_a_joined_mesh_gives_the_picture_of_its_parts():
+    box = uv_sphere(0.6, (12, 8))
+    box.materials = [Material(color=(200, 60, 20))]
+    random = np.random.default_rng(1)
+    poses = [linalg.compose(random.normal(size=3), random.normal(size=4), s)
+             for s in (0.5, (1, -1, 1), (0.3, 0.9, 1.2), -0.7)]  # fmt: skip
+    apart, joined = Scene(), Scene()
+    for pose in poses:
+        apart.add(box, pose=pose)
+    joined.add(Mesh.concatenate([box] * 4, poses=poses))
+    view = PerspectiveCamera(), look_at((0, 0, 5), (0, 0, 0))
+    pictures = [render(scene, view, size=(96, 72)).color.astype(int) for scene in (apart, joined)]
+    differs = np.abs(pictures[0] - pictures[1]).max(axis=2) > 2  # positions are rounded once more
+    assert differs.mean() < 0.01 and pictures[0].std() > 10
+
+
+def test_poses_of_joined_meshes_are_checked():
+    mesh = square()
+    for poses, message in (
+        ([np.eye(4)], "1 poses for 2 meshes"),
+        (5, "poses must be several"),
+        ([np.eye(4), np.ones((4, 4))], r"poses\[1\] must be affine"),
+        ([np.eye(4), np.eye(3)], "poses"),
+        ([np.eye(4), np.full((4, 4), np.nan)], r"poses\[1\] must be finite"),
+        ([np.eye(4), ((0, 0, 0), (0, 0, 0, 0), 1)], "quaternion"),
+        ([np.eye(4), "pose"], "poses"),
+    ):
+        with pytest.raises(InvalidArgumentError, match=message):
+            Mesh.concatenate([mesh, mesh], poses=poses)
+    assert len(Mesh.concatenate([], poses=[]).faces) == 0
+    empty = Mesh.concatenate([mesh], poses=np.zeros((1, 4, 4)) + np.diag([1.0, 1, 0, 1]))
+    assert (empty.positions[:, 2] == 0).all()

@@ -11,7 +11,7 @@ import engine3d as e3d
 from engine3d.cli.info import describe
 from engine3d.errors import FileFormatError, InvalidArgumentError
 from engine3d.loaders import load_document, load_mesh
-from engine3d.loaders.posed_parts import posed_mesh
+from engine3d.geometry.posing import posed_mesh
 from engine3d.loaders.sources import read_source
 from engine3d.loaders.trimesh_formats import read_here
 

@@ -8,8 +8,13 @@ import pytest
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
 
+SKEWED = [
+    (-1, -1, -1), (1.5, -1, -1), (1, 1, -1.5), (-1, 1, -1),
+    (-1, -1.2, 1), (1, -1, 1), (1, 1.3, 1), (-1, 1, 1.1),
+]  # fmt: skip
 CLOSED = {
     "box": lambda: e3d.box((1.0, 2.0, 3.0)),
+    "hexahedron": lambda: e3d.hexahedron(SKEWED),
     "uv_sphere": lambda: e3d.uv_sphere(2.0, (7, 5)),
     "uv_sphere, coarsest": lambda: e3d.uv_sphere(1.0, (3, 2)),
     "uv_sphere, default": lambda: e3d.uv_sphere(),
@@ -101,6 +106,7 @@ def test_edges_are_the_sides_of_quads_and_each_is_there_once(name):
     mesh = shape(name)
     expected = {
         "box": 12,
+        "hexahedron": 12,
         "uv_sphere": 7 * 4 + 7 * 5,
         "uv_sphere, coarsest": 3 + 6,
         "uv_sphere, default": 32 * 15 + 32 * 16,
@@ -210,3 +216,29 @@ def test_default_shapes_fit_a_unit_cube():
 def test_bad_arguments_are_named(call):
     with pytest.raises(InvalidArgumentError):
         call()
+
+
+def test_a_hexahedron_of_the_corners_of_a_box_is_that_box():
+    corners = [(x, y, z) for z in (-0.5, 0.5) for x, y in ((-1, -2), (1, -2), (1, 2), (-1, 2))]
+    made, box = e3d.hexahedron(corners), e3d.box((2, 4, 1))
+    for name in ("positions", "faces", "normals", "uvs", "edge_visible"):
+        assert np.array_equal(getattr(made, name), getattr(box, name)), name
+    assert np.array_equal(made.edges(), box.edges())
+
+
+def test_a_hexahedron_may_be_a_pyramid():
+    base = [(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)]
+    back_left, back_right, front_right, front_left = base
+    tip = (0, 2, 0)
+    mesh = e3d.hexahedron([back_left, back_right, tip, tip, front_left, front_right, tip, tip])
+    assert mesh.bounds.tolist() == [[-1, 0, -1], [1, 2, 1]]
+    slope = mesh.normals[16]  # of the front
+    assert slope[1] > 0 and slope[2] > 0 and slope[0] == 0
+
+
+@pytest.mark.parametrize(
+    "corners", [np.zeros((8, 3)), np.zeros((8, 2)), np.full((8, 3), np.nan), "box", [[0, 0, 0]]]
+)
+def test_a_hexahedron_needs_eight_points(corners):
+    with pytest.raises(InvalidArgumentError, match="corners"):
+        e3d.hexahedron(corners)

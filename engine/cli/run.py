@@ -83,13 +83,15 @@ def _view_renderer(
 def _show(args: argparse.Namespace, viewed, report: Report) -> None:
     """Open a window and stay until it closes."""
     from ..viewer.model_files import ModelFiles
+    from ..viewer.recent_files import remember
+    from ..viewer.sampling import AT_REST, Sampling
     from ..viewer.viewer import Viewer
     from ..viewer.window import Window
 
     size = args.resolution or WINDOW_SIZE
     with (
         Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync) as window,
-        _view_renderer(args, viewed, size, 1, report) as view_renderer,
+        _view_renderer(args, viewed, size, AT_REST, report) as view_renderer,
     ):
         viewer = Viewer(
             view_renderer,
@@ -98,8 +100,12 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
             walking=args.camera == "fps",
             playing=args.animate,
             statistics=args.fps,
-            files=ModelFiles(args.models, watch=args.watch, **options.opening(args)),
+            files=ModelFiles(
+                args.models, watch=args.watch, remembered=True, **options.opening(args)
+            ),
+            sampling=Sampling(args.samples),
         )
+        remember([] if STANDARD_INPUT in args.models else args.models)
         still = viewed.update is not None and not viewer.playing
         viewer.say("H: help" + ("; Space: play" if still else ""))
         viewer.run(args.frames)

@@ -29,7 +29,7 @@ SECTIONS = {
         Binding(("F",), "toggle_flat", "smooth or flat normals"),
         Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
         Binding(("V",), "cycle_hidden_surfaces", "depth buffer, painter, neither"),
-        Binding(("A",), "cycle_samples", "1, 4, 16 samples per pixel"),
+        Binding(("A",), "cycle_samples", "samples: as time allows, 1, 4, 16"),
         Binding(("+", "="), "widen_lines", "wider lines and points"),
         Binding(("-",), "narrow_lines", "thinner lines and points"),
     ),
@@ -48,14 +48,22 @@ SECTIONS = {
     ),
     "Overlays": (
         Binding(("H",), "toggle_help", "this help"),
-        Binding(("Z",), "toggle_statistics", "statistics"),
+        Binding(("Z",), "cycle_statistics", "speed: a line, all, off"),
         Binding(("I",), "toggle_metadata", "what the file holds"),
         Binding(("G",), "toggle_grid", "grid"),
         Binding(("X",), "toggle_axes", "axes"),
+        Binding(("O",), "cycle_lists", "objects, materials: hide, show"),
+        Binding(("K",), "cycle_theme", "dark or light"),
+    ),
+    "Files": (
+        Binding(("Ctrl+O",), "toggle_recent_files", "files opened before"),
+        Binding(("PageDown", "Ctrl+Right"), "next_file", "next model of the folder"),
+        Binding(("PageUp", "Ctrl+Left"), "previous_file", "the one before"),
     ),
     "Window": (
         Binding(("F11",), "toggle_fullscreen", "full screen"),
         Binding(("F12",), "save_screenshot", "screenshot"),
+        Binding(("Ctrl+F12",), "save_turntable", "a turn, to a GIF"),
         Binding(("Q",), "quit", "quit"),
     ),
 }

@@ -44,6 +44,10 @@ class Mouse:
             return
         if event.down:
             self.release()
+            panel = self._viewer.panel
+            if panel is not None and panel.covers(event.x, event.y):
+                panel.click(event.x, event.y, event.shift or event.button != "left")
+                return
             self.drag = _drag(event)
             return
         clicked = self.drag == "rotate" and not self._dragging
@@ -91,6 +95,9 @@ class Mouse:
         viewer = self._viewer
         if viewer.walker is not None:
             viewer.walker.change_speed(event.steps)
+            return
+        if viewer.panel is not None and viewer.panel.covers(event.x, event.y):
+            viewer.panel.scroll(event.steps)
             return
         viewer.orbit.dolly(event.steps, (event.x, event.y), viewer.view_renderer.size)
         viewer.changed = True

@@ -13,11 +13,11 @@ from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
 from ..scene.loading import scene_from_document
+from .theme import DARK
 from .viewed_scene import ViewedScene
 
 #: Formats whose models, by custom, stand on the XY plane.
 Z_UP_FORMATS = ("asc", "stl")
-BACKGROUND = (43, 46, 53)
 
 
 def open_model(path, *, texture=None, color=None, progress=None, companion=None) -> ViewedScene:
@@ -55,11 +55,12 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     scene = scene_from_document(document)
     if document.scene is None:
-        scene.background = BACKGROUND
+        scene.background = DARK.background
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
+        themed=document.scene is None,
         path=path,
         details=document_lines(document),
         warnings=list(document.warnings),

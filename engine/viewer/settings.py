@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .theme import DARK, Theme
+
 
 @dataclass
 class Settings:
@@ -28,6 +30,8 @@ class Settings:
         What to draw besides the scene.
     ui_scale : int or None
         Factor on the size of texts; None chooses by the screen and the picture.
+    theme : Theme
+        Dark or light.
     """
 
     appearance: dict
@@ -39,3 +43,4 @@ class Settings:
     axes: bool = False
     metadata: bool = False
     ui_scale: int | None = None
+    theme: Theme = DARK

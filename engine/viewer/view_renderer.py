@@ -18,8 +18,10 @@ from .lighting import Lighting, PlacedLight
 from .scene_bounds import turning_outline
 from .selection import CLICK_OUTPUTS
 from .settings import Settings
+from .theme import Theme
 from .viewed_scene import ViewedScene
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
+from .visibility import Visibility
 
 
 class ViewRenderer:
@@ -42,6 +44,10 @@ class ViewRenderer:
 
     Attributes
     ----------
+    samples : int
+        Samples per pixel of the frames to come.
+    turned_up : str or None
+        The direction up that was chosen with `turn_up`.
     screen_scale : int
         How many times finer than usual the screen is that shows the frames.
     """
@@ -65,12 +71,18 @@ class ViewRenderer:
         self.size = size
         self._culling_camera = None
         self.screen_scale = 1
-        self.renderer = self._make_renderer()
+        self.turned_up: str | None = None
+        self._renderers: dict[int, Renderer] = {}
         self.settings = settings
         self.show(viewed)
 
-    def _make_renderer(self) -> Renderer:
-        return Renderer(*self.size, samples=self.samples, **self._options)
+    @property
+    def renderer(self) -> Renderer:
+        """What draws with as many samples per pixel as are asked for now."""
+        if self.samples not in self._renderers:
+            renderer = Renderer(*self.size, samples=self.samples, **self._options)
+            self._renderers[self.samples] = renderer
+        return self._renderers[self.samples]
 
     def show(self, viewed: ViewedScene, *, keep_appearance: bool = False) -> None:
         """Draw another scene from now on.
@@ -89,13 +101,15 @@ class ViewRenderer:
             self.appearance = Appearance(**(viewed.appearance | settings.appearance))
         self.bounds = viewed.bounds
         self._grid = None
-        self._stand(settings.up or viewed.up)
+        self._stand(self.turned_up or settings.up or viewed.up)
         self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
         self._points = count_points(viewed.scene)
         if self._transparent:
             viewed.scene.background = None
         elif settings.background is not None:
             viewed.scene.background = settings.background
+        elif viewed.themed:
+            viewed.scene.background = self.theme.background
         self.lighting = self._light()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
@@ -114,7 +128,7 @@ class ViewRenderer:
         lights = self.lighting.name
         self.leave_scene()
         self._grid = None
-        self.settings.up = up
+        self.turned_up = up
         self._stand(up)
         self.lighting = self._light()
         self.lighting.choose(lights)
@@ -133,6 +147,17 @@ class ViewRenderer:
         if self._grid is not None:
             self.viewed.scene.remove(self._grid)
 
+    @property
+    def theme(self) -> Theme:
+        """The colours of texts over the picture, and of the background of models."""
+        return self.settings.theme
+
+    @theme.setter
+    def theme(self, theme: Theme) -> None:
+        self.settings.theme = theme
+        if self.viewed.themed and self.settings.background is None and not self._transparent:
+            self.viewed.scene.background = theme.background
+
     def show_grid(self, shown: bool) -> None:
         """Draw a grid under the scene, or not."""
         self.settings.grid = shown
@@ -142,6 +167,10 @@ class ViewRenderer:
             self._grid = scene.add(lines, name="grid")
         if self._grid is not None:
             self._grid.visible = shown
+
+    def visibility(self) -> Visibility:
+        """Return what hides parts of the scene that is shown."""
+        return Visibility(self.viewed.scene, () if self._grid is None else (self._grid,))
 
     def _lowest(self) -> float:
         """Return how low the scene reaches along the up direction, however it moves."""
@@ -154,13 +183,8 @@ class ViewRenderer:
         """Draw frames of another size from now on."""
         if (width, height) != self.size:
             self.size = (width, height)
-            self.renderer.resize(width, height)
-
-    def resample(self, samples: int) -> None:
-        """Take another number of samples per pixel from now on."""
-        self.samples = samples
-        self.renderer.close()
-        self.renderer = self._make_renderer()
+            for renderer in self._renderers.values():
+                renderer.resize(width, height)
 
     @property
     def aspect(self) -> float:
@@ -241,7 +265,7 @@ class ViewRenderer:
         if self.settings.axes:
             draw_axes(canvas, view, scale)
         if self.settings.metadata:
-            draw_block(canvas, self.metadata(), corner="top right", scale=scale)
+            draw_block(canvas, self.metadata(), corner="top right", scale=scale, theme=self.theme)
 
     def text_scale(self, canvas) -> int:
         """Return the factor on the font's size of texts over a picture."""
@@ -261,8 +285,9 @@ class ViewRenderer:
         return [self.viewed.title, *self.viewed.details]
 
     def close(self) -> None:
-        """Free the renderer's buffers."""
-        self.renderer.close()
+        """Free the renderers' buffers."""
+        while self._renderers:
+            self._renderers.popitem()[1].close()
 
     def __enter__(self) -> ViewRenderer:
         return self

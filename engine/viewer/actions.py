@@ -11,14 +11,17 @@ from pathlib import Path
 from typing import get_args
 
 from ..choices import Samples
+from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
-from .appearance import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .fps import FpsController
+from .ground import told
 from .panels import MaterialPanel, ObjectPanel, RecentPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
 from .theme import THEMES
 from .viewpoint import QUARTER_TURN, UP_DIRECTIONS
-from .walking import controller
+from .walking import GroundController, controller
 
 SAMPLES = get_args(Samples)
 STATISTICS = (None, "short", "long")
@@ -179,11 +182,9 @@ def reset_view(viewer, step: int = 1) -> None:
 
 
 def toggle_walking(viewer, step: int = 1) -> None:
-    """Walk, or orbit again; the picture stays where it is."""
+    """Walk, or orbit again; the picture stays where it is, or goes down to the ground."""
     if viewer.walker is None:
-        viewer.walker = controller(viewer.view_renderer, viewer.view)
-        viewer.walker.place(viewer.view)
-        viewer.say("walking: WASD, mouse or arrows to look; Tab or Esc to leave")
+        _begin_walking(viewer)
     else:
         viewer.walker.leave(viewer.view)
         viewer.walker = None
@@ -193,10 +194,37 @@ def toggle_walking(viewer, step: int = 1) -> None:
     viewer.window.capture_mouse(viewer.walker is not None)
 
 
+def _begin_walking(viewer) -> None:
+    try:
+        viewer.walker = controller(viewer.view_renderer, viewer.view)
+        said = "walking"
+    except Engine3DError as error:
+        viewer.walker = FpsController(viewer.view, viewer.view_renderer.bounds)
+        said = f"flying, as there is no ground: {error}"
+    viewer.walker.place(viewer.view)
+    if isinstance(viewer.walker, GroundController):
+        said += f"; {told(viewer.walker.grid)}"
+    viewer.say(f"{said}; WASD, mouse or arrows to look; Tab or Esc to leave")
+
+
+def toggle_textures(viewer, step: int) -> None:
+    """Draw with textures, or with the colours of the materials alone."""
+    view_renderer = viewer.view_renderer
+    view_renderer.show_textures(not view_renderer.settings.textures)
+    viewer.say(f"textures: {'on' if view_renderer.settings.textures else 'off'}")
+
+
+def cycle_culling(viewer, step: int) -> None:
+    """Next of what is left out before it is drawn; the picture is the same."""
+    appearance = viewer.view_renderer.appearance
+    appearance.culling = following(appearance.culling, CULLINGS, step)
+    viewer.say(f"culling: {appearance.culling}")
+
+
 def freeze_culling(viewer, step: int) -> None:
-    """Draw what shows from here, and nothing more, until the key comes up."""
+    """Draw what shows from here, and nothing more, until the key comes up; counters stand still."""
     viewer.view_renderer.freeze_culling(viewer.view)
-    viewer.say("culling as from here, while C is held")
+    viewer.say("culling and counting as from here, while C is held")
 
 
 def toggle_playing(viewer, step: int) -> None:

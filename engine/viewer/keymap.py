@@ -25,9 +25,11 @@ SECTIONS = {
         Binding(("M",), "cycle_mode", "next drawing mode (Shift: previous)"),
         Binding(("N",), "toggle_normals_mode", "normals as colours"),
         Binding(("U",), "toggle_unlit", "with or without light"),
+        Binding(("T",), "toggle_textures", "with or without textures"),
         Binding(("L",), "cycle_lights", "next lights (Shift: previous)"),
         Binding(("F",), "toggle_flat", "smooth or flat normals"),
         Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
+        Binding(("Y",), "cycle_culling", "what is left out before drawing"),
         Binding(("V",), "cycle_hidden_surfaces", "depth buffer, painter, neither"),
         Binding(("A",), "cycle_samples", "samples: as time allows, 1, 4, 16"),
         Binding(("+", "="), "widen_lines", "wider lines and points"),
@@ -43,7 +45,7 @@ SECTIONS = {
         Binding(("Ctrl+Z",), "turn_z_up", "+Z is up (Shift: -Z)"),
         Binding(("R", "Return", "Enter"), "reset_view", "reset"),
         Binding(("Tab",), "toggle_walking", "walk: WASD, mouse, arrows"),
-        Binding(("C",), "freeze_culling", "while held: cull as from here"),
+        Binding(("C",), "freeze_culling", "while held: cull, count as from here"),
         Binding(("Space",), "toggle_playing", "pause or play"),
     ),
     "Overlays": (
@@ -76,6 +78,7 @@ GESTURES = (
     ("double click", "turn round what is there"),
     ("wheel", "zoom there (also middle drag)"),
     ("right drag", "pan (also Shift+left)"),
+    ("Shift+right", "turn the light"),
     ("drop", "open files"),
 )
 #: Arrow keys in orbit mode: radians of azimuth and elevation.

@@ -25,7 +25,7 @@ class Mouse:
     Attributes
     ----------
     drag : str or None
-        What a pressed button does: ``"rotate"``, ``"pan"`` or ``"dolly"``.
+        What a pressed button does: ``"rotate"``, ``"pan"``, ``"dolly"`` or ``"light"``.
     """
 
     def __init__(self, viewer: Viewer):
@@ -86,6 +86,8 @@ class Mouse:
             viewer.orbit.rotate(dx, dy, height)
         elif self.drag == "pan":
             viewer.orbit.pan(dx, dy, height)
+        elif self.drag == "light":
+            viewer.turn_light(dx, dy)
         else:
             viewer.orbit.dolly_drag(dy)
         viewer.changed = True
@@ -106,4 +108,6 @@ class Mouse:
 def _drag(event) -> str:
     if event.button == "left":
         return "pan" if event.shift or event.control else "rotate"
+    if event.button == "right" and (event.shift or event.control):
+        return "light"
     return {"middle": "dolly", "right": "pan"}[event.button]

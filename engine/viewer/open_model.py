@@ -13,8 +13,10 @@ from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
 from ..scene.loading import scene_from_document
+from ..scene.scene import Scene
 from .theme import DARK
 from .viewed_scene import ViewedScene
+from .visibility import DRAWABLE, mesh_of
 
 #: Formats whose models, by custom, stand on the XY plane.
 Z_UP_FORMATS = ("asc", "stl")
@@ -86,6 +88,18 @@ def _dress(meshes, image, color) -> None:
         if image is not None:
             material.texture = image
         if color is not None:
+            material.color = color
+
+
+def dress_scene(scene: Scene, color) -> None:
+    """Give the meshes of a scene without materials a colour; warn if there are none."""
+    things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
+    meshes = [mesh for mesh in map(mesh_of, things) if not has_materials(mesh)]
+    if not meshes:
+        _warn("all that the scene holds has materials of its own: it gets no other colour")
+    for mesh in meshes:
+        mesh.colors = None
+        for material in mesh.materials:
             material.color = color
 
 

@@ -11,16 +11,18 @@ import numpy as np
 from .. import linalg
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
+from ..scene.lights import DirectionalLight
 from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
 from .grid_lines import grid
-from .lighting import Lighting, PlacedLight
+from .lighting import Lighting, OnlyLight, placed_light
 from .scene_bounds import turning_outline
 from .selection import CLICK_OUTPUTS
 from .settings import Settings
 from .theme import Theme
+from .untextured import Textures
 from .viewed_scene import ViewedScene
-from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
+from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
 
 
@@ -46,6 +48,8 @@ class ViewRenderer:
     ----------
     samples : int
         Samples per pixel of the frames to come.
+    stats : dict
+        Of the last frame that was drawn while culling was not frozen.
     turned_up : str or None
         The direction up that was chosen with `turn_up`.
     screen_scale : int
@@ -70,6 +74,7 @@ class ViewRenderer:
         self.samples = samples
         self.size = size
         self._culling_camera = None
+        self.stats: dict = {}
         self.screen_scale = 1
         self.turned_up: str | None = None
         self._renderers: dict[int, Renderer] = {}
@@ -96,6 +101,10 @@ class ViewRenderer:
         """
         settings = self.settings
         self.viewed = viewed
+        self._textures = Textures(viewed.scene)
+        self.show_textures(settings.textures)
+        if settings.light_clamp is not None:
+            viewed.scene.light_clamp = settings.light_clamp
         lights = self.lighting.name if keep_appearance else ""
         if not keep_appearance:
             self.appearance = Appearance(**(viewed.appearance | settings.appearance))
@@ -126,7 +135,7 @@ class ViewRenderer:
     def turn_up(self, up: str) -> None:
         """Look at the scene with another direction up, from now on."""
         lights = self.lighting.name
-        self.leave_scene()
+        self._take_lights_and_grid()
         self._grid = None
         self.turned_up = up
         self._stand(up)
@@ -134,15 +143,31 @@ class ViewRenderer:
         self.lighting.choose(lights)
         self.show_grid(self.settings.grid)
 
-    def _light(self) -> Lighting | PlacedLight:
+    def _light(self) -> Lighting | OnlyLight:
         scene, settings = self.viewed.scene, self.settings
         intensity = settings.light_intensity
         if settings.light_position is not None:
-            return PlacedLight(scene, settings.light_position, self.bounds, intensity)
-        return Lighting(scene, UP_DIRECTIONS[self.up], 1.0 if intensity is None else intensity)
+            return placed_light(scene, settings.light_position, self.bounds, intensity)
+        intensity = 1.0 if intensity is None else intensity
+        if settings.light_direction is not None:
+            light = DirectionalLight(settings.light_direction, (1.0, 1.0, 1.0), intensity)
+            return OnlyLight(scene, light)
+        return Lighting(scene, UP_DIRECTIONS[self.up], intensity)
+
+    def show_textures(self, shown: bool) -> None:
+        """Draw with textures, or without."""
+        self.settings.textures = shown
+        if shown:
+            self._textures.put_on()
+        else:
+            self._textures.take_off()
 
     def leave_scene(self) -> None:
-        """Take away what was added to the scene, which is not drawn any more."""
+        """Leave the scene, which is not drawn any more, as it was before."""
+        self._textures.put_on()
+        self._take_lights_and_grid()
+
+    def _take_lights_and_grid(self) -> None:
         self.lighting.leave()
         if self._grid is not None:
             self.viewed.scene.remove(self._grid)
@@ -217,8 +242,10 @@ class ViewRenderer:
         frame = self._render(view, time, outputs)
         if self.settings.axes or self.settings.metadata:
             self._draw_overlays(frame.canvas(), view)
-        if self._report is not None:
-            self._report(frame)
+        if self._culling_camera is None:
+            self.stats = frame.stats
+            if self._report is not None:
+                self._report(frame)
         return frame
 
     def pick(self, view: Viewpoint, time: float, x: int, y: int) -> RayHit | None:
@@ -252,10 +279,14 @@ class ViewRenderer:
     def _camera(self, view: Viewpoint):
         clearance = self.viewed.clearance
         free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
-        return view.camera(self._clip_bounds(), self.viewed.nearest, free)
+        camera = view.camera(self._clip_bounds(), self.viewed.nearest, free)
+        return with_clip_planes(camera, self.settings.near, self.settings.far)
 
     def freeze_culling(self, view: Viewpoint | None) -> None:
-        """Draw only what this view shows, wherever it is seen from; None: what each frame shows."""
+        """Draw only what this view shows, wherever it is seen from; None: what each frame shows.
+
+        Meanwhile `stats` stay as they are, and no frames are reported.
+        """
         self._culling_camera = None if view is None else (self._camera(view), view.pose())
 
     def _draw_overlays(self, canvas, view: Viewpoint) -> None:

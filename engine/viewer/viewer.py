@@ -206,12 +206,12 @@ class Viewer:
     def _statistics(self) -> list[str]:
         view_renderer = self.view_renderer
         if self.statistics == "short":
-            return [short_statistics(self.frame_times, self.frame.stats)]
+            return [short_statistics(self.frame_times, view_renderer.stats)]
         return statistics_lines(
             self.frame_times.seconds,
             view_renderer.size,
             view_renderer.samples,
-            self.frame.stats,
+            view_renderer.stats,
         )
 
     def _update_title(self) -> None:
@@ -250,6 +250,13 @@ class Viewer:
             hit = hit._replace(face=self.visibility.face_of(hit.node, hit.face))
         self.selected = hit
         self.changed = True
+
+    def turn_light(self, dx: int, dy: int) -> None:
+        """Turn the light by a drag of (dx, dy) pixels."""
+        full_turn = 2 * math.pi / self.view_renderer.size[1]
+        lighting = self.view_renderer.lighting
+        if not lighting.turn(self.view.pose(), dx * full_turn, dy * full_turn):
+            self.say("these lights cannot be turned: L chooses others")
 
     def focus(self, x: int, y: int) -> None:
         """Move what shows at a pixel into the middle, and turn round it from now on."""

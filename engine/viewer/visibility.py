@@ -16,6 +16,8 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 
+DRAWABLE = (Mesh, InstancedMesh)
+
 
 class Entry(NamedTuple):
     """An object or a material: its name, how many triangles it has, whether it shows."""
@@ -39,7 +41,7 @@ class Visibility:
         self._objects = {
             node: node.object
             for node in scene.nodes
-            if isinstance(node.object, Mesh | InstancedMesh) and node not in besides
+            if isinstance(node.object, DRAWABLE) and node not in besides
         }
         self._nodes = list(self._objects)
         self._materials = list(dict.fromkeys(map(_key, self._used())))

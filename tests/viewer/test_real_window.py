@@ -39,7 +39,7 @@ CUBE = "\n".join(
 def screen():
     """Start a virtual screen; return its name, such as ``:5``."""
     size = f"{SCREEN[0]}x{SCREEN[1]}x24"
-    command = ["Xvfb", "-displayfd", "1", "-screen", "0", size, "-nolisten", "tcp"]
+    command = ["Xvfb", "-displayfd", "1", "-screen", "0", size, "-nolisten", "tcp", "-noreset"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as server:
         yield ":" + server.stdout.readline().decode().strip()
         server.terminate()

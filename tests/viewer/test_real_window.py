@@ -122,7 +122,7 @@ class Desktop:
         return self.wait_for_change(before)
 
     def settle_after(self, *keys):
-        """Press keys one after the other; return the screen when it has changed and come to rest."""
+        """Press keys one after the other; return the screen when it has come to rest again."""
         self.press(*keys)
         return self.settle()
 

@@ -14,6 +14,7 @@ from typing import get_args
 from ..choices import (
     Backend,
     Cull,
+    Culling,
     HiddenSurfaces,
     Mode,
     Samples,
@@ -38,6 +39,7 @@ SIGNED_OPTIONS = frozenset(
     {
         "--up",
         "--light-position",
+        "--light-direction",
         "--camera-position",
         "--camera-focal-point",
         "--camera-view-up",
@@ -101,7 +103,13 @@ def add_viewed_scene(parser) -> None:
         "beside the model",
     )
     group.add_argument(
-        "--color", type=values.color, metavar="COLOR", help="colour for a model without materials"
+        "--color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour for a model, or for what in a scene is, without materials",
+    )
+    group.add_argument(
+        "--no-texture", action="store_true", help="leave textures out; light and colours stay"
     )
     group.add_argument(
         "--verbose",
@@ -128,7 +136,8 @@ def add_picture(parser) -> None:
         "--samples",
         type=int,
         choices=get_args(Samples),
-        help="samples per pixel: more give smoother edges",
+        help="samples per pixel: more give smoother edges. In a window 4 while nothing moves, and "
+        "fewer in motion where it would be slow, if this is not given",
     )
     group.add_argument(
         "--backend",
@@ -224,6 +233,12 @@ def add_appearance(parser) -> None:
         help="which faces to leave out; back by default",
     )
     group.add_argument(
+        "--culling",
+        choices=get_args(Culling),
+        help="what is left out before it is drawn: what is outside of the view and what is hidden "
+        "(all, the default), what is outside, or nothing; the picture is the same",
+    )
+    group.add_argument(
         "--hidden-surfaces",
         choices=get_args(HiddenSurfaces),
         help="method of hidden-surface removal: depth buffer (the default), painter's algorithm "
@@ -246,11 +261,23 @@ def add_light(parser) -> None:
         help="light the model with one point light at this position only",
     )
     group.add_argument(
+        "--light-direction",
+        type=values.direction,
+        metavar="X,Y,Z",
+        help="light the model with one light from afar only, which travels this way",
+    )
+    group.add_argument(
         "--light-intensity",
         type=values.not_negative,
         metavar="I",
-        help="intensity of that light; it gives I/d² at distance d. Without --light-position, a "
-        "factor for the default lights",
+        help="intensity of that light; one at a position gives I/d² at distance d. Without such a "
+        "light, a factor for the default lights",
+    )
+    group.add_argument(
+        "--light-clamp",
+        type=values.limits,
+        metavar="LOW,HIGH",
+        help="keep the sum of the lights within these, such as 0.1,1",
     )
 
 
@@ -302,6 +329,13 @@ def add_camera(parser) -> None:
     group.add_argument(
         "--camera-orthographic", action="store_true", help="use a parallel projection"
     )
+    for plane in ("near", "far"):
+        group.add_argument(
+            f"--{plane}",
+            type=values.positive,
+            metavar="D",
+            help=f"distance of the {plane} clip plane; by default it encloses what is shown",
+        )
 
 
 def add_run(parser) -> None:
@@ -317,6 +351,18 @@ def add_run(parser) -> None:
         choices=("orbit", "fps"),
         default="orbit",
         help="orbit around the model (the default), or walk with WASD and the mouse",
+    )
+    group.add_argument(
+        "--walkable",
+        type=values.names,
+        metavar="NAME,…",
+        help="walk on these materials of the model only",
+    )
+    group.add_argument(
+        "--slope",
+        type=values.slope,
+        metavar="DEGREES",
+        help="the steepest ground of the model that one walks on; 40 by default",
     )
     group.add_argument(
         "-z", "--fps", action="store_true", help="show frames per second and statistics"
@@ -391,10 +437,15 @@ def settings(args: argparse.Namespace):
         raise UsageError(f"--unlit does not go with --mode {args.mode}")
     if args.edges and args.wireframe == "only":
         raise UsageError("--edges does not go with --wireframe only")
+    if args.light_position is not None and args.light_direction is not None:
+        raise UsageError("--light-position and --light-direction do not go together")
+    if None not in (args.near, args.far) and args.near >= args.far:
+        raise UsageError("--near must be less than --far")
     appearance = {
         "mode": "unlit" if args.unlit else args.mode,
         "wireframe": "overlay" if args.edges else args.wireframe,
         "cull": args.cull,
+        "culling": args.culling,
         "shading": args.shading,
         "normals": args.normals,
         "hidden_surfaces": args.hidden_surfaces,
@@ -408,7 +459,12 @@ def settings(args: argparse.Namespace):
         up=args.up,
         background=args.background_color,
         light_position=args.light_position,
+        light_direction=args.light_direction,
         light_intensity=args.light_intensity,
+        light_clamp=args.light_clamp,
+        textures=not args.no_texture,
+        near=args.near,
+        far=args.far,
         grid=args.grid,
         axes=args.axis,
         metadata=args.metadata,
@@ -451,14 +507,19 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     if args.triangles is not None and args.scene != "city":
         raise UsageError("--triangles goes with --scene city")
     if not args.models:
-        if args.texture is not None or args.color is not None:
-            raise UsageError("--texture and --color need a MODEL")
+        if args.texture is not None:
+            raise UsageError("--texture needs a MODEL")
         if args.scene is None and default_scene is None:
             raise UsageError("give a MODEL or --scene NAME")
         from ..demos import load_demo
 
         size = {} if args.triangles is None else {"triangles": args.triangles}
-        return load_demo(args.scene or default_scene, **size)
+        viewed = load_demo(args.scene or default_scene, **size)
+        if args.color is not None:
+            from ..viewer.open_model import dress_scene
+
+            dress_scene(viewed.scene, args.color)
+        return viewed
     from ..viewer.open_models import open_models
 
     with LoadingBar() as progress:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
 from ..errors import DisplayError
 from ..files.animation_files import numbered_path, save_animation
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
-from ..viewer.walking import controller
+from ..viewer.walking import GroundController, controller
 from . import options
 from .inputs import STANDARD_INPUT
 from .outputs import check_animation, check_picture, with_progress
@@ -51,6 +52,8 @@ def _check(args: argparse.Namespace) -> None:
     for option, given in (("--watch", args.watch), ("--fps", args.fps)):
         if given and args.headless:
             raise UsageError(f"{option} needs a window: it does not go with --headless")
+    if args.scene == "city" and (args.walkable is not None or args.slope is not None):
+        raise UsageError("--walkable and --slope need a MODEL: the city knows its own ground")
     if args.watch and (not args.models or STANDARD_INPUT in args.models):
         raise UsageError("--watch needs a MODEL that is a file")
 
@@ -69,9 +72,14 @@ def _missing_screen() -> str | None:
 def _view_renderer(
     args: argparse.Namespace, viewed, size, samples: int, report: Report
 ) -> ViewRenderer:
+    settings = options.settings(args)
+    asked = args.walkable is not None or args.slope is not None
+    settings.walks = args.camera == "fps" or asked
+    settings.walkable = args.walkable
+    settings.slope = None if args.slope is None else math.radians(args.slope)
     return ViewRenderer(
         viewed,
-        options.settings(args),
+        settings,
         args.resolution or size,
         backend=args.backend,
         threads=args.threads,
@@ -82,14 +90,17 @@ def _view_renderer(
 
 def _show(args: argparse.Namespace, viewed, report: Report) -> None:
     """Open a window and stay until it closes."""
+    from ..viewer.ground import told
     from ..viewer.model_files import ModelFiles
+    from ..viewer.recent_files import remember
+    from ..viewer.sampling import AT_REST, Sampling
     from ..viewer.viewer import Viewer
     from ..viewer.window import Window
 
     size = args.resolution or WINDOW_SIZE
     with (
         Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync) as window,
-        _view_renderer(args, viewed, size, 1, report) as view_renderer,
+        _view_renderer(args, viewed, size, AT_REST, report) as view_renderer,
     ):
         viewer = Viewer(
             view_renderer,
@@ -98,10 +109,17 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
             walking=args.camera == "fps",
             playing=args.animate,
             statistics=args.fps,
-            files=ModelFiles(args.models, watch=args.watch, **options.opening(args)),
+            files=ModelFiles(
+                args.models, watch=args.watch, remembered=True, **options.opening(args)
+            ),
+            sampling=Sampling(args.samples),
         )
+        remember([] if STANDARD_INPUT in args.models else args.models)
         still = viewed.update is not None and not viewer.playing
-        viewer.say("H: help" + ("; Space: play" if still else ""))
+        if viewer.walker is None:
+            viewer.say("H: help" + ("; Space: play" if still else ""))
+        elif isinstance(viewer.walker, GroundController):
+            report.line(told(viewer.walker.grid))
         viewer.run(args.frames)
 
 

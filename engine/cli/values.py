@@ -143,6 +143,30 @@ def direction(text: str) -> tuple[float, float, float]:
     return parsed
 
 
+def limits(text: str) -> tuple[float, float]:
+    """Parse ``LOW,HIGH``, zero or more each."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(f"{text!r} is not LOW,HIGH")
+    low, high = map(not_negative, parts)
+    if low > high:
+        raise argparse.ArgumentTypeError(f"{text!r}: the first number is the lower one")
+    return low, high
+
+
+def names(text: str) -> tuple[str, ...]:
+    """Parse names with commas between them."""
+    return tuple(filter(None, (part.strip() for part in text.split(","))))
+
+
+def slope(text: str) -> float:
+    """Parse an angle of ground in degrees."""
+    value = not_negative(text)
+    if value >= 90.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not less than 90 degrees")
+    return value
+
+
 def view_angle(text: str) -> float:
     """Parse a vertical field of view in degrees."""
     value = number(text)

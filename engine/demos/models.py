@@ -21,6 +21,7 @@ def showcase() -> ViewedScene:
     viewed = data_model(SHOWCASE_MODEL)
     scene = viewed.scene
     scene.background = SKY
+    viewed.themed = False
     scene.ambient = (0.20, 0.23, 0.27)
     scene.add(DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.95))
     scene.add(DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18))

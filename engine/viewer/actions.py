@@ -11,12 +11,20 @@ from pathlib import Path
 from typing import get_args
 
 from ..choices import Samples
+from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
-from .appearance import CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .fps import FpsController
+from .ground import told
+from .panels import MaterialPanel, ObjectPanel, RecentPanel
+from .recording import record
+from .sampling import AT_REST, MOTION_FPS
+from .theme import THEMES
 from .viewpoint import QUARTER_TURN, UP_DIRECTIONS
-from .walking import controller
+from .walking import GroundController, controller
 
 SAMPLES = get_args(Samples)
+STATISTICS = (None, "short", "long")
 LINE_WIDTHS = (1.0, 16.0)
 ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
@@ -87,9 +95,9 @@ def cycle_lights(viewer, step: int) -> None:
 
 
 def cycle_samples(viewer, step: int) -> None:
-    """Next number of samples per pixel."""
-    samples = following(viewer.view_renderer.samples, SAMPLES, step)
-    viewer.view_renderer.resample(samples)
+    """Next number of samples per pixel: as many as there is time for, or fixed ones."""
+    viewer.sampling.fixed = following(viewer.sampling.fixed, (None, *SAMPLES), step)
+    samples = viewer.sampling.fixed or f"{AT_REST}, or fewer to keep {MOTION_FPS:.0f} fps in motion"
     viewer.say(f"samples per pixel: {samples}")
 
 
@@ -174,11 +182,9 @@ def reset_view(viewer, step: int = 1) -> None:
 
 
 def toggle_walking(viewer, step: int = 1) -> None:
-    """Walk, or orbit again; the picture stays where it is."""
+    """Walk, or orbit again; the picture stays where it is, or goes down to the ground."""
     if viewer.walker is None:
-        viewer.walker = controller(viewer.view_renderer, viewer.view)
-        viewer.walker.place(viewer.view)
-        viewer.say("walking: WASD, mouse or arrows to look; Tab or Esc to leave")
+        _begin_walking(viewer)
     else:
         viewer.walker.leave(viewer.view)
         viewer.walker = None
@@ -188,10 +194,37 @@ def toggle_walking(viewer, step: int = 1) -> None:
     viewer.window.capture_mouse(viewer.walker is not None)
 
 
+def _begin_walking(viewer) -> None:
+    try:
+        viewer.walker = controller(viewer.view_renderer, viewer.view)
+        said = "walking"
+    except Engine3DError as error:
+        viewer.walker = FpsController(viewer.view, viewer.view_renderer.bounds)
+        said = f"flying, as there is no ground: {error}"
+    viewer.walker.place(viewer.view)
+    if isinstance(viewer.walker, GroundController):
+        said += f"; {told(viewer.walker.grid)}"
+    viewer.say(f"{said}; WASD, mouse or arrows to look; Tab or Esc to leave")
+
+
+def toggle_textures(viewer, step: int) -> None:
+    """Draw with textures, or with the colours of the materials alone."""
+    view_renderer = viewer.view_renderer
+    view_renderer.show_textures(not view_renderer.settings.textures)
+    viewer.say(f"textures: {'on' if view_renderer.settings.textures else 'off'}")
+
+
+def cycle_culling(viewer, step: int) -> None:
+    """Next of what is left out before it is drawn; the picture is the same."""
+    appearance = viewer.view_renderer.appearance
+    appearance.culling = following(appearance.culling, CULLINGS, step)
+    viewer.say(f"culling: {appearance.culling}")
+
+
 def freeze_culling(viewer, step: int) -> None:
-    """Draw what shows from here, and nothing more, until the key comes up."""
+    """Draw what shows from here, and nothing more, until the key comes up; counters stand still."""
     viewer.view_renderer.freeze_culling(viewer.view)
-    viewer.say("culling as from here, while C is held")
+    viewer.say("culling and counting as from here, while C is held")
 
 
 def toggle_playing(viewer, step: int) -> None:
@@ -210,9 +243,37 @@ def toggle_axes(viewer, step: int) -> None:
     viewer.view_renderer.settings.axes = not viewer.view_renderer.settings.axes
 
 
-def toggle_statistics(viewer, step: int) -> None:
-    """Frames per second and counters, or none."""
-    viewer.show_statistics = not viewer.show_statistics
+def cycle_statistics(viewer, step: int) -> None:
+    """Next of: no statistics, a line of them, all."""
+    viewer.statistics = following(viewer.statistics, STATISTICS, step)
+
+
+def cycle_theme(viewer, step: int) -> None:
+    """Dark, or light."""
+    viewer.view_renderer.theme = following(viewer.view_renderer.theme, THEMES, step)
+    viewer.say(f"{viewer.view_renderer.theme.name} theme")
+
+
+def cycle_lists(viewer, step: int) -> None:
+    """Next of: the objects, the materials, no list."""
+    shown = type(viewer.panel) if viewer.panel is not None else None
+    panel = following(shown, (None, ObjectPanel, MaterialPanel), step)
+    viewer.panel = None if panel is None else panel(viewer)
+
+
+def toggle_recent_files(viewer, step: int) -> None:
+    """The files that were opened last, or no list."""
+    viewer.panel = None if isinstance(viewer.panel, RecentPanel) else RecentPanel(viewer)
+
+
+def next_file(viewer, step: int) -> None:
+    """Show the next model of the folder."""
+    viewer.opening.step(1)
+
+
+def previous_file(viewer, step: int) -> None:
+    """Show the model before in the folder."""
+    viewer.opening.step(-1)
 
 
 def toggle_metadata(viewer, step: int) -> None:
@@ -237,12 +298,20 @@ def save_screenshot(viewer, step: int) -> None:
     path = numbered_path(
         Path.cwd(), f"{Path(viewer.view_renderer.viewed.title).stem}-screenshot", ".png"
     )
+    viewer.view_renderer.samples = viewer.sampling.at_rest()
     try:
         viewer.view_renderer.draw(viewer.view, viewer.time).save(path)
     except OSError as error:
         viewer.say(str(error))
         return
     viewer.say(f"saved {path.name}")
+
+
+def save_turntable(viewer, step: int) -> None:
+    """Write a turn round the scene, or its own animation, to a numbered GIF; Escape gives it up."""
+    name = f"{Path(viewer.view_renderer.viewed.title).stem}-turntable"
+    path = numbered_path(Path.cwd(), name, ".gif")
+    viewer.say(record(viewer, path))
 
 
 def quit(viewer, step: int) -> None:

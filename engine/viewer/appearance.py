@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import get_args
 
 from .. import linalg
-from ..choices import Cull, HiddenSurfaces, Mode, Wireframe
+from ..choices import Cull, Culling, HiddenSurfaces, Mode, Wireframe
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
 from ..scene.instances import InstancedMesh
@@ -18,6 +18,7 @@ from ..scene.instances import InstancedMesh
 MODES = get_args(Mode)
 WIREFRAMES = (None, *get_args(Wireframe))
 CULLS = get_args(Cull)
+CULLINGS = get_args(Culling)
 HIDDEN_SURFACES = get_args(HiddenSurfaces)
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)
 #: Points are as large as this share of the distance from one to the next, were they spread evenly
@@ -42,6 +43,7 @@ class Appearance:
     mode: str = "lit"
     wireframe: str | None = None
     cull: str = "back"
+    culling: str = "all"
     shading: str = "deferred"
     normals: str = "auto"
     hidden_surfaces: str = "zbuffer"

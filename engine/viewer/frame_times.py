@@ -56,6 +56,11 @@ class FrameTimes:
         self._frames.append((now, drawing, shown))
 
     @property
+    def count(self) -> int:
+        """How many frames are recent."""
+        return len(self._frames)
+
+    @property
     def seconds(self) -> float:
         """Mean time that the recent frames took to draw and to show; 0 if there was none."""
         return self._mean(2)

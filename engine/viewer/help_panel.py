@@ -9,10 +9,9 @@ import textwrap
 
 from ..canvas import text_size
 from .keymap import GESTURES, SECTIONS
-from .overlay import BLOCK, LINE_GAP, PADDING, TEXT, place, text_scale
+from .overlay import LINE_GAP, PADDING, place, text_scale
+from .theme import DARK, Theme
 
-KEY = (255, 206, 115, 255)
-TITLE = (130, 190, 255, 255)
 #: A row is a key and what it does; a title has no second part, an empty row neither.
 Row = tuple[str, str]
 GAP: Row = ("", "")
@@ -30,12 +29,12 @@ def help_sections() -> list[list[Row]]:
 
 
 def help_columns() -> list[list[Row]]:
-    """Return the help in two columns."""
-    drawing, view, overlays, window, mouse = help_sections()
-    return [[*drawing, GAP, *mouse], [*view, GAP, *overlays, GAP, *window]]
+    """Return the help in three columns."""
+    drawing, view, overlays, files, window, mouse = help_sections()
+    return [drawing, [*view, GAP, *mouse], [*overlays, GAP, *files, GAP, *window]]
 
 
-def draw_help(canvas, page: int = 0, scale: int | None = None) -> int:
+def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DARK) -> int:
     """Draw keys and gestures on a block in the middle.
 
     Parameters
@@ -46,6 +45,7 @@ def draw_help(canvas, page: int = 0, scale: int | None = None) -> int:
         Which part, from 0, where not all of it fits.
     scale : int, optional
         Factor on the font's size; by default what suits the picture.
+    theme : Theme
 
     Returns
     -------
@@ -58,12 +58,12 @@ def draw_help(canvas, page: int = 0, scale: int | None = None) -> int:
     room = (canvas.width - inset) // cell_width, (canvas.height - inset) // cell_height
     columns = help_columns()
     if sum(_widths(columns)) + GUTTER <= room[0] and max(map(len, columns)) <= room[1]:
-        _draw_columns(canvas, columns, scale)
+        _draw_columns(canvas, columns, scale, theme)
         return 1
     pages = _pages(*room)
     page = min(page, len(pages) - 1)
     more = f"{page + 1} of {len(pages)}; H: " + ("more" if page + 1 < len(pages) else "close")
-    _draw_columns(canvas, [[*pages[page], (more, "")]], scale)
+    _draw_columns(canvas, [[*pages[page], (more, "")]], scale, theme)
     return len(pages)
 
 
@@ -103,18 +103,18 @@ def _widths(columns: list[list[Row]]) -> list[int]:
     ]
 
 
-def _draw_columns(canvas, columns: list[list[Row]], scale: int) -> None:
+def _draw_columns(canvas, columns: list[list[Row]], scale: int, theme: Theme) -> None:
     cell_width, cell_height = _cell(scale)
     widths = _widths(columns)
     width = (sum(widths) + GUTTER * (len(columns) - 1)) * cell_width + 4 * PADDING
     height = cell_height * max(map(len, columns)) - LINE_GAP * scale + 4 * PADDING
     left, top = place(canvas, width, height, "middle")
-    canvas.rectangle(left, top, width, height, BLOCK)
+    canvas.rectangle(left, top, width, height, theme.block)
     x = left + 2 * PADDING
     for column, column_width in zip(columns, widths, strict=True):
         indent = _indent(column) * cell_width
         for row, (key, text) in enumerate(column):
             y = top + 2 * PADDING + row * cell_height
-            canvas.text(x, y, key, KEY if text else TITLE, scale=scale)
-            canvas.text(x + indent, y, text, TEXT, scale=scale)
+            canvas.text(x, y, key, theme.key if text else theme.title, scale=scale)
+            canvas.text(x + indent, y, text, theme.text, scale=scale)
         x += (column_width + GUTTER) * cell_width

@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from .. import linalg
 from ..scene.lights import DirectionalLight, PointLight
 from ..scene.orbiting import home_axes
 from .viewpoint import Sphere
@@ -66,6 +67,7 @@ class Lighting:
     def choose(self, name: str) -> None:
         """Light the scene with one set-up and no other."""
         self.name = name
+        self._turn: np.ndarray | None = None
         for setup, nodes in self._nodes.items():
             for node in nodes:
                 node.visible = setup == name
@@ -81,39 +83,50 @@ class Lighting:
         """Turn the set-up with the camera, whose pose is (4, 4)."""
         if self.name == OWN_LIGHTS:
             return
-        rotation = np.eye(4)
-        rotation[:3, :3] = self._home if self.name in FIXED_SETUPS else pose[:3, :3]
+        base = self._base(pose)
+        turned = _pose_of(base if self._turn is None else _product(base, self._turn))
         for node in self._nodes[self.name]:
-            node.pose = rotation
+            node.pose = turned
+
+    def _base(self, pose: np.ndarray) -> np.ndarray:
+        """Return what the set-up stands on: the home frame, or the camera's axes."""
+        return self._home if self.name in FIXED_SETUPS else pose[:3, :3]
+
+    def turn(self, pose: np.ndarray, dx: float, dy: float) -> bool:
+        """Turn the set-up by angles to the right and downward, as a camera sees it.
+
+        Returns
+        -------
+        bool
+            Whether it turned: the scene's own lights stay where they are.
+        """
+        if self.name == OWN_LIGHTS:
+            return False
+        base = self._base(pose)
+        turned = _product(base.T, _product(_seen_turn(pose, dx, dy), base))
+        self._turn = turned if self._turn is None else _product(turned, self._turn)
+        return True
 
 
-class PlacedLight:
-    """One point light at a place of the user's, instead of every other light.
+class OnlyLight:
+    """One light of the user's, instead of every other light.
 
     Parameters
     ----------
     scene : Scene
         The scene to light.
+    light : DirectionalLight or PointLight
     position : (3,) sequence of float
-        Where, in world space.
-    bounds : Sphere
-        The scene's bounds.
-    intensity : float or None
-        I of E = I/d²; None lights the middle of the scene with E = 1.
+        Where a point light is, in world space.
     """
 
-    names = ("placed light",)
-    name = "placed light"
-
-    def __init__(self, scene, position, bounds: Sphere, intensity: float | None = None):
+    def __init__(self, scene, light, position=(0.0, 0.0, 0.0)):
+        self.name = "placed light" if isinstance(light, PointLight) else "directed light"
+        self.names = (self.name,)
         self._scene = scene
         self._hidden = [node for node in scene.nodes if is_light(node) and node.visible]
         for node in self._hidden:
             node.visible = False
-        if intensity is None:
-            intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
-            intensity = intensity if intensity > 0.0 and math.isfinite(intensity) else 1.0
-        light = PointLight(color=(1.0, 1.0, 1.0), intensity=intensity)
         self._node = scene.add(light, translation=position)
 
     def leave(self) -> None:
@@ -125,8 +138,52 @@ class PlacedLight:
     def choose(self, name: str) -> None:
         """Do nothing: there is one set-up."""
 
+    def turn(self, pose: np.ndarray, dx: float, dy: float) -> bool:
+        """Turn a directional light as `Lighting.turn` does; return whether it is one."""
+        if isinstance(self._node.object, PointLight):
+            return False
+        turned = _seen_turn(pose, dx, dy)
+        self._node.pose = _pose_of(_product(turned, self._node.pose[:3, :3]))
+        return True
+
     def follow(self, pose: np.ndarray) -> None:
         """Do nothing: the light stays where it was put."""
+
+
+def placed_light(scene, position, bounds: Sphere, intensity: float | None = None) -> OnlyLight:
+    """Light a scene with one point light.
+
+    Parameters
+    ----------
+    scene : Scene
+    position : (3,) sequence of float
+        Where, in world space.
+    bounds : Sphere
+        The scene's bounds.
+    intensity : float or None
+        I of E = I/d²; None lights the middle of the scene with E = 1.
+    """
+    if intensity is None:
+        intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
+        intensity = intensity if intensity > 0.0 and math.isfinite(intensity) else 1.0
+    return OnlyLight(scene, PointLight((1.0, 1.0, 1.0), intensity), position)
+
+
+def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:
+    """Return the turn, in world space, that a camera sees as one to the right and downward."""
+    across = linalg.quaternion_from_axis_angle(pose[:3, 1], dx)
+    down = linalg.quaternion_from_axis_angle(pose[:3, 0], dy)
+    return linalg.quaternion_to_matrix(linalg.quaternion_multiply(across, down))[:3, :3]
+
+
+def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.stack([linalg.dot(a, column) for column in b.T], axis=1)
+
+
+def _pose_of(rotation: np.ndarray) -> np.ndarray:
+    pose = np.eye(4)
+    pose[:3, :3] = rotation
+    return pose
 
 
 def is_light(node) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
+from ..loaders import formats
 from .open_models import open_models
 from .viewed_scene import ViewedScene
 from .watch import FileWatch
@@ -23,6 +24,8 @@ class ModelFiles:
         May be empty: a scene of no file's.
     watch : bool
         Look whether they change.
+    remembered : bool
+        Whether files that are opened are remembered (`recent_files`).
     side_by_side, up
         As in `open_models`, for files that are dropped, too.
     **options
@@ -34,6 +37,7 @@ class ModelFiles:
         paths: Sequence = (),
         *,
         watch: bool = False,
+        remembered: bool = False,
         side_by_side: bool = False,
         up: str | None = None,
         **options,
@@ -41,10 +45,12 @@ class ModelFiles:
         self._always = {"side_by_side": side_by_side, "up": up}
         self._options = options
         self._watches = watch
+        self.remembered = remembered
         self._follow(paths)
 
     def _follow(self, paths: Sequence) -> None:
         self.paths = tuple(paths)
+        self._tried: str | None = None
         self._files = [FileWatch(path) for path in self.paths] if self._watches else []
 
     def replace(self, paths: Sequence) -> ViewedScene:
@@ -53,6 +59,24 @@ class ModelFiles:
         self._options = {}
         self._follow(paths)
         return viewed
+
+    def beside(self, step: int) -> str | None:
+        """Return the path of the next model in the folder, or of one before, or None.
+
+        Called again, it goes on from there, even if that file could not be opened.
+        """
+        here = self._tried or next((path for path in self.paths if os.path.isfile(path)), None)
+        if here is None:
+            return None
+        folder, name = os.path.split(os.path.abspath(here))
+        extensions = tuple(end for kind in formats("mesh") for end in kind.extensions)
+        names = {entry for entry in os.listdir(folder) if entry.lower().endswith(extensions)}
+        names = sorted(names | {name}, key=lambda entry: (entry.lower(), entry))
+        if len(names) == 1:
+            return None
+        following = names[(names.index(name) + step) % len(names)]
+        self._tried = os.path.join(folder, following)
+        return self._tried
 
     def reload(self) -> ViewedScene:
         """Open the same files again, as they were opened first."""

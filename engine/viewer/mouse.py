@@ -25,7 +25,7 @@ class Mouse:
     Attributes
     ----------
     drag : str or None
-        What a pressed button does: ``"rotate"``, ``"pan"`` or ``"dolly"``.
+        What a pressed button does: ``"rotate"``, ``"pan"``, ``"dolly"`` or ``"light"``.
     """
 
     def __init__(self, viewer: Viewer):
@@ -44,6 +44,10 @@ class Mouse:
             return
         if event.down:
             self.release()
+            panel = self._viewer.panel
+            if panel is not None and panel.covers(event.x, event.y):
+                panel.click(event.x, event.y, event.shift or event.button != "left")
+                return
             self.drag = _drag(event)
             return
         clicked = self.drag == "rotate" and not self._dragging
@@ -82,6 +86,8 @@ class Mouse:
             viewer.orbit.rotate(dx, dy, height)
         elif self.drag == "pan":
             viewer.orbit.pan(dx, dy, height)
+        elif self.drag == "light":
+            viewer.turn_light(dx, dy)
         else:
             viewer.orbit.dolly_drag(dy)
         viewer.changed = True
@@ -92,6 +98,9 @@ class Mouse:
         if viewer.walker is not None:
             viewer.walker.change_speed(event.steps)
             return
+        if viewer.panel is not None and viewer.panel.covers(event.x, event.y):
+            viewer.panel.scroll(event.steps)
+            return
         viewer.orbit.dolly(event.steps, (event.x, event.y), viewer.view_renderer.size)
         viewer.changed = True
 
@@ -99,4 +108,6 @@ class Mouse:
 def _drag(event) -> str:
     if event.button == "left":
         return "pan" if event.shift or event.control else "rotate"
+    if event.button == "right" and (event.shift or event.control):
+        return "light"
     return {"middle": "dolly", "right": "pan"}[event.button]

@@ -13,11 +13,13 @@ from ..errors import Engine3DWarning, printable
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
 from ..scene.loading import scene_from_document
+from ..scene.scene import Scene
+from .theme import DARK
 from .viewed_scene import ViewedScene
+from .visibility import DRAWABLE, mesh_of
 
 #: Formats whose models, by custom, stand on the XY plane.
 Z_UP_FORMATS = ("asc", "stl")
-BACKGROUND = (43, 46, 53)
 
 
 def open_model(path, *, texture=None, color=None, progress=None, companion=None) -> ViewedScene:
@@ -55,11 +57,12 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     scene = scene_from_document(document)
     if document.scene is None:
-        scene.background = BACKGROUND
+        scene.background = DARK.background
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
+        themed=document.scene is None,
         path=path,
         details=document_lines(document),
         warnings=list(document.warnings),
@@ -85,6 +88,18 @@ def _dress(meshes, image, color) -> None:
         if image is not None:
             material.texture = image
         if color is not None:
+            material.color = color
+
+
+def dress_scene(scene: Scene, color) -> None:
+    """Give the meshes of a scene without materials a colour; warn if there are none."""
+    things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
+    meshes = [mesh for mesh in map(mesh_of, things) if not has_materials(mesh)]
+    if not meshes:
+        _warn("all that the scene holds has materials of its own: it gets no other colour")
+    for mesh in meshes:
+        mesh.colors = None
+        for material in mesh.materials:
             material.color = color
 
 

@@ -67,6 +67,7 @@ def open_models(
         scene,
         ", ".join(viewed.title for viewed in viewed_scenes),
         up=first.up,
+        themed=True,
         details=[line for one in viewed_scenes for line in (one.title, *one.details)],
         warnings=[f"{one.title}: {line}" for one in viewed_scenes for line in one.warnings],
     )

@@ -1,6 +1,6 @@
 """Text and marks over the picture: statistics, metadata, messages, the axes.
 
-In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text sits on dark,
+In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text sits on
 translucent blocks in the corners; lines that are wider than the picture are wrapped.
 """
 
@@ -11,10 +11,10 @@ from itertools import zip_longest
 
 from ..canvas import text_size
 from .draw_counts import count_names, count_table
+from .frame_times import FrameTimes
+from .theme import DARK, Theme
 from .viewpoint import Viewpoint
 
-TEXT = (235, 238, 242, 255)
-BLOCK = (16, 18, 24, 210)
 PADDING = 8
 MARGIN = 10
 LINE_GAP = 3
@@ -35,9 +35,14 @@ def text_scale(canvas, screen: int = 1) -> int:
 
 
 def draw_block(
-    canvas, lines: list[str], *, corner: str = "top left", scale: int | None = None
+    canvas,
+    lines: list[str],
+    *,
+    corner: str = "top left",
+    scale: int | None = None,
+    theme: Theme = DARK,
 ) -> None:
-    """Draw lines of text on a dark block.
+    """Draw lines of text on a translucent block.
 
     Parameters
     ----------
@@ -47,9 +52,10 @@ def draw_block(
         The text. What is wider than the picture goes on in the next line; what is higher ends with
         a line of dots.
     corner : str
-        ``"top left"``, ``"top right"``, ``"bottom left"``, ``"bottom"`` or ``"middle"``.
+        Such as ``"top left"``, ``"bottom right"``, ``"bottom"`` or ``"middle"``.
     scale : int, optional
         Factor on the font's size; by default what suits the picture.
+    theme : Theme
     """
     scale = scale or text_scale(canvas)
     lines = _fitting(canvas, lines, scale)
@@ -60,9 +66,9 @@ def draw_block(
     width = max(size[0] for size in sizes) + 2 * PADDING
     height = line_height * len(lines) - LINE_GAP * scale + 2 * PADDING
     x, y = place(canvas, width, height, corner)
-    canvas.rectangle(x, y, width, height, BLOCK)
+    canvas.rectangle(x, y, width, height, theme.block)
     for row, line in enumerate(lines):
-        canvas.text(x + PADDING, y + PADDING + row * line_height, line, TEXT, scale=scale)
+        canvas.text(x + PADDING, y + PADDING + row * line_height, line, theme.text, scale=scale)
 
 
 def _fitting(canvas, lines: list[str], scale: int) -> list[str]:
@@ -90,6 +96,15 @@ def place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
     if corner == "middle":
         y = (picture_height - height) // 2
     return max(x, 0), max(y, 0)
+
+
+def short_statistics(times: FrameTimes, stats: dict) -> str:
+    """Return what most people want to know of the last frame, in one line."""
+    drawn, total = stats["triangles_drawn"], stats["triangles"]
+    parts = [f"{times.drawing_seconds * 1000:.1f} ms to draw", f"{drawn:,} of {total:,} triangles"]
+    if times.count > 1:
+        parts.insert(0, f"{1.0 / times.seconds:.0f} frames per second")
+    return ", ".join(parts)
 
 
 def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[str]:

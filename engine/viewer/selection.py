@@ -18,13 +18,20 @@ OUTLINE = (255, 160, 40, 255)
 WIDTH = 2
 
 
-def selection_lines(hit: RayHit) -> list[str]:
-    """Return what a corner of the window says of what was clicked at."""
-    node = hit.node
-    lines = [node.name or f"object {node.id}"]
-    if isinstance(node.object, InstancedMesh):
-        lines.append(f"instance {hit.instance:,} of {len(node.object.poses):,}")
-    mesh = getattr(node.object, "mesh", node.object)
+def selection_lines(hit: RayHit, thing) -> list[str]:
+    """Return what a corner of the window says of what was clicked at.
+
+    Parameters
+    ----------
+    hit : RayHit
+        Its face is one of the mesh's.
+    thing : Mesh, InstancedMesh or None
+        What the node holds, hidden or not.
+    """
+    lines = [hit.node.name or f"object {hit.node.id}"]
+    if isinstance(thing, InstancedMesh):
+        lines.append(f"instance {hit.instance:,} of {len(thing.poses):,}")
+    mesh = getattr(thing, "mesh", thing)
     if mesh is None or hit.face < 0:
         return lines
     lines.append(f"triangle {hit.face:,} of {len(mesh.faces):,}")

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .theme import DARK, Theme
+
 
 @dataclass
 class Settings:
@@ -23,11 +25,27 @@ class Settings:
     light_position : (3,) tuple of float or None
         World space.
     light_intensity : float or None
-        See `lighting.PlacedLight` and `lighting.Lighting`.
+        See `lighting.OnlyLight` and `lighting.Lighting`.
+    light_direction : (3,) tuple of float or None
+        The way the only light travels, in world space.
+    light_clamp : (float, float) or None
+        See `Scene`.
+    textures : bool
+        Whether materials show their textures.
+    near, far : float or None
+        Distances of the clip planes; None encloses the scene.
+    walks : bool
+        Whether one who walks does so on the ground of a scene that stands still.
+    walkable : tuple of str or None
+        Names of the materials that one walks on; None is all.
+    slope : float or None
+        The steepest ground that one walks on, in radians.
     grid, axes, metadata : bool
         What to draw besides the scene.
     ui_scale : int or None
         Factor on the size of texts; None chooses by the screen and the picture.
+    theme : Theme
+        Dark or light.
     """
 
     appearance: dict
@@ -35,7 +53,16 @@ class Settings:
     background: tuple[int, int, int] | None = None
     light_position: tuple[float, float, float] | None = None
     light_intensity: float | None = None
+    light_direction: tuple[float, float, float] | None = None
+    light_clamp: tuple[float, float] | None = None
+    textures: bool = True
+    near: float | None = None
+    far: float | None = None
+    walks: bool = False
+    walkable: tuple[str, ...] | None = None
+    slope: float | None = None
     grid: bool = False
     axes: bool = False
     metadata: bool = False
     ui_scale: int | None = None
+    theme: Theme = DARK

@@ -19,10 +19,11 @@ from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
-from .open_model import BACKGROUND
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
+from .sampling import Sampling
 from .settings import Settings
+from .theme import DARK
 from .view_renderer import ViewRenderer
 from .viewed_scene import TURN_SECONDS, ViewedScene
 from .viewer import Viewer
@@ -89,15 +90,16 @@ def show(
     if not real(period) > 0:
         raise InvalidArgumentError(f"period must be a positive number, not {shown(period)}")
     title = title or getattr(thing, "name", "") or type(thing).__name__.lower()
-    plays = update is not None
-    _show_scene(ViewedScene(scene, title, up, update=update, period=period, plays=plays), size)
+    viewed = ViewedScene(scene, title, up, update=update, period=period, plays=update is not None)
+    viewed.themed = scene is not thing
+    _show_scene(viewed, size)
 
 
 def _scene(thing) -> Scene | None:
     """Return a scene to show a thing in; None for what is none."""
     if isinstance(thing, Scene):
         return thing
-    scene = Scene(BACKGROUND)
+    scene = Scene(DARK.background)
     if isinstance(thing, Mesh | InstancedMesh):
         scene.add(thing, name=getattr(thing, "name", "") or "mesh")
     elif isinstance(thing, Node):
@@ -121,11 +123,13 @@ def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
         Window(*size, f"{viewed.title} - engine3d") as window,
         ViewRenderer(viewed, Settings({}), size) as view_renderer,
     ):
+        view = _first_view(view_renderer)
+        viewer = Viewer(view_renderer, window, view=view, sampling=Sampling())
         try:
-            viewer = Viewer(view_renderer, window, view=_first_view(view_renderer))
             viewer.say("H: help")
             viewer.run()
         finally:
+            viewer.visibility.restore()
             view_renderer.leave_scene()
 
 

@@ -11,15 +11,19 @@ import numpy as np
 from .. import linalg
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
+from ..scene.lights import DirectionalLight
 from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
 from .grid_lines import grid
-from .lighting import Lighting, PlacedLight
+from .lighting import Lighting, OnlyLight, placed_light
 from .scene_bounds import turning_outline
 from .selection import CLICK_OUTPUTS
 from .settings import Settings
+from .theme import Theme
+from .untextured import Textures
 from .viewed_scene import ViewedScene
-from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint
+from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
+from .visibility import Visibility
 
 
 class ViewRenderer:
@@ -42,6 +46,12 @@ class ViewRenderer:
 
     Attributes
     ----------
+    samples : int
+        Samples per pixel of the frames to come.
+    stats : dict
+        Of the last frame that was drawn while culling was not frozen.
+    turned_up : str or None
+        The direction up that was chosen with `turn_up`.
     screen_scale : int
         How many times finer than usual the screen is that shows the frames.
     """
@@ -64,13 +74,20 @@ class ViewRenderer:
         self.samples = samples
         self.size = size
         self._culling_camera = None
+        self.stats: dict = {}
         self.screen_scale = 1
-        self.renderer = self._make_renderer()
+        self.turned_up: str | None = None
+        self._renderers: dict[int, Renderer] = {}
         self.settings = settings
         self.show(viewed)
 
-    def _make_renderer(self) -> Renderer:
-        return Renderer(*self.size, samples=self.samples, **self._options)
+    @property
+    def renderer(self) -> Renderer:
+        """What draws with as many samples per pixel as are asked for now."""
+        if self.samples not in self._renderers:
+            renderer = Renderer(*self.size, samples=self.samples, **self._options)
+            self._renderers[self.samples] = renderer
+        return self._renderers[self.samples]
 
     def show(self, viewed: ViewedScene, *, keep_appearance: bool = False) -> None:
         """Draw another scene from now on.
@@ -84,18 +101,24 @@ class ViewRenderer:
         """
         settings = self.settings
         self.viewed = viewed
+        self._textures = Textures(viewed.scene)
+        self.show_textures(settings.textures)
+        if settings.light_clamp is not None:
+            viewed.scene.light_clamp = settings.light_clamp
         lights = self.lighting.name if keep_appearance else ""
         if not keep_appearance:
             self.appearance = Appearance(**(viewed.appearance | settings.appearance))
         self.bounds = viewed.bounds
         self._grid = None
-        self._stand(settings.up or viewed.up)
+        self._stand(self.turned_up or settings.up or viewed.up)
         self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
         self._points = count_points(viewed.scene)
         if self._transparent:
             viewed.scene.background = None
         elif settings.background is not None:
             viewed.scene.background = settings.background
+        elif viewed.themed:
+            viewed.scene.background = self.theme.background
         self.lighting = self._light()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
@@ -112,26 +135,53 @@ class ViewRenderer:
     def turn_up(self, up: str) -> None:
         """Look at the scene with another direction up, from now on."""
         lights = self.lighting.name
-        self.leave_scene()
+        self._take_lights_and_grid()
         self._grid = None
-        self.settings.up = up
+        self.turned_up = up
         self._stand(up)
         self.lighting = self._light()
         self.lighting.choose(lights)
         self.show_grid(self.settings.grid)
 
-    def _light(self) -> Lighting | PlacedLight:
+    def _light(self) -> Lighting | OnlyLight:
         scene, settings = self.viewed.scene, self.settings
         intensity = settings.light_intensity
         if settings.light_position is not None:
-            return PlacedLight(scene, settings.light_position, self.bounds, intensity)
-        return Lighting(scene, UP_DIRECTIONS[self.up], 1.0 if intensity is None else intensity)
+            return placed_light(scene, settings.light_position, self.bounds, intensity)
+        intensity = 1.0 if intensity is None else intensity
+        if settings.light_direction is not None:
+            light = DirectionalLight(settings.light_direction, (1.0, 1.0, 1.0), intensity)
+            return OnlyLight(scene, light)
+        return Lighting(scene, UP_DIRECTIONS[self.up], intensity)
+
+    def show_textures(self, shown: bool) -> None:
+        """Draw with textures, or without."""
+        self.settings.textures = shown
+        if shown:
+            self._textures.put_on()
+        else:
+            self._textures.take_off()
 
     def leave_scene(self) -> None:
-        """Take away what was added to the scene, which is not drawn any more."""
+        """Leave the scene, which is not drawn any more, as it was before."""
+        self._textures.put_on()
+        self._take_lights_and_grid()
+
+    def _take_lights_and_grid(self) -> None:
         self.lighting.leave()
         if self._grid is not None:
             self.viewed.scene.remove(self._grid)
+
+    @property
+    def theme(self) -> Theme:
+        """The colours of texts over the picture, and of the background of models."""
+        return self.settings.theme
+
+    @theme.setter
+    def theme(self, theme: Theme) -> None:
+        self.settings.theme = theme
+        if self.viewed.themed and self.settings.background is None and not self._transparent:
+            self.viewed.scene.background = theme.background
 
     def show_grid(self, shown: bool) -> None:
         """Draw a grid under the scene, or not."""
@@ -142,6 +192,10 @@ class ViewRenderer:
             self._grid = scene.add(lines, name="grid")
         if self._grid is not None:
             self._grid.visible = shown
+
+    def visibility(self) -> Visibility:
+        """Return what hides parts of the scene that is shown."""
+        return Visibility(self.viewed.scene, () if self._grid is None else (self._grid,))
 
     def _lowest(self) -> float:
         """Return how low the scene reaches along the up direction, however it moves."""
@@ -154,13 +208,8 @@ class ViewRenderer:
         """Draw frames of another size from now on."""
         if (width, height) != self.size:
             self.size = (width, height)
-            self.renderer.resize(width, height)
-
-    def resample(self, samples: int) -> None:
-        """Take another number of samples per pixel from now on."""
-        self.samples = samples
-        self.renderer.close()
-        self.renderer = self._make_renderer()
+            for renderer in self._renderers.values():
+                renderer.resize(width, height)
 
     @property
     def aspect(self) -> float:
@@ -193,8 +242,10 @@ class ViewRenderer:
         frame = self._render(view, time, outputs)
         if self.settings.axes or self.settings.metadata:
             self._draw_overlays(frame.canvas(), view)
-        if self._report is not None:
-            self._report(frame)
+        if self._culling_camera is None:
+            self.stats = frame.stats
+            if self._report is not None:
+                self._report(frame)
         return frame
 
     def pick(self, view: Viewpoint, time: float, x: int, y: int) -> RayHit | None:
@@ -228,10 +279,14 @@ class ViewRenderer:
     def _camera(self, view: Viewpoint):
         clearance = self.viewed.clearance
         free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
-        return view.camera(self._clip_bounds(), self.viewed.nearest, free)
+        camera = view.camera(self._clip_bounds(), self.viewed.nearest, free)
+        return with_clip_planes(camera, self.settings.near, self.settings.far)
 
     def freeze_culling(self, view: Viewpoint | None) -> None:
-        """Draw only what this view shows, wherever it is seen from; None: what each frame shows."""
+        """Draw only what this view shows, wherever it is seen from; None: what each frame shows.
+
+        Meanwhile `stats` stay as they are, and no frames are reported.
+        """
         self._culling_camera = None if view is None else (self._camera(view), view.pose())
 
     def _draw_overlays(self, canvas, view: Viewpoint) -> None:
@@ -241,7 +296,7 @@ class ViewRenderer:
         if self.settings.axes:
             draw_axes(canvas, view, scale)
         if self.settings.metadata:
-            draw_block(canvas, self.metadata(), corner="top right", scale=scale)
+            draw_block(canvas, self.metadata(), corner="top right", scale=scale, theme=self.theme)
 
     def text_scale(self, canvas) -> int:
         """Return the factor on the font's size of texts over a picture."""
@@ -261,8 +316,9 @@ class ViewRenderer:
         return [self.viewed.title, *self.viewed.details]
 
     def close(self) -> None:
-        """Free the renderer's buffers."""
-        self.renderer.close()
+        """Free the renderers' buffers."""
+        while self._renderers:
+            self._renderers.popitem()[1].close()
 
     def __enter__(self) -> ViewRenderer:
         return self

@@ -60,6 +60,8 @@ class ViewedScene:
     clearance : callable or None
         Called with the camera's position, (3,) float64 in world space: returns a distance within
         which nothing is, so that the near plane may be as far as that.
+    themed : bool
+        Whether the background follows the viewer's theme.
     path : str or None
         The file it came from.
     details : list of str
@@ -83,6 +85,7 @@ class ViewedScene:
     gaze: tuple[float, float] = (0.0, 0.0)
     nearest: float = math.inf
     clearance: Callable[[np.ndarray], float] | None = None
+    themed: bool = False
     path: str | None = None
     details: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)

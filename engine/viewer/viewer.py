@@ -13,28 +13,26 @@ import time as clock
 import numpy as np
 
 from .. import events, linalg
-from ..errors import Engine3DError, printable
+from ..errors import printable
 from ..spatial.rays import RayHit
 from . import actions as viewer_actions
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
 from .keymap import ORBIT_ARROWS, action_for
+from .messages import Messages
 from .model_files import ModelFiles
 from .mouse import Mouse
+from .opening import Opening
 from .orbit import MIN_DISTANCE, OrbitController
-from .overlay import draw_block, statistics_lines
+from .overlay import draw_block, short_statistics, statistics_lines
+from .panels import Panel
+from .sampling import Sampling
 from .selection import OUTLINE_OUTPUTS, WIDTH, draw_outline, selection_lines
 from .view_renderer import ViewRenderer
-from .viewpoint import Sphere
 
 #: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
 IDLE_SECONDS = 0.25
-MESSAGE_SECONDS = 2.5
-#: Characters of a message that one reads in a second.
-READ_A_SECOND = 15.0
-#: A model that became so many times larger or smaller is framed anew.
-ALIKE = 8.0
 TITLE_SECONDS = 0.5
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
@@ -60,6 +58,8 @@ class Viewer:
         Show statistics from the start.
     files : ModelFiles, optional
         Where the scene came from: it is loaded again when they change, if they are watched.
+    sampling : Sampling, optional
+        Chooses the samples per pixel; by default always as many as the renderer takes.
     """
 
     def __init__(
@@ -72,6 +72,7 @@ class Viewer:
         playing: bool | None = None,
         statistics: bool = False,
         files: ModelFiles | None = None,
+        sampling: Sampling | None = None,
     ):
         self.view_renderer = view_renderer
         self.window = window
@@ -85,7 +86,7 @@ class Viewer:
         self.show_help = False
         self.help_page = 0
         self.help_pages = 1
-        self.show_statistics = statistics
+        self.statistics = "long" if statistics else None
         self.running = True
         self.changed = True
         self.frame = None
@@ -93,14 +94,15 @@ class Viewer:
         self.fast = False
         self.mouse = Mouse(self)
         self.selected: RayHit | None = None
-        self._message = ""
-        self._message_ends = 0.0
+        self.messages = Messages()
+        self.sampling = sampling or Sampling(view_renderer.samples)
         self.frame_times = FrameTimes()
         self._title = ""
         self._title_due = 0.0
         self._last_turn = clock.monotonic()
-        self._files = files or ModelFiles()
-        self._trouble = ""
+        self.panel: Panel | None = None
+        self.visibility = view_renderer.visibility()
+        self.opening = Opening(self, files or ModelFiles())
         if walking:
             viewer_actions.toggle_walking(self)
 
@@ -119,16 +121,22 @@ class Viewer:
 
     def run_once(self) -> bool:
         """Obey what has happened, and return whether a frame was drawn for it."""
-        for event in self.window.events(0.0 if self._lively() else IDLE_SECONDS):
+        for event in self.window.events(0.0 if self._lively() else self._patience()):
             self.handle(event)
         now = clock.monotonic()
         self.advance(min(now - self._last_turn, LONGEST_STEP))
         self._last_turn = now
-        drawn = self.changed and self.running and not self.window.minimised
+        rests = self.sampling.until_rest() <= 0.0
+        drawn = (self.changed or rests) and self.running and not self.window.minimised
         if drawn:
-            self.draw()
+            in_motion = self.sampling.in_motion() if self.changed else self.sampling.at_rest()
+            self.draw(in_motion)
         self._update_title()
         return drawn
+
+    def _patience(self) -> float:
+        """Return how long to wait for an event."""
+        return min(IDLE_SECONDS, self.sampling.until_rest())
 
     def _lively(self) -> bool:
         """Return whether the next frame should come at once rather than wait for an event."""
@@ -146,11 +154,8 @@ class Viewer:
         if self.walker is not None and self.walker.walk(self.held_positions, seconds, self.fast):
             self.walker.place(self.view)
             self.changed = True
-        if self._message and clock.monotonic() >= self._message_ends:
-            self._message = ""
-            self.changed = True
-        if self._files.changed():
-            self._reload()
+        self.changed |= self.messages.pass_by()
+        self.opening.look_for_changes()
 
     def _play(self, seconds: float) -> None:
         viewed = self.view_renderer.viewed
@@ -159,8 +164,15 @@ class Viewer:
         if viewed.update is None and self.walker is None and self.mouse.drag is None:
             self.orbit.turn(2 * math.pi * seconds / viewed.period, 0.0)
 
-    def draw(self) -> None:
-        """Draw one frame, its overlays, and show it."""
+    def draw(self, samples: int | None = None) -> None:
+        """Draw one frame, its overlays, and show it.
+
+        Parameters
+        ----------
+        samples : int, optional
+            Samples per pixel; by default as many as while nothing moves.
+        """
+        self.view_renderer.samples = samples or self.sampling.at_rest()
         start = clock.monotonic()
         width, height = self.window.size
         self.view_renderer.resize(width, height)
@@ -169,31 +181,37 @@ class Viewer:
         self.frame = self.view_renderer.draw(self.view, self.time, outputs)
         self._draw_overlays()
         drawn = clock.monotonic()
+        self.sampling.add(self.view_renderer.samples, drawn - start)
         self.window.present(self.frame.color)
         self.frame_times.add(drawn - start, clock.monotonic() - start)
 
     def _draw_overlays(self) -> None:
-        messages = [line for line in (self._trouble, self._message) if line]
-        if not (self.show_help or self.show_statistics or self.selected or messages):
-            return
         canvas = self.frame.canvas()
         scale = self.view_renderer.text_scale(canvas)
+        look = {"scale": scale, "theme": self.view_renderer.theme}
         if self.selected is not None:
             draw_outline(self.frame, self.selected, WIDTH * scale)
-            draw_block(canvas, selection_lines(self.selected), corner="bottom right", scale=scale)
+            draw_block(canvas, self._selection(), corner="bottom right", **look)
         if self.show_help:
-            self.help_pages = draw_help(canvas, self.help_page, scale)
-        elif self.show_statistics:
-            draw_block(canvas, self._statistics(), scale=scale)
-        draw_block(canvas, messages, corner="bottom", scale=scale)
+            self.help_pages = draw_help(canvas, self.help_page, **look)
+        elif self.statistics:
+            draw_block(canvas, self._statistics(), **look)
+        if self.panel is not None:
+            self.panel.draw(canvas, **look)
+        draw_block(canvas, self.messages.lines(), corner="bottom", **look)
+
+    def _selection(self) -> list[str]:
+        return selection_lines(self.selected, self.visibility.object_of(self.selected.node))
 
     def _statistics(self) -> list[str]:
         view_renderer = self.view_renderer
+        if self.statistics == "short":
+            return [short_statistics(self.frame_times, view_renderer.stats)]
         return statistics_lines(
             self.frame_times.seconds,
             view_renderer.size,
             view_renderer.samples,
-            self.frame.stats,
+            view_renderer.stats,
         )
 
     def _update_title(self) -> None:
@@ -208,17 +226,37 @@ class Viewer:
             self._title = title
             self.window.title = title
 
+    def title_changed(self) -> None:
+        """Write the title anew: somebody else wrote another one."""
+        self._title, self._title_due = "", 0.0
+
     def say(self, message: str) -> None:
         """Show a message for a moment, which is longer for more words."""
-        self._message = printable(message)
-        seconds = max(MESSAGE_SECONDS, len(message) / READ_A_SECOND)
-        self._message_ends = clock.monotonic() + seconds
+        self.messages.say(message)
         self.changed = True
+
+    def forget_scene(self) -> None:
+        """Forget what was known of the scene before: another one is shown now."""
+        self.selected = None
+        self.visibility = self.view_renderer.visibility()
+        self.messages.trouble = ""
+        self.sampling.start_anew()
+        self._title_due = 0.0
 
     def select(self, x: int, y: int) -> None:
         """Select what shows at a pixel; where nothing does, nothing is selected any more."""
-        self.selected = self.view_renderer.pick(self.view, self.time, x, y)
+        hit = self.view_renderer.pick(self.view, self.time, x, y)
+        if hit is not None:
+            hit = hit._replace(face=self.visibility.face_of(hit.node, hit.face))
+        self.selected = hit
         self.changed = True
+
+    def turn_light(self, dx: int, dy: int) -> None:
+        """Turn the light by a drag of (dx, dy) pixels."""
+        full_turn = 2 * math.pi / self.view_renderer.size[1]
+        lighting = self.view_renderer.lighting
+        if not lighting.turn(self.view.pose(), dx * full_turn, dy * full_turn):
+            self.say("these lights cannot be turned: L chooses others")
 
     def focus(self, x: int, y: int) -> None:
         """Move what shows at a pixel into the middle, and turn round it from now on."""
@@ -230,58 +268,6 @@ class Viewer:
         if not self.view.orthographic:
             self.view.distance = max(MIN_DISTANCE, float(ahead))
         self.changed = True
-
-    def open(self, paths) -> None:
-        """Show other files; where one cannot be read, what is there stays, and why is said."""
-        try:
-            viewed = self._files.replace(paths)
-        except (Engine3DError, MemoryError) as error:
-            self.say(_reason(error))
-            return
-        self._show(viewed)
-        self.time = 0.0
-        self.playing = viewed.plays
-        self.first_view = self.view_renderer.view()
-        viewer_actions.reset_view(self)
-        self.say(viewed.warnings[0] if viewed.warnings else f"opened {viewed.title}")
-
-    def _reload(self) -> None:
-        """Show the files as they are now; what is wrong with them is said until they are whole."""
-        self.changed = True
-        if missing := self._files.missing():
-            self._trouble = printable(f"{', '.join(missing)} is not there: this is what it was")
-            return
-        try:
-            viewed = self._files.reload()
-        except (Engine3DError, MemoryError) as error:
-            self._trouble = printable(_reason(error))
-            return
-        before = self.view_renderer.bounds
-        self._show(viewed, keep_appearance=True)
-        said = viewed.warnings[0] if viewed.warnings else f"loaded {viewed.title} again"
-        if not self._in_view(before):
-            said += "; it was out of view"
-            self._frame_again()
-        self.say(said)
-
-    def _show(self, viewed, *, keep_appearance: bool = False) -> None:
-        self.view_renderer.show(viewed, keep_appearance=keep_appearance)
-        self.selected = None
-        self._trouble = ""
-        self._title_due = 0.0
-
-    def _frame_again(self) -> None:
-        """Look at all of what is shown now, from the same side; a reset does so from now on."""
-        if self.walker is not None:
-            viewer_actions.toggle_walking(self)
-        for view in (self.view, self.first_view):
-            self.view_renderer.frame(view)
-
-    def _in_view(self, before: Sphere) -> bool:
-        """Return whether the scene, which had other bounds before, is still worth looking at."""
-        now = self.view_renderer.bounds
-        alike = 1 / ALIKE < now.radius / before.radius < ALIKE
-        return alike and self.view.sees(now, self.view_renderer.aspect)
 
     # Events
 
@@ -295,7 +281,7 @@ class Viewer:
         self.fast = event.shift
         if self.walker is not None and self._walk_key(event):
             return
-        if event.position in ORBIT_ARROWS and self.walker is None:
+        if event.position in ORBIT_ARROWS and self.walker is None and not event.control:
             right, up = ORBIT_ARROWS[event.position]
             self.orbit.turn(right * ARROW_RADIANS, up * ARROW_RADIANS)
             self.changed = True
@@ -310,7 +296,7 @@ class Viewer:
         if event.key == "Escape":
             viewer_actions.toggle_walking(self)
             return True
-        if event.position in MOVES or event.position in LOOKS:
+        if (event.position in MOVES or event.position in LOOKS) and not event.control:
             self.held_positions.add(event.position)
             return True
         return False
@@ -335,7 +321,7 @@ class Viewer:
         self.mouse.release()
 
     def _dropped(self, event) -> None:
-        self.open(event.paths)
+        self.opening.open(event.paths)
 
     def _close(self, event) -> None:
         self.running = False
@@ -355,7 +341,3 @@ _HANDLERS = {
     events.FilesDropped: Viewer._dropped,
     events.CloseRequested: Viewer._close,
 }
-
-
-def _reason(error: Exception) -> str:
-    return "out of memory" if isinstance(error, MemoryError) else str(error)

@@ -222,5 +222,25 @@ def clip_planes(
     return znear, zfar
 
 
+def with_clip_planes(camera, near: float | None, far: float | None):
+    """Return a camera with other clip planes where they are given, at distances from it.
+
+    Raises
+    ------
+    InvalidArgumentError
+        The far one would not be behind the near one.
+    """
+    if near is None and far is None:
+        return camera
+    near, far = camera.znear if near is None else near, camera.zfar if far is None else far
+    if near >= far:
+        raise InvalidArgumentError(
+            f"the near plane ({near:g}) must be nearer than the far one ({far:g})"
+        )
+    if isinstance(camera, OrthographicCamera):
+        return OrthographicCamera(camera.ymag, znear=near, zfar=far)
+    return PerspectiveCamera(camera.yfov, znear=near, zfar=far)
+
+
 def _dot(a, b) -> float:
     return float(linalg.dot(a, b))

@@ -1,7 +1,8 @@
 """The walking controller on the ground: one walks where the scene lets one, at the height of eyes.
 
 In: a `Walker` of the scene, keys and the mouse as in `fps`. Out: a camera position that is never
-in a wall, over water or beside the grid. Steps are climbed smoothly. Y is up.
+in a wall, over water or beside the grid. Steps are climbed smoothly. The walker has a space of its
+own, where Y is up.
 """
 
 from __future__ import annotations
@@ -11,8 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..navigation import Walker
+from .. import linalg
+from ..navigation import NavigationGrid
 from .fps import FpsController
+from .ground import Ground, find_ground
 from .viewpoint import Sphere, Viewpoint
 
 if TYPE_CHECKING:
@@ -22,7 +25,8 @@ if TYPE_CHECKING:
 WALKING_SPEED = 3.5
 #: The share of a step's height that the eyes rise in a second, at first.
 RISE_A_SECOND = 12.0
-_LEVEL = 1e-3
+#: Metres that nobody sees.
+LEVEL = 1e-3
 
 
 class GroundController(FpsController):
@@ -34,18 +38,29 @@ class GroundController(FpsController):
         Gives the field of view.
     bounds : Sphere
         The scene's bounds.
-    walker : Walker
-        Who walks; starts where it stands.
+    ground : Ground
+        Who walks where; starts where it stands.
     gaze : (float, float)
         Where to look first: yaw and pitch in radians.
     """
 
-    def __init__(self, view: Viewpoint, bounds: Sphere, walker: Walker, gaze=(0.0, 0.0)):
-        self._walker = walker
+    def __init__(self, view: Viewpoint, bounds: Sphere, ground: Ground, gaze=(0.0, 0.0)):
+        self._walker = ground.walker
+        self._world_from_walk = ground.axes.T
         super().__init__(view, bounds)
-        self.speed = WALKING_SPEED
-        self.position = walker.eye
+        self.speed = WALKING_SPEED * ground.metre
+        self._level = LEVEL * ground.metre
+        self._eye = ground.walker.eye
+        self.position = self._in_world()
         self.yaw, self.pitch = gaze
+
+    @property
+    def grid(self) -> NavigationGrid:
+        """The grid that one walks on."""
+        return self._walker.grid
+
+    def _in_world(self) -> np.ndarray:
+        return linalg.dot(self._world_from_walk, self._eye)
 
     def _move(self, way: tuple[int, int, int], reach: float, seconds: float) -> bool:
         right, _, forward = way
@@ -56,17 +71,25 @@ class GroundController(FpsController):
             dx, dz = cos_y * right - sin_y * forward, -sin_y * right - cos_y * forward
             moved = self._walker.move(dx * reach / length, dz * reach / length)
         target = self._walker.eye
-        rise = float(target[1] - self.position[1])
-        if abs(rise) > _LEVEL:
-            target[1] = self.position[1] + rise * min(1.0, RISE_A_SECOND * seconds)
+        rise = float(target[1] - self._eye[1])
+        if abs(rise) > self._level:
+            target[1] = self._eye[1] + rise * min(1.0, RISE_A_SECOND * seconds)
             moved = True
-        self.position = np.array(target)
+        self._eye = target
+        self.position = self._in_world()
         return moved
 
 
 def controller(view_renderer: ViewRenderer, view: Viewpoint) -> FpsController:
-    """Return what walks in the scene: on its ground, or flying where there is none."""
-    viewed = view_renderer.viewed
-    if viewed.walker is None:
-        return FpsController(view, view_renderer.bounds)
-    return GroundController(view, view_renderer.bounds, viewed.walker(), viewed.gaze)
+    """Return what walks in the scene: on its ground, or flying where there is none.
+
+    A scene has a ground if it knows one itself, or if the user asked for walking on it.
+    """
+    viewed, settings, bounds = view_renderer.viewed, view_renderer.settings, view_renderer.bounds
+    if viewed.walker is not None:
+        ground = Ground(np.eye(3), 1.0, viewed.walker())
+        return GroundController(view, bounds, ground, viewed.gaze)
+    if settings.walks and viewed.update is None:
+        ground = find_ground(viewed.scene, bounds, view, settings.walkable, settings.slope)
+        return GroundController(view, bounds, ground, (view.azimuth, 0.0))
+    return FpsController(view, bounds)

@@ -3,9 +3,10 @@
 import argparse
 
 import pytest
+from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import options, values
+from engine3d.cli import main, options, values
 from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
 from engine3d.demos import DEMO_NAMES
@@ -89,6 +90,35 @@ def test_bad_city_triangles(text):
         values.city_triangles(text)
 
 
+@pytest.mark.parametrize("text", ["1", "2,1", "-1,1", "0,x", "0,1,2"])
+def test_bad_limits(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.limits(text)
+
+
+@pytest.mark.parametrize("text", ["90", "-1", "steep"])
+def test_bad_slope(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.slope(text)
+
+
+def test_names_limits_and_slopes():
+    assert values.names("grass, path,,") == ("grass", "path")
+    assert values.limits("0.1,1") == (0.1, 1.0)
+    assert values.slope("30") == 30.0
+
+
+def test_a_scene_without_materials_takes_a_colour_and_all_options_of_light(tmp_path):
+    path = tmp_path / "faces.png"
+    size = ["--resolution", "64x64"]
+    look = ["--color", "#ff0000", "--light-direction=0,0,-1", "--light-clamp", "1,1"]
+    planes = ["--near", "0.1", "--far", "50", "--culling", "frustum", "--no-texture"]
+    assert main(["render", "--scene", "faces", "-o", str(path), *size, *look, *planes]) == 0
+    with Image.open(path) as image:
+        colors = {color for _, color in image.convert("RGB").getcolors()}
+    assert colors == {(18, 20, 26), (255, 0, 0)}
+
+
 def test_limits_are_those_of_what_draws():
     assert values.CITY_TRIANGLES == (LEAST, MOST)
     assert values.width("256") == values.MAX_WIDTH
@@ -134,7 +164,12 @@ def test_settings_hold_only_what_was_given():
 
 @pytest.mark.parametrize(
     "arguments",
-    [("--unlit", "--mode", "depth"), ("--edges", "--wireframe", "only")],
+    [
+        ("--unlit", "--mode", "depth"),
+        ("--edges", "--wireframe", "only"),
+        ("--near", "2", "--far", "1"),
+        ("--light-position", "1,1,1", "--light-direction", "1,1,1"),
+    ],
 )
 def test_options_that_contradict_each_other(arguments):
     with pytest.raises(UsageError):

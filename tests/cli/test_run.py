@@ -32,8 +32,9 @@ def test_run_headless_writes_what_it_is_told(model, tmp_path, capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_run_in_a_dummy_window_stops_after_its_frames(model, monkeypatch, capsys):
+def test_run_in_a_dummy_window_stops_after_its_frames(model, monkeypatch, capsys, tmp_path):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     arguments = ["--animate", "--fps", "--no-vsync", "--frames", "3", "--camera", "fps"]
     assert main(["run", str(model), *SMALL, *arguments]) == 0
     assert capsys.readouterr() == ("", "")

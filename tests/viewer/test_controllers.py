@@ -7,6 +7,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.viewer.fps import FAST, MAX_PITCH, RADIANS_A_SECOND, FpsController
+from engine3d.viewer.ground import Ground
 from engine3d.viewer.orbit import DOLLY_STEP, OrbitController
 from engine3d.viewer.viewpoint import QUARTER_TURN, Sphere, Viewpoint
 from engine3d.viewer.walking import GroundController
@@ -155,7 +156,7 @@ def ground_walker(view, gaze=(0.0, 0.0)):
     step.positions = step.positions + np.float32([0, 0, -4.5])
     wall.positions = wall.positions + np.float32([0, 0, -8])
     walker = e3d.Walker(e3d.NavigationGrid([floor, step, wall]), 0.1, 0.1)
-    return GroundController(view, BOUNDS, walker, gaze)
+    return GroundController(view, BOUNDS, Ground(np.eye(3), 1.0, walker), gaze)
 
 
 def test_on_the_ground_one_walks_level_whatever_the_gaze(view):

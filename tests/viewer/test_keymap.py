@@ -34,7 +34,7 @@ def test_keypad_keys_and_digits_by_position_answer():
     assert action_for("Keypad 7") == "view_top"
     assert action_for("Keypad Enter") == "reset_view"
     assert action_for("&", "1") == "view_front"
-    assert action_for("Z", "W") == "toggle_statistics"
+    assert action_for("Z", "W") == "cycle_statistics"
     assert action_for("Escape") is None
 
 

@@ -6,7 +6,7 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.viewer.selection import OUTLINE, selection_lines
+from engine3d.viewer.selection import OUTLINE
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer
 from engine3d.viewer.viewed_scene import ViewedScene
@@ -54,7 +54,7 @@ def test_a_click_selects_and_outlines_what_is_there(viewer):
     plain = viewer.frame.color.copy()
     assert not outlined(viewer).any()
     click(viewer, x, y)
-    lines = selection_lines(viewer.selected)
+    lines = viewer._selection()
     assert lines[0] == "the box" and lines[2] == "material red"
     assert lines[1] == f"triangle {viewer.selected.face} of 12"
     line = outlined(viewer)
@@ -70,7 +70,7 @@ def test_a_click_selects_and_outlines_what_is_there(viewer):
 
 def test_what_is_selected_is_told_in_a_corner(viewer):
     click(viewer, *place_of(viewer, "the box"))
-    viewer._message = ""
+    viewer.messages.said = ""
     viewer.draw()
     told = viewer.window.shown[-1]
     viewer.selected = None
@@ -85,7 +85,7 @@ def test_one_instance_of_many_is_selected():
     view_renderer = ViewRenderer(ViewedScene(scene, "boxes", azimuth=0.0), Settings({}), SIZE)
     viewer = Viewer(view_renderer, ScriptedWindow(size=SIZE))
     click(viewer, 160, 125)
-    assert selection_lines(viewer.selected)[:2] == ["boxes", "instance 1 of 3"]
+    assert viewer._selection()[:2] == ["boxes", "instance 1 of 3"]
     line = outlined(viewer)
     assert line.any() and not line[:, :100].any() and not line[:, 220:].any()
 
@@ -138,12 +138,11 @@ def test_the_wheel_zooms_to_where_the_mouse_is(viewer, orthographic):
 
 
 def test_a_key_chooses_which_way_is_up(viewer):
-    settings = viewer.view_renderer.settings
     viewer.view_renderer.show_grid(True)
     lights = len(viewer.view_renderer.viewed.scene.nodes)
     for name, shift, up in [("Z", False, "+Z"), ("Z", True, "-Z"), ("Y", False, "+Y")]:
         viewer.handle(events.KeyDown(name, name, control=True, shift=shift))
-        assert (viewer.view_renderer.up, settings.up) == (up, up)
+        assert viewer.view_renderer.up == up
         axis = viewer.view.up
         assert (axis[1], axis[2]) == {"+Z": (0, 1), "-Z": (0, -1), "+Y": (1, 0)}[up]
         assert viewer.first_view.up == axis
@@ -156,6 +155,14 @@ def test_another_file_forgets_the_selection(viewer, tmp_path):
     path = tmp_path / "triangle.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     click(viewer, *place_of(viewer, "the box"))
-    viewer.open([str(path)])
+    viewer.opening.open([str(path)])
     assert viewer.selected is None
     viewer.draw()
+
+
+def test_which_way_is_up_is_chosen_for_one_model_only(viewer, tmp_path):
+    path = tmp_path / "triangle.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    viewer.handle(events.KeyDown("Z", "Z", control=True))
+    viewer.opening.open([str(path)])
+    assert viewer.view_renderer.up == "+Y" and viewer.view.up == (0, 1, 0)

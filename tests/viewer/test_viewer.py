@@ -404,15 +404,15 @@ def test_a_watched_file_that_is_broken_or_gone_is_told_until_it_is_whole(tmp_pat
     path.write_text("v 0 0\n")
     for _ in range(3):
         look(viewer)
-        assert "shape.obj:1: " in viewer._trouble
+        assert "shape.obj:1: " in viewer.messages.trouble
         assert (window.shown[-1][80:] != plain[80:]).any() and faces(viewer) == [1]
         now[0] += 60.0
     path.unlink()
     look(viewer)
-    assert viewer._trouble == "shape.obj is not there: this is what it was"
+    assert viewer.messages.trouble == "shape.obj is not there: this is what it was"
     path.write_text(TRIANGLE.format(0, 1) + "# whole\n")
     look(viewer)
-    assert viewer._trouble == ""
+    assert viewer.messages.trouble == ""
     now[0] += 60.0
     look(viewer)
     assert (window.shown[-1] == plain).all()
@@ -451,15 +451,15 @@ def test_files_that_are_dropped_together_show_together(tmp_path):
     for path, place in zip(paths, (0, 3, 6), strict=True):
         path.write_text(TRIANGLE.format(place, place + 1))
     viewer, window = make_viewer()
-    viewer.open([str(path) for path in paths[:2]])
+    viewer.opening.open([str(path) for path in paths[:2]])
     assert viewer.view_renderer.viewed.title == "a.obj, b.obj"
     assert faces(viewer) == [1, 1]
     low, high = viewer.view_renderer.viewed.scene.bounds
     assert (low[0], high[0]) == (0, 4)
     paths[2].write_text("v 0 0\n")
-    viewer.open([str(path) for path in paths])
+    viewer.opening.open([str(path) for path in paths])
     assert viewer.view_renderer.viewed.title == "a.obj, b.obj"
-    assert "broken.obj:1: " in viewer._message
+    assert "broken.obj:1: " in viewer.messages.said
 
 
 def test_help_goes_page_by_page_in_a_small_window():

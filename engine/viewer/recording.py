@@ -1,0 +1,62 @@
+"""A turn round the scene, or its own animation, recorded from the window to a file.
+
+In: a `Viewer` and a path. Out: the file, whole or not at all; the window shows each picture as it
+is drawn, and Escape, or closing the window, gives it up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import events
+from ..errors import Engine3DError
+from ..files.animation_files import save_animation
+from . import headless
+
+if TYPE_CHECKING:
+    from .viewer import Viewer
+
+FRAMES = 48
+#: The longer side of the pictures: a file of larger ones would take long, and much room.
+LONGEST_SIDE = 640
+
+
+class _GivenUp(Exception):
+    """The user does not want the file any more."""
+
+
+def record(viewer: Viewer, path: Path) -> str:
+    """Write the file; return what to say of it."""
+    view_renderer = viewer.view_renderer
+    size, seconds = view_renderer.size, headless.seconds_a_frame(view_renderer, FRAMES)
+    shrunk = min(1.0, LONGEST_SIDE / max(size))
+    view_renderer.resize(*(max(1, round(side * shrunk)) for side in size))
+    view_renderer.samples = viewer.sampling.at_rest()
+    try:
+        save_animation(_pictures(viewer, path.name), path, seconds)
+    except _GivenUp:
+        return "given up"
+    except (Engine3DError, OSError) as error:
+        return str(error)
+    finally:
+        view_renderer.resize(*size)
+        viewer.title_changed()
+    return f"saved {path.name}"
+
+
+def _pictures(viewer: Viewer, name: str) -> Iterator[np.ndarray]:
+    """Yield the pictures, and show them; raise `_GivenUp` when the user wants no more."""
+    pictures = headless.animation(viewer.view_renderer, viewer.view, FRAMES)
+    for number, picture in enumerate(pictures, 1):
+        viewer.window.title = f"{name}: {number} of {FRAMES} - Escape gives it up"
+        viewer.window.present(picture)
+        for event in viewer.window.events():
+            if isinstance(event, events.CloseRequested):
+                viewer.running = False
+            if isinstance(event, events.CloseRequested) or getattr(event, "key", "") == "Escape":
+                raise _GivenUp
+        yield picture

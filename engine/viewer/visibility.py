@@ -1,0 +1,166 @@
+"""Which objects and materials of a scene are hidden in the viewer.
+
+In: a scene; what the user hides, shows, or wants to see alone. Out: the scene's nodes hold nothing,
+or a mesh without the faces of hidden materials, until they are shown again or the scene is left.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
+from ..scene.instances import InstancedMesh
+from ..scene.nodes import Node
+from ..scene.scene import Scene
+
+DRAWABLE = (Mesh, InstancedMesh)
+
+
+class Entry(NamedTuple):
+    """An object or a material: its name, how many triangles it has, whether it shows."""
+
+    name: str
+    triangles: int
+    shown: bool
+
+
+class Visibility:
+    """Hides parts of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    besides : tuple of Node
+        Nodes that are none of the scene's own.
+    """
+
+    def __init__(self, scene: Scene, besides: tuple[Node, ...] = ()):
+        self._objects = {
+            node: node.object
+            for node in scene.nodes
+            if isinstance(node.object, DRAWABLE) and node not in besides
+        }
+        self._nodes = list(self._objects)
+        self._materials = list(dict.fromkeys(map(_key, self._used())))
+        self._hidden_nodes: set[Node] = set()
+        self._hidden_materials: set = set()
+
+    def _used(self) -> list[Material]:
+        meshes = map(mesh_of, self._objects.values())
+        return [material for mesh in meshes for material in mesh.materials]
+
+    def objects(self) -> list[Entry]:
+        """Return the objects, in the order of the scene."""
+        return [
+            Entry(
+                node.name or f"object {node.id}",
+                _triangles(self._objects[node]),
+                node not in self._hidden_nodes,
+            )
+            for node in self._nodes
+        ]
+
+    def materials(self) -> list[Entry]:
+        """Return the materials; those of one name are one."""
+        counts = dict.fromkeys(self._materials, 0)
+        for thing in self._objects.values():
+            mesh = mesh_of(thing)
+            times = len(thing.poses) if isinstance(thing, InstancedMesh) else 1
+            faces = np.bincount(mesh.material_ids, minlength=len(mesh.materials))
+            for material, count in zip(mesh.materials, faces.tolist(), strict=False):
+                counts[_key(material)] += count * times
+        names = [key if isinstance(key, str) else "unnamed" for key in self._materials]
+        shown = [key not in self._hidden_materials for key in self._materials]
+        return list(map(Entry, names, counts.values(), shown))
+
+    def toggle_object(self, number: int, alone: bool = False) -> None:
+        """Hide or show one of `objects`; or show it alone, and then all again."""
+        self._hidden_nodes = _toggled(self._hidden_nodes, self._nodes, number, alone)
+        self._apply()
+
+    def toggle_material(self, number: int, alone: bool = False) -> None:
+        """Hide or show one of `materials`; or show it alone, and then all again."""
+        self._hidden_materials = _toggled(self._hidden_materials, self._materials, number, alone)
+        self._apply()
+
+    def restore(self) -> None:
+        """Show all."""
+        self._hidden_nodes, self._hidden_materials = set(), set()
+        self._apply()
+
+    def object_of(self, node: Node):
+        """Return what a node holds when nothing is hidden."""
+        return self._objects.get(node, node.object)
+
+    def face_of(self, node: Node, face: int) -> int:
+        """Return the index in the whole mesh of a face of the one that shows."""
+        thing = self._objects.get(node)
+        if thing is None or face < 0 or node.object is thing:
+            return face
+        return int(np.flatnonzero(self._kept(mesh_of(thing)))[face])
+
+    def _apply(self) -> None:
+        for node, thing in self._objects.items():
+            wanted = None if node in self._hidden_nodes else self._visible_part(thing)
+            if wanted is not node.object:
+                node.object = wanted
+
+    def _kept(self, mesh: Mesh) -> np.ndarray:
+        """Return which faces of a mesh have no hidden material."""
+        hidden = [_key(material) in self._hidden_materials for material in mesh.materials]
+        return ~np.array(hidden, bool)[mesh.material_ids]
+
+    def _visible_part(self, thing):
+        """Return a mesh, or instances of one, without the faces of hidden materials."""
+        mesh = mesh_of(thing)
+        kept = self._kept(mesh) if self._hidden_materials else np.ones(len(mesh.faces), bool)
+        if kept.all():
+            return thing
+        part = _with_faces(mesh, kept)
+        if isinstance(thing, InstancedMesh):
+            return InstancedMesh(part, thing.poses, colors=thing.colors)
+        return part
+
+
+def mesh_of(thing) -> Mesh:
+    """Return the mesh of what a node holds."""
+    return thing.mesh if isinstance(thing, InstancedMesh) else thing
+
+
+def _key(material: Material):
+    """Return what tells materials apart: their name, or for want of one themselves."""
+    return material.name or id(material)
+
+
+def _triangles(thing) -> int:
+    count = len(mesh_of(thing).faces)
+    return count * len(thing.poses) if isinstance(thing, InstancedMesh) else count
+
+
+def _toggled(hidden: set, everything: list, number: int, alone: bool) -> set:
+    one = everything[number]
+    if not alone:
+        return hidden ^ {one}
+    others = set(everything) - {one}
+    return set() if hidden == others else others
+
+
+def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
+    edges = mesh.edge_visible
+    return Mesh(
+        mesh.positions,
+        mesh.faces[kept],
+        normals=mesh.normals,
+        uvs=mesh.uvs,
+        colors=mesh.colors,
+        materials=mesh.materials,
+        material_ids=mesh.material_ids[kept],
+        lines=mesh.lines,
+        points=mesh.points,
+        edge_visible=None if edges is None else edges[kept],
+        position_ids=mesh.position_ids,
+        name=mesh.name,
+    )

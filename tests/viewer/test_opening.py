@@ -1,0 +1,123 @@
+"""Stepping through the models of a folder, and the files that were opened before."""
+
+import os
+
+import pytest
+from viewer.scripted_window import ScriptedWindow
+
+from engine3d import events
+from engine3d.viewer.model_files import ModelFiles
+from engine3d.viewer.open_model import open_model
+from engine3d.viewer.recent_files import MOST, NAME, recent_files, remember, state_folder
+from engine3d.viewer.settings import Settings
+from engine3d.viewer.view_renderer import ViewRenderer
+from engine3d.viewer.viewer import Viewer
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+SIZE = (320, 240)
+
+
+@pytest.fixture(autouse=True)
+def state(tmp_path_factory, monkeypatch):
+    folder = tmp_path_factory.mktemp("state")
+    monkeypatch.setenv("XDG_STATE_HOME", str(folder))
+    monkeypatch.setenv("LOCALAPPDATA", str(folder))
+    monkeypatch.setattr("pathlib.Path.home", lambda: folder)
+    return folder
+
+
+@pytest.fixture
+def viewer(tmp_path):
+    for name in ("b.obj", "a.OBJ", "c.obj", "notes.txt", "skin.png"):
+        (tmp_path / name).write_text(TRIANGLE)
+    path = tmp_path / "b.obj"
+    view_renderer = ViewRenderer(open_model(path), Settings({}), SIZE)
+    files = ModelFiles([path], remembered=True)
+    return Viewer(view_renderer, ScriptedWindow(size=SIZE), files=files)
+
+
+def press(viewer, key, **modifiers):
+    viewer.handle(events.KeyDown(key, key, **modifiers))
+
+
+def title(viewer):
+    return viewer.view_renderer.viewed.title
+
+
+@pytest.mark.parametrize(
+    ("forward", "back"),
+    [
+        (("PageDown", {}), ("PageUp", {})),
+        (("Right", {"control": True}), ("Left", {"control": True})),
+    ],
+)
+def test_keys_go_through_the_models_of_the_folder(viewer, forward, back):
+    azimuth = viewer.view.azimuth
+    names = []
+    for key, modifiers in (forward, forward, forward, back, back):
+        press(viewer, key, **modifiers)
+        names.append(title(viewer))
+    assert names == ["c.obj", "a.OBJ", "b.obj", "a.OBJ", "c.obj"]
+    assert viewer.view.azimuth == azimuth
+
+
+def test_a_broken_file_is_told_and_gone_past(viewer, tmp_path):
+    (tmp_path / "c.obj").write_text("v 0 0\n")
+    press(viewer, "PageDown")
+    assert title(viewer) == "b.obj" and "c.obj:1: " in viewer.messages.said
+    press(viewer, "PageDown")
+    assert title(viewer) == "a.OBJ"
+
+
+def test_the_look_stays_from_file_to_file(viewer):
+    press(viewer, "N")
+    press(viewer, "PageDown")
+    assert viewer.view_renderer.appearance.mode == "normal"
+
+
+def test_alone_in_a_folder_or_without_a_file_nothing_happens(viewer, tmp_path):
+    for name in ("a.OBJ", "c.obj"):
+        (tmp_path / name).unlink()
+    press(viewer, "PageDown")
+    assert title(viewer) == "b.obj" and "no other model" in viewer.messages.said
+    assert ModelFiles().beside(1) is None
+
+
+def test_files_that_were_opened_are_remembered(viewer, tmp_path, state):
+    for key in ("PageDown", "PageDown"):
+        press(viewer, key)
+    names = [os.path.basename(path) for path in recent_files()]
+    assert names == ["a.OBJ", "c.obj"]
+    remember([tmp_path / "c.obj"])
+    (tmp_path / "a.OBJ").unlink()
+    assert [os.path.basename(path) for path in recent_files()] == ["c.obj"]
+    remember([tmp_path / "gone.obj"])
+    assert len(recent_files()) == 1
+    for number in range(2 * MOST):
+        (tmp_path / f"{number}.obj").write_text("")
+        remember([tmp_path / f"{number}.obj"])
+    assert len(recent_files()) == MOST
+    assert os.path.basename(recent_files()[0]) == f"{2 * MOST - 1}.obj"
+
+
+def test_a_list_of_them_opens_one(viewer, tmp_path):
+    remember([tmp_path / "c.obj"])
+    press(viewer, "O", control=True)
+    viewer.draw()
+    left, top, width, height = viewer.panel._box
+    x, y = left + width // 2, top + height // 2
+    assert viewer.panel.covers(x, y)
+    viewer.handle(events.MouseButton("left", True, x=x, y=y))
+    assert title(viewer) == "c.obj" and viewer.panel is None
+
+
+def test_what_cannot_be_remembered_is_forgotten(tmp_path, state):
+    state_folder().parent.mkdir(parents=True, exist_ok=True)
+    state_folder().write_text("a file, no folder")
+    (tmp_path / "a.obj").write_text("")
+    remember([tmp_path / "a.obj"])
+    assert recent_files() == []
+    state_folder().unlink()
+    state_folder().mkdir()
+    (state_folder() / NAME).write_bytes(b"\xff\xfe\n\0\n")
+    assert recent_files() == []

@@ -9,7 +9,7 @@ import engine3d as e3d
 from lesson import MODELS, main
 
 multiply = e3d.linalg.multiply
-GLOBE = MODELS / "globe.obj"
+TEAPOT = MODELS / "teapot.obj"
 
 
 class Resources:
@@ -133,7 +133,7 @@ def engine_poses(days):
 def share():
     """Load a model three times through the resources."""
     resources = Resources(e3d.load_mesh)
-    one, two, three = (resources.get(GLOBE) for _ in range(3))
+    one, two, three = (resources.get(TEAPOT) for _ in range(3))
     assert one is two is three
     print(f"asked for 3 times, loaded {resources.loads} time")
     del one, two, three

@@ -15,7 +15,7 @@ from PIL import Image, ImageGrab, features
 
 from engine3d.canvas import Canvas
 from engine3d.viewer.help_panel import draw_help
-from engine3d.viewer.viewer import MESSAGE_SECONDS
+from engine3d.viewer.messages import MESSAGE_SECONDS
 
 MISSING = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
 if not features.check("xcb"):
@@ -48,14 +48,14 @@ def screen():
 class Desktop:
     """A running viewer, and hands and eyes on its screen."""
 
-    def __init__(self, screen, folder, *arguments):
+    def __init__(self, screen, folder, *arguments, command="run"):
         self.folder = folder
         self.environment = {**os.environ, "DISPLAY": screen}
         for name in ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
             self.environment.pop(name, None)
         self.screen = screen
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "engine3d", "run", *arguments],
+            [sys.executable, "-m", "engine3d", command, *arguments],
             cwd=folder,
             env=self.environment,
             stdout=subprocess.PIPE,
@@ -209,6 +209,18 @@ def test_walking_resizing_hiding_and_turning(desktop):
 
 def title(desktop):
     return desktop.do("getwindowname", desktop.window).strip()
+
+
+def test_lessons_go_forward_and_back(screen, tmp_path):
+    desktop = Desktop(screen, tmp_path, "zbuffer", command="learn")
+    first = desktop.settle()
+    assert "step 1" in title(desktop)
+    assert (desktop.settle_after("Right") != first).sum() > 1000
+    assert "step 2" in title(desktop)
+    assert (desktop.settle_after("Left") == first).all()
+    desktop.do("key", "q")
+    status, said = desktop.finish()
+    assert status == 0 and said.startswith(b"Arrows: steps.") and said.count(b"\n") == 1
 
 
 def test_a_number_of_frames_ends_though_nothing_moves(screen, tmp_path):

@@ -4,6 +4,7 @@ import re
 import runpy
 import subprocess
 import sys
+from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
@@ -84,6 +85,17 @@ def test_what_is_wrong_is_told_in_a_line(arguments, said, monkeypatch, capsys):
     with pytest.raises(SystemExit) as left:
         runpy.run_path(str(LESSONS / "02_points.py"), run_name="__main__")
     assert said in f"{left.value}{capsys.readouterr().err}"
+
+
+def test_lessons_use_models_of_the_wheel():
+    pytest.importorskip("setuptools")
+    left_out = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")["SOURCE_ONLY"]
+    texts = [(LESSONS / f"{name}.py").read_text(encoding="utf-8") for name in NAMES]
+    models = set(re.findall(r'MODELS / "(.*?)"', "".join(texts)))
+    assert len(models) >= 2
+    for model in models:
+        assert (ROOT / "data" / "models" / model).exists()
+        assert not any(fnmatch(f"models/{model}", pattern) for pattern in left_out), model
 
 
 def test_lessons_build_on_earlier_ones_only():

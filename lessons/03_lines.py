@@ -197,6 +197,9 @@ def compile_c(folder, *flags):
 
 def profile():
     """Tell which function of 03_lines.c takes how long, by gprof and by perf."""
+    for tool in ("gprof", "perf"):
+        if shutil.which(tool) is None:
+            print(f"{tool} is not installed")
     with tempfile.TemporaryDirectory() as folder:
         if shutil.which("gprof"):
             program = compile_c(folder, "-O1", "-pg")

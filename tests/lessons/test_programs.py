@@ -19,6 +19,13 @@ NAMES = runpy.run_path(str(COURSE / "make.py"))["lesson_names"]()
 MAX_PICTURE_BYTES = 100_000
 
 
+def run(name, monkeypatch, *arguments):
+    """Run a lesson as a program, in this process."""
+    monkeypatch.setattr(sys, "argv", [f"{name}.py", *arguments])
+    monkeypatch.syspath_prepend(str(LESSONS))
+    runpy.run_path(str(LESSONS / f"{name}.py"), run_name="__main__")
+
+
 def test_lessons_are_numbered_from_1():
     assert [int(name[:2]) for name in NAMES] == list(range(1, len(NAMES) + 1))
     assert len(NAMES) >= 3
@@ -26,9 +33,7 @@ def test_lessons_are_numbered_from_1():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_lesson_runs_by_itself_and_draws_its_picture(name, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", [f"{name}.py", "--out", str(tmp_path / "new")])
-    monkeypatch.syspath_prepend(str(LESSONS))
-    runpy.run_path(str(LESSONS / f"{name}.py"), run_name="__main__")
+    run(name, monkeypatch, "--out", str(tmp_path / "new"))
     written = tmp_path / "new" / f"{name}.png"
     assert [path.name for path in tmp_path.rglob("*.png")] == [written.name]
     assert str(written) in capsys.readouterr().out
@@ -49,9 +54,7 @@ def test_a_lesson_runs_from_anywhere(tmp_path):
 def test_a_lesson_opens_a_window_if_asked(tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr(engine3d, "show", lambda picture, title: shown.append((picture, title)))
-    monkeypatch.setattr(sys, "argv", ["02", "--window", "--out", str(tmp_path)])
-    monkeypatch.syspath_prepend(str(LESSONS))
-    runpy.run_path(str(LESSONS / "02_points.py"), run_name="__main__")
+    run("02_points", monkeypatch, "--window", "--out", str(tmp_path))
     ((picture, title),) = shown
     with Image.open(tmp_path / "02_points.png") as written:
         assert np.array_equal(np.asarray(written), picture)
@@ -80,11 +83,27 @@ def test_a_lesson_draws_any_size(name, monkeypatch):
     ],
 )
 def test_what_is_wrong_is_told_in_a_line(arguments, said, monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", ["02_points.py", *arguments])
-    monkeypatch.syspath_prepend(str(LESSONS))
     with pytest.raises(SystemExit) as left:
-        runpy.run_path(str(LESSONS / "02_points.py"), run_name="__main__")
+        run("02_points", monkeypatch, *arguments)
     assert said in f"{left.value}{capsys.readouterr().err}"
+
+
+def test_lines_differ_as_often_as_their_pages_say(monkeypatch, capsys):
+    run("03_lines", monkeypatch, "--compare")
+    counts = re.findall(r" (\d+) +(\d+)$", capsys.readouterr().out, re.M)
+    assert len(counts) == 4 and counts[2] == ("0", "0")
+    for language in ("en", "fr"):
+        page = (COURSE / language / "03_lines.md").read_text(encoding="utf-8")
+        assert re.findall(r"^\| \D+ \| (\d+) \| (\d+) \|$", page, re.M) == counts
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("05_triangles", "500 triangles: the same"), ("13_rotations", "equal, all 200")],
+)
+def test_ways_that_are_compared_are_equal(name, said, monkeypatch, capsys):
+    run(name, monkeypatch, "--compare")
+    assert said in capsys.readouterr().out
 
 
 def test_lessons_use_models_of_the_wheel():

@@ -278,6 +278,9 @@ class Window:
         close_video(sdl)
         self._presenter = self._window = None
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Window cannot be copied or pickled: it is on the screen")
+
     def __enter__(self) -> Window:
         return self
 

@@ -1,9 +1,9 @@
 /* The decimal numbers that need more than one exact operation on doubles.
  *
- * In:  digits and a power of ten. Out: the nearest double, ties to even, of integer arithmetic only.
- * Up to 19 digits and powers to 10^27: one division, or multiplication, of 128 bits. All others: an
- * integer as long as it takes (never more than LIMBS), multiplied or divided by powers of five piece by
- * piece: floor(floor(n / a) / b) is floor(n / (a b)), and whether anything was left over says the rest.
+ * In:  digits and a power of ten. Out: the nearest double, ties to even, by integer arithmetic only.
+ * Up to 19 digits and powers to 10^27 take one division, or multiplication, of 128 bits. All others take an
+ * integer as long as needed (never more than LIMBS), multiplied or divided by powers of five piece by piece:
+ * floor(floor(n / a) / b) is floor(n / (a b)), and whether anything was left over decides the rounding.
  */
 #include "decimal.h"
 
@@ -98,7 +98,7 @@ static void shift_limbs(integer *n, int limbs)
     n->count += limbs;
 }
 
-/* n * 2^exponent, and a little more if `sticky`. */
+/* Returns n * 2^exponent, and a little more if `sticky`, as a double. */
 static double integer_value(const integer *n, bool sticky, int64_t exponent)
 {
     const int top = n->count - 1, shift = __builtin_clzll(n->limb[top]);
@@ -116,7 +116,7 @@ static double integer_value(const integer *n, bool sticky, int64_t exponent)
 
 static int64_t smaller(int64_t a, int64_t b) { return a < b ? a : b; }
 
-/* n * 10^exponent; n is not zero and has at most MOST_DIGITS + 1 digits. */
+/* Returns n * 10^exponent; n is not zero and has at most MOST_DIGITS + 1 digits. */
 static double scaled(integer *n, int64_t exponent)
 {
     if (exponent > 308)
@@ -166,7 +166,7 @@ double e3d_decimal_value(uint64_t digits, int64_t exponent)
     return rounded(quotient << last, sticky, exponent - 63 - shift + divisor_shift - last);
 }
 
-/* All digits that matter, as one integer. */
+/* Reads all digits that matter as one integer. */
 static double exact_value(const uint8_t *text, const uint8_t *end, int64_t exponent)
 {
     integer n = {{0}, 0};
@@ -227,7 +227,7 @@ static bool is_word(const uint8_t *text, size_t length, const char *word)
     return true;
 }
 
-/* Without the parentheses that newer libraries of Microsoft put behind nan, such as nan(ind). */
+/* Leaves out the parentheses that newer libraries of Microsoft put behind nan, such as nan(ind). */
 static size_t plain_length(const uint8_t *text, size_t length)
 {
     const uint8_t *const parenthesis = length ? memchr(text, '(', length) : NULL;

@@ -96,7 +96,7 @@ static int32_t *put(int32_t *triangles, triangle t)
     return triangles + 3;
 }
 
-/* The corners that are left, cut as a fan. */
+/* Cuts the corners that are left as a fan. */
 static void put_fan(const e3d_ears *e, int32_t corner, int32_t left, int32_t *triangles)
 {
     int32_t second = e->after[corner];
@@ -140,7 +140,7 @@ void e3d_clip_ears(e3d_ears *ears, int32_t count, int64_t *tests, int32_t *trian
         }
         triangles = put(triangles, t);
         cut_off(ears, t);
-        /* Going on behind the next corner spreads the ears round instead of making one long fan. */
+        /* To go on behind the next corner spreads the ears round instead of making one long fan. */
         corner = ears->after[t.c];
         left--;
         failures = 0;

@@ -9,7 +9,7 @@
 
 #include "e3d_surfaces.h"
 
-/* A wanted side of two different points. */
+/* Whether a side is wanted and has two different points. */
 typedef struct side {
     int32_t lesser, greater;
 } side;
@@ -26,7 +26,7 @@ static int find_side(const e3d_sides *s, size_t number, side *out)
     return a != b && (!s->wanted || s->wanted[number]);
 }
 
-/* Where the list of each point ends, one behind the other; the lists, then, are filled from their ends. */
+/* Finds where the list of each point ends, one behind the other; the lists are then filled from their ends. */
 static size_t count_sides(const e3d_sides *s, uint32_t *ends)
 {
     size_t count = 0;
@@ -46,7 +46,7 @@ typedef struct listed {
     uint32_t number; /* of the side */
 } listed;
 
-/* The last of the sides first, so that each list begins with its first. */
+/* The last sides come first, so that each list begins with its first side. */
 static void list_sides(const e3d_sides *s, uint32_t *ends, listed *lists)
 {
     side at;

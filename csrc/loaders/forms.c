@@ -9,7 +9,7 @@
 #include "core/grow.h"
 #include "number_text.h"
 
-/* A line as far as its pattern was followed. */
+/* A line, as far as its pattern was followed. */
 typedef struct match {
     const uint8_t *at;
     double numbers[E3D_FORM_WIDTH];
@@ -17,7 +17,7 @@ typedef struct match {
     bool is_whole;
 } match;
 
-/* Behind a whole number of a few digits; NULL if there is none. */
+/* Returns what stands behind a whole number of a few digits; NULL if there is none. */
 static const uint8_t *read_whole(const uint8_t *at, size_t *value)
 {
     const uint8_t *const start = at;
@@ -115,7 +115,7 @@ static bool add_mark(e3d_form_text *text, e3d_mark mark)
     return true;
 }
 
-/* The form of the line that begins at m->at, and its numbers; form_count if it has none. */
+/* Finds the form of the line that begins at m->at, and its numbers; form_count if it has none. */
 static size_t find_form(const e3d_form_text *text, const uint8_t *end, match *m)
 {
     const uint8_t *const start = m->at;

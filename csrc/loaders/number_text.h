@@ -6,12 +6,12 @@
 
 #include "decimal.h"
 
-/* Blanks, and what ends lines. */
+/* Whether a byte is a blank or ends a line. */
 static inline bool e3d_is_gap(uint8_t byte) { return byte <= ' ' && (UINT64_C(0x100003E00) >> byte & 1); }
 
 static inline bool e3d_ends_line(uint8_t byte) { return byte == '\n' || byte == '\r'; }
 
-/* Behind the blanks of a line. */
+/* Returns what stands behind the blanks of a line. */
 static inline const uint8_t *e3d_skip_blanks(const uint8_t *at, const uint8_t *end)
 {
     while (at < end && e3d_is_gap(*at) && !e3d_ends_line(*at))
@@ -26,7 +26,8 @@ static inline const uint8_t *e3d_line_end(const uint8_t *at, const uint8_t *end)
     return at;
 }
 
-/* Behind a number that a gap ends, or `other` (a gap, if there is none); NULL if there is no such number. */
+/* Returns what stands behind a number that a gap ends, or `other` (a gap, if there is none); NULL if there is no
+ * such number. */
 static inline const uint8_t *e3d_read_number(const uint8_t *at, uint8_t other, double *value)
 {
     const uint8_t *last = e3d_decimal_read(at, value);

@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BLOCK 128 /* what a byte counts */
+#define BLOCK 128 /* bytes: so few that a byte can count their words */
 
-/* No fewer than there are numbers. */
+/* Counts words: there are no more numbers than these. */
 static size_t count_words(const uint8_t *bytes, size_t size)
 {
     size_t words = 0;
@@ -70,7 +70,7 @@ static const uint8_t *read_line(const uint8_t *at, const uint8_t *end, e3d_comme
     return at;
 }
 
-/* Room for the widths of as many lines as the text can hold. */
+/* Makes room for the widths of as many lines as the text can hold. */
 static size_t count_lines(const uint8_t *bytes, size_t size, size_t most)
 {
     size_t lines = 0;

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Statements that change nothing that is drawn here. */
+/* These statements change nothing that is drawn here. */
 static const char *const ignored[] = {"lod",      "shadow_obj", "trace_obj", "bevel",
                                       "c_interp", "d_interp",   "vp",        "mg"};
 
@@ -70,7 +70,7 @@ static bool add_setter(e3d_obj *obj, e3d_obj_setter_kind kind, const obj_line *l
     return true;
 }
 
-/* Statements of anything but numbers and indices. */
+/* Reads the statements of anything but numbers and indices. */
 static bool read_other(e3d_obj *obj, const obj_line *line, const uint8_t *keyword_end)
 {
     const uint8_t *keyword = line->at, *end = line->end;

@@ -1,7 +1,7 @@
 /* Faces, lines and points of an OBJ file: corners `v`, `v/vt`, `v//vn` and `v/vt/vn`.
  *
  * In:  a line behind its keyword. Out: one element more, its indices from 0: OBJ_NONE where a part is left
- *      out, OBJ_OUTSIDE or too large where there is no such vertex. Whether there is, obj_check.c tells:
+ *      out, OBJ_OUTSIDE or too large where there is no such vertex. obj_check.c finds out at the end, because
  *      the vertices may follow.
  */
 #include "decimal.h"

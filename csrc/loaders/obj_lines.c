@@ -27,7 +27,7 @@ static bool is_special(uint8_t byte)
     return byte == '\n' || byte == '\r' || byte == '#' || byte == '\\';
 }
 
-/* The first byte that ends a line or asks for a closer look. */
+/* Finds the first byte that ends a line or asks for a closer look. */
 static const uint8_t *find_special(const uint8_t *at, const uint8_t *end)
 {
     for (; end - at >= 16; at += 16) {
@@ -58,7 +58,7 @@ static const uint8_t *behind_line_end(const uint8_t *at, const uint8_t *end)
     return at + (at[0] == '\r' && end - at > 1 && at[1] == '\n' ? 2 : 1);
 }
 
-/* Where the comment of a joined line begins, or its end. */
+/* Finds where the comment of a joined line begins, or the end of the line. */
 static const uint8_t *find_comment(const uint8_t *start, const uint8_t *end)
 {
     const uint8_t *sign = memchr(start, '#', (size_t)(end - start));

@@ -51,14 +51,14 @@ static inline vector minus(vector p, vector q)
     return (vector){{p.axis[0] - q.axis[0], p.axis[1] - q.axis[1], p.axis[2] - q.axis[2]}};
 }
 
-/* One component of the cross product. */
+/* Returns one component of the cross product. */
 static inline double cross(vector p, vector q, int axis)
 {
     const int y = (axis + 1) % 3, z = (axis + 2) % 3;
     return p.axis[y] * q.axis[z] - p.axis[z] * q.axis[y];
 }
 
-/* Zero if it is not finite. */
+/* Returns Newell's area vector; zero if it is not finite. */
 static vector area_of(const outline *o)
 {
     vector area = {{0, 0, 0}}, p = minus(o->corners[0], o->corners[0]);

@@ -1,9 +1,9 @@
 /* Corners of facets that stand in a regular order: strips, fans, the two halves of quads.
  *
  * In:  facets, and the numbers of the corners before them. Out: their corners' numbers, the same as without guessing.
- * The corner six places on, two facets later, is most often the point that is as many numbers further as it was the last
- * time. Whether it is, a look at that point tells, without a hash. The corners of two facets that were new points the
- * last time will be so again: their places in the table are fetched ahead.
+ * From a corner to the one two facets later, six places on, the number mostly grows by as much as it did the last
+ * time. A look at that point tells whether it did, without a hash. Corners of two facets that were new points the
+ * last time are mostly new again: their places in the table are fetched ahead.
  */
 #include "loaders/row_table.h"
 
@@ -19,7 +19,7 @@ static inline uint32_t half_hash(const e3d_row_numbers *t, const uint8_t *corner
     return e3d_half_of(e3d_hash_row(corner, WIDTH, t->zero, t->seeds));
 }
 
-/* Hashes of the corners that were missed two facets before. */
+/* Hashes the corners that were missed two facets before. */
 static ALWAYS_INLINE void hash_missed(const e3d_row_numbers *t, const uint8_t *corners, size_t stride, size_t count,
                                       unsigned missed, uint32_t *halves)
 {
@@ -41,7 +41,7 @@ static inline bool same_bits(const uint8_t *a, const uint8_t *b)
     return !((two[0] ^ two[1]) | (third[0] ^ third[1]));
 }
 
-/* The number of a corner if it is that of the corner two facets before, and as much more as that one was; or -1. */
+/* Returns a corner's number if it grew, from the corner two facets before, by as much as that one's did; or -1. */
 static ALWAYS_INLINE int32_t guess(const uint8_t *rows, size_t known, const uint8_t *corner, const int32_t *number)
 {
     const uint32_t next = 2 * (uint32_t)number[-PERIOD] - (uint32_t)number[-2 * PERIOD];

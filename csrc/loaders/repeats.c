@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #define BLOCK 256
-/* Of the map for each row: about one row of thirty shares its bits with unequal ones. */
+/* Bits of the map for each row: about one row of thirty shares its bits with unequal ones. */
 #define BITS 8
 
 typedef struct word {

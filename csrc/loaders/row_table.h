@@ -9,7 +9,7 @@
 
 #include "loaders/rows.h"
 
-/* Rows that are looked for together; those of two facets twice at least. */
+/* Rows that are looked for together: at least twice those of two facets. */
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 #define E3D_ROW_BLOCK 192
 #else
@@ -54,7 +54,7 @@ static inline uint32_t e3d_entry_of(const e3d_row_numbers *t, size_t number, uin
     return (uint32_t)(number + 1) << t->tag_bits | e3d_tag_of(t, half);
 }
 
-/* The number of a row, which may be new. */
+/* Returns the number of a row, which may be new. */
 static ALWAYS_INLINE uint32_t e3d_number_row(e3d_row_numbers *t, const uint8_t *row, size_t width, uint32_t half)
 {
     for (uint32_t *place = e3d_place_of(t, half);; place = e3d_next_place(t, place)) {

@@ -15,7 +15,7 @@
 #include <time.h>
 
 #define BLOCK E3D_ROW_BLOCK
-/* Places for each number: where a table begins or grows, and always (but in tables of MOST_PLACES). */
+/* Places for each number: where a table begins or grows, and at least (but in tables of MOST_PLACES). */
 #define PLENTY 8
 #define LEAST 4
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
@@ -47,14 +47,14 @@ e3d_row_seeds e3d_random_seeds(void)
     return seeds;
 }
 
-/* Bits that no number has of which so many places have room. */
+/* Returns how many bits of a place no number needs, in a table of so many places. */
 static int tag_bits_of(size_t places)
 {
     const int bits = places < MOST_PLACES ? __builtin_clz((uint32_t)(places / LEAST)) : 0;
     return bits < MOST_TAG_BITS ? bits : MOST_TAG_BITS;
 }
 
-/* So many empty places; false if memory is out. */
+/* Makes so many empty places; false if memory is out. */
 static bool empty_places(table *t, size_t size)
 {
     free(t->places);
@@ -116,7 +116,7 @@ static ALWAYS_INLINE void number_block(table *numbered, e3d_row_reader in, size_
     numbered->count = t.count;
 }
 
-/* The same for the corners of facets, which take turns without a count. */
+/* Does the same for the corners of facets, which take turns without a count. */
 static void number_facets(table *numbered, const uint8_t *facets, size_t stride, size_t count, int32_t *numbers)
 {
     uint32_t halves[BLOCK];
@@ -158,7 +158,7 @@ static bool reserve(table *t, size_t more)
     return reserve_places(t, t->count + more) && reserve_rows(t, t->count + more);
 }
 
-/* A table for so many numbers, which grows; false if memory is out. */
+/* Makes a table for so many numbers, which grows; false if memory is out. */
 static bool begin_table(table *t, size_t width, bool are_floats, size_t numbers)
 {
     *t = (table){.seeds = e3d_random_seeds(), .width = width, .zero = e3d_zero_of(are_floats)};

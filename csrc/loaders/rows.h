@@ -51,7 +51,7 @@ static inline const uint8_t *e3d_next_row(e3d_row_reader *in, size_t width)
     return row;
 }
 
-/* Up to four words, zeros behind them; those that are `zero` become 0. */
+/* Reads up to four words, with zeros behind them; those that are `zero` become 0. */
 static inline e3d_pairs e3d_plain_words(const uint8_t *words, size_t count, uint32_t zero)
 {
     uint64_t low = 0, high = 0;
@@ -62,7 +62,7 @@ static inline e3d_pairs e3d_plain_words(const uint8_t *words, size_t count, uint
     return (e3d_pairs)(given & ~(e3d_words)(given == zeros));
 }
 
-/* Which word equals 0; 0 itself if there is no other. */
+/* Returns the word that equals 0; 0 itself if there is no other. */
 static inline uint32_t e3d_zero_of(bool are_floats) { return are_floats ? MINUS_ZERO : 0; }
 
 static inline uint64_t e3d_hash_row(const uint8_t *row, size_t width, uint32_t zero, e3d_row_seeds seeds)
@@ -88,7 +88,7 @@ static inline bool e3d_same_but_zeros(const uint8_t *a, const uint8_t *b, size_t
     return !differs;
 }
 
-/* Most rows that are equal are so without a look at zeros. */
+/* Most equal rows are found to be so without a look at zeros. */
 static inline bool e3d_same_rows(const uint8_t *a, const uint8_t *b, size_t width, uint32_t zero)
 {
     return !memcmp(a, b, width * WORD) || e3d_same_but_zeros(a, b, width, zero);

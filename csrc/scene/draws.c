@@ -1,8 +1,8 @@
 /* draws: from slots to the draws of a frame, and the order in which the nodes were added.
  *
  * Nodes that draw the same mesh become one draw, whose nodes take their turns in that order.
- * Of many instances only those that may show are drawn, as runs of neighbours: instance, then face stays
- * the order, and first_instance keeps their numbers.
+ * Of many instances only those that may show are drawn, as runs of neighbours. The order stays instance,
+ * then face, and first_instance keeps the instances' numbers.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +27,7 @@ void e3d_draw_list_free(e3d_draw_list *list)
     memset(list, 0, sizeof *list);
 }
 
-/* Room for `count` elements behind the pointer that `array` points to; 0 when memory is out. */
+/* Makes room for `count` elements behind the pointer that `array` points to; 0 when memory is out. */
 static int reserve(void *array, int32_t count, size_t size)
 {
     void *data;
@@ -38,7 +38,7 @@ static int reserve(void *array, int32_t count, size_t size)
     return data != NULL;
 }
 
-/* A place in the order for a draw. */
+/* Adds a place in the order for a draw. */
 static int take_turn(e3d_draw_list *list, int32_t draw)
 {
     if (list->order_count == list->order_room) {
@@ -51,7 +51,7 @@ static int take_turn(e3d_draw_list *list, int32_t draw)
     return 1;
 }
 
-/* A draw without a place in the order. */
+/* Adds a draw without a place in the order. */
 static e3d_draw *append(e3d_draw_list *list)
 {
     if (list->count == list->room) {
@@ -98,7 +98,7 @@ static int append_runs(e3d_draw_list *list, const e3d_draw *whole)
     return first < 0 || append_run(list, whole, first, end);
 }
 
-/* The instances that may show: the planes go into the node's space. */
+/* Lists the instances that may show: the planes are taken into the node's space. */
 static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, const e3d_placed *object,
                             const double world[16])
 {
@@ -142,7 +142,7 @@ static int append_node(e3d_draw_list *list, const e3d_placed *object, const doub
 
 /* ---- batches ---- */
 
-/* One draw for all nodes of a mesh, made when the first of them is met. */
+/* Finds the one draw for all nodes of a mesh; it is made when the first of them is met. */
 static int begin_batch(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch)
 {
     e3d_draw *draw = append(list);
@@ -167,7 +167,7 @@ static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_batc
     return take_turn(list, batch->draw);
 }
 
-/* Where the rows of each object's nodes start. */
+/* Finds where the rows of each object's nodes start. */
 static void lay_out_batches(e3d_draw_list *list, int32_t objects)
 {
     int32_t first = 0;

@@ -1,9 +1,9 @@
-/* frustum: which boxes of a tree may show. A bit an item out.
+/* frustum: which boxes of a tree may show. Out: a bit per item.
  *
- * Method: planes by Gribb and Hartmann (2001), the positive vertex of each box, four boxes at a time; planes
- * that a box lies wholly inside of are not asked again below it. f32 with slack far above the rounding
- * of the pictures' own f32 transform, measured by the coordinates that made the box: what shows is never
- * lost. Every sum grows with the box, so that no box is lost for its parent's rounding either.
+ * Method: planes by Gribb and Hartmann (2001), the positive vertex of each box, four boxes at a time; a plane
+ * that a box lies wholly inside of is not asked again below it. The arithmetic is f32. Its slack, measured
+ * by the coordinates that made the box, is far above the rounding of the pictures' own f32 transform, so
+ * that what shows is never lost. Every sum grows with the box, so that no parent's rounding loses a box.
  */
 #include <math.h>
 #include <stdint.h>
@@ -22,7 +22,7 @@ typedef struct plane {
 
 typedef struct entry {
     int32_t block;
-    int level, planes; /* a bit a plane that is still asked */
+    int level, planes; /* a bit per plane that is still asked */
 } entry;
 
 static void set_plane(plane *out, const double m[16], int axis, double sign, double widen)
@@ -49,7 +49,7 @@ static void set_planes(plane planes[6], const double m[16], double widen)
     }
 }
 
-/* The plane's value at the corners farthest on its inner side, or at those nearest. */
+/* Returns the plane's value at the corners farthest on its inner side, or at those nearest. */
 static inline e3d_v4 value_at(const plane *p, const e3d_block *b, int farthest)
 {
     e3d_v4 m[3];
@@ -58,7 +58,7 @@ static inline e3d_v4 value_at(const plane *p, const e3d_block *b, int farthest)
     return ((m[0] + m[1]) + m[2]) + p->p[3];
 }
 
-/* Lanes that are outside of the plane; and those that are wholly inside. */
+/* Return the lanes that are outside of the plane, and those that are wholly inside. */
 static inline int outside(const plane *p, const e3d_block *b)
 {
     return lanes_of(value_at(p, b, 1) < -(p->slack[0] * b->reach + p->slack[1])); /* false for NaN: kept */
@@ -67,7 +67,7 @@ static inline int inside(const plane *p, const e3d_block *b) { return lanes_of(v
 
 static void select_item(int32_t item, uint64_t *bits) { bits[item >> 6] |= (uint64_t)1 << (item & 63); }
 
-/* Everything below a box: a run of leaves, without those that have no box now. */
+/* Marks everything below a box: a run of leaves, without those that have no box now. */
 static void select_run(const e3d_tree *t, int32_t block, int level, uint64_t *bits)
 {
     enum { AHEAD = 8 };
@@ -94,7 +94,7 @@ static void visit_leaf(const e3d_tree *t, const plane planes[6], entry at, uint6
         select_item(items[__builtin_ctz(there)], bits);
 }
 
-/* The blocks below one, side by side, ahead of their use; the last may not be there, which does no harm. */
+/* Prefetches the blocks below one, which lie side by side; the last may not be there, which does no harm. */
 static void fetch_below(const e3d_tree *t, entry at)
 {
     enum { LINE = 64 };

@@ -19,7 +19,7 @@ int32_t e3d_graph_walk(const e3d_graph *g, int32_t slot, int32_t top)
     return slot == top ? -1 : g->next[slot];
 }
 
-/* The node after all that is below `slot`. */
+/* Returns the node that comes after all that is below `slot`. */
 static int32_t walk_past(const e3d_graph *g, int32_t slot, int32_t top)
 {
     while (slot != top && g->next[slot] < 0)
@@ -41,7 +41,7 @@ void e3d_graph_touch(e3d_graph *g, int32_t slot)
     }
 }
 
-/* before: a child of the parent; -1 is the end. */
+/* `before` is a child of the parent, or -1 for the end. */
 static void put_in(e3d_graph *g, int32_t slot, int32_t parent, int32_t before)
 {
     g->parent[slot] = parent;

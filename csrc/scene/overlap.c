@@ -1,4 +1,4 @@
-/* overlap: which boxes of a tree meet a box. A bit an item out; touching counts. */
+/* overlap: which boxes of a tree meet a box. Out: a bit per item; touching counts. */
 #include "core/fpenv.h"
 #include "scene/tree.h"
 

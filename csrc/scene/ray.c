@@ -56,7 +56,7 @@ typedef struct entry {
     int level;
 } entry;
 
-/* A bit a lane whose box the ray meets no farther than `most`; near: where it enters. */
+/* Returns a bit for each lane whose box the ray meets no farther than `most`; near: where it enters. */
 static int enter(const ray *r, const e3d_block *b, double pad, double most, v4d *near)
 {
     v4d in = {0}, out = in + most;
@@ -156,7 +156,7 @@ static int comes_first(const search *s, int32_t face, double distance)
     return s->instance != h->instance ? s->instance < h->instance : face < h->face;
 }
 
-/* The front's unit normal. */
+/* Finds the unit normal of the front. */
 static void normal_of(const search *s, double corners[3][3], double out[3])
 {
     double one[3], two[3], most = 0;
@@ -221,7 +221,7 @@ static void meet_triangle(search *s, int32_t face)
 
 /* ---- spaces ---- */
 
-/* The ray in the space of a pose; 0 if that has no volume. */
+/* Takes the ray into the space of a pose; 0 if that has no volume. */
 static int into_space(const ray *r, const double m[12], ray *out)
 {
     double det = determinant(m), origin[3], from[3], direction[3];

@@ -11,14 +11,14 @@
 
 #include "core/pool.h"
 
-/* A coordinate's bits; three of them are sorted RADIX at a time. */
+/* A coordinate has BITS bits; those of all three are sorted RADIX at a time. */
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 enum { BITS = 12, RADIX = 12, PASSES = 3 };
 #else
-enum { BITS = 12, RADIX = 4, PASSES = 9 }; /* thousands of small trees a second */
+enum { BITS = 12, RADIX = 4, PASSES = 9 }; /* so that thousands of small trees are built in a second */
 #endif
 
-static const double WORN = 1.7; /* times the cost when built: then build again, */
+static const double WORN = 1.7; /* times the cost when built: it is built again, */
 enum { LEAST_REFITS = 8 };      /* but not each time, where everything goes anywhere */
 
 typedef struct key {
@@ -41,7 +41,7 @@ void e3d_tree_destroy(e3d_tree *t)
 
 /* ---- tasks ---- */
 
-/* Always as many, whatever the number of threads: what they add up is the same. */
+/* There are always as many tasks, whatever the number of threads, so that what they add up is the same. */
 enum { TASKS = 16, FEW = 4096 };
 
 typedef struct tree_job {
@@ -57,7 +57,7 @@ typedef struct task_range {
     int32_t first, end;
 } task_range;
 
-/* One task's share of some elements; all but the last end at a multiple of 4. */
+/* Finds one task's share of some elements; all but the last share end at a multiple of 4. */
 static task_range range_of(int32_t count, int task)
 {
     int32_t each = (count / TASKS + 4) / 4 * 4;
@@ -98,7 +98,7 @@ static void clear(e3d_block *block)
     block->reach = e3d_v4_all(0);
 }
 
-/* The box around a block's boxes into a lane of its parent; returns by how much its cost grew. */
+/* Writes the box around a block's boxes into a lane of its parent; returns by how much its cost grew. */
 static double gather(const e3d_block *from, e3d_block *to, int lane)
 {
     double size[2][3], area[2];
@@ -125,7 +125,7 @@ static double gather(const e3d_block *from, e3d_block *to, int lane)
     return area[1] - area[0];
 }
 
-/* Blocks [first, end) of a level into that above; returns by how much its cost grew from nothing. */
+/* Writes the boxes of blocks [first, end) of a level into that above; returns by how much its cost grew. */
 static double gather_some(e3d_tree *t, int level, int32_t first, int32_t end)
 {
     e3d_block *from = e3d_tree_level(t, level), *to = e3d_tree_level(t, level + 1);
@@ -138,7 +138,8 @@ static double gather_some(e3d_tree *t, int level, int32_t first, int32_t end)
     return cost;
 }
 
-/* The boxes above the leaves' parents. The cost is summed up task by task, so that it is the same on any number of threads. */
+/* Finds the boxes above the leaves' parents. The cost is summed up task by task, so that it is the same on any
+ * number of threads. */
 static void gather_rest(tree_job *job)
 {
     e3d_tree *t = job->tree;
@@ -151,7 +152,7 @@ static void gather_rest(tree_job *job)
 
 /* ---- leaves ---- */
 
-/* A task's leaves, from the items that stand there, and the boxes above them. */
+/* Makes a task's leaves from the items that stand there, and the boxes above them. */
 static void fill_some(void *argument, int task)
 {
     enum { AHEAD = 16 };
@@ -171,7 +172,7 @@ static void fill_some(void *argument, int task)
     job->cost[task] = t->levels > 1 ? gather_some(t, 0, range.first, range.end) : 0;
 }
 
-/* All boxes of the tree, whose items have their positions. */
+/* Finds all boxes of the tree, whose items have their positions. */
 static void fill_all(e3d_tree *t, const double *boxes, int threads)
 {
     tree_job job = {.tree = t, .boxes = boxes};
@@ -200,7 +201,7 @@ static void transpose(e3d_v4i x[3])
         x[i] ^= t;
 }
 
-/* Bits 0, 1, 2 … to 0, 3, 6 …. */
+/* Spreads bits 0, 1, 2 … to 0, 3, 6 …. */
 static uint64_t spread(uint32_t bits)
 {
     uint64_t v = bits;
@@ -216,7 +217,7 @@ static double middle(const double *box, int k)
     return fabs(m) < INFINITY ? m : 0;
 }
 
-/* Where the middles of a task's boxes lie. */
+/* Finds where the middles of a task's boxes lie. */
 static void find_extent(void *argument, int task)
 {
     tree_job *job = argument;
@@ -232,7 +233,7 @@ static void find_extent(void *argument, int task)
     memcpy(job->high[task], high, sizeof high);
 }
 
-/* The extents of all tasks into that of the first. */
+/* Joins the extents of all tasks in that of the first. */
 static void join_extents(tree_job *job)
 {
     for (int task = 1; task < TASKS; task++)
@@ -258,7 +259,7 @@ static void find_codes(void *argument, int task)
         for (int i = 0; i < count; i++)
             for (int k = 0; k < 3; k++) {
                 double place = (middle(job->boxes + E3D_BOX * (size_t)keys[i].item, k) - low[k]) * scale;
-                /* Not so where the boxes' middles are endlessly far or hardly apart. */
+                /* What is out of range becomes 0: the boxes' middles are endlessly far or hardly apart. */
                 x[k][i] = place > 0 && place < 1 << BITS ? (int32_t)place : 0;
             }
         transpose(x);
@@ -275,7 +276,7 @@ static void find_keys(e3d_tree *t, const double *boxes, int threads)
     run_tasks(&job, find_codes, threads);
 }
 
-/* Least digit first, each pass stable: equal keys stay in the order of items. */
+/* Sorts by the least digit first. Each pass is stable, so that equal keys stay in the order of items. */
 static key *sort_keys(key *keys, key *other, int32_t count)
 {
     for (int pass = 0; pass < PASSES; pass++) {
@@ -354,7 +355,7 @@ int e3d_tree_build(e3d_tree *t, const double *boxes, int32_t count, int threads)
 
 /* ---- refitting ---- */
 
-/* The boxes above the dirty blocks of a level, level by level. */
+/* Renews the boxes above the dirty blocks of a level, level by level. */
 static void gather_dirty(e3d_tree *t, int32_t dirty)
 {
     int32_t *list = t->dirty.data;
@@ -395,7 +396,7 @@ static int is_worn(const e3d_tree *t) { return t->cost > WORN * t->built_cost &&
 int e3d_tree_refit(e3d_tree *t, const double *boxes, int32_t count, const int32_t *moved, int32_t moves, int threads)
 {
     int all = moves > t->count / 4, loose_fit = 1;
-    if (t->levels == 0 || (all && is_worn(t))) /* rather than renewing boxes first */
+    if (t->levels == 0 || (all && is_worn(t))) /* building renews all boxes anyway */
         return e3d_tree_build(t, boxes, count, threads);
     e3d_block *leaves = e3d_tree_level(t, 0);
     const int32_t *places = t->places.data;

@@ -1,7 +1,7 @@
 /* A tree of boxes: what culling, rays and overlaps walk; the same for nodes, instances and triangles.
  *
- * Items stand in the order of a Hilbert curve; four neighbours are a block, four blocks' boxes a block
- * of the level above, up to one block. A child's number follows from its parent's, so there are no
+ * Items stand in the order of a Hilbert curve. Four neighbours are a block; the boxes of four blocks are a
+ * block of the level above, up to one block. A child's number follows from its parent's, so there are no
  * pointers, and everything below a box is one run of items.
  */
 #ifndef E3D_TREE_H
@@ -29,7 +29,7 @@ struct e3d_tree {
     e3d_array loose;                      /* int32_t: items that came after the tree was built */
     e3d_array keys, keys_too;             /* uint64_t and below: scratch of building */
     e3d_array dirty;                      /* int32_t: scratch of refitting */
-    e3d_array marks;                      /* uint8_t: a mark a block, 0 between calls */
+    e3d_array marks;                      /* uint8_t: a mark per block, 0 between calls */
     int32_t count;                        /* positions that hold items */
     int32_t levels;
     int32_t first[E3D_TREE_LEVELS], blocks_in[E3D_TREE_LEVELS]; /* of each level */
@@ -42,7 +42,7 @@ static inline e3d_block *e3d_tree_level(const e3d_tree *tree, int level)
     return (e3d_block *)tree->blocks.data + tree->first[level];
 }
 
-/* One box into a lane of a block. */
+/* Writes one box into a lane of a block. */
 void e3d_block_set(e3d_block *block, int lane, const double box[E3D_BOX]);
 
 static inline e3d_v4 e3d_v4_all(float value) { return (e3d_v4){value, value, value, value}; }

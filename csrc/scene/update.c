@@ -1,7 +1,8 @@
 /* update: poses in, world poses, visibility and bounds out, for what was touched and what is below it.
  *
- * Method: a node is found from its parent; first those that others hang from, where the list of changed nodes climbs to
- * the topmost stale ancestor if a child was listed before it. Then the others, on all threads. Every node is found once.
+ * Method: a node is found from its parent. First come the nodes that others hang from: if a child was listed
+ * before its parent, the walk climbs to the topmost stale ancestor. Then come the others, on all threads.
+ * Every node is found once.
  */
 #include <math.h>
 #include <string.h>
@@ -115,7 +116,7 @@ typedef struct update_job {
     int32_t objects, count; /* of the list */
 } update_job;
 
-/* Those above have their world poses and keep their flags: a task writes the rows of its own nodes alone. */
+/* The nodes above have their world poses and keep their flags: a task writes the rows of its own nodes alone. */
 static void update_some(void *argument, int task)
 {
     const update_job *job = argument;

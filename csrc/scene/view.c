@@ -6,7 +6,7 @@
 #include "core/fpenv.h"
 #include "e3d_scene.h"
 
-/* The 2x2 determinants of two rows, by columns 01, 02, 03, 12, 13, 23. */
+/* Finds the 2x2 determinants of two rows, by columns 01, 02, 03, 12, 13, 23. */
 static void find_pairs(const double u[4], const double v[4], double pairs[6])
 {
     int n = 0;
@@ -15,7 +15,7 @@ static void find_pairs(const double u[4], const double v[4], double pairs[6])
             pairs[n++] = u[i] * v[j] - u[j] * v[i];
 }
 
-/* The 3x3 determinants of a row and a pair of others, without each of the columns. */
+/* Finds the 3x3 determinants of a row and a pair of others, without each of the columns in turn. */
 static void find_minors(const double r[4], const double p[6], double minors[4])
 {
     minors[0] = (r[1] * p[5] - r[2] * p[4]) + r[3] * p[3];

@@ -10,8 +10,8 @@ import pytest
 import engine3d as e3d
 from engine3d.cli.info import describe
 from engine3d.errors import FileFormatError, InvalidArgumentError
-from engine3d.loaders import load_document, load_mesh
 from engine3d.geometry.posing import posed_mesh
+from engine3d.loaders import load_document, load_mesh
 from engine3d.loaders.sources import read_source
 from engine3d.loaders.trimesh_formats import read_here
 

@@ -47,7 +47,7 @@ class Recovery(NamedTuple):
 
 
 class Autosave:
-    """Copies of one document.
+    """Copies of one document; the first at once if it is not saved, as after a recovery.
 
     Parameters
     ----------
@@ -63,6 +63,8 @@ class Autosave:
         self._path: Path | None = None
         self._version = document.history.version
         self._changed_since: float | None = None
+        if not document.history.is_saved:
+            self.save()
 
     def tick(self, now: float | None = None) -> bool:
         """Make a copy if one is due; to be called often. Return whether one was made.

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from ..errors import Engine3DError, InvalidArgumentError, printable
-from ..files.resources import Resources
 from ..files.stamps import FileState
 from ..loaders import load_document
 from ..loaders.loading import document_of
@@ -25,6 +24,7 @@ from .autosave import Recovery, content_of
 from .console import Console
 from .history import Command, History
 from .prompt import Prompt
+from .resource_list import ResourceList
 from .selection import Selection
 
 
@@ -44,8 +44,8 @@ class SceneDocument:
         Absolute; None until the scene is saved for the first time.
     scene : Scene
         Change it by `do` only, so that it can be undone.
-    resources : Resources
-        What its files were loaded through.
+    resources : ResourceList
+        What it is made of, and what waits to be used.
     history : History
     selection : Selection
     console : Console
@@ -58,7 +58,7 @@ class SceneDocument:
         self.scene = Scene() if scene is None else scene
         self.path: str | None = None
         self._state: FileState | None = None  # of the file, as it was opened or saved
-        self.resources = Resources()
+        self.resources = ResourceList(self.scene)
         self.history = History()
         self.selection = Selection()
         self.console = Console() if console is None else console

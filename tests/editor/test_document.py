@@ -137,6 +137,17 @@ def test_what_a_crash_left_behind_is_found_and_recovered(folder, tmp_path, has_f
     assert left_behind(copies) == () and list(copies.iterdir()) == []
 
 
+def test_what_was_recovered_is_copied_at_once(tmp_path):
+    document = SceneDocument()
+    assert not list(tmp_path.iterdir())
+    document.history.mark_unsaved()
+    autosave = Autosave(document, tmp_path)
+    assert len(list(tmp_path.glob("*.e3d.json"))) == 1
+    assert not autosave.tick(1e9)
+    autosave.discard()
+    assert not list(tmp_path.iterdir())
+
+
 def test_damaged_copies_are_not_offered(tmp_path):
     (tmp_path / "a.e3d.json").write_bytes(b"")
     (tmp_path / "b.e3d.json").write_bytes(b'{"autosave": 3,\n"format": 1}')

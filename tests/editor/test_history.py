@@ -19,6 +19,7 @@ from engine3d.editor.node_commands import (
 )
 from engine3d.editor.scene_state import SceneState
 from engine3d.editor.value_commands import SetValues
+from engine3d.writers.scene import scene_text
 
 RENDERER = e3d.Renderer(48, 36)
 VIEW = e3d.PerspectiveCamera(1.2), e3d.look_at((0, 0, 9), (0, 0, 0))
@@ -30,7 +31,8 @@ def picture(scene):
 
 def snapshot(scene):
     frame = picture(scene)
-    return SceneState(scene), frame.color.tobytes(), frame.object_id.tobytes()
+    pictures = frame.color.tobytes(), frame.object_id.tobytes()
+    return SceneState(scene), *pictures, scene_text(scene, "/")
 
 
 def small_scene():

@@ -12,7 +12,7 @@ import random
 import re
 import struct
 
-from loaders.seeds import GLTF
+from loaders.seeds import GLTF, SCENE
 
 WORDS = [b"f ", b"v ", b"vt", b"/", b"-", b"\n", b"1e999", b"nan", b"\\\n", b"#", b"s 3\n"]
 WORDS += [b"usemtl q\n", b"mtllib .\n", b"99999999999", b"\xff", b"\0", b'"', b"o x\n"]
@@ -309,8 +309,15 @@ _VALUES += [1e39, 1e308, "", "2.0", "BLEND", "VEC3", "\ud800", "house.tga", "dat
 
 
 def _gltf(choice: random.Random) -> bytes:
+    return _other_values(json.loads(GLTF), choice)
+
+
+def _scene(choice: random.Random) -> bytes:
+    return _other_values(json.loads(SCENE), choice)
+
+
+def _other_values(tree: dict, choice: random.Random) -> bytes:
     """Some values of the JSON are others, some are left out or stand elsewhere."""
-    tree = json.loads(GLTF)
     for _ in range(choice.randint(1, 3)):
         places = list(_places(tree))
         parent, key = choice.choice(places)
@@ -338,6 +345,7 @@ def _places(tree):
 
 GENERATORS = {
     ".gltf": _gltf,
+    ".json": _scene,
     ".obj": _obj,
     ".mtl": _mtl,
     ".asc": _asc,

@@ -16,6 +16,8 @@ from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
 from engine3d.scene import lights
+from engine3d.viewer import pixels
+from engine3d.viewer.window import POINTERS
 
 ACCEPTED = {
     "Backend": ["auto", *native.BACKENDS],
@@ -32,6 +34,8 @@ ACCEPTED = {
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,
     "ImageFormat": frame._FORMATS,
+    "PixelFormat": pixels.FORMATS,
+    "PointerShape": POINTERS,
     "EulerOrder": ["".join(order) for order in permutations("XYZ")],
 }
 

@@ -29,6 +29,20 @@ Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
 PixelFormat = Literal["rgba", "bgra"]
+PointerShape = Literal[
+    "arrow",
+    "text",
+    "wait",
+    "crosshair",
+    "working",
+    "size_nwse",
+    "size_nesw",
+    "size_we",
+    "size_ns",
+    "size_all",
+    "no",
+    "hand",
+]
 EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
 
 #: Three numbers: floats are linear light, integers from 0 to 255 sRGB.

@@ -25,6 +25,7 @@ __all__ = [
     "MouseMotion",
     "Resized",
     "Restored",
+    "TextEntered",
     "Tick",
     "Wheel",
 ]
@@ -60,6 +61,13 @@ class KeyUp:
 
     key: str
     position: str
+
+
+@dataclass(frozen=True)
+class TextEntered:
+    """Keys, or an input method, made a text, as the user's keyboard and language have it."""
+
+    text: str
 
 
 @dataclass(frozen=True)

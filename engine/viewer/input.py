@@ -21,6 +21,7 @@ from ..events import (
     MouseMotion,
     Resized,
     Restored,
+    TextEntered,
     Wheel,
 )
 
@@ -76,6 +77,8 @@ def _translated(sdl2, event, modifiers: int, place: Place):
         return CloseRequested()
     if kind in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
         return _key(sdl2, event.key, kind == sdl2.SDL_KEYDOWN)
+    if kind == sdl2.SDL_TEXTINPUT:
+        return TextEntered(event.text.text.decode("utf-8", "replace"))
     if kind in (sdl2.SDL_MOUSEBUTTONDOWN, sdl2.SDL_MOUSEBUTTONUP):
         return _button(sdl2, event.button, kind == sdl2.SDL_MOUSEBUTTONDOWN, modifiers, place)
     if kind == sdl2.SDL_MOUSEMOTION:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from .. import events
 from .._support.image_size import check_side
 from .._support.numbers import real, shown
-from ..choices import PixelFormat
+from ..choices import PixelFormat, PointerShape
 from ..errors import DisplayError, InvalidArgumentError
 from .frame_times import FrameRate
 from .held import HeldInput
@@ -25,6 +25,21 @@ from .sdl import close_video, last_error, open_video, refresh_rate, screen_scale
 MIN_SIDE = 64
 #: How long a wait for events goes on before Ctrl-C is looked for.
 PATIENCE = 0.25
+#: SDL's names of the shapes of a pointer.
+POINTERS: dict[PointerShape, str] = {
+    "arrow": "ARROW",
+    "text": "IBEAM",
+    "wait": "WAIT",
+    "crosshair": "CROSSHAIR",
+    "working": "WAITARROW",
+    "size_nwse": "SIZENWSE",
+    "size_nesw": "SIZENESW",
+    "size_we": "SIZEWE",
+    "size_ns": "SIZENS",
+    "size_all": "SIZEALL",
+    "no": "NO",
+    "hand": "HAND",
+}
 #: The windows that are open, by SDL's numbers: SDL has one queue of events for all of them.
 _OPEN: dict[int, Window] = {}
 
@@ -84,6 +99,7 @@ class Window:
         self._held = HeldInput()
         self._rate = FrameRate()
         self._pending: list = []
+        self._pointers: dict = {}
         self._sdl = open_video()
         self._window = self._presenter = None
         try:
@@ -221,6 +237,37 @@ class Window:
         self._opened()
         self._sdl.SDL_SetRelativeMouseMode(captured)
 
+    def show_pointer(self, shape: PointerShape | None) -> None:
+        """Give the mouse pointer a shape over the window; None hides it.
+
+        Raises
+        ------
+        InvalidArgumentError
+            There is no such shape, or the window is closed.
+        """
+        self._opened()
+        if shape is not None and shape not in POINTERS:
+            known = ", ".join(POINTERS)
+            raise InvalidArgumentError(f"shape must be one of {known}, not {shown(shape)}")
+        sdl = self._sdl
+        sdl.SDL_ShowCursor(sdl.SDL_DISABLE if shape is None else sdl.SDL_ENABLE)
+        if shape is not None and shape not in self._pointers:
+            number = getattr(sdl, f"SDL_SYSTEM_CURSOR_{POINTERS[shape]}")
+            self._pointers[shape] = sdl.SDL_CreateSystemCursor(number)
+        if shape is not None:
+            sdl.SDL_SetCursor(self._pointers[shape])
+
+    @property
+    def clipboard(self) -> str:
+        """The text that any program cut or copied last; can be assigned."""
+        self._opened()
+        return (self._sdl.SDL_GetClipboardText() or b"").decode("utf-8", "replace")
+
+    @clipboard.setter
+    def clipboard(self, text: str) -> None:
+        self._opened()
+        self._sdl.SDL_SetClipboardText(text.encode("utf-8", "replace"))
+
     # The window
 
     @property
@@ -270,6 +317,8 @@ class Window:
         sdl, self._sdl = self._sdl, None
         if sdl is None:
             return
+        for pointer in self._pointers.values():
+            sdl.SDL_FreeCursor(pointer)
         if self._presenter is not None:
             self._presenter.close()
         if self._window:

@@ -17,6 +17,7 @@ from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
 from engine3d.scene import lights
 from engine3d.viewer import pixels
+from engine3d.viewer.window import POINTERS
 
 ACCEPTED = {
     "Backend": ["auto", *native.BACKENDS],
@@ -34,6 +35,7 @@ ACCEPTED = {
     "Falloff": native.FALLOFFS,
     "ImageFormat": frame._FORMATS,
     "PixelFormat": pixels.FORMATS,
+    "PointerShape": POINTERS,
     "EulerOrder": ["".join(order) for order in permutations("XYZ")],
 }
 

@@ -138,6 +138,13 @@ def drop_event(kind, name=None):
     return event
 
 
+def test_a_text_comes_as_it_was_entered():
+    event = sdl2.SDL_Event()
+    event.type = sdl2.SDL_TEXTINPUT
+    event.text.text = "é語".encode()
+    assert Translator().translate(event) == events.TextEntered("é語")
+
+
 def test_files_that_are_dropped_together_are_one_event():
     translator = Translator()
     for names in (("/tmp/päth.obj",), ("/a.stl", "/b.stl", "/c.ply")):

@@ -17,7 +17,7 @@ from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer
 from engine3d.viewer.viewed_scene import ViewedScene
 from engine3d.viewer.viewer import Viewer
-from engine3d.viewer.window import Window
+from engine3d.viewer.window import POINTERS, Window
 
 sdl2 = load_sdl()
 
@@ -209,6 +209,19 @@ def test_the_title_can_be_changed(window):
     window.title = "größer"
     assert window.title == "größer"
     assert sdl2.SDL_GetWindowTitle(window._window).decode() == "größer"
+
+
+def test_a_text_is_copied_and_pasted(window):
+    window.clipboard = "Grüße, 語"
+    assert window.clipboard == "Grüße, 語"
+
+
+def test_the_pointer_takes_every_shape(window):
+    for shape in (*POINTERS, None, "arrow"):
+        window.show_pointer(shape)
+        assert sdl2.SDL_ShowCursor(sdl2.SDL_QUERY) == (shape is not None)
+    with pytest.raises(e3d.InvalidArgumentError, match="size_nwse"):
+        window.show_pointer("paw")
 
 
 def test_the_icon_is_a_cube_on_nothing():

@@ -19,7 +19,7 @@ static inline __m128i pack_lanes(__m128i a, uint32_t bits)
     return _mm_shuffle_epi8(a, _mm_loadu_si128((const __m128i *)order[bits]));
 }
 
-/* SSE4.1 has no instruction for it. */
+/* Counts the bits of a nibble: SSE4.1 has no popcnt. */
 static inline int pack_count(uint32_t bits) { return (int)(0x4332322132212110ull >> (4 * bits) & 7); }
 
 /* The lanes whose bits are set; returns how many. All sixteen bytes are written. */

@@ -12,7 +12,7 @@
 
 enum { PAIRS_EVEN = _MM_SHUFFLE(2, 0, 2, 0), PAIRS_ODD = _MM_SHUFFLE(3, 1, 3, 1) };
 
-/* Two indices, which are not negative, by one load: a core has fewer units for loads than for arithmetic. */
+/* Loads two indices, which are not negative, at once: a core has fewer units for loads than for arithmetic. */
 static inline uint64_t index_two(const int32_t *at)
 {
     uint64_t two;
@@ -47,13 +47,13 @@ static inline __m128i pairs_second(int at)
                    : _mm_setr_epi8(-1, -1, 1, -1, -1, -1, 5, -1, -1, -1, 9, -1, -1, -1, 13, -1);
 }
 
-/* A pair of 4-byte texels, and the two after it. */
+/* Loads a pair of 4-byte texels, and the two after it. */
 static inline __m128i pairs_eight(const void *texels, int32_t at)
 {
     return _mm_loadu_si128((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
 }
 
-/* A pair of 8-byte texels. */
+/* Loads a pair of 8-byte texels. */
 static inline __m128i pairs_one(const void *texels, uint64_t at)
 {
     return _mm_loadu_si128((const __m128i *)((const char *)texels + 8 * at));

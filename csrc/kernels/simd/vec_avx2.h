@@ -37,7 +37,7 @@ static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
 static inline __m256i pairs_two(const void *texels, const int32_t *at) {
     return _mm256_set_m128i(pairs_eight(texels, at[4]), pairs_eight(texels, at[0]));
 }
-/* The texels of two lanes, four apart, and those below. */
+/* Loads the texels of two lanes, four apart, and those below. */
 static inline __m256i quads_apart(const void *texels, const void *below, const int32_t *at) {
     return _mm256_unpacklo_epi64(pairs_two(texels, at), pairs_two(below, at));
 }
@@ -107,7 +107,7 @@ static inline vf32 v_pick(const void *base, vpick p) {
     return _mm256_permutevar8x32_ps(_mm256_loadu_ps((const float *)base), p);
 }
 
-/* Lanes 0 .. 3 in the low half, 4 .. 7 in the high one: unpacking works within halves. */
+/* Puts quarters 0, 2, 1, 3 in order: a shuffle of two registers works within their halves. */
 static inline vf32 quarters_in_order(__m256 a) {
     return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(a), _MM_SHUFFLE(3, 1, 2, 0)));
 }

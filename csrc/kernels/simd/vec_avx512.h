@@ -20,7 +20,7 @@ typedef __m512d vf64;
 #define MMW(op) _mm512_##op##_si512
 static inline __m512i quarters(__m128i a) { return _mm512_broadcast_i32x4(a); }
 static inline vf32 v_asf(vi32 a) { return _mm512_castsi512_ps(a); }
-/* By halves of eight lanes: a vector of them takes half as long to join, on processors that work on halves. */
+/* Vectors are loaded by halves and joined once: on processors that work on halves, that takes half as long as by quarters. */
 static inline vi32 halves_join(__m256i low, __m256i high) { return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1); }
 static inline __m128i pairs_low(const void *texels, int32_t at) {
     return _mm_loadl_epi64((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
@@ -41,11 +41,11 @@ static inline vi32 v_iota(void) {
     return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 static inline vi32 v_onebit(void) { return _mm512_sllv_epi32(_mm512_set1_epi32(1), v_iota()); }
-/* The run of one lane, and others that would be in their places too. */
+/* The lanes whose places follow from one lane's: those of its run, and others that happen to fit. */
 static ALWAYS_INLINE __mmask16 run_of(const int32_t *at, int lane, vi32 row) {
     return _mm512_cmpeq_epi32_mask(row, _mm512_set1_epi32(at[lane] - lane));
 }
-/* Most vectors have the first and the last run and none between, how many could hardly be foreseen: it isn't asked further. */
+/* Most vectors have at most two runs, and two masked stores write both; a loop over runs would be mispredicted at its end. */
 static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a) {
     __m512i row = _mm512_sub_epi32(v_loadi(at), v_iota());
     __mmask16 first = run_of(at, 0, row), last = run_of(at, 15, row);
@@ -55,13 +55,13 @@ static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a)
     _mm512_mask_storeu_epi32(base + at[15] - 15, last, a);
     return 1;
 }
-/* Lanes 0-7 and 8-15 by themselves. */
+/* Load and store lanes 0-7 and 8-15 by themselves. */
 static inline vi32 v_load_halves(const void *low, const void *high) {
     return halves_join(_mm256_loadu_si256((const __m256i *)low), _mm256_loadu_si256((const __m256i *)high));
 }
 static inline void v_store_halves(void *low, void *high, vi32 a) {
     _mm256_storeu_si256((__m256i *)low, _mm512_castsi512_si256(a));
-    _mm256_storeu_si256((__m256i *)high, _mm512_extracti64x4_epi64(a, 1)); /* to memory at once: extracti32x8 takes a register */
+    _mm256_storeu_si256((__m256i *)high, _mm512_extracti64x4_epi64(a, 1)); /* this goes to memory at once; extracti32x8 takes a register first */
 }
 static inline vi32 v_loadu8(const uint8_t *p) {
     return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)p));
@@ -69,7 +69,7 @@ static inline vi32 v_loadu8(const uint8_t *p) {
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm512_i32gather_epi32(i, base, 4);
 }
-/* One register holds all of them: the lower half of each lane takes the two among which its own is. */
+/* One register holds all of them: a shuffle of 16-bit words brings each lane the two bytes among which its own is. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
     __m512i two = _mm512_permutexvar_epi16(_mm512_srli_epi32(i, 1), _mm512_loadu_si512(bytes));
     __m512i shift = _mm512_slli_epi32(_mm512_and_si512(i, _mm512_set1_epi32(1)), 3);
@@ -190,7 +190,7 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
-/* In registers, as words: two places of a lane are looked up at once. */
+/* Four registers hold the curve as 16-bit words, so one shuffle looks up two places of each lane. */
 typedef struct vcurve {
     __m512i base[2], rise[2];
 } vcurve;
@@ -218,7 +218,7 @@ static ALWAYS_INLINE vi32 v_curve_rgba(const vcurve *curve, const vi32 place[3])
 static inline __m256i pairs_two(const void *texels, uint64_t a, uint64_t b) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pairs_one(texels, a)), pairs_one(texels, b), 1);
 }
-/* Pairs of lanes i, i + 4 and so on, and of those after them. */
+/* Loads the pairs of lanes 0, 4, 8 and 12 of `at`, and those of the lanes after them. */
 static ALWAYS_INLINE void rows_pairs(const void *texels, const int32_t *at, __m512i out[2]) {
     uint64_t a = index_two(at), b = index_two(at + 4), c = index_two(at + 8), d = index_two(at + 12);
     out[0] = halves_join(pairs_two(texels, index_first(a), index_first(b)), pairs_two(texels, index_first(c), index_first(d)));

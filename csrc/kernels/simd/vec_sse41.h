@@ -37,7 +37,7 @@ static inline vi32 v_lookup8(const uint8_t b[64], vi32 i) {
     return _mm_setr_epi32(b[_mm_extract_epi32(i, 0)], b[_mm_extract_epi32(i, 1)],
                           b[_mm_extract_epi32(i, 2)], b[_mm_extract_epi32(i, 3)]);
 }
-/* The texels of one lane, and those below. */
+/* Loads the texels of one lane, and those below. */
 static inline __m128i quads_apart(const void *texels, const void *below, const int32_t *at) {
     return _mm_unpacklo_epi64(pairs_eight(texels, at[0]), pairs_eight(below, at[0]));
 }
@@ -89,7 +89,7 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
-/* Whole vectors are shifted by one number. */
+/* SSE4.1 shifts all lanes of a vector by one number, so each word has a vector of its own. */
 static inline __m128i span_one(int32_t at, int32_t length) {
     __m128i ones = _mm_srl_epi64(_mm_set1_epi64x(-1), _mm_cvtsi32_si128(64 - length));
     return _mm_sll_epi64(ones, _mm_cvtsi32_si128(at));

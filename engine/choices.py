@@ -18,6 +18,17 @@ ColorSpace = Literal["srgb", "linear"]
 Samples = Literal[1, 4, 16]
 
 Mode = Literal["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]
+#: What the viewer and the command line draw besides: outputs as pictures.
+OutputMode = Literal[
+    "albedo",
+    "position",
+    "world_position",
+    "world_normal",
+    "uv",
+    "barycentric",
+    "instance_id",
+    "material_id",
+]
 Wireframe = Literal["overlay", "only"]
 Cull = Literal["none", "back", "front"]
 Shading = Literal["deferred", "forward"]

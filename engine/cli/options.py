@@ -17,6 +17,7 @@ from ..choices import (
     Culling,
     HiddenSurfaces,
     Mode,
+    OutputMode,
     Samples,
     Shading,
     Wireframe,
@@ -27,12 +28,12 @@ from .loading_bar import LoadingBar
 from .outputs import not_the_output
 from .usage import UsageError
 
-MODES = get_args(Mode)
+MODES = (*get_args(Mode), *get_args(OutputMode))
 BACKENDS = get_args(Backend)
 WIREFRAMES = get_args(Wireframe)
 SCENES = (
     *("default", "vertices", "edges", "faces", "cube", "shapes"),
-    *("textured", "asc", "city", "solar"),
+    *("textured", "asc", "city", "solar", "spheres", "lod", "parcels"),
 )
 #: Options whose value may start with a minus sign, which argparse would take for an option.
 SIGNED_OPTIONS = frozenset(

@@ -22,6 +22,9 @@ _MAKERS = {
     "asc": ("models", "asc"),
     "city": ("city", "city"),
     "solar": ("solar", "solar"),
+    "spheres": ("crowds", "spheres"),
+    "lod": ("crowds", "lod"),
+    "parcels": ("crowds", "parcels"),
 }
 DEMO_NAMES = tuple(_MAKERS)
 

@@ -14,6 +14,7 @@ from ..choices import Samples
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
 from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .debug_lines import DEBUG_DRAWINGS
 from .fps import FpsController
 from .ground import told
 from .panels import MaterialPanel, ObjectPanel, RecentPanel
@@ -205,6 +206,18 @@ def _begin_walking(viewer) -> None:
     if isinstance(viewer.walker, GroundController):
         said += f"; {told(viewer.walker.grid)}"
     viewer.say(f"{said}; WASD, mouse or arrows to look; Tab or Esc to leave")
+
+
+def toggle_split(viewer, step: int) -> None:
+    """Nine outputs side by side, or the picture alone."""
+    viewer.view_renderer.split = not viewer.view_renderer.split
+
+
+def cycle_debug(viewer, step: int) -> None:
+    """Next of what culling works with: nothing, boxes, the tree of boxes, the frustum from here."""
+    drawing = following(viewer.view_renderer.debug, DEBUG_DRAWINGS, step)
+    viewer.view_renderer.choose_debug(drawing, viewer.view)
+    viewer.say(f"drawn besides: {drawing or 'nothing'}")
 
 
 def toggle_textures(viewer, step: int) -> None:

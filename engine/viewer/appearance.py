@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from typing import get_args
 
 from .. import linalg
-from ..choices import Cull, Culling, HiddenSurfaces, Mode, Wireframe
+from ..choices import Cull, Culling, HiddenSurfaces, Mode, OutputMode, Wireframe
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
 from ..scene.instances import InstancedMesh
 
-MODES = get_args(Mode)
+MODES = (*get_args(Mode), *get_args(OutputMode))
 WIREFRAMES = (None, *get_args(Wireframe))
 CULLS = get_args(Cull)
 CULLINGS = get_args(Culling)
@@ -63,6 +63,8 @@ class Appearance:
             What suits the scene and the picture.
         """
         arguments = dict(vars(self))
+        if self.mode in get_args(OutputMode):
+            arguments["mode"] = "unlit"  # an output is painted over it
         if self.line_color is None:
             alone = self.wireframe == "only"
             arguments["line_color"] = contrasting(background) if alone else DARK

@@ -107,7 +107,7 @@ def short_statistics(times: FrameTimes, stats: dict) -> str:
     return ", ".join(parts)
 
 
-def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[str]:
+def statistics_lines(seconds: float, size, samples: int, stats: dict, place: str = "") -> list[str]:
     """Return the statistics of the last frame, line by line; they fit 640 x 480 pixels.
 
     Parameters
@@ -120,12 +120,16 @@ def statistics_lines(seconds: float, size, samples: int, stats: dict) -> list[st
         Samples a pixel.
     stats : dict
         `Frame.stats`: counters and milliseconds of each stage.
+    place : str
+        Where the camera is.
     """
     rate = 1.0 / seconds if seconds > 0.0 else 0.0
     lines = [
         f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
         f"{size[0]}x{size[1]}" + (f", {samples} samples per pixel" if samples > 1 else ""),
     ]
+    if place:
+        lines[1] += f"; {place}"
     tabled = count_names()
     if tabled <= stats.keys():
         lines += count_table(stats)

@@ -102,6 +102,8 @@ def _outline(node) -> np.ndarray | None:
         return shape.positions
     if isinstance(shape, InstancedMesh):
         box = shape.bounds_in_node()
+        if box is None:  # there are no instances
+            return None
         corners = [[box[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
         return np.array(corners, dtype=np.float64)
     return None

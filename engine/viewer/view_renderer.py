@@ -14,8 +14,17 @@ from ..rendering.support_functions import support_of_scene
 from ..scene.lights import DirectionalLight
 from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
+from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .grid_lines import grid
 from .lighting import Lighting, OnlyLight, placed_light
+from .output_pictures import (
+    COVERAGE,
+    OUTPUT_MODES,
+    SPLIT_OUTPUTS,
+    paint,
+    split,
+    whole_pixel,
+)
 from .scene_bounds import turning_outline
 from .selection import CLICK_OUTPUTS
 from .settings import Settings
@@ -48,6 +57,10 @@ class ViewRenderer:
     ----------
     samples : int
         Samples per pixel of the frames to come.
+    split : bool
+        Whether frames show nine outputs side by side.
+    debug : str or None
+        What is drawn of culling; see `choose_debug`.
     stats : dict
         Of the last frame that was drawn while culling was not frozen.
     turned_up : str or None
@@ -75,6 +88,9 @@ class ViewRenderer:
         self.size = size
         self._culling_camera = None
         self.stats: dict = {}
+        self.split = False
+        self.debug: str | None = None
+        self._debug_camera = None
         self.screen_scale = 1
         self.turned_up: str | None = None
         self._renderers: dict[int, Renderer] = {}
@@ -240,6 +256,10 @@ class ViewRenderer:
     def draw(self, view: Viewpoint, time: float = 0.0, outputs=("color",)):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""
         frame = self._render(view, time, outputs)
+        if self.debug is not None:
+            draw_lines(frame, self._debug_lines(), self.text_scale(frame.canvas()))
+        if self.split:
+            split(frame, self.bounds, self.theme)
         if self.settings.axes or self.settings.metadata:
             self._draw_overlays(frame.canvas(), view)
         if self._culling_camera is None:
@@ -252,6 +272,8 @@ class ViewRenderer:
         """Return what the picture shows at a pixel, or None."""
         if not (0 <= x < self.size[0] and 0 <= y < self.size[1]):
             return None
+        if self.split:
+            x, y = whole_pixel(x, y, self.size)
         return self.viewed.scene.pick(self._render(view, time, CLICK_OUTPUTS), x, y)
 
     def _render(self, view: Viewpoint, time: float, outputs):
@@ -261,13 +283,23 @@ class ViewRenderer:
         self.lighting.follow(pose)
         if self.viewed.follow is not None:
             self.viewed.follow(pose[:3, 3])
-        return self.renderer.render(
+        camera, mode = self._camera(view), self.appearance.mode
+        if self.viewed.detail is not None:
+            self.viewed.detail(camera, pose, self.size)
+        if self.split:
+            outputs = (*outputs, *SPLIT_OUTPUTS)
+        elif mode in OUTPUT_MODES:
+            outputs = (*outputs, mode, COVERAGE)
+        frame = self.renderer.render(
             self.viewed.scene,
-            (self._camera(view), pose),
+            (camera, pose),
             culling_camera=self._culling_camera,
-            outputs=outputs,
+            outputs=tuple(dict.fromkeys(outputs)),
             **self.appearance.arguments(self.viewed.scene.background, self.point_size),
         )
+        if mode in OUTPUT_MODES and not self.split and "color" in outputs:
+            paint(frame, mode, self.bounds)
+        return frame
 
     @property
     def point_size(self) -> float:
@@ -288,6 +320,21 @@ class ViewRenderer:
         Meanwhile `stats` stay as they are, and no frames are reported.
         """
         self._culling_camera = None if view is None else (self._camera(view), view.pose())
+
+    def choose_debug(self, drawing: str | None, view: Viewpoint) -> None:
+        """Draw what culling works with: one of `debug_lines.DEBUG_DRAWINGS`.
+
+        A frustum is the one of this view, wherever it is seen from; but while culling is frozen it
+        is the one that culls.
+        """
+        self.debug = drawing
+        self._debug_camera = self._camera(view), view.pose()
+
+    def _debug_lines(self) -> list[Lines]:
+        scene, besides = self.viewed.scene, () if self._grid is None else (self._grid,)
+        if self.debug == "frustum":
+            return frustum_lines(*(self._culling_camera or self._debug_camera), self.size)
+        return (box_lines if self.debug == "boxes" else tree_lines)(scene, besides)
 
     def _draw_overlays(self, canvas, view: Viewpoint) -> None:
         from .overlay import draw_axes, draw_block

@@ -51,6 +51,9 @@ class ViewedScene:
         Fields of `Appearance` that this scene wants unless the user says otherwise.
     follow : callable or None
         Called with the camera's position, (3,) float64 in world space, before a frame.
+    detail : callable or None
+        Called with the camera, its pose and the picture's size before a frame, to choose levels of
+        detail.
     walker : callable or None
         Returns the `Walker` on the scene's ground, always the same; without it, walking is flying.
     gaze : (float, float)
@@ -81,6 +84,7 @@ class ViewedScene:
     focus: np.ndarray | None = None
     appearance: dict = field(default_factory=dict)
     follow: Callable[[np.ndarray], None] | None = None
+    detail: Callable[..., object] | None = None
     walker: Callable[[], Walker] | None = None
     gaze: tuple[float, float] = (0.0, 0.0)
     nearest: float = math.inf

@@ -207,11 +207,13 @@ class Viewer:
         view_renderer = self.view_renderer
         if self.statistics == "short":
             return [short_statistics(self.frame_times, view_renderer.stats)]
+        eye = ", ".join(f"{value:.4g}" for value in self.view.position())
         return statistics_lines(
             self.frame_times.seconds,
             view_renderer.size,
             view_renderer.samples,
             view_renderer.stats,
+            f"camera at {eye}",
         )
 
     def _update_title(self) -> None:

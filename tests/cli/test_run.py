@@ -42,7 +42,10 @@ def test_run_in_a_dummy_window_stops_after_its_frames(model, monkeypatch, capsys
 
 @pytest.mark.parametrize(
     "scene",
-    ["default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc", "city", "solar"],
+    [
+        *("default", "vertices", "edges", "faces", "cube", "shapes", "textured", "asc", "city"),
+        *("solar", "spheres", "lod", "parcels"),
+    ],
 )
 def test_every_scene_draws_something_that_moves(scene, tmp_path):
     path = tmp_path / "out.webp"

@@ -10,6 +10,7 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
+from engine3d.viewer.appearance import MODES
 from engine3d.viewer.keymap import BINDINGS
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer
@@ -206,7 +207,7 @@ def test_the_appearance_follows_the_keys():
     assert appearance.line_width == 2.0
     assert viewer.view.orthographic
     viewer, _ = play(key("M", shift=True))
-    assert viewer.view_renderer.appearance.mode == "overdraw"
+    assert viewer.view_renderer.appearance.mode == MODES[-1] == "material_id"
 
 
 def test_lights_go_round():

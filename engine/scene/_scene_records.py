@@ -11,7 +11,7 @@ from typing import Any
 from ..errors import InvalidArgumentError
 from ..loaders.documents import SceneRecord
 from ..loaders.json_values import JsonValue
-from ..loaders.scene_file import mesh_of
+from ..loaders.scene_tree import mesh_of
 from ..spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
 from .instances import InstancedMesh
 from .nodes import Node

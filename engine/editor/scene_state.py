@@ -13,18 +13,16 @@ from typing import Any
 import numpy as np
 
 from .._native.scene_graph import STATIC, VISIBLE
-from .._support.dirty_tracking import renew
-from .._support.validation import Closed
 from ..geometry.mesh import Mesh
 from ..materials.material import textures_of
 from ..scene.instances import InstancedMesh
 from ..scene.placements import Placements
 from ..scene.scene import Scene
 from ..spatial.colliders import MeshCollider
+from .contents import contents, kept, put_contents, same
 from .selection import topmost
 
 _SCENE_VALUES = ("background", "ambient", "light_clamp", "warnings")
-_DERIVED = {"version", "_derived", "_box_of", "_tree_of"}
 
 
 class SceneState:
@@ -42,7 +40,7 @@ class SceneState:
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
         self.nodes = scene.nodes
-        self._values = {name: _kept(getattr(scene, name)) for name in _SCENE_VALUES}
+        self._values = {name: kept(getattr(scene, name)) for name in _SCENE_VALUES}
         self._placements = Placements(scene, self.nodes)
         slots = np.array([node._slot for node in self.nodes], np.int64)
         columns = scene._arrays.columns
@@ -50,7 +48,7 @@ class SceneState:
         ids = np.append(columns["id"], -1)  # the last one is that of "none", -1
         self._links = [ids[columns[name][slots]].tolist() for name in ("parent", "next")]
         self._held = [(node.name, node._object, node._collider) for node in self.nodes]
-        self._things = {thing: _contents(thing) for thing in _reachable(self._held)}
+        self._things = {thing: contents(thing) for thing in _reachable(self._held)}
 
     def __eq__(self, other: object) -> bool:
         return (
@@ -60,9 +58,9 @@ class SceneState:
             and self._placements.same(other._placements)
             and self._flags.tobytes() == other._flags.tobytes()
             and self._links == other._links
-            and _same_items(self._held, other._held)
+            and same(self._held, other._held)
             and self._things.keys() == other._things.keys()
-            and all(_same(held, other._things[thing]) for thing, held in self._things.items())
+            and all(same(held, other._things[thing]) for thing, held in self._things.items())
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -71,17 +69,14 @@ class SceneState:
         """Make the scene what it was; nodes that are not in the state are removed."""
         scene = self._scene
         for name, value in self._values.items():
-            setattr(scene, name, _kept(value))
+            setattr(scene, name, kept(value))
         self._restore_nodes()
         self._link_nodes()
-        kept = set(self.nodes)
-        for node in topmost([node for node in scene.nodes if node not in kept]):
+        stay = set(self.nodes)
+        for node in topmost([node for node in scene.nodes if node not in stay]):
             scene.remove(node)
         for thing, held in self._things.items():
-            if not _same(_contents(thing), held):
-                thing.__dict__.update({key: _kept(value) for key, value in held.items()})
-                vars(thing).get("_derived", {}).clear()
-                renew(thing)
+            put_contents(thing, held)
         self._placements.put(scene)
         for node, flags, (name, obj, collider) in zip(
             self.nodes, self._flags.tolist(), self._held, strict=True
@@ -148,31 +143,3 @@ def _reachable(held: list[tuple]) -> Iterator[Any]:
         elif isinstance(thing, Mesh):
             for material in thing.materials:
                 todo += [material, *textures_of(material).values()]
-
-
-def _contents(thing: Closed) -> dict[str, Any]:
-    return {key: _kept(value) for key, value in vars(thing).items() if key not in _DERIVED}
-
-
-def _kept(value: Any) -> Any:
-    return type(value)(value) if type(value) in (list, dict) else value
-
-
-def _same(one: Any, other: Any) -> bool:
-    """Whether two values are the same; arrays if they are the same object or equal to the bit."""
-    if one is other:
-        return True
-    if type(one) is not type(other):
-        return False
-    if isinstance(one, dict):
-        return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
-    if isinstance(one, (list, tuple)):
-        return _same_items(one, other)
-    if isinstance(one, np.ndarray):
-        alike = one.dtype == other.dtype and one.shape == other.shape
-        return alike and one.tobytes() == other.tobytes()
-    return not isinstance(one, Closed) and one == other
-
-
-def _same_items(one: Any, other: Any) -> bool:
-    return len(one) == len(other) and all(map(_same, one, other))

@@ -10,6 +10,7 @@ from typing import Any
 from ..scene.cameras import Camera
 from ..scene.lights import PointLight
 from ..scene.nodes import Node
+from .contents import kept
 from .history import Command
 
 
@@ -37,7 +38,7 @@ class SetValues(Command):
         try:
             for thing in self._things:
                 for name, value in self._values.items():
-                    self._old.append((thing, name, _held(getattr(thing, name))))
+                    self._old.append((thing, name, kept(getattr(thing, name))))
                     setattr(thing, name, value)
                 check(thing)
         except BaseException:
@@ -63,11 +64,6 @@ def check(thing: Any) -> None:
         thing.projection(1, 1)
     elif isinstance(thing, PointLight):
         thing.check()
-
-
-def _held(value: Any) -> Any:
-    """A value that stays as it is: lists and dicts are copied."""
-    return type(value)(value) if type(value) in (list, dict) else value
 
 
 def _named(things: Sequence[Any]) -> str:

@@ -69,7 +69,7 @@ def read_scene_file(source: Source, split: bool = False) -> Document:
             warnings.add(f"{shown(key)} is not known")
     reading = _Reading(source, root, warnings)
     record = reading.record()
-    parts = shown_parts(record, source)
+    parts = [part for part in shown_parts(record, source) if len(part.mesh.positions)]
     objects = document_objects(source, parts, MAX_REPEATED + source.size, split) if parts else []
     if not (objects or split):
         raise FileFormatError("no vertices in this scene", source.path)

@@ -43,6 +43,7 @@ LISTS = ("textures", "materials", "objects", "nodes")
 # A node takes about a kilobyte, however little the file says of it.
 _NODES, _BYTES_OF_A_NODE = 20_000, 32
 _MAX_NAME = 4096
+_MAX_COPIES = 20_000
 _SIGNATURE = re.compile(rb'\A(?:\xef\xbb\xbf)?\s*\{\s*"format"\s*:\s*"engine3d scene"')
 _ARRAYS = {name.removeprefix("_given_") for name in Mesh([])._arrays}
 
@@ -98,7 +99,8 @@ class _Reading:
     def __init__(self, source: Source, root: JsonValue, warnings: WarningList) -> None:
         self._source, self._root, self._warnings = source, root, warnings
         self._files = LinkedFiles(source.folder)
-        self._meshes: dict[tuple, dict[Any, Mesh]] = {}
+        self._images: dict[str, Texture] = {}
+        self._meshes: dict[tuple, dict[Any, Mesh] | Exception] = {}
         self._given: dict[tuple, int] = {}  # how often each part was given out
         self._materials_of: dict[Mesh, list[Material]] = {}  # as they were read
         self._copies: dict[tuple[int, int], Material] = {}
@@ -119,7 +121,7 @@ class _Reading:
         if len(nodes) > _NODES + self._source.size // _BYTES_OF_A_NODE:
             raise root.error(f"{len(nodes)} nodes are more than the file can say something of")
         return SceneRecord(
-            root.get("scene") or JsonValue({}, self._source.path, "scene"),
+            root.get("scene") or JsonValue({}, self._source.path),
             self._materials,
             meshes,
             objects,
@@ -146,14 +148,23 @@ class _Reading:
 
     def _texture_of_file(self, file: JsonValue, options: dict[str, str]) -> Texture:
         name = file.text()
+        if name not in self._images:
+            self._images[name] = self._image(name, file)
+        image = self._images[name]
+        texture = Texture(image.pixels, **options)
+        texture._path, texture._is_missing = image._path, image._is_missing
+        return texture
+
+    def _image(self, name: str, file: JsonValue) -> Texture:
+        """The image of a file, or one that keeps its place, with a warning."""
         try:
             with self._files.read(self._files.find(name)) as source:
-                return texture_of(source, **options)
+                return texture_of(source)
         except (LinkedFileError, FileFormatError, OSError) as error:
             self._warnings.add(f"{file.where}: texture {shown(name)} is left out: {error}")
-        texture = Texture(np.full((1, 1, 3), 255, np.uint8), **options)
-        texture._path, texture._is_missing = self._place_of(name), True
-        return texture
+        image = Texture(np.full((1, 1, 3), 255, np.uint8))
+        image._path, image._is_missing = self._place_of(name), True
+        return image
 
     def _material(self, entry: JsonValue) -> Material:
         values = {key: held.value for key, held in entry.members().items()}
@@ -241,8 +252,14 @@ class _Reading:
         """A part of a file, or all of it; each file is read once, and each mesh given out once."""
         key = name, format, part is not None
         if key not in self._meshes:
-            self._meshes[key] = self._read(*key)
-        mesh = self._meshes[key].get(part)
+            try:
+                self._meshes[key] = self._read(*key)
+            except (LinkedFileError, FileFormatError, OSError) as error:
+                self._meshes[key] = error
+        found = self._meshes[key]
+        if isinstance(found, Exception):
+            raise found.with_traceback(None)
+        mesh = found.get(part)
         if mesh is None:
             raise LinkedFileError(f"it has no part {shown(part[0])} number {part[1]}")
         times = self._given[key, part] = self._given.get((key, part), -1) + 1
@@ -251,12 +268,17 @@ class _Reading:
     def _twin(self, mesh: Mesh, times: int) -> Mesh:
         """A mesh that is used once more: parts of a file share materials only if all are new."""
         twin = copy.copy(mesh)
-        twin.materials = [
-            self._copies.setdefault((id(material), times), copy.copy(material))
-            for material in self._materials_of[mesh]
-        ]
+        twin.materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
         twin._origin = mesh._origin
         return twin
+
+    def _material_copy(self, material: Material, times: int) -> Material:
+        key = id(material), times
+        if key not in self._copies:
+            if len(self._copies) >= _MAX_COPIES:
+                raise FileFormatError(f"more than {_MAX_COPIES} materials of repeated files")
+            self._copies[key] = copy.copy(material)
+        return self._copies[key]
 
     def _read(self, name: str, format: str | None, split: bool) -> dict[Any, Mesh]:
         with self._files.read(self._files.find(name)) as source:

@@ -182,3 +182,29 @@ def test_each_use_of_a_file_has_materials_of_its_own(folder):
     first, second = scene.nodes[1].object, scene.nodes[5].object
     assert first is not second and first.positions is second.positions
     assert first.materials != second.materials
+
+
+def test_files_are_read_once_however_often_they_are_named(folder, monkeypatch):
+    from engine3d.loaders import scene_file
+
+    reads = []
+    for name in ("document_of", "texture_of"):
+        read = getattr(scene_file, name)
+        monkeypatch.setattr(
+            scene_file, name, lambda *a, read=read, **k: reads.append(a[0].path) or read(*a, **k)
+        )
+    (folder / "damaged.obj").write_bytes(b"v 0 0 x\n")
+    tree = json.loads(FILES["a.json"])
+    tree["textures"] = [{"file": "house.tga", "name": f"{k}"} for k in range(50)]
+    tree["objects"] += [{"kind": "mesh", "file": "house.obj"}] * 50
+    tree["objects"] += [{"kind": "mesh", "file": "damaged.obj"}] * 50
+    (folder / "case.json").write_text(json.dumps(tree), encoding="ascii")
+    with pytest.warns(e3d.Engine3DWarning, match="damaged.obj"):
+        document = load_document(folder / "case.json")
+    assert sorted(path.rpartition("/")[2] for path in reads) == [
+        "damaged.obj", "house.obj", "house.obj", "house.tga",
+    ]  # fmt: skip
+    assert len({id(mesh.positions) for mesh in document.scene.meshes.values()}) < 60
+    monkeypatch.setattr(scene_file, "_MAX_COPIES", 10)
+    with pytest.warns(e3d.Engine3DWarning, match="more than 10 materials of repeated"):
+        e3d.load_scene(folder / "case.json")

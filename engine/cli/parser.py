@@ -60,6 +60,7 @@ def make_parser() -> Parser:
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
     _add_run(commands)
+    _add_edit(commands)
     _add_render(commands)
     _add_info(commands)
     _add_convert(commands)
@@ -68,7 +69,7 @@ def make_parser() -> Parser:
     _add_bench(commands)
     _add_completion(commands, parser)
     parser.commands = commands.choices
-    for name in ("run", "render", "info", "convert", "city"):
+    for name in ("run", "edit", "render", "info", "convert", "city"):
         options.add_quiet(commands.choices[name])
     return parser
 
@@ -84,6 +85,24 @@ def _add_run(commands) -> None:
     options.add_viewed_scene(command)
     options.add_run(command)
     _add_shared(command)
+
+
+def _add_edit(commands) -> None:
+    command = commands.add_parser(
+        "edit",
+        help="put a scene together in a window with panels",
+        description="Open the editor: a window with panels for the tree of nodes, the scene, what "
+        "nodes are made of, and a console. It needs pip install 'engine3d[editor]'.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_edit)
+    command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
+    command.add_argument(
+        "--resolution",
+        type=values.resolution,
+        metavar="WxH",
+        help="size of the window in pixels; 1600x900 by default",
+    )
 
 
 def _add_render(commands) -> None:
@@ -270,7 +289,7 @@ def _add_completion(commands, parser: Parser) -> None:
 
 def _missing_command():
     raise UsageError(
-        "say which command: run, render, info, convert, city, learn, bench or completion "
+        "say which command: run, edit, render, info, convert, city, learn, bench or completion "
         "(see engine3d --help)"
     )
 
@@ -279,6 +298,12 @@ def _load_run():
     from .run import run
 
     return run
+
+
+def _load_edit():
+    from .edit import edit
+
+    return edit
 
 
 def _load_render():

@@ -46,6 +46,11 @@ def draw_outline(frame, hit: RayHit, width: int = WIDTH) -> None:
     inside = frame.object_id == hit.node.id
     if isinstance(hit.node.object, InstancedMesh):
         inside &= frame.instance_id == hit.instance
+    outline_pixels(frame, inside, width)
+
+
+def outline_pixels(frame, inside: np.ndarray, width: int = WIDTH) -> None:
+    """Draw a line round pixels of a frame, (H, W) of bool."""
     rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))
     if not rows.size:
         return

@@ -1,0 +1,24 @@
+"""``engine3d edit``: a window with panels in which a scene is put together."""
+
+from __future__ import annotations
+
+import argparse
+
+from ..errors import Engine3DError
+
+
+def edit(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    from ..viewer.sdl import find_screen
+
+    find_screen()
+    try:
+        from ..editor.ui.editor_window import EditorWindow
+    except ImportError as error:
+        if error.name != "imgui_bundle":
+            raise
+        raise Engine3DError("the editor needs Dear ImGui: pip install 'engine3d[editor]'") from None
+    size = {"size": args.resolution} if args.resolution else {}
+    with EditorWindow(args.model or "", **size) as editor:
+        editor.run()
+    return 0

@@ -1,0 +1,92 @@
+"""What menus, keys and panels do to the selection: each is one step that can be undone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ... import primitives
+from ...scene.cameras import PerspectiveCamera
+from ...scene.lights import DirectionalLight, PointLight
+from ...scene.nodes import Node
+from ..gizmo import on_ground
+from ..node_commands import (
+    AddNodes,
+    DeleteNodes,
+    DuplicateNodes,
+    GroupNodes,
+    MoveNodes,
+    counted,
+)
+from ..value_commands import SetValues
+from .workspace import Workspace
+
+#: What can be added, by what menus call it.
+ADDED: dict[str, Callable[[], Any]] = {
+    "Empty": lambda: None,
+    "Box": primitives.box,
+    "Sphere": primitives.uv_sphere,
+    "Icosphere": primitives.icosphere,
+    "Cylinder": primitives.cylinder,
+    "Torus": primitives.torus,
+    "Plane": primitives.plane,
+    "Directional light": DirectionalLight,
+    "Point light": PointLight,
+    "Camera": PerspectiveCamera,
+}
+
+
+def add(workspace: Workspace, what: str, parent: Node | None = None) -> None:
+    """Add a node that holds something new, where the camera looks at, or below a node."""
+    name = what.lower()
+    place = (0.0, 0.0, 0.0) if parent is not None else workspace.view.target
+
+    def add_one(scene):
+        scene.add(ADDED[what](), name=name, parent=parent, translation=place)
+
+    workspace.do(AddNodes(workspace.scene, add_one, f"Add {name}"))
+    if parent is not None:
+        workspace.hierarchy.set_open(parent, True)
+
+
+def delete(workspace: Workspace) -> None:
+    """Delete the selected nodes."""
+    nodes = workspace.document.selection.nodes
+    if nodes:
+        workspace.do(DeleteNodes(workspace.scene, nodes))
+
+
+def duplicate(workspace: Workspace) -> None:
+    """Copy the selected nodes; the copies are selected."""
+    nodes = workspace.document.selection.nodes
+    if nodes:
+        workspace.do(DuplicateNodes(workspace.scene, nodes))
+
+
+def group(workspace: Workspace) -> None:
+    """Put the selected nodes under a new one."""
+    nodes = workspace.document.selection.nodes
+    if nodes:
+        workspace.do(GroupNodes(workspace.scene, nodes))
+
+
+def put_on_ground(workspace: Workspace) -> None:
+    """Let the selected nodes down on what is below them."""
+    nodes = workspace.document.selection.nodes
+    if nodes:
+        move = on_ground(workspace.scene, workspace.view.up)
+        workspace.do(MoveNodes(workspace.scene, nodes, move, counted("Put down", nodes)))
+
+
+def toggle_visible(workspace: Workspace) -> None:
+    """Hide the selected nodes, or show them again."""
+    nodes = workspace.document.selection.nodes
+    if nodes:
+        visible = not workspace.document.selection.active.visible
+        workspace.do(SetValues(nodes, {"visible": visible}))
+
+
+def select_all(workspace: Workspace) -> None:
+    """Select all nodes, or none if all are."""
+    selection, nodes = workspace.document.selection, workspace.scene.nodes
+    selection.set(() if len(selection) == len(nodes) else nodes)

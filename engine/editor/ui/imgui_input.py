@@ -1,0 +1,133 @@
+"""What a user does in a window, handed to Dear ImGui; and what ImGui asks of the window.
+
+In: events (`engine3d.events`). Out: ImGui's input; the pointer's shape, the clipboard.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from ... import events
+from ...viewer.window import Window
+
+_BUTTONS = {"left": 0, "right": 1, "middle": 2}
+_NAMES = {
+    "Return": "enter",
+    "Keypad Enter": "keypad_enter",
+    "Left": "left_arrow",
+    "Right": "right_arrow",
+    "Up": "up_arrow",
+    "Down": "down_arrow",
+    "PageUp": "page_up",
+    "PageDown": "page_down",
+    "CapsLock": "caps_lock",
+    "'": "apostrophe",
+    ",": "comma",
+    "-": "minus",
+    ".": "period",
+    "/": "slash",
+    ";": "semicolon",
+    "=": "equal",
+    "[": "left_bracket",
+    "\\": "backslash",
+    "]": "right_bracket",
+    "`": "grave_accent",
+    "Keypad .": "keypad_decimal",
+    "Keypad /": "keypad_divide",
+    "Keypad *": "keypad_multiply",
+    "Keypad -": "keypad_subtract",
+    "Keypad +": "keypad_add",
+}
+_SAME = ("Space", "Escape", "Tab", "Backspace", "Insert", "Delete", "Home", "End")
+_MODIFIERS = {
+    "Left Ctrl": ("left_ctrl", "mod_ctrl"),
+    "Right Ctrl": ("right_ctrl", "mod_ctrl"),
+    "Left Shift": ("left_shift", "mod_shift"),
+    "Right Shift": ("right_shift", "mod_shift"),
+    "Left Alt": ("left_alt", "mod_alt"),
+    "Right Alt": ("right_alt", "mod_alt"),
+}
+
+
+def _keys() -> dict[str, imgui.Key]:
+    """ImGui's keys by the names of ours."""
+    names = dict(_NAMES)
+    names.update({name: name.lower() for name in _SAME})
+    names.update({letter: letter.lower() for letter in "ABCDEFGHIJKLMNOPQRSTUVWXYZ"})
+    names.update({digit: f"_{digit}" for digit in "0123456789"})
+    names.update({f"Keypad {digit}": f"keypad{digit}" for digit in "0123456789"})
+    names.update({f"F{number}": f"f{number}" for number in range(1, 13)})
+    names.update({name: key for name, (key, _) in _MODIFIERS.items()})
+    return {name: getattr(imgui.Key, key) for name, key in names.items()}
+
+
+class ImguiInput:
+    """Feeds the current ImGui context from a window.
+
+    Parameters
+    ----------
+    window : Window
+    """
+
+    def __init__(self, window: Window) -> None:
+        self._window = window
+        self._keys = _keys()
+        self._pointer = ""
+        shapes = imgui.MouseCursor_
+        self._shapes = {
+            int(shapes.none): None,
+            int(shapes.text_input): "text",
+            int(shapes.resize_all): "size_all",
+            int(shapes.resize_ns): "size_ns",
+            int(shapes.resize_ew): "size_we",
+            int(shapes.resize_nesw): "size_nesw",
+            int(shapes.resize_nwse): "size_nwse",
+            int(shapes.hand): "hand",
+            int(shapes.wait): "wait",
+            int(shapes.progress): "working",
+            int(shapes.not_allowed): "no",
+        }
+        imgui.get_io().backend_flags |= imgui.BackendFlags_.has_mouse_cursors
+        platform = imgui.get_platform_io()
+        platform.platform_get_clipboard_text_fn = lambda context: window.clipboard
+        platform.platform_set_clipboard_text_fn = self._copy
+
+    def _copy(self, context, text: str) -> None:
+        self._window.clipboard = text
+
+    def feed(self, event) -> None:
+        """Hand one event to ImGui."""
+        io = imgui.get_io()
+        if isinstance(event, events.MouseMotion):
+            io.add_mouse_pos_event(event.x, event.y)
+        elif isinstance(event, events.MouseButton):
+            io.add_mouse_pos_event(event.x, event.y)
+            io.add_mouse_button_event(_BUTTONS[event.button], event.down)
+        elif isinstance(event, events.Wheel):
+            io.add_mouse_wheel_event(0.0, event.steps)
+        elif isinstance(event, events.MouseLeft):
+            if not any(imgui.is_mouse_down(button) for button in _BUTTONS.values()):
+                io.add_mouse_pos_event(-1e30, -1e30)
+        elif isinstance(event, events.TextEntered):
+            io.add_input_characters_utf8(event.text)
+        elif isinstance(event, events.KeyDown | events.KeyUp):
+            self._feed_key(io, event, isinstance(event, events.KeyDown))
+        elif isinstance(event, events.FocusLost):
+            io.add_focus_event(False)
+
+    def _feed_key(self, io, event, down: bool) -> None:
+        if isinstance(event, events.KeyDown):  # which tells also what was pressed elsewhere
+            io.add_key_event(imgui.Key.mod_ctrl, event.control)
+            io.add_key_event(imgui.Key.mod_shift, event.shift)
+        if event.position in _MODIFIERS:
+            io.add_key_event(getattr(imgui.Key, _MODIFIERS[event.position][1]), down)
+        key = self._keys.get(event.key) or self._keys.get(event.position)
+        if key is not None:
+            io.add_key_event(key, down)
+
+    def follow_pointer(self) -> None:
+        """Give the pointer the shape that ImGui asks for."""
+        shape = self._shapes.get(int(imgui.get_mouse_cursor()), "arrow")
+        if shape != self._pointer:
+            self._window.show_pointer(shape)
+            self._pointer = shape

@@ -1,0 +1,207 @@
+"""What the panels share: the document, the camera, how the scene is shown.
+
+In: what panels do. Out: the same for all panels. Nothing here draws.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Hashable
+
+import numpy as np
+
+from ...choices import Mode
+from ...errors import Engine3DError
+from ...loaders import load_texture
+from ...materials.material import Material
+from ...scene.nodes import Node
+from ...scene.scene import Scene
+from ...viewer.orbit import OrbitController
+from ...viewer.scene_bounds import bounding_sphere
+from ...viewer.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from ..autosave import Autosave, Recovery
+from ..console import Console
+from ..document import SceneDocument
+from ..dropping import drop_file
+from ..hierarchy import Hierarchy
+from ..history import Command
+from ..recent_files import RecentFiles
+from ..resource_list import ResourceList
+from ..value_commands import SetValues
+
+#: Formats whose files say that +Z is up, as in the viewer.
+_Z_UP = (".asc", ".stl")
+
+
+class Workspace:
+    """A document being edited, and how it is looked at.
+
+    Attributes
+    ----------
+    document : SceneDocument
+    hierarchy : Hierarchy
+    view : Viewpoint
+    orbit : OrbitController
+    mode : Mode
+    wireframe : bool
+    tool : str
+        ``"select"``, ``"move"``, ``"turn"`` or ``"scale"``.
+    is_local : bool
+        Whether tools work along the axes of the node.
+    snaps : bool
+    aspect : float
+        Width over height of the picture.
+    changes : int
+        Grows whenever something was done that may show.
+    resources : ResourceList
+    recent : RecentFiles
+    wants_exit : bool
+        Whether the editor is to close.
+    """
+
+    def __init__(self) -> None:
+        self.mode: Mode = "lit"
+        self.wireframe = False
+        self.tool = "select"
+        self.is_local = False
+        self.snaps = False
+        self.aspect = 16 / 9
+        self.changes = 0
+        self.wants_exit = False
+        self.recent = RecentFiles()
+        self._drags = 0
+        self._autosave: Autosave | None = None
+        self._take(SceneDocument())
+
+    def _take(self, document: SceneDocument) -> None:
+        if self._autosave is not None:
+            self._autosave.discard()
+        self.document = document
+        self._autosave = Autosave(document)
+        self.hierarchy = Hierarchy(document.scene)
+        self.resources = ResourceList(document.scene)
+        self.view = Viewpoint(np.zeros(3), 10.0)
+        self.orbit = OrbitController(self.view)
+        self._bounds: tuple[tuple, Sphere] | None = None
+        self.frame(())
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that is edited."""
+        return self.document.scene
+
+    @property
+    def console(self) -> Console:
+        """The log, which goes on from document to document."""
+        return self.document.console
+
+    def new(self) -> None:
+        """Begin with an empty scene."""
+        self._take(SceneDocument(console=self.console))
+
+    def open(self, path: str) -> bool:
+        """Edit a file's scene; where that fails the console tells why."""
+        try:
+            document = SceneDocument.open(path, console=self.console)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        self._take(document)
+        self.recent.add(path)
+        if path.lower().endswith(_Z_UP):
+            self.view.up = UP_DIRECTIONS["+Z"]
+            self.frame(())
+        return True
+
+    def recover(self, copy: Recovery) -> None:
+        """Edit what an editor left behind when it ended without a word."""
+        try:
+            document = SceneDocument.recover(copy, console=self.console)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return
+        self._take(document)
+
+    def add_file(self, path: str, onto: Node | None = None) -> bool:
+        """Add a model to the scene, or paint a node with an image; the console tells what fails."""
+        try:
+            with self.console.warnings_noted():
+                command = drop_file(self.scene, path, onto=onto)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        self.recent.add(path)
+        return self.do(command)
+
+    def load_texture(self, path: str, material: Material, slot: str) -> bool:
+        """Make an image a texture of a material; where that fails the console tells why."""
+        try:
+            texture = load_texture(path)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        label = f"Load {os.path.basename(path)}"
+        return self.do(SetValues([material], {slot: texture}, label))
+
+    def save(self, path: str | None = None, *, overwrite: bool = False) -> bool:
+        """Save the scene; where that fails the console tells why."""
+        saved = self.document.save(path, overwrite=overwrite)
+        if saved and self.document.path is not None:
+            self.recent.add(self.document.path)
+        return saved
+
+    def tick(self) -> None:
+        """Keep a copy of what is not saved, if one is due; to be called often."""
+        self._autosave.tick()
+
+    def close(self) -> None:
+        """Give up what is not saved, and the copy of it."""
+        self._autosave.discard()
+
+    def do(self, command: Command, *, drag: Hashable = None) -> bool:
+        """Do a command of the document."""
+        self.changes += 1
+        return self.document.do(command, drag=drag)
+
+    def undo(self) -> None:
+        """Undo the last step."""
+        self.changes += 1
+        self.document.undo()
+
+    def redo(self) -> None:
+        """Do again what was undone."""
+        self.changes += 1
+        self.document.redo()
+
+    def run(self, line: str) -> None:
+        """Run a line of Python on the scene."""
+        self.changes += 1
+        self.document.prompt.push(line)
+
+    def next_drag(self) -> int:
+        """Return what the commands of one movement of the mouse have in common."""
+        self._drags += 1
+        return self._drags
+
+    @property
+    def bounds(self) -> Sphere:
+        """A sphere round all that is visible, found when something changed."""
+        key = self.changes, self.scene._arrays.changes
+        if self._bounds is None or self._bounds[0] != key:
+            self._bounds = key, bounding_sphere(self.scene)
+        return self._bounds[1]
+
+    def frame(self, nodes: tuple[Node, ...]) -> None:
+        """Look at some nodes, or at the whole scene."""
+        boxes = [_corners(node.bounds) for node in nodes if node.bounds is not None]
+        boxes += [node.world_pose[:3, 3][None] for node in nodes]
+        points = np.concatenate(boxes or [_corners(self.scene.bounds)])
+        if (points.max(axis=0) == points.min(axis=0)).all():  # a light, or nothing at all
+            points = _corners(points[0] + np.array([[-1.0], [1.0]]) * np.ones(3))
+        self.view.frame(points, self.aspect)
+        self.changes += 1
+
+
+def _corners(box: np.ndarray) -> np.ndarray:
+    """The eight corners of a box, (2, 3): (8, 3)."""
+    return box[np.indices((2, 2, 2)).reshape(3, -1).T, np.arange(3)]

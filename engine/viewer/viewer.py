@@ -129,8 +129,7 @@ class Viewer:
         rests = self.sampling.until_rest() <= 0.0
         drawn = (self.changed or rests) and self.running and not self.window.minimised
         if drawn:
-            in_motion = self.sampling.in_motion() if self.changed else self.sampling.at_rest()
-            self.draw(in_motion)
+            self.draw(self.sampling.in_motion() if self.changed else self.sampling.at_rest())
         self._update_title()
         return drawn
 
@@ -190,7 +189,8 @@ class Viewer:
         scale = self.view_renderer.text_scale(canvas)
         look = {"scale": scale, "theme": self.view_renderer.theme}
         if self.selected is not None:
-            draw_outline(self.frame, self.selected, WIDTH * scale)
+            if not self.view_renderer.split:
+                draw_outline(self.frame, self.selected, WIDTH * scale)
             draw_block(canvas, self._selection(), corner="bottom right", **look)
         if self.show_help:
             self.help_pages = draw_help(canvas, self.help_page, **look)

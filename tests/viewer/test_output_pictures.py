@@ -8,6 +8,7 @@ import engine3d as e3d
 from engine3d import events
 from engine3d.viewer.debug_lines import BOX, FRUSTUM, LEVELS, frustum_lines, tree_lines
 from engine3d.viewer.output_pictures import OUTPUT_MODES, SPLIT, picture_of, whole_pixel
+from engine3d.viewer.selection import OUTLINE
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer
 from engine3d.viewer.viewed_scene import ViewedScene
@@ -85,6 +86,8 @@ def test_nine_outputs_stand_side_by_side(viewer):
     x, y = (int(part) // 3 for part in frame.project((-1.2, 0, 0))[0])
     viewer.select(x + 200, y + 80)
     assert viewer.selected.node.name == "left"
+    viewer.draw()
+    assert not (viewer.frame.color == OUTLINE).all(axis=2).any()
     viewer.handle(events.KeyDown("S", "S"))
     viewer.selected, viewer.messages.said = None, ""
     viewer.draw()

@@ -16,6 +16,8 @@ from ..errors import DisplayError
 SCREENLESS_DRIVERS = ("offscreen", "dummy", "evdev")
 USUAL_DPI = 96.0
 PLAUSIBLE_DPI = 50.0, 400.0
+#: What ``GDK_SCALE`` may sensibly say.
+TOLD_SCALES = frozenset("1234")
 USUAL_REFRESH_RATE = 60
 GL_RENDERER = 0x1F01
 #: Part of the names under which OpenGL draws without a graphics card.
@@ -78,13 +80,17 @@ def refresh_rate(sdl, window) -> int:
 def screen_scale(sdl, window) -> int:
     """Return how many times finer than usual a window's screen is; 1 where it is unknown.
 
-    Only X11 leaves it to programs to draw larger on such a screen.
+    Only X11 leaves it to programs to draw larger on such a screen. What the user told other
+    programs there (``GDK_SCALE``) counts before what the screen says of itself.
     """
     import ctypes
 
     dpi = ctypes.c_float()
     if sdl.SDL_GetCurrentVideoDriver() != b"x11":
         return 1
+    told = os.environ.get("GDK_SCALE", "")
+    if told in TOLD_SCALES:
+        return int(told)
     screen = sdl.SDL_GetWindowDisplayIndex(window)
     if sdl.SDL_GetDisplayDPI(screen, ctypes.byref(dpi), None, None) != 0:
         return 1

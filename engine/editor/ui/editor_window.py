@@ -139,6 +139,9 @@ class EditorWindow:
         self.window.present(self._pixels)
         if self._resources.is_waiting or self._scene.is_flying:
             self._pictures_due = max(self._pictures_due, 1)
+        # ImGui takes no key or button both down and up in one picture: the rest waits for the next.
+        if not self._context.input_events_queue.empty():
+            self._pictures_due = SETTLING
         if self.window.title != self._title():
             self.window.title = self._title()
 

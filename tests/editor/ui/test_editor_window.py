@@ -198,6 +198,20 @@ def test_keys_duplicate_delete_and_undo(editor):
     assert len(scene.nodes) == count + 1 and workspace.document.is_modified
 
 
+def test_keys_that_come_at_once_count_one_after_the_other(editor):
+    nodes = editor.workspace.scene.nodes
+    name = "Left Ctrl"
+    for key in "AQAQ":
+        editor._take(events.KeyDown(name, name, False, True))
+        editor._take(events.KeyDown(key, key, False, True))
+        editor._take(events.KeyUp(key, key))
+        editor._take(events.KeyUp(name, name))
+    while editor._pictures_due:
+        editor.turn(0.0)
+    assert editor.workspace.wants_exit
+    assert len(nodes) > 1 and editor.workspace.document.selection.nodes == ()
+
+
 def test_f2_renames(editor):
     cab = find(editor, "Cab")
     editor.workspace.document.selection.set([cab])

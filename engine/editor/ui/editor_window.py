@@ -7,6 +7,7 @@ a few more until everything has settled; then the loop sleeps.
 from __future__ import annotations
 
 import time
+import traceback
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +66,9 @@ class EditorWindow:
         io = imgui.get_io()
         io.config_flags |= imgui.ConfigFlags_.docking_enable
         io.config_flags |= imgui.ConfigFlags_.nav_enable_keyboard
+        # What a panel that failed has left open is closed: see `_draw_panel`.
+        io.config_error_recovery_enable_assert = False
+        io.config_error_recovery_enable_debug_log = False
         io.set_ini_filename("")
         choose_style(self.window.scale)
         self._painter = ImguiPainter()
@@ -83,6 +87,7 @@ class EditorWindow:
         self._files.offer_recovery()
         self._entries = entries(self.workspace, self._files, hierarchy)
         self._pixels = np.zeros((1, 1, 4), np.uint8)
+        self._told: set[str] = set()
         self._last = time.monotonic()
         self._has_layout = self._load_layout()
         self._pictures_due = SETTLING
@@ -132,7 +137,11 @@ class EditorWindow:
         self._painter.draw(imgui.get_draw_data(), self._pixels)
         self._input.follow_pointer()
         self.window.present(self._pixels)
-        self._pictures_due += self._resources.is_waiting and not self._pictures_due
+        if self._resources.is_waiting or self._scene.is_flying:
+            self._pictures_due = max(self._pictures_due, 1)
+        # ImGui takes no key or button both down and up in one picture: the rest waits for the next.
+        if not self._context.input_events_queue.empty():
+            self._pictures_due = SETTLING
         if self.window.title != self._title():
             self.window.title = self._title()
 
@@ -146,10 +155,22 @@ class EditorWindow:
         if not self._has_layout:
             place_panels(space, self.window.size)
             self._has_layout = True
-        for panel in self._panels:
-            panel.draw()
-        self._files.draw()
+        for panel in (*self._panels, self._files):
+            self._draw_panel(panel)
         press_keys(self._entries)
+
+    def _draw_panel(self, panel) -> None:
+        """Lay a panel out; an error of it is told, since what isn't saved must not be lost."""
+        state = imgui.internal.ErrorRecoveryState()
+        imgui.internal.error_recovery_store_state(state)
+        try:
+            panel.draw()
+        except Exception as error:
+            imgui.internal.error_recovery_try_to_recover_state(state)
+            text = "".join(traceback.format_exception(error))
+            if text not in self._told:
+                self._told.add(text)
+                self.workspace.console.write("error", text)
 
     def _load_layout(self) -> bool:
         try:

@@ -31,6 +31,10 @@ TOOLS = {"select": "Q", "move": "W", "turn": "E", "scale": "R"}
 #: What a step of each tool is when it snaps: world units, degrees, factors.
 STEPS = {"move": 0.25, "turn": 15.0, "scale": 0.1}
 MOST_SIDE = 8192
+#: Keys that move the camera while the right button is held: along which of its axes, which way.
+FLYING = {"w": (2, -1), "s": (2, 1), "a": (0, -1), "d": (0, 1), "q": (1, -1), "e": (1, 1)}
+#: Radii of the scene a second, and the longest time that one picture may take of it.
+FLYING_SPEED, LONGEST_STEP = 0.5, 0.1
 RECTANGLE = (1.0, 0.7, 0.2, 0.9)
 
 
@@ -42,6 +46,11 @@ class ScenePanel:
     workspace : Workspace
     painter : ImguiPainter
         Shows the picture.
+
+    Attributes
+    ----------
+    is_flying : bool
+        Whether keys move the camera: the next picture is another one.
     """
 
     def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
@@ -56,6 +65,7 @@ class ScenePanel:
         self._is_hovered = False
         self._pressed: tuple[float, float] | None = None
         self._drag: int | None = None
+        self.is_flying = False
 
     def close(self) -> None:
         """Free the renderer."""
@@ -180,14 +190,18 @@ class ScenePanel:
             at = io.mouse_pos.x - corner.x, io.mouse_pos.y - corner.y
             orbit.dolly(io.mouse_wheel, at, size)
         held = [imgui.is_mouse_down(button) for button in range(3)]
+        self.is_flying = False
         # A press counts from the next picture on: what moved before it turns nothing.
-        if self._pressed is not None and (held[1] or held[2] or (io.key_alt and held[0])):
+        if self._pressed is not None and held[1]:
+            self._fly(io, size[1])
+        elif self._pressed is not None and (held[2] or (io.key_alt and held[0])):
             self._drag_camera(io, size[1])
         if hovered and any(imgui.is_mouse_clicked(button) for button in range(3)):
             self._pressed = io.mouse_pos.x, io.mouse_pos.y
             imgui.set_window_focus()
 
     def _drag_camera(self, io, height: int) -> None:
+        """Turn the camera around what it looks at, move it with Shift, approach with Ctrl."""
         orbit = self._workspace.orbit
         dx, dy = io.mouse_delta.x, io.mouse_delta.y
         if io.key_shift:
@@ -196,6 +210,21 @@ class ScenePanel:
             orbit.dolly_drag(dy)
         else:
             orbit.rotate(dx, dy, height)
+
+    def _fly(self, io, height: int) -> None:
+        """Look around from where the camera is, and move it by keys."""
+        workspace = self._workspace
+        view, position = workspace.view, workspace.view.position()
+        workspace.orbit.rotate(io.mouse_delta.x / 2, io.mouse_delta.y / 2, height)
+        axes = view.rotation()
+        step = np.zeros(3)
+        for key, (axis, sign) in FLYING.items():
+            if imgui.is_key_down(getattr(imgui.Key, key)):
+                step += sign * axes[:, axis]
+                self.is_flying = True
+        speed = FLYING_SPEED * workspace.bounds.radius * (4.0 if io.key_shift else 1.0)
+        seconds = min(io.delta_time, LONGEST_STEP)
+        view.target = position - axes[:, 2] * view.distance + step * speed * seconds
 
     def _select(self, corner) -> None:
         """Select what was clicked at, or what a rectangle holds."""

@@ -164,6 +164,23 @@ def test_the_middle_button_turns_the_camera_and_the_wheel_approaches(editor):
     assert view.distance < distance
 
 
+def test_the_right_button_looks_around_and_keys_fly(editor):
+    view = editor.workspace.view
+    x, y = scene_corner(editor)
+    position, target = view.position(), view.target.copy()
+    drag(editor, "right", (x + 90, y + 90), (x + 130, y + 80))
+    assert np.allclose(view.position(), position) and not np.allclose(view.target, target)
+    ahead = -view.rotation()[:, 2]
+    position = view.position()
+    do(editor, events.MouseButton("right", True, x=x + 90, y=y + 90))
+    do(editor, events.KeyDown("W", "W"))
+    assert editor._scene.is_flying and editor._pictures_due
+    do(editor, events.KeyUp("W", "W"), events.MouseButton("right", False, x=x + 90, y=y + 90))
+    moved = view.position() - position
+    assert np.allclose(moved / np.linalg.norm(moved), ahead)
+    assert editor.workspace.tool == "select"
+
+
 def test_keys_duplicate_delete_and_undo(editor):
     scene, workspace = editor.workspace.scene, editor.workspace
     count = len(scene.nodes)
@@ -179,6 +196,20 @@ def test_keys_duplicate_delete_and_undo(editor):
     assert len(scene.nodes) == count and not workspace.document.is_modified
     press(editor, "Z", control=True, shift=True)
     assert len(scene.nodes) == count + 1 and workspace.document.is_modified
+
+
+def test_keys_that_come_at_once_count_one_after_the_other(editor):
+    nodes = editor.workspace.scene.nodes
+    name = "Left Ctrl"
+    for key in "AQAQ":
+        editor._take(events.KeyDown(name, name, False, True))
+        editor._take(events.KeyDown(key, key, False, True))
+        editor._take(events.KeyUp(key, key))
+        editor._take(events.KeyUp(name, name))
+    while editor._pictures_due:
+        editor.turn(0.0)
+    assert editor.workspace.wants_exit
+    assert len(nodes) > 1 and editor.workspace.document.selection.nodes == ()
 
 
 def test_f2_renames(editor):
@@ -344,6 +375,21 @@ def test_every_kind_of_collider_fits_a_mesh(editor):
     workspace = editor.workspace
     workspace.document.selection.set([cab])
     settle(editor)
+
+
+def test_an_error_of_a_panel_is_told_and_the_editor_goes_on(editor, monkeypatch):
+    def fail(self, *arguments):
+        raise ZeroDivisionError("planted")
+
+    name = "engine3d.editor.ui.hierarchy_panel.HierarchyPanel._draw_name"
+    with monkeypatch.context() as patched:
+        patched.setattr(name, fail)
+        settle(editor)
+    errors = [entry.text for entry in editor.workspace.console.filtered(["error"], "planted")]
+    assert errors[-1] == "ZeroDivisionError: planted"
+    settle(editor)
+    click(editor, *row_of(editor, find(editor, "Base")))
+    assert editor.workspace.document.selection.active.name == "Base"
 
 
 def test_places_of_panels_are_kept(editor):

@@ -25,10 +25,8 @@ def barycentric(corners, x, y):
 
 def mix(weights, values):
     """Return the weighted sum of the corners' values, number by number."""
-    return [
-        sum(w * v for w, v in zip(weights, parts, strict=True))
-        for parts in zip(*values, strict=True)
-    ]
+    first, second, third = weights
+    return [first * a + second * b + third * c for a, b, c in zip(*values, strict=True)]
 
 
 def nearest_texel(texture, u, v):

@@ -62,7 +62,7 @@ def draw_polygon(picture, polygon, corrected):
                 weights = texture_of.barycentric(places, x + 0.5, y + 0.5)
                 if corrected:
                     over_z = [w * place[2] for w, place in zip(weights, places, strict=True)]
-                    total = sum(over_z) or 1.0  # 0 only where corners are behind the eye
+                    total = over_z[0] + over_z[1] + over_z[2] or 1.0  # 0: corners behind the eye
                     weights = [w / total for w in over_z]
                 picture[y, x] = checker(*texture_of.mix(weights, [c[3:] for c in three]))
 

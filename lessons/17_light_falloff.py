@@ -17,12 +17,16 @@ COLORED = (
 )
 
 
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
 def illuminance(point, normal, light, intensity):
     """Return E = I / d^2 cos t: what a point of a surface gets from a light."""
     to_light = [light[k] - point[k] for k in range(3)]
-    squared = sum(part * part for part in to_light)
+    squared = dot(to_light, to_light)
     distance = math.sqrt(squared)
-    cosine = sum(n * part for n, part in zip(normal, to_light, strict=True)) / distance
+    cosine = dot(normal, to_light) / distance
     return intensity / squared * max(0.0, cosine)
 
 

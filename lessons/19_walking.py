@@ -41,15 +41,19 @@ def cross(a, b):
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
 def unit(v):
-    length = math.sqrt(sum(part * part for part in v))
+    length = math.sqrt(dot(v, v))
     return [part / length for part in v]
 
 
 def to_camera(point, eye, axes):
     """Return a point of the world in the camera's axes: three scalar products."""
     away = [p - e for p, e in zip(point, eye, strict=True)]
-    return [sum(a * b for a, b in zip(axis, away, strict=True)) for axis in axes]
+    return [dot(axis, away) for axis in axes]
 
 
 def sample_ground(x, z):

@@ -137,8 +137,8 @@ def statistics_lines(seconds: float, size, samples: int, stats: dict, place: str
         tabled = set()
     entries = []
     for name, value in stats.items():
-        if name in tabled:
-            continue
+        if name in tabled or name == "plan":
+            continue  # what the plan names is for those who change the rasteriser
         text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
         entries.append(f"{name.replace('_', ' '):<19}{text:>11}")
     return lines + _in_two_columns(entries)

@@ -24,6 +24,8 @@ ACCEPTED = {
     "ColorSpace": colors.COLOR_SPACES,
     "Samples": _SAMPLES,
     "Mode": native.MODES,
+    # The other outputs are shown by modes: colours by those that colour, both depths by "depth".
+    "OutputMode": {*frame.OUTPUTS} - {*native.MODES, "color", "ndc_depth"},
     "Wireframe": [name for name in native.WIREFRAMES if name is not None],
     "Cull": native.CULLS,
     "Shading": native.SHADINGS,

@@ -111,11 +111,12 @@ def test_axes_point_where_the_camera_sees_them():
 
 
 def test_statistics_name_the_rate_and_every_counter():
-    lines = statistics_lines(0.02, (320, 200), 4, {"triangles": 12, "ms_total": 1.5})
-    text = "\n".join(lines)
+    stats = {"triangles": 12, "ms_total": 1.5, "plan": ("colors",)}
+    text = "\n".join(statistics_lines(0.02, (320, 200), 4, stats))
     assert "50.0 frames/s" in text
     assert "320x200, 4 samples" in text
     assert "triangles" in text and "12" in text and "1.500" in text
+    assert "plan" not in text
     assert "0.0 frames/s" in statistics_lines(0.0, (1, 1), 1, {})[0]
 
 
@@ -220,7 +221,7 @@ def test_the_table_of_counts_is_that_of_the_frame():
         names = (what, f"{what}_in_frustum", f"{what}_unoccluded", f"{what}_drawn")
         assert table[what] == [f"{stats[name]:,}" for name in names]
     assert any(line.split()[:2] == ["draws", "3"] for line in lines[6:])
-    entries = [name for name in frame.stats if name not in stats or name == "draws"]
+    entries = {*frame.stats} - {*stats, "plan"} | {"draws"}
     shown = "\n".join(lines[6:])
     assert all(name.replace("_", " ") + " " in shown for name in entries)
     assert not any("in frustum" in line for line in lines[6:])

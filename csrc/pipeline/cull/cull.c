@@ -127,8 +127,8 @@ static int sort_candidates(e3d_cull_memory *memory, int32_t threads, int64_t tas
         return 0;
     e3d_candidate *out = memory->candidates.data;
     for (int64_t t = 0; t < task_count; t++) {
-        const e3d_candidate *candidates = (const e3d_candidate *)memory->of[tasks[t].worker]->candidates.data + tasks[t].first;
-        for (int32_t i = 0; i < tasks[t].count; i++)
+        const e3d_candidate *candidates = memory->of[tasks[t].worker]->candidates.data; /* NULL: it never had any */
+        for (size_t i = tasks[t].first; i < tasks[t].first + (size_t)tasks[t].count; i++)
             out[start[bucket_of(candidates[i].view.near)]++] = candidates[i];
     }
     memory->candidates.count = total;

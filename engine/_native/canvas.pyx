@@ -35,6 +35,9 @@ cdef int check_columns(const double[:, ::1] positions, Py_ssize_t columns) excep
     return 0
 
 
+include "picture_memory.pxi"
+
+
 cdef class Surface:
     """A framebuffer to draw on; keeps its pixels alive."""
 
@@ -42,19 +45,8 @@ cdef class Surface:
     cdef e3d_canvas canvas
 
     def __cinit__(self, uint8_t[:, :, :] pixels not None):
-        if pixels.shape[2] != 4:
-            raise ValueError(f"a pixel has 4 bytes, not {pixels.shape[2]}")
-        if pixels.shape[0] > E3D_CANVAS_MAX_SIDE or pixels.shape[1] > E3D_CANVAS_MAX_SIDE:
-            raise ValueError(f"a side is longer than {E3D_CANVAS_MAX_SIDE} pixels")
-        if pixels.strides[2] != 1 or (pixels.strides[1] != 4 and pixels.shape[1] > 1):
-            raise ValueError("the pixels of a row are not contiguous")
+        take_picture(pixels, E3D_CANVAS_MAX_SIDE, &self.canvas)
         self.pixels = pixels
-        self.canvas.height = <int>pixels.shape[0]
-        self.canvas.width = <int>pixels.shape[1]
-        self.canvas.stride = pixels.strides[0]
-        self.canvas.pixels = NULL
-        if pixels.shape[0] > 0 and pixels.shape[1] > 0:
-            self.canvas.pixels = &pixels[0, 0, 0]
 
     def clear(self, const uint8_t[::1] color not None):
         cdef e3d_rgba native_color = rgba(color)

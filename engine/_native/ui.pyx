@@ -68,19 +68,7 @@ cdef class NativeTextures:
             natives[k] = one.texture
 
 
-cdef int take_picture(uint8_t[:, :, :] pixels, e3d_canvas *picture) except -1:
-    if pixels.shape[2] != 4:
-        raise ValueError(f"a pixel has 4 bytes, not {pixels.shape[2]}")
-    if pixels.shape[0] > E3D_UI_MAX_SIDE or pixels.shape[1] > E3D_UI_MAX_SIDE:
-        raise ValueError(f"a side is longer than {E3D_UI_MAX_SIDE} pixels")
-    if pixels.strides[2] != 1 or (pixels.strides[1] != 4 and pixels.shape[1] > 1):
-        raise ValueError("the pixels of a row are not contiguous")
-    picture.height, picture.width = <int>pixels.shape[0], <int>pixels.shape[1]
-    picture.stride = pixels.strides[0]
-    picture.pixels = NULL
-    if pixels.shape[0] > 0 and pixels.shape[1] > 0:
-        picture.pixels = &pixels[0, 0, 0]
-    return 0
+include "picture_memory.pxi"
 
 
 def draw(int backend, uint8_t[:, :, :] pixels not None, const uint8_t[:, ::1] vertices not None,
@@ -92,7 +80,7 @@ def draw(int backend, uint8_t[:, :, :] pixels not None, const uint8_t[:, ::1] ve
     cdef e3d_canvas picture
     cdef e3d_ui_list drawn
     cdef e3d_status status
-    take_picture(pixels, &picture)
+    take_picture(pixels, E3D_UI_MAX_SIDE, &picture)
     if vertices.shape[1] != sizeof(e3d_ui_vertex) or commands.shape[1] * 4 != sizeof(e3d_ui_command):
         raise ValueError("rows of vertices or commands have another size than their structs")
     if max(vertices.shape[0], commands.shape[0], len(indices), len(textures.kept)) > (1 << 31) - 1:

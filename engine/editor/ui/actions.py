@@ -49,25 +49,26 @@ def add(workspace: Workspace, what: str, parent: Node | None = None) -> None:
         workspace.hierarchy.set_open(parent, True)
 
 
-def delete(workspace: Workspace) -> None:
-    """Delete the selected nodes."""
+def _do_to_selected(workspace: Workspace, command) -> None:
+    """Give the command that a class makes of the scene and the selected nodes, if there are any."""
     nodes = workspace.document.selection.nodes
     if nodes:
-        workspace.do(DeleteNodes(workspace.scene, nodes))
+        workspace.do(command(workspace.scene, nodes))
+
+
+def delete(workspace: Workspace) -> None:
+    """Delete the selected nodes."""
+    _do_to_selected(workspace, DeleteNodes)
 
 
 def duplicate(workspace: Workspace) -> None:
     """Copy the selected nodes; the copies are selected."""
-    nodes = workspace.document.selection.nodes
-    if nodes:
-        workspace.do(DuplicateNodes(workspace.scene, nodes))
+    _do_to_selected(workspace, DuplicateNodes)
 
 
 def group(workspace: Workspace) -> None:
     """Put the selected nodes under a new one."""
-    nodes = workspace.document.selection.nodes
-    if nodes:
-        workspace.do(GroupNodes(workspace.scene, nodes))
+    _do_to_selected(workspace, GroupNodes)
 
 
 def put_on_ground(workspace: Workspace) -> None:

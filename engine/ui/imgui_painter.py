@@ -82,13 +82,13 @@ class ImguiPainter:
         lists = [drawn for drawn in draw_data.cmd_lists if drawn.idx_buffer.size()]
         if not lists:
             return
-        vertices = [_array(drawn.vtx_buffer, VERTEX) for drawn in lists]
-        indices = [_array(drawn.idx_buffer, self._index) for drawn in lists]
+        vertices = _joined([drawn.vtx_buffer for drawn in lists], VERTEX)
+        indices = _joined([drawn.idx_buffer for drawn in lists], self._index)
         commands, numbers = self._commands(lists)
         draw_triangles(
             pixels,
-            np.concatenate(vertices),
-            np.concatenate(indices),
+            vertices,
+            indices,
             commands,
             [self._textures[number] for number in numbers],
             backend=self._backend,
@@ -130,7 +130,13 @@ class ImguiPainter:
             texture.set_status(status.destroyed)
 
 
-def _array(vector, dtype: np.dtype) -> NDArray:
-    """A view of one of ImGui's vectors, valid until its next frame."""
-    size = vector.size() * dtype.itemsize
-    return np.frombuffer((ctypes.c_ubyte * size).from_address(vector.data_address()), dtype)
+def _joined(vectors: list, dtype: np.dtype) -> NDArray:
+    """A copy of some of ImGui's vectors, one after the other.
+
+    It is made of their bytes: NumPy would copy structures a field at a time.
+    """
+    memory = [
+        (ctypes.c_ubyte * (vector.size() * dtype.itemsize)).from_address(vector.data_address())
+        for vector in vectors
+    ]
+    return np.frombuffer(b"".join(memory), dtype)

@@ -51,6 +51,5 @@ void ui_covers_around(const ui_covers *covers, ui_box box, uint64_t order, void 
                       const void *what)
 {
     const ui_search search = {covers, order, draw, what};
-    int small = ui_pixels_of(box) < UI_LEAST_COVER;
-    draw_around(&search, box, small ? covers->count : 0);
+    draw_around(&search, box, 0);
 }

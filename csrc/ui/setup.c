@@ -27,20 +27,20 @@ static int32_t snap(float position)
     return (int32_t)lrintf(clamp(position, -POSITION_LIMIT, POSITION_LIMIT) * (float)E3D_SUBPIXEL);
 }
 
-int ui_snap(const e3d_ui_vertex *vertex, ui_corner *corner)
-{
-    *corner = (ui_corner){snap(vertex->x), snap(vertex->y), vertex};
-    return isfinite(vertex->x) && isfinite(vertex->y);
-}
+ui_corner ui_snap(const e3d_ui_vertex *vertex) { return (ui_corner){snap(vertex->x), snap(vertex->y), vertex}; }
 
-static int same_color(const ui_corner *a, const ui_corner *b) { return memcmp(a->vertex->rgba, b->vertex->rgba, 4) == 0; }
+int ui_is_finite(const e3d_ui_vertex *vertex) { return isfinite(vertex->x) && isfinite(vertex->y); }
 
-int ui_is_rectangle(const ui_corner *a, const ui_corner *b, const ui_corner *c, const ui_corner *d)
+/* Whether two coordinates snap to one place, which most need no snapping to tell; the first one is finite. */
+static int same_place(float a, float b) { return a == b || (isfinite(b) && snap(a) == snap(b)); }
+
+static int same_color(const e3d_ui_vertex *a, const e3d_ui_vertex *b) { return memcmp(a->rgba, b->rgba, sizeof a->rgba) == 0; }
+
+int ui_is_rectangle(const e3d_ui_vertex *a, const e3d_ui_vertex *b, const e3d_ui_vertex *c, const e3d_ui_vertex *d)
 {
-    return a->x == d->x && b->x == c->x && a->y == b->y && c->y == d->y &&
-           a->vertex->u == d->vertex->u && b->vertex->u == c->vertex->u &&
-           a->vertex->v == b->vertex->v && c->vertex->v == d->vertex->v &&
-           same_color(a, b) && same_color(a, c) && same_color(a, d);
+    return a->u == d->u && b->u == c->u && a->v == b->v && c->v == d->v &&
+           same_color(a, b) && same_color(a, c) && same_color(a, d) && ui_is_finite(a) && ui_is_finite(c) &&
+           same_place(a->x, d->x) && same_place(c->x, b->x) && same_place(a->y, b->y) && same_place(c->y, d->y);
 }
 
 int64_t ui_area(const ui_corner c[3])
@@ -159,7 +159,7 @@ int ui_triangle_shape(const ui_corner c[3], const e3d_ui_texture *texture, ui_bo
 /* Whether texels follow each other as pixels do, in the middle of each; then `first` is that of the base. */
 static int steps_by_texels(float at_base, float step, int32_t *first)
 {
-    int is_whole = step == 256.0f && fabsf(at_base) < 0x1p22f && at_base == rintf(at_base);
+    int is_whole = step == 256.0f && fabsf(at_base) < 0x1p22f && at_base == (float)(int32_t)at_base;
     int32_t place = is_whole ? (int32_t)at_base : 0;
     *first = place >> 8;
     return is_whole && (place & 255) == TEXEL_MIDDLE;

@@ -16,11 +16,14 @@ typedef struct ui_corner {
     const e3d_ui_vertex *vertex;
 } ui_corner;
 
-/* Snaps a vertex. 0 where a coordinate isn't finite. */
-int ui_snap(const e3d_ui_vertex *vertex, ui_corner *corner);
+/* Whether a vertex is somewhere (R38). */
+int ui_is_finite(const e3d_ui_vertex *vertex);
 
-/* Where b and d are the other two corners of the rectangle of a and c (R39). */
-int ui_is_rectangle(const ui_corner *a, const ui_corner *b, const ui_corner *c, const ui_corner *d);
+/* Snaps a vertex that is finite. */
+ui_corner ui_snap(const e3d_ui_vertex *vertex);
+
+/* Whether b and d are the other two corners of the rectangle of a and c (R39). */
+int ui_is_rectangle(const e3d_ui_vertex *a, const e3d_ui_vertex *b, const e3d_ui_vertex *c, const e3d_ui_vertex *d);
 
 /* Twice the area (R9). */
 int64_t ui_area(const ui_corner corners[3]);

@@ -33,30 +33,34 @@ void ui_edges_begin(ui_edges *edges, const ui_corner corners[3], int32_t first)
     }
 }
 
-static void step(ui_edge *edge)
+static int64_t between(int64_t column, int64_t left, int64_t right)
 {
-    edge->column += edge->column_step;
-    edge->rest += edge->rest_step;
-    if (edge->rest >= edge->d) {
-        edge->rest -= edge->d;
-        edge->column++;
+    int64_t from = column > left ? column : left;
+    return from < right ? from : right;
+}
+
+/* Takes away what an edge doesn't admit of each row. Which rows carry can't be predicted, so that no branch decides it. */
+static void cut(ui_edge *edge, int32_t left, int32_t right, e3d_ui_rows *rows)
+{
+    ui_edge e = *edge;
+    for (int32_t row = 0; row < rows->count; row++) {
+        int32_t side = (int32_t)between(e.is_left ? -e.column : e.column + 1, left, right);
+        if (e.is_left)
+            rows->left[row] = side > rows->left[row] ? side : rows->left[row];
+        else
+            rows->right[row] = side < rows->right[row] ? side : rows->right[row];
+        e.rest += e.rest_step;
+        int64_t carry = e.rest >= e.d;
+        e.rest -= e.d & -carry;
+        e.column += e.column_step + carry;
     }
+    *edge = e;
 }
 
 void ui_edges_rows(ui_edges *edges, int32_t left, int32_t right, e3d_ui_rows *rows)
 {
-    for (int32_t row = 0; row < rows->count; row++) {
-        int64_t from = left, to = right;
-        for (int k = 0; k < edges->count; k++) {
-            ui_edge *edge = &edges->edges[k];
-            if (edge->is_left)
-                from = from > -edge->column ? from : -edge->column;
-            else
-                to = to < edge->column + 1 ? to : edge->column + 1;
-            step(edge);
-        }
-        int is_empty = from >= to;
-        rows->left[row] = is_empty ? left : (int32_t)from;
-        rows->right[row] = is_empty ? left : (int32_t)to;
-    }
+    for (int32_t row = 0; row < rows->count; row++)
+        rows->left[row] = left, rows->right[row] = right;
+    for (int k = 0; k < edges->count; k++)
+        cut(&edges->edges[k], left, right, rows);
 }

@@ -6,6 +6,7 @@
  */
 #include "e3d_ui.h"
 
+#include <math.h>
 #include <stdint.h>
 
 #include "core/fpenv.h"
@@ -83,10 +84,10 @@ typedef struct ui_item {
     uint64_t order;
 } ui_item;
 
-/* One or two triangles: three or four snapped corners. */
+/* A triangle, or the first one of two that are a rectangle; vertices 0 and 2 are opposite then. */
 typedef struct ui_figure {
     int is_rectangle;
-    ui_corner corners[4];
+    const e3d_ui_vertex *vertices[3];
 } ui_figure;
 
 /* What draws the parts of a shape that show. */
@@ -106,8 +107,14 @@ static ui_box within_scissor(ui_box box, const e3d_ui_command *command)
 
 static const e3d_ui_texture *texture_of(const ui_item *item) { return &item->list->textures[item->command->texture]; }
 
-static void draw_triangle(ui_corner corners[3], const ui_item *item, const ui_target *target)
+static void draw_triangle(const ui_figure *figure, const ui_item *item, const ui_target *target)
 {
+    ui_corner corners[3];
+    for (int k = 0; k < 3; k++) {
+        if (!ui_is_finite(figure->vertices[k]))
+            return;
+        corners[k] = ui_snap(figure->vertices[k]);
+    }
     int64_t area = ui_area(corners);
     if (area < 0) {
         ui_corner second = corners[1];
@@ -141,18 +148,18 @@ static void draw_box(const void *what, ui_box part)
 }
 
 /* The shape of a rectangle, and what of it may change. 0 if that is nothing. */
-static int rectangle_shape(const ui_corner corners[4], const ui_item *item, const ui_target *target, ui_box *drawn,
+static int rectangle_shape(const ui_figure *figure, const ui_item *item, const ui_target *target, ui_box *drawn,
                            e3d_ui_shape *shape)
 {
-    const ui_corner opposite[2] = {corners[0], corners[2]};
+    const ui_corner opposite[2] = {ui_snap(figure->vertices[0]), ui_snap(figure->vertices[2])};
     ui_box box = ui_box_of(opposite, 2, target->picture);
     *drawn = within_scissor(box, item->command);
     return !ui_is_empty(*drawn) && ui_rectangle_shape(&opposite[0], &opposite[1], texture_of(item), box, *drawn, shape);
 }
 
-static int snap_at(const ui_item *item, uint32_t at, ui_corner *corner)
+static const e3d_ui_vertex *vertex_at(const ui_item *item, uint32_t at)
 {
-    return ui_snap(&item->list->vertices[item->command->first_vertex + index_at(item->list, at)], corner);
+    return &item->list->vertices[item->command->first_vertex + index_at(item->list, at)];
 }
 
 /* Whether the triangle and the next one have the indices (a, b, c) and (a, c, d). */
@@ -165,61 +172,64 @@ static int is_pair(const ui_item *item)
            index_at(item->list, at + 2) == index_at(item->list, at + 4);
 }
 
-/* Snaps the triangle, and the next one with it if both are a rectangle. 0 if a coordinate of the first isn't finite. */
-static int take_figure(const ui_item *item, ui_figure *figure)
+static ui_figure figure_of(const ui_item *item)
 {
-    ui_corner *c = figure->corners;
-    int is_finite = 1;
+    ui_figure figure;
+    const e3d_ui_vertex **v = figure.vertices;
     for (uint32_t k = 0; k < 3; k++)
-        is_finite &= snap_at(item, item->at + k, &c[k]);
-    figure->is_rectangle = is_finite && is_pair(item) && snap_at(item, item->at + 5, &c[3]) &&
-                           ui_is_rectangle(&c[0], &c[1], &c[2], &c[3]);
-    return is_finite;
+        v[k] = vertex_at(item, item->at + k);
+    figure.is_rectangle = is_pair(item) && ui_is_rectangle(v[0], v[1], v[2], vertex_at(item, item->at + 5));
+    return figure;
 }
 
 /* Goes over all triangles, in order. */
 static void each_figure(const e3d_ui_list *list, ui_target *target,
-                        void (*visit)(const ui_item *item, ui_figure *figure, ui_target *target))
+                        void (*visit)(const ui_item *item, const ui_figure *figure, ui_target *target))
 {
     uint64_t order = 0;
     for (uint32_t k = 0; k < list->command_count; k++) {
         const e3d_ui_command *command = &list->commands[k];
         ui_item item = {.list = list, .command = command, .at = command->first_index};
         while (item.at < command->first_index + command->index_count) {
-            ui_figure figure;
+            ui_figure figure = figure_of(&item);
             item.order = order++;
-            int is_finite = take_figure(&item, &figure);
-            if (is_finite)
-                visit(&item, &figure, target);
+            visit(&item, &figure, target);
             item.at += figure.is_rectangle ? 6 : 3;
         }
     }
 }
 
-static void note_cover(const ui_item *item, ui_figure *figure, ui_target *target)
+/* Whether a rectangle can be a cover: of glyphs, which most are, no more is found out before they are drawn. */
+static int is_large(const ui_figure *figure)
 {
-    if (!figure->is_rectangle)
-        return;
+    const e3d_ui_vertex *a = figure->vertices[0], *c = figure->vertices[2];
+    return fabsf(c->x - a->x) * fabsf(c->y - a->y) >= (float)UI_LEAST_COVER;
+}
+
+static void note_cover(const ui_item *item, const ui_figure *figure, ui_target *target)
+{
     ui_box drawn;
     e3d_ui_shape shape;
-    const ui_corner opposite[2] = {figure->corners[0], figure->corners[2]};
-    if (ui_pixels_of(ui_box_of(opposite, 2, target->picture)) >= UI_LEAST_COVER &&
-        rectangle_shape(figure->corners, item, target, &drawn, &shape) && shape.is_opaque)
+    if (figure->is_rectangle && is_large(figure) && rectangle_shape(figure, item, target, &drawn, &shape) && shape.is_opaque)
         ui_covers_add(&target->covers, drawn, item->order);
 }
 
-static void draw_figure(const ui_item *item, ui_figure *figure, ui_target *target)
+static void draw_figure(const ui_item *item, const ui_figure *figure, ui_target *target)
 {
     if (!figure->is_rectangle) {
-        draw_triangle(figure->corners, item, target);
+        draw_triangle(figure, item, target);
         return;
     }
     ui_box drawn;
     e3d_ui_shape shape;
-    if (rectangle_shape(figure->corners, item, target, &drawn, &shape)) {
-        const ui_painting painting = {target, &shape};
+    if (!rectangle_shape(figure, item, target, &drawn, &shape))
+        return;
+    const ui_painting painting = {target, &shape};
+    /* What is small is drawn sooner than covers are looked through. */
+    if (ui_pixels_of(drawn) < UI_LEAST_COVER)
+        draw_box(&painting, drawn);
+    else
         ui_covers_around(&target->covers, drawn, item->order, draw_box, &painting);
-    }
 }
 
 e3d_status e3d_ui_draw(e3d_backend backend, const e3d_canvas *picture, const e3d_ui_list *list)

@@ -28,7 +28,7 @@ typedef struct e3d_ui_shape {
     uint32_t texel, rgba;
 } e3d_ui_shape;
 
-/* Rows first ... first + count - 1 of the picture; of each, columns left ... right - 1, where there are any. */
+/* Rows first ... first + count - 1 of the picture; of each, columns left ... right - 1, none where left isn't below right. */
 typedef struct e3d_ui_rows {
     int32_t first, count;
     int32_t left[E3D_UI_ROWS], right[E3D_UI_ROWS];

@@ -48,9 +48,6 @@ int64_t ui_area(const ui_corner c[3])
     return (int64_t)(c[1].x - c[0].x) * (c[2].y - c[0].y) - (int64_t)(c[2].x - c[0].x) * (c[1].y - c[0].y);
 }
 
-/* The first column or row whose centre is at a place or beyond it: ceil((place - 128) / 256). */
-static int32_t first_centre(int32_t place) { return (place + 127) >> 8; }
-
 ui_box ui_box_of(const ui_corner *corners, int count, const e3d_canvas *picture)
 {
     int32_t x0 = INT32_MAX, y0 = INT32_MAX, x1 = INT32_MIN, y1 = INT32_MIN;
@@ -58,7 +55,7 @@ ui_box ui_box_of(const ui_corner *corners, int count, const e3d_canvas *picture)
         x0 = corners[k].x < x0 ? corners[k].x : x0, x1 = corners[k].x > x1 ? corners[k].x : x1;
         y0 = corners[k].y < y0 ? corners[k].y : y0, y1 = corners[k].y > y1 ? corners[k].y : y1;
     }
-    ui_box box = {first_centre(x0), first_centre(y0), first_centre(x1), first_centre(y1)};
+    ui_box box = {ui_first_centre(x0), ui_first_centre(y0), ui_first_centre(x1), ui_first_centre(y1)};
     box.left = box.left < 0 ? 0 : box.left;
     box.top = box.top < 0 ? 0 : box.top;
     box.right = box.right > picture->width ? picture->width : box.right;

@@ -25,6 +25,9 @@ ui_corner ui_snap(const e3d_ui_vertex *vertex);
 /* Whether b and d are the other two corners of the rectangle of a and c (R39). */
 int ui_is_rectangle(const e3d_ui_vertex *a, const e3d_ui_vertex *b, const e3d_ui_vertex *c, const e3d_ui_vertex *d);
 
+/* The first column or row whose centre is at a place or beyond it: ceil((place - 128) / 256). */
+static inline int32_t ui_first_centre(int32_t place) { return (place + 127) >> 8; }
+
 /* Twice the area (R9). */
 int64_t ui_area(const ui_corner corners[3]);
 

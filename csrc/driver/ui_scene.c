@@ -62,6 +62,8 @@ static void random_vertex(random_stream *r, e3d_ui_vertex *vertex, int whole)
     vertex->u = texture_coordinate(r);
     vertex->v = texture_coordinate(r);
     uint32_t color = (uint32_t)random_bits(r);
+    /* Pictures are shown under white. */
+    color = color % 4 == 0 ? UINT32_MAX : color;
     memcpy(vertex->rgba, &color, 4);
     if (random_once_in(r, 2))
         vertex->rgba[3] = random_once_in(r, 2) ? 255 : 0;

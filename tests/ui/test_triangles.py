@@ -137,6 +137,62 @@ def test_texels_that_fit_pixels_are_taken_as_they_are(backend):
 
 
 @backends
+def test_opaque_texels_under_white_are_taken_as_they_are(backend):
+    """Wherever rows begin and end: at the picture's sides, the texture's, a scissor's."""
+    rng = np.random.default_rng(4)
+    texels = rng.integers(0, 256, (6, 70, 4), np.uint8)
+    texture = Texture(texels, opaque=True)
+    uv = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    texels = texels | np.uint8([0, 0, 0, 255])
+    for left in range(-20, 60):
+        first, last = rng.integers(0, 80, 2)
+        pixels = rng.integers(0, 256, (8, 80, 4), np.uint8)
+        expected = pixels.copy()
+        right = left + 70
+        rectangle(
+            pixels,
+            *(left, 1, right, 7, (255,) * 4),
+            uv=uv,
+            texture=texture,
+            scissor=(first, 0, last, 8),
+            backend=backend,
+        )
+        from_, to = max(left, first, 0), min(right, last, 80)
+        if from_ < to:
+            expected[1:7, from_:to] = texels[:, from_ - left : to - left]
+        assert np.array_equal(pixels, expected)
+
+
+def over255(n):
+    return (n + 127) // 255
+
+
+@backends
+@pytest.mark.parametrize("below", [0, 1, 127, 200, 255])
+def test_glyphs_are_exact_for_all_alphas(backend, below):
+    """Every alpha of a texel under every alpha of a colour, in glyphs of five texels."""
+    alphas = np.arange(256, dtype=np.uint8)
+    texture, color = Texture(alphas[None, :].copy()), (10, 128, 255)
+    pixels = np.full((256, 256, 4), below, np.uint8)
+    lefts = range(0, 256, 5)
+    vertices = np.zeros((256, len(lefts), 4), VERTEX)
+    for alpha in range(256):
+        for k, left in enumerate(lefts):
+            right = min(left + 5, 256)
+            corners = np.array([(left, 0), (right, 0), (right, 1), (left, 1)])
+            vertices[alpha, k]["position"] = corners + (0, alpha)
+            vertices[alpha, k]["uv"] = corners / (256, 1)
+            vertices[alpha, k]["color"] = *color, alpha
+    first = 4 * np.arange(vertices.size // 4, dtype=np.uint32)
+    indices = (first[:, None] + np.uint32([0, 1, 2, 0, 2, 3])).ravel()
+    draw_triangles(
+        pixels, vertices.ravel(), indices, one_command(len(indices)), [texture], backend=backend
+    )
+    alpha = over255(np.arange(256)[:, None] * np.arange(256)[None, :])[..., None]
+    assert np.array_equal(pixels, over255(np.array([*color, 255]) * alpha + below * (255 - alpha)))
+
+
+@backends
 def test_bilinear_texels_lie_between_their_neighbours(backend):
     """A ramp of texels, stretched eight times, is a ramp of pixels."""
     texels = np.repeat(np.arange(0, 256, 17, np.uint8)[None, :], 4, 0)

@@ -19,7 +19,9 @@ typedef enum ui_source {
     UI_SHADED,   /* the texel constant */
     UI_TEXTURED, /* the colour constant */
     UI_BOTH,
-    UI_COPY      /* a texel a pixel, the colour constant */
+    UI_COPY,     /* a texel a pixel, the colour constant */
+    UI_GLYPH,    /* the same, of alphas alone */
+    UI_SHOWN     /* the same, opaque, the colour white: the texels as they are */
 } ui_source;
 
 /* A vector of pixels: its first one, and where that is. */
@@ -123,41 +125,56 @@ static ALWAYS_INLINE ui_pixels ui_texels(const e3d_ui_shape *shape, vf32 dx, vf3
     return ui_mix(upper, lower, fy);
 }
 
-/* A texel a pixel. Some lanes of a vector that isn't whole may be beside the texture: those take what is at its sides. */
-static ALWAYS_INLINE ui_pixels ui_copied(const e3d_ui_shape *shape, int32_t x, int32_t y)
+/* A texel a pixel, of glyphs its alpha. Some lanes of a vector that isn't whole may be beside the texture: those take what is at its
+ * sides. */
+static ALWAYS_INLINE vi32 ui_copied(const e3d_ui_shape *shape, ui_source kind, ui_place at)
 {
     const e3d_ui_texture *t = shape->texture;
-    int32_t column = x + shape->copy_x, row = y + shape->copy_y;
+    int32_t column = at.x + shape->copy_x, row = at.y + shape->copy_y;
     const uint8_t *texels = t->pixels + (size_t)row * (size_t)t->stride;
     if (column < 0 || column + V_LANES > t->width) {
         vi32 beside = v_mini(v_maxi(v_addi(v_seti(column), v_iota()), v_seti(0)), v_seti(t->width - 1));
-        return ui_split(ui_fetch(t, beside, v_seti(row)));
+        vi32 texel = ui_fetch(t, beside, v_seti(row));
+        return kind == UI_GLYPH ? v_shr(texel, 24) : texel;
     }
-    if (t->format != E3D_UI_A8)
-        return ui_split(v_ori(v_loadi(texels + 4 * (size_t)column), ui_opaque(t)));
-    vi32 white = v_seti(0x00FF00FF);
-    return (ui_pixels){white, v_ori(v_shl(v_loadu8(texels + column), 16), v_seti(255))};
+    if (kind == UI_GLYPH)
+        return v_loadu8(texels + column);
+    return v_ori(v_loadi(texels + 4 * (size_t)column), ui_opaque(t));
 }
 
-static ALWAYS_INLINE ui_pixels ui_sources(const e3d_ui_shape *shape, ui_source kind, int32_t x, int32_t y)
+/* The products of texels and colours. */
+static ALWAYS_INLINE ui_pixels ui_sources(const e3d_ui_shape *shape, ui_source kind, ui_place at)
 {
-    vf32 dx = v_float(v_addi(v_seti(x - shape->base_x), v_iota())), dy = v_setf((float)(y - shape->base_y));
+    vf32 dx = v_float(v_addi(v_seti(at.x - shape->base_x), v_iota())), dy = v_setf((float)(at.y - shape->base_y));
     ui_pixels color = ui_split(v_seti((int32_t)shape->rgba)), texel = ui_split(v_seti((int32_t)shape->texel));
     if (kind == UI_SHADED || kind == UI_BOTH)
         color = ui_colors(shape, dx, dy);
     if (kind == UI_TEXTURED || kind == UI_BOTH)
         texel = ui_texels(shape, dx, dy);
     if (kind == UI_COPY)
-        texel = ui_copied(shape, x, y);
+        texel = ui_split(ui_copied(shape, kind, at));
     return ui_product(texel, color);
 }
 
-/* Pixels whose alphas are all 0 or all 255, as most are, need no blending. */
+/* White of some alphas times a colour is that colour of other alphas. */
+static ALWAYS_INLINE vi32 ui_glyph_over(const e3d_ui_shape *shape, ui_place at)
+{
+    ui_pixels color = ui_split(v_seti((int32_t)shape->rgba));
+    vi32 texel = ui_copied(shape, UI_GLYPH, at);
+    vi32 alpha = ui_over255(v_mul16(v_ori(texel, v_shl(texel, 16)), ui_alpha(color)));
+    return ui_blend(color, alpha, v_loadi(at.to));
+}
+
+/* Pixels whose alphas are all 255, as most are, need no blending. */
 static ALWAYS_INLINE vi32 ui_over(const e3d_ui_shape *shape, ui_source kind, ui_place at)
 {
-    ui_pixels over = ui_sources(shape, kind, at.x, at.y);
+    if (kind == UI_SHOWN)
+        return ui_copied(shape, kind, at);
+    if (kind == UI_GLYPH)
+        return ui_glyph_over(shape, at);
+    ui_pixels over = ui_sources(shape, kind, at);
     vi32 alpha = ui_alpha(over);
-    if (kind == UI_FILL || !v_any(v_gti(v_seti(0x00FF00FF), alpha)))
+    if (kind == UI_FILL || (kind != UI_SOLID && !v_any(v_gti(v_seti(0x00FF00FF), alpha))))
         return ui_join(over);
     return ui_blend(over, alpha, v_loadi(at.to));
 }
@@ -177,28 +194,37 @@ static ALWAYS_INLINE void ui_rest(const e3d_ui_shape *shape, ui_source kind, ui_
 static inline int ui_unaligned(ui_place at, int32_t right)
 {
     size_t beyond = (uintptr_t)at.to % sizeof(vi32) / 4;
-    return beyond != 0 && right - at.x > 8 * V_LANES ? V_LANES - (int)beyond : 0;
+    return right - at.x > 8 * V_LANES && beyond != 0 ? V_LANES - (int)beyond : 0;
 }
 
-static ALWAYS_INLINE void ui_draw(const e3d_canvas *picture, const e3d_ui_shape *shape, const e3d_ui_rows *rows, ui_source kind)
+/* It has a shape and a texture of its own, which no store to the picture changes as far as a compiler knows: what is constant then
+ * stays in registers. */
+static ALWAYS_INLINE void ui_draw(const e3d_canvas *picture, const e3d_ui_shape *given, const e3d_ui_rows *rows, ui_source kind)
 {
+    const e3d_ui_texture texture = *given->texture;
+    e3d_ui_shape shape = *given;
+    shape.texture = &texture;
     for (int32_t i = 0; i < rows->count; i++) {
         int32_t x = rows->left[i], right = rows->right[i], y = rows->first + i;
         ui_place at = {picture->pixels + y * picture->stride + 4 * (ptrdiff_t)x, x, y};
         int first = ui_unaligned(at, right);
         if (first > 0)
-            ui_rest(shape, kind, at, first, picture->width);
+            ui_rest(&shape, kind, at, first, picture->width);
         at.x += first, at.to += 4 * first;
         for (; at.x + V_LANES <= right; at.x += V_LANES, at.to += 4 * V_LANES)
-            v_storei(at.to, ui_over(shape, kind, at));
+            v_storei(at.to, ui_over(&shape, kind, at));
         if (at.x < right)
-            ui_rest(shape, kind, at, right - at.x, picture->width);
+            ui_rest(&shape, kind, at, right - at.x, picture->width);
     }
 }
 
 static void kernel_ui(const e3d_canvas *picture, const e3d_ui_shape *shape, const e3d_ui_rows *rows)
 {
-    if (shape->is_copy)
+    if (shape->is_copy && shape->texture->format == E3D_UI_A8)
+        ui_draw(picture, shape, rows, UI_GLYPH);
+    else if (shape->is_copy && shape->is_opaque && shape->rgba == 0xFFFFFFFFu)
+        ui_draw(picture, shape, rows, UI_SHOWN);
+    else if (shape->is_copy)
         ui_draw(picture, shape, rows, UI_COPY);
     else if (shape->texel_is_constant && shape->color_is_constant && shape->is_opaque)
         ui_draw(picture, shape, rows, UI_FILL);

@@ -15,7 +15,7 @@ typedef struct ui_pixels {
 /* Where the texel and the colour of a pixel come from. */
 typedef enum ui_source {
     UI_FILL,     /* both constant, and opaque */
-    UI_SOLID,    /* both constant */
+    UI_SOLID,    /* both constant, not opaque */
     UI_SHADED,   /* the texel constant */
     UI_TEXTURED, /* the colour constant */
     UI_BOTH,
@@ -165,7 +165,7 @@ static ALWAYS_INLINE vi32 ui_glyph_over(const e3d_ui_shape *shape, ui_place at)
     return ui_blend(color, alpha, v_loadi(at.to));
 }
 
-/* Pixels whose alphas are all 255, as most are, need no blending. */
+/* Pixels whose alphas are all 255, as most are, need no blending; those of UI_SOLID never are, or they were UI_FILL. */
 static ALWAYS_INLINE vi32 ui_over(const e3d_ui_shape *shape, ui_source kind, ui_place at)
 {
     if (kind == UI_SHOWN)

@@ -73,9 +73,21 @@ static inline uint8_t *pixel_address(const e3d_canvas *canvas, int64_t x, int64_
  * with s, a the source's colour and alpha, d, b the destination's, all 0 ... 255,
  *     weight = 255 a + b (255 - a)                       alpha  = round(weight / 255)
  *     colour = round((255 a s + b (255 - a) d) / weight)
- * On an opaque destination (b = 255) that is round((a s + (255 - a) d) / 255). */
+ * On an opaque destination (b = 255) that is round((a s + (255 - a) d) / 255), and 255. */
+static inline uint8_t over_opaque(uint32_t source, uint32_t alpha, uint32_t destination)
+{
+    return (uint8_t)((alpha * source + (255u - alpha) * destination + 127u) / 255u);
+}
+
 static inline void blend_pixel(uint8_t *pixel, e3d_rgba color)
 {
+    /* Most pictures are opaque, and dividing by a constant takes a third of the time. */
+    if (pixel[3] == 255) {
+        pixel[0] = over_opaque(color.r, color.a, pixel[0]);
+        pixel[1] = over_opaque(color.g, color.a, pixel[1]);
+        pixel[2] = over_opaque(color.b, color.a, pixel[2]);
+        return;
+    }
     const uint32_t source = 255u * color.a;
     const uint32_t destination = (uint32_t)pixel[3] * (255u - color.a);
     const uint32_t weight = source + destination; /* >= 255: a transparent source is never drawn */

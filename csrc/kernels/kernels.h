@@ -87,6 +87,15 @@ typedef struct e3d_kernels {
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
     /* color = (color * energy + specular * shine) + emissive; specular may be NULL */
     void (*combine)(e3d_batch *batch, const float specular[3], const float emissive[3]);
+    /* Finds the light of an environment along directions, at a level each. */
+    void (*environment)(const e3d_environment_light *light, const float *const direction[3], const float *level, int count,
+                        float *const color[3]);
+    /* Finds irradiance / pi at normals. */
+    void (*irradiance)(const e3d_environment_light *light, const float *const normal[3], int count, float *const color[3]);
+    /* Finds what surfaces reflect of light that is 1 all around. */
+    void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out);
+    /* Finds the clamped colours of an environment behind `count` pixels of a row, from (x, y) on. */
+    void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]);
     /* Clamps planes of colours to [0, 1], and encodes them as RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);

@@ -136,6 +136,13 @@ void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[
 /* Returns the unit. */
 float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, float out[3]);
 
+/* environment.c */
+void ref_environment(const e3d_environment_light *light, const float direction[3], float level, float out[3]);
+void ref_environment_specular(const e3d_environment_light *light, const float direction[3], float roughness, float out[3]);
+void ref_environment_irradiance(const e3d_environment_light *light, const float normal[3], float out[3]); /* over pi */
+void ref_backdrop(const e3d_backdrop *backdrop, int32_t x, int32_t y, float out[3]);
+float ref_albedo(e3d_dfg kind, float roughness, float cosine);
+
 /* light.c */
 /* The unit vector from p towards the light, and its attenuation; returns 0 where the light is out of range. */
 int ref_light_reach(const e3d_light *light, const float p[3], float l[3], float *attenuation);

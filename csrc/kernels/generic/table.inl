@@ -20,6 +20,8 @@
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
+#include "kernels/generic/albedo.inl"
+#include "kernels/generic/environment.inl"
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
 #include "kernels/generic/stream.inl"
@@ -56,6 +58,10 @@ const e3d_kernels E3D_TABLE = {
     .tint = kernel_tint,
     .light = kernel_light,
     .combine = kernel_combine,
+    .environment = kernel_environment,
+    .irradiance = kernel_irradiance,
+    .albedo = kernel_albedo,
+    .backdrop = kernel_backdrop,
     .encode = kernel_encode,
     .put = kernel_put,
     .keep = kernel_keep,

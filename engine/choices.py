@@ -26,6 +26,9 @@ OutputMode = Literal[
     "world_normal",
     "uv",
     "barycentric",
+    "metallic_roughness",
+    "emissive",
+    "tangent",
     "instance_id",
     "material_id",
 ]

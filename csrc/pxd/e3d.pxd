@@ -102,7 +102,6 @@ cdef extern from "e3d.h" nogil:
     ctypedef struct e3d_physical:
         float metallic
         float roughness
-        float normal_scale
         float occlusion_strength
         float reflectance[3]
         float specular_intensity
@@ -121,6 +120,7 @@ cdef extern from "e3d.h" nogil:
         float specular[3]
         float shininess
         float emissive[3]
+        float normal_scale
         int32_t id
         int32_t two_sided
         int32_t flat
@@ -152,6 +152,7 @@ cdef extern from "e3d.h" nogil:
         float position[3]
         float range
         float cone[2]
+        float lux[3]
 
     ctypedef enum e3d_pose_kind:
         E3D_POSE_NONE

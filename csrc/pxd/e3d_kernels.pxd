@@ -131,6 +131,7 @@ cdef extern from "kernels/kernels.h" nogil:
         float ambient[3]
         float clamp[2]
         float eye[4]
+        float exposure
 
     ctypedef struct e3d_pixel_rows:
         char *to
@@ -198,7 +199,8 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float *base)
         void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
         void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
-        void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)
+        void (*combine)(e3d_batch *batch, const float *specular, const float *emissive,
+                        float exposure)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)

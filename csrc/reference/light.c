@@ -47,7 +47,7 @@ int ref_light_reach(const e3d_light *light, const float p[3], float l[3], float 
     return 1;
 }
 
-static void direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3])
+void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
     int perspective = frame->eye[3] == 1.0f;
     for (int c = 0; c < 3; c++)
@@ -60,7 +60,7 @@ static void direction_to_eye(const e3d_frame *frame, const ref_surface *surface,
 static float highlight(const e3d_frame *frame, const ref_surface *surface, const float l[3], float shininess)
 {
     float h[3];
-    direction_to_eye(frame, surface, h);
+    ref_direction_to_eye(frame, surface, h);
     for (int c = 0; c < 3; c++)
         h[c] = l[c] + h[c];
     ref_normalize(h);
@@ -91,7 +91,8 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
     }
     for (int c = 0; c < 3; c++) {
         float lit = surface->albedo[c] * ref_clamp(diffuse_sum[c], frame->light_clamp[0], frame->light_clamp[1]);
-        out[c] = shiny ? (lit + specular[c] * specular_sum[c]) + material->emissive[c]
-                       : lit + material->emissive[c];
+        out[c] = shiny ? (lit + specular[c] * specular_sum[c]) + surface->emissive[c]
+                       : lit + surface->emissive[c];
+        out[c] = out[c] * frame->exposure;
     }
 }

@@ -90,6 +90,7 @@ cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] rea
     memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
     memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
     memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
+    lighting.exposure = 1.0
     return lighting
 
 

@@ -407,14 +407,15 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)
 
-    def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive):
+    def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive,
+                float exposure=1.0):
         """``specular`` may be None."""
         cdef const float *highlight = NULL
         check_size(batch, sizeof(e3d_batch))
         if specular is not None:
             highlight = &specular[0]
         for _ in range(self.rounds):
-            self.table.combine(<e3d_batch *>&batch[0], highlight, &emissive[0])
+            self.table.combine(<e3d_batch *>&batch[0], highlight, &emissive[0], exposure)
 
     def encode(self, const float[::1] red, const float[::1] green, const float[::1] blue, int count,
                bint srgb, uint32_t[::1] rgba):

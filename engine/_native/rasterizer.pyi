@@ -98,6 +98,7 @@ class NativeDrawList:
         two_sided: bool,
         flat: bool,
         unlit: bool,
+        normal_scale: float,
         alpha: float,
         alpha_mode: int,
         alpha_cutoff: float,
@@ -108,7 +109,6 @@ class NativeDrawList:
         *,
         metallic: float,
         roughness: float,
-        normal_scale: float,
         occlusion_strength: float,
         reflectance: Sequence[float],
         specular_intensity: float,
@@ -122,17 +122,23 @@ class NativeDrawList:
         absorption: Sequence[float],
     ) -> None: ...
     def add_directional_light(
-        self, color: Sequence[float], to_light: Sequence[float] | _Doubles
+        self, color: Sequence[float], lux: Sequence[float], to_light: Sequence[float] | _Doubles
     ) -> None: ...
     def add_point_light(
         self,
         color: Sequence[float],
+        lux: Sequence[float],
         position: Sequence[float] | _Doubles,
         range: float,
         falloff: int,
     ) -> None: ...
     def add_spot_light(
-        self, color: Sequence[float], range: float, cone_cosine: float, cone_scale: float
+        self,
+        color: Sequence[float],
+        lux: Sequence[float],
+        range: float,
+        cone_cosine: float,
+        cone_scale: float,
     ) -> None: ...
     def turn_light(self, number: int, to_light: Sequence[float] | _Doubles) -> None: ...
     def move_light(self, number: int, position: Sequence[float] | _Doubles) -> None: ...

@@ -246,9 +246,9 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
             v_storef(batch->energy[k] + i, light_clamp(lighting, v_loadf(batch->energy[k] + i)));
 }
 
-/* R31: color = (color * energy + specular * shine) + emissive; what is NULL is 0. */
+/* R31, R44: color = ((color * energy + specular * shine) + emissive) * exposure; what is NULL is 0. */
 static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
-                                         const float emissive[3], vf32 color[3])
+                                         const float emissive[3], float exposure, vf32 color[3])
 {
     for (int k = 0; k < 3; k++) {
         color[k] = v_mul(color[k], energy[k]);
@@ -256,10 +256,12 @@ static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[
             color[k] = v_add(color[k], v_mul(v_setf(specular[k]), shine[k]));
         if (emissive)
             color[k] = v_add(color[k], v_setf(emissive[k]));
+        if (exposure != 1.0f)
+            color[k] = v_mul(color[k], v_setf(exposure));
     }
 }
 
-static void kernel_combine(e3d_batch *batch, const float specular[3], const float emissive[3])
+static void kernel_combine(e3d_batch *batch, const float specular[3], const float emissive[3], float exposure)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3], energy[3], shine[3];
@@ -268,7 +270,7 @@ static void kernel_combine(e3d_batch *batch, const float specular[3], const floa
             energy[k] = v_loadf(batch->energy[k] + i);
             shine[k] = v_loadf(batch->shine[k] + i);
         }
-        combine_vector(energy, shine, specular, emissive, color);
+        combine_vector(energy, shine, specular, emissive, exposure, color);
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }

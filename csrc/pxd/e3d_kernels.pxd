@@ -131,6 +131,8 @@ cdef extern from "kernels/kernels.h" nogil:
         float ambient[3]
         float clamp[2]
         float eye[4]
+        float exposure
+        const void *environment
 
     ctypedef struct e3d_pixel_rows:
         char *to
@@ -153,6 +155,29 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *emissive
         int srgb
         e3d_samples *samples
+
+    ctypedef struct e3d_map_batch:
+        pass
+
+    ctypedef struct e3d_varying:
+        const float *lanes
+        float factor
+
+    ctypedef struct e3d_surface_model:
+        e3d_varying metallic
+        e3d_varying roughness
+        e3d_varying occlusion
+        float occlusion_strength
+        e3d_varying reflectance[3]
+        e3d_varying specular
+        e3d_varying emissive[3]
+        e3d_varying coat
+        e3d_varying coat_roughness
+        e3d_varying sheen[3]
+        e3d_varying sheen_roughness
+        int has_coat
+        int has_sheen
+        int coat_is_mapped
 
     ctypedef struct e3d_kernels:
         uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float *clip,
@@ -198,7 +223,10 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float *base)
         void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
         void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
-        void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)
+        void (*combine)(e3d_batch *batch, const float *specular, const float *emissive,
+                        float exposure)
+        void (*physical)(e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting,
+                         e3d_map_batch *maps)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)

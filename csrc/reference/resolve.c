@@ -135,6 +135,12 @@ static void write_surface(const e3d_targets *targets, size_t pixel, const ref_su
     write_floats(targets->world_position, pixel, surface->world_position, 3);
     write_floats(targets->uv, pixel, surface->uv, 2);
     write_floats(targets->barycentric, pixel, surface->barycentric, 3);
+    int is_physical = primitive->kind == REF_FACE && primitive->material->is_physical;
+    const float metallic_roughness[2] = {is_physical ? surface->physical.metallic : 0.0f,
+                                         is_physical ? surface->physical.roughness : 1.0f};
+    write_floats(targets->metallic_roughness, pixel, metallic_roughness, 2);
+    write_floats(targets->emissive, pixel, surface->emissive, 3);
+    write_floats(targets->tangent, pixel, surface->view_tangent, 4);
 }
 
 /* R35 */

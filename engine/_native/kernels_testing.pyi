@@ -132,7 +132,23 @@ class Kernels:
         eye: _Floats,
         shininess: float,
     ) -> None: ...
-    def combine(self, batch: _Bytes, specular: _Floats | None, emissive: _Floats) -> None: ...
+    def combine(
+        self,
+        batch: _Bytes,
+        specular: _Floats | None,
+        emissive: _Floats,
+        exposure: float = 1.0,
+    ) -> None: ...
+    def physical(
+        self,
+        batch: _Bytes,
+        model: dict[str, _Floats],
+        lights: _Bytes,
+        reach: _Floats,
+        ambient: _Floats,
+        eye: _Floats,
+        maps: _Bytes,
+    ) -> None: ...
     def encode(
         self,
         red: _Floats,

@@ -8,6 +8,9 @@ Always: nothing but the sizes of structs is checked. What a kernel expects of it
      (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
 """
 
+from array import array
+
+from libc.math cimport INFINITY
 from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t, uint32_t, uint64_t
 from libc.string cimport memcpy, memset
 
@@ -43,6 +46,7 @@ STRUCT_SIZES = {
     "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
     "light": sizeof(e3d_light),
+    "map_batch": sizeof(e3d_map_batch),
 }
 LIMITS = {
     "PAD": E3D_PAD,
@@ -407,14 +411,27 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)
 
-    def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive):
+    def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive,
+                float exposure=1.0):
         """``specular`` may be None."""
         cdef const float *highlight = NULL
         check_size(batch, sizeof(e3d_batch))
         if specular is not None:
             highlight = &specular[0]
         for _ in range(self.rounds):
-            self.table.combine(<e3d_batch *>&batch[0], highlight, &emissive[0])
+            self.table.combine(<e3d_batch *>&batch[0], highlight, &emissive[0], exposure)
+
+    def physical(self, uint8_t[::1] batch, dict model, const uint8_t[::1] lights,
+                 const float[:, ::1] reach, const float[::1] ambient, const float[::1] eye,
+                 uint8_t[::1] maps):
+        """``model``: arrays of float32 by name; the coat's normals are in ``maps``."""
+        cdef float[::1] clamp = array("f", (0.0, INFINITY))
+        cdef e3d_lighting lighting = lighting_of(lights, reach, ambient, clamp, eye)
+        cdef e3d_surface_model surface = model_of(model)
+        check_size(batch, sizeof(e3d_batch))
+        check_size(maps, sizeof(e3d_map_batch))
+        for _ in range(self.rounds):
+            self.table.physical(<e3d_batch *>&batch[0], &surface, &lighting, <e3d_map_batch *>&maps[0])
 
     def encode(self, const float[::1] red, const float[::1] green, const float[::1] blue, int count,
                bint srgb, uint32_t[::1] rgba):

@@ -15,7 +15,23 @@ typedef struct lit_lanes {
     vf32 energy[3], shine[3];
 } lit_lanes;
 
-/* Finds the unit vector towards a point light and its attenuation; returns the lanes within its range. */
+/* R43: what of a light's range is left, over the squared distance. */
+static inline vf32 light_gltf_falloff(vf32 d2, float over_range2)
+{
+    vf32 x = v_mul(d2, v_setf(over_range2)), one = v_setf(1.0f);
+    return v_div(v_max(v_sub(one, v_mul(x, x)), v_setf(0.0f)), d2);
+}
+
+/* R43: how much of a spot light goes this way. */
+static inline vf32 light_cone(const e3d_light *light, const vf32 l[3])
+{
+    const vf32 axis[3] = {v_setf(light->to_light[0]), v_setf(light->to_light[1]), v_setf(light->to_light[2])};
+    vf32 t = v_mul(v_sub(dot_three(l, axis), v_setf(light->cone[0])), v_setf(light->cone[1]));
+    t = v_min(v_max(t, v_setf(0.0f)), v_setf(1.0f));
+    return v_mul(t, t);
+}
+
+/* Finds the unit vector towards a point or spot light and its attenuation; returns the lanes within its range. */
 static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], vf32 l[3],
                                   vf32 *attenuation)
 {
@@ -32,9 +48,13 @@ static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf3
     if (light->falloff == E3D_FALLOFF_WINDOW) {
         vf32 t = v_sub(one, v_mul(d2, v_setf(lighting->reach[4][n])));
         *attenuation = v_mul(t, t);
+    } else if (light->falloff == E3D_FALLOFF_GLTF) {
+        *attenuation = light_gltf_falloff(d2, lighting->reach[4][n]);
     } else {
         *attenuation = v_div(one, d2);
     }
+    if (light->kind == E3D_LIGHT_SPOT)
+        *attenuation = v_mul(*attenuation, light_cone(light, l));
     return near;
 }
 
@@ -226,9 +246,9 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
             v_storef(batch->energy[k] + i, light_clamp(lighting, v_loadf(batch->energy[k] + i)));
 }
 
-/* R31: color = (color * energy + specular * shine) + emissive; what is NULL is 0. */
+/* R31, R44: color = ((color * energy + specular * shine) + emissive) * exposure; what is NULL is 0. */
 static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
-                                         const float emissive[3], vf32 color[3])
+                                         const float emissive[3], float exposure, vf32 color[3])
 {
     for (int k = 0; k < 3; k++) {
         color[k] = v_mul(color[k], energy[k]);
@@ -236,10 +256,12 @@ static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[
             color[k] = v_add(color[k], v_mul(v_setf(specular[k]), shine[k]));
         if (emissive)
             color[k] = v_add(color[k], v_setf(emissive[k]));
+        if (exposure != 1.0f)
+            color[k] = v_mul(color[k], v_setf(exposure));
     }
 }
 
-static void kernel_combine(e3d_batch *batch, const float specular[3], const float emissive[3])
+static void kernel_combine(e3d_batch *batch, const float specular[3], const float emissive[3], float exposure)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3], energy[3], shine[3];
@@ -248,7 +270,7 @@ static void kernel_combine(e3d_batch *batch, const float specular[3], const floa
             energy[k] = v_loadf(batch->energy[k] + i);
             shine[k] = v_loadf(batch->shine[k] + i);
         }
-        combine_vector(energy, shine, specular, emissive, color);
+        combine_vector(energy, shine, specular, emissive, exposure, color);
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }

@@ -18,12 +18,15 @@
     X(UVS, "the output uv")                                                            \
     X(ALBEDO, "the output albedo")                                                     \
     X(IDENTITIES, "an output of IDs or barycentric coordinates")                       \
+    X(MATERIALS, "the outputs metallic_roughness or emissive")                         \
+    X(TANGENTS, "the output tangent")                                                  \
     X(LIT, "mode lit")                                                                 \
     X(UNLIT, "mode unlit")                                                             \
     X(DEPTH_MODE, "mode depth")                                                        \
     X(NORMAL_MODE, "mode normal")                                                      \
     X(OVERDRAW_MODE, "mode overdraw")                                                  \
     X(LOCAL_LIGHT, "light that depends on the position: point lights or highlights")   \
+    X(MAPPED_NORMALS, "a texture of normals")                                          \
     X(MANY_LIGHTS, "more than 4 lights")                                               \
     X(WIREFRAME, "a wireframe, with or without the faces")                             \
     X(WIRE_ONLY, "a wireframe without the faces")                                      \

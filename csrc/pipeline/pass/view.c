@@ -49,7 +49,7 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
         lighting->reach[k] = rows + (size_t)k * room;
     for (size_t n = 0; n < room; n++) {
         const e3d_light *light = n < (size_t)frame->light_count ? &frame->lights[n] : NULL;
-        int point = light && light->kind == E3D_LIGHT_POINT;
+        int point = light && light->kind != E3D_LIGHT_DIRECTIONAL;
         for (int k = 0; k < 3; k++)
             rows[(size_t)k * room + n] = point ? light->position[k] : 0.0f;
         rows[3 * room + n] = point ? light->range * light->range : NAN;
@@ -60,6 +60,8 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     memcpy(lighting->ambient, frame->ambient, sizeof frame->ambient);
     memcpy(lighting->clamp, frame->light_clamp, sizeof frame->light_clamp);
     memcpy(lighting->eye, frame->eye, sizeof frame->eye);
+    lighting->exposure = frame->exposure;
+    lighting->environment = frame->environment.environment ? &frame->environment : NULL;
     return 1;
 }
 

@@ -31,6 +31,7 @@ _PUBLIC = {
     "Mesh": "geometry.mesh",
     "Material": "materials.material",
     "Texture": "materials.textures",
+    "Environment": "environments.environment",
     "InstancedMesh": "scene.instances",
     "box": "primitives",
     "cylinder": "primitives",

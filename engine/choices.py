@@ -38,6 +38,7 @@ Culling = Literal["all", "frustum", "none", "always"]
 Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window"]
+BuiltInEnvironment = Literal["studio", "sky", "hall"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
 PixelFormat = Literal["rgba", "bgra"]
 PointerShape = Literal[

@@ -36,8 +36,10 @@ static int32_t size_of_faces(int32_t width, int32_t height)
 static int32_t size_of_level(int32_t faces, int level)
 {
     static const int32_t MOST[E3D_ENVIRONMENT_LEVELS] = {MOST_SIZE, 256, 128, 64, 32, 32, 32, 32, 32};
-    int32_t least = level && faces < LEAST_LOBES ? LEAST_LOBES : faces;
-    return least < MOST[level] ? least : MOST[level];
+    int32_t half = faces / 2 > LEAST_LOBES ? faces / 2 : LEAST_LOBES;
+    if (level == 0)
+        return faces;
+    return half < MOST[level] ? half : MOST[level];
 }
 
 static size_t floats_of(int32_t size) { return E3D_TEXEL * e3d_cube_texels(size); }

@@ -6,17 +6,10 @@
 #include <stdint.h>
 
 #include "environment/cube.h"
+#include "kernels/types/lobe.h"
 
-enum { E3D_CELLS = 4,
-       E3D_TREE_LEVELS = 8,
+enum { E3D_TREE_LEVELS = 8,
        E3D_TREE_ROOT = 4 }; /* the root's groups are 4 x 4 on a face */
-
-/* The four cells of one parent, side by side: unit vectors to where their light comes from on average, their solid angles, and light
- * times solid angle. */
-typedef struct e3d_cell_group {
-    float direction[3][E3D_CELLS], weight[E3D_CELLS], light[3][E3D_CELLS];
-    float middle[3]; /* of the parent: a unit vector */
-} e3d_cell_group;
 
 typedef struct e3d_tree_level {
     e3d_cell_group *groups; /* (6, size, size) */

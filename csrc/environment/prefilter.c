@@ -11,11 +11,12 @@
 #include "environment/cube.h"
 #include "environment/light_tree.h"
 #include "environment/prefilter.h"
+#include "kernels/kernels.h"
+#include "kernels/types/lobe.h"
 
 enum {
     BLOCK = 4, /* texels along a side */
-    TEXELS = BLOCK * BLOCK,
-    SUMS = 4,      /* red, green, blue, and what light of 1 would be */
+    TEXELS = E3D_LOBE_TEXELS,
     SMALL = 32, /* texels of a face */
     GROUPS_IN_A_ROW = 16 /* whose sums are f32 */
 };
@@ -27,6 +28,7 @@ enum {
 typedef struct lobe {
     float square, rest, width; /* alpha^2 and 1 - alpha^2 */
     float fineness;
+    const e3d_kernels *kernels;
     const e3d_light_tree *tree;
     const e3d_cube *out;
 } lobe;
@@ -34,9 +36,8 @@ typedef struct lobe {
 typedef struct block {
     const lobe *lobe;
     float middle[3], radius;
-    float normal[3][TEXELS];
-    float sums[SUMS][TEXELS];
-    double totals[SUMS][TEXELS];
+    e3d_lobe_block texels;
+    double totals[E3D_LOBE_SUMS][TEXELS];
     int groups;
 } block;
 
@@ -52,12 +53,14 @@ static void begin(const lobe *lobe, int face, int32_t column, int32_t row, block
     double half = (double)BLOCK / size, p = e3d_cube_middle(size, column) - 1.0 / size, q = e3d_cube_middle(size, row) - 1.0 / size;
     memset(out, 0, sizeof *out);
     out->lobe = lobe;
+    out->texels.square = lobe->square;
+    out->texels.rest = lobe->rest;
     e3d_cube_unit(face, p + half, q + half, out->middle);
     for (int t = 0; t < TEXELS; t++) {
         float n[3], radius;
         e3d_cube_unit(face, e3d_cube_middle(size, column + t % BLOCK), e3d_cube_middle(size, row + t / BLOCK), n);
         for (int k = 0; k < 3; k++)
-            out->normal[k][t] = n[k];
+            out->texels.normal[k][t] = n[k];
         radius = distance(n, out->middle);
         out->radius = radius > out->radius ? radius : out->radius;
     }
@@ -66,36 +69,17 @@ static void begin(const lobe *lobe, int face, int32_t column, int32_t row, block
 /* Moves the sums so far to where they lose no bits. */
 static void settle(block *b)
 {
-    for (int channel = 0; channel < SUMS; channel++)
+    for (int k = 0; k < E3D_LOBE_SUMS; k++)
         for (int t = 0; t < TEXELS; t++) {
-            b->totals[channel][t] += (double)b->sums[channel][t];
-            b->sums[channel][t] = 0.0f;
+            b->totals[k][t] += (double)b->texels.sums[k][t];
+            b->texels.sums[k][t] = 0.0f;
         }
     b->groups = 0;
 }
 
-/* Adds a cell to all texels. With m = |n - l|^2: n.l = 1 - m/2, and 1 - (n.h)^2 = m/4, without loss of bits where l is near n. */
-static inline void add_cell(const lobe *lobe, const e3d_cell_group *group, int cell, const float (*restrict normal)[TEXELS],
-                            float (*restrict sums)[TEXELS])
-{
-    const float lx = group->direction[0][cell], ly = group->direction[1][cell], lz = group->direction[2][cell];
-    const float red = group->light[0][cell], green = group->light[1][cell], blue = group->light[2][cell], one = group->weight[cell];
-    const float square = lobe->square, rest = lobe->rest;
-    for (int t = 0; t < TEXELS; t++) {
-        float x = normal[0][t] - lx, y = normal[1][t] - ly, z = normal[2][t] - lz;
-        float m = (x * x + y * y) + z * z, d = square + rest * (m * 0.25f), c = 1.0f - m * 0.5f;
-        float share = (c > 0.0f ? c : 0.0f) / (d * d);
-        sums[0][t] += share * red;
-        sums[1][t] += share * green;
-        sums[2][t] += share * blue;
-        sums[3][t] += share * one;
-    }
-}
-
 static void add_group(block *b, const e3d_cell_group *group)
 {
-    for (int cell = 0; cell < E3D_CELLS; cell++)
-        add_cell(b->lobe, group, cell, b->normal, b->sums);
+    b->lobe->kernels->lobe(group, &b->texels);
     if (++b->groups == GROUPS_IN_A_ROW)
         settle(b);
 }
@@ -151,6 +135,7 @@ void e3d_prefilter(const e3d_light_tree *tree, double roughness, int threads, co
                  .rest = (float)(1.0 - alpha * alpha),
                  .width = (float)(2.0 * alpha),
                  .fineness = out->size > SMALL ? COARSE : FINE,
+                 .kernels = e3d_kernels_for(e3d_backend_best()),
                  .tree = tree,
                  .out = out};
     e3d_pool_share(threads, E3D_FACES * out->size / BLOCK, filter_row, &lobe);

@@ -43,8 +43,8 @@ class Environment(Closed):
     ----------
     pixels : (H, W, 3) array-like of float
         Linear radiance, the top row first: 1 is what a white surface shows under light of 1. Sides
-        from 1 to 16384, commonly W = 2H. What is not finite or below 0 counts as 0, and no more than
-        2**40 counts.
+        from 1 to 16384, commonly W = 2H. What is not finite or below 0 counts as 0, and no more
+        than 2**40 counts.
     name : str
 
     Attributes

@@ -73,9 +73,9 @@ def _window(hit: _Hit) -> Floats:
     off = _from_middle(hit.z)
     glass = ramp(_HALF_WINDOW, _HALF_WINDOW - 0.05, off)
     glass = glass * ramp(_SILL, _SILL + 0.05, hit.y) * ramp(_TOP, _TOP - 0.05, hit.y)
-    upright = ramp(0.04, 0.08, np.abs(off - 0.37))
-    across = ramp(0.04, 0.08, np.abs(hit.y - 2.0))
-    return glass * (0.08 + 0.92 * upright * across)
+    upright = ramp(0.05, 0.07, np.abs(off - 0.37))
+    across = ramp(0.05, 0.07, np.abs(hit.y - 2.0))
+    return glass * (0.015 + 0.985 * upright * across)
 
 
 def _lamps(hit: _Hit) -> Floats:

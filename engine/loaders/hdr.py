@@ -23,8 +23,8 @@ _MOST_HEADER = 1 << 16  # bytes
 _SIZE = re.compile(rb"([-+])([XY]) +(\d{1,9}) +([-+])([XY]) +(\d{1,9})\s*")
 _FORMAT = b"32-bit_rle_rgbe"
 _LEAST_LINE = 8  # bytes: a pixel, and a run of the old kind
-# Files of the new kind say at most 16 pixels a byte; of the old kind, which is rare, long runs count
-# as hostile.
+# Files of the new kind say at most 16 pixels a byte; of the old kind, which is rare, long runs
+# count as hostile.
 _PIXELS_PER_BYTE, _FEW_PIXELS = 20, 1 << 21
 
 

@@ -1,8 +1,8 @@
 """The core's side of meshes, textures and environments, made when first needed and kept.
 
-In: `Mesh`, `Texture`, `Environment`. Out: their native handles, made anew when arrays are others (and one for
-each way to decode a texture), forgotten with the object. The arrays that only some pictures need
-(normals, edges) are added to a mesh's handle when one does.
+In: `Mesh`, `Texture`, `Environment`. Out: their native handles, made anew when arrays are others
+(and one for each way to decode a texture), forgotten with the object. The arrays that only some
+pictures need (normals, edges) are added to a mesh's handle when one does.
 """
 
 from __future__ import annotations

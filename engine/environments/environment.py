@@ -21,7 +21,7 @@ from ..choices import BuiltInEnvironment
 from ..errors import InvalidArgumentError
 
 if TYPE_CHECKING:
-    from ..loaders.sources import File
+    from ..loaders.sources import File, Source
 
 #: Names of those that are made by rule.
 BUILT_IN: tuple[BuiltInEnvironment, ...] = get_args(BuiltInEnvironment)
@@ -94,14 +94,10 @@ class Environment(Closed):
             It is damaged, or neither of both; the message names the file and the byte.
         InvalidArgumentError
         """
-        from ..loaders.radiance_pictures import load_radiance
         from ..loaders.sources import read_source
 
         with read_source(path) as source:
-            environment = Environment(load_radiance(source), name=source.stem)
-            if source.has_name:
-                environment._path = os.path.abspath(source.path)
-        return environment
+            return environment_of(source)
 
     @staticmethod
     def studio() -> Environment:
@@ -153,6 +149,16 @@ class Environment(Closed):
 
     def __repr__(self) -> str:
         return f"Environment({self.width}x{self.height}, name={self.name!r})"
+
+
+def environment_of(source: Source) -> Environment:
+    """Return the environment of a file's content; raises as `Environment.load` does."""
+    from ..loaders.radiance_pictures import load_radiance
+
+    environment = Environment(load_radiance(source), name=source.stem)
+    if source.has_name:
+        environment._path = os.path.abspath(source.path)
+    return environment
 
 
 def _checked(pixels: ArrayLike) -> NDArray[np.float32]:

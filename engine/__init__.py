@@ -65,6 +65,8 @@ _PUBLIC = {
     "DirectionalLight": "scene.lights",
     "PointLight": "scene.lights",
     "Animator": "scene.animation",
+    "MorphTarget": "geometry.morph_targets",
+    "Skin": "motion.skins",
     "Node": "scene.nodes",
     "Resource": "files.resources",
     "Resources": "files.resources",

@@ -51,6 +51,8 @@ from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
 from .rendering.renderer import Renderer as Renderer
 from .rendering.renderer import render as render
+from .geometry.morph_targets import MorphTarget as MorphTarget
+from .motion.skins import Skin as Skin
 from .scene.animation import Animator as Animator
 from .scene.cameras import Camera as Camera
 from .scene.cameras import IntrinsicsCamera as IntrinsicsCamera

@@ -34,6 +34,7 @@ from .selection import NodeSelection
 
 if TYPE_CHECKING:
     from ..rendering.frame import Frame
+    from ..motion.clips import AnimationClip
     from ..spatial.colliders import ColliderHit
     from ..spatial.rays import RayHit, RayHits
     from .nodes import SceneObject
@@ -59,6 +60,8 @@ class Scene(Closed):
     ----------
     background, ambient, light_clamp
         As above; assign at any time.
+    animations : dict of str to AnimationClip
+        Clips of a file, by name, for an `AnimationPlayer`.
     warnings : list of str
         What was left out or replaced where the scene was made from a file.
 
@@ -67,6 +70,7 @@ class Scene(Closed):
     InvalidArgumentError
     """
 
+    animations: dict[str, AnimationClip]
     warnings: list[str]
 
     def __init__(
@@ -90,6 +94,7 @@ class Scene(Closed):
         self._names: dict[str, Node] | None = None
         self._renames = 0  # how often a node got another name
         self._posing: Posing | None = None  # made when a mesh is first bent
+        self.animations = {}
         self.warnings = []
         self.background = background
         self.ambient = ambient

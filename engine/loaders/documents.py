@@ -147,6 +147,12 @@ class MeshRecord:
     morphs : tuple of MorphRecord
     morph_weights : tuple of float
         One for each morph target, where the node says nothing else.
+    variants : dict of int to tuple of Material
+        What takes the place of the mesh's materials in a variant of `TreeRecord.variants`.
+    rest : tuple of MeshRecord
+        Further parts of the mesh, which no `Mesh` could hold with the others: what carries other
+        vertex attributes, lines and points of another material. All of them have as many morph
+        targets; names, weights and extras are those of the first.
     extras : object
         What the file says besides, as JSON has it; None for nothing.
     """
@@ -157,6 +163,8 @@ class MeshRecord:
     weights: np.ndarray | None = None
     morphs: tuple[MorphRecord, ...] = ()
     morph_weights: tuple[float, ...] = ()
+    variants: dict[int, tuple[Material, ...]] = field(default_factory=dict)
+    rest: tuple[MeshRecord, ...] = ()
     extras: Any = None
 
 
@@ -267,7 +275,8 @@ class LampRecord:
 
     Attributes
     ----------
-    kind : {"directional", "point", "spot"}
+    kind : str
+        "directional", "point" or "spot"; a file may have others, which give no light.
     name : str
     color : tuple of 3 float
         Linear light.

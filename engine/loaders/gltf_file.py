@@ -15,6 +15,7 @@ from .sources import Source
 from .text import shown
 
 GLB = b"glTF"
+LIGHTS = "KHR_lights_punctual"
 _HEADER, _CHUNK_HEADER = 12, 8
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 
@@ -28,6 +29,8 @@ class GltfFile:
 
     Attributes
     ----------
+    path : str
+        What messages call it.
     kind : {"glb", "gltf"}
     tree : dict
         The JSON.
@@ -41,7 +44,7 @@ class GltfFile:
     """
 
     def __init__(self, source: Source) -> None:
-        self._path = source.path
+        self.path = source.path
         data = memoryview(source.data)
         is_binary = source.data.startswith(GLB)
         if source.extension == ".glb" and not is_binary:
@@ -56,7 +59,7 @@ class GltfFile:
 
     def error(self, message: str) -> FileFormatError:
         """Return an error that names the file."""
-        return FileFormatError(message, self._path)
+        return FileFormatError(message, self.path)
 
     def entries(self, name: str, parent: dict | None = None, where: str = "") -> list[dict]:
         """Return a list of objects of the JSON, or of an object in it; empty if it is left out."""
@@ -72,11 +75,25 @@ class GltfFile:
     def entry(self, name: str, index, where: str) -> dict:
         """Return the object that an index means; ``where`` is the place that names it."""
         entries = self.entries(name)
-        if type(index) is not int or not 0 <= index < len(entries):
-            raise self.error(
-                f"damaged: {where} names {name}[{_short(index)}], there are {len(entries)}"
-            )
-        return entries[index]
+        return entries[self.index(index, len(entries), name, where)]
+
+    def index(self, value, count: int, name: str, where: str) -> int:
+        """Return the number of one of ``count`` things."""
+        if type(value) is not int or not 0 <= value < count:
+            raise self.error(f"damaged: {where} names {name}[{_short(value)}], there are {count}")
+        return value
+
+    def lights(self) -> list[dict]:
+        """Return the lights of KHR_lights_punctual."""
+        lights = self.part(self.part(self.tree, "extensions", ""), LIGHTS, "extensions")
+        return self.entries("lights", lights, f"extensions.{LIGHTS}.")
+
+    def text(self, entry: dict, name: str, where: str) -> str:
+        """Return a text; empty if it is left out."""
+        value = entry.get(name, "")
+        if not isinstance(value, str):
+            raise self.error(f"damaged: {where}.{name} is {_short(value)}, no text")
+        return value
 
     def part(self, parent: dict, name: str, where: str) -> dict:
         """Return an object in an object; empty if it is left out."""
@@ -101,6 +118,22 @@ class GltfFile:
         if not is_sound or not all(_is_number(value) for value in values):
             raise self.error(f"damaged: {where}.{name} is not {len(default)} numbers")
         return tuple(float(value) for value in values)
+
+    def number(self, entry: dict, name: str, where: str, default: float) -> float:
+        """Return a finite number."""
+        value = entry.get(name, default)
+        if not _is_number(value):
+            raise self.error(f"damaged: {where}.{name} is {_short(value)}, no finite number")
+        return float(value)
+
+    def number_list(self, entry: dict, name: str, where: str) -> tuple[float, ...] | None:
+        """Return any number of finite numbers; None if they are left out."""
+        values = entry.get(name)
+        if values is None:
+            return None
+        if not isinstance(values, list) or not all(map(_is_number, values)):
+            raise self.error(f"damaged: {where}.{name} is no list of numbers")
+        return tuple(map(float, values))
 
     def _first_chunk(self, data: memoryview) -> memoryview:
         """The bytes of the JSON; takes note of the binary chunk."""

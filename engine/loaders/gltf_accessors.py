@@ -59,6 +59,14 @@ class GltfAccessors:
                 f"damaged: accessors[{index}], {where}, is of the type {shown(str(kind))}"
             )
 
+    def typed(self, values: np.ndarray, index: int) -> np.ndarray:
+        """Return what was unpacked elsewhere, of the type that its accessor announces."""
+        kind = self._type(self.file.entries("accessors")[index], f"accessors[{index}]")
+        if kind.kind == "f" or values.dtype == kind:
+            return values.astype(kind, copy=False)
+        range_of = np.iinfo(kind)
+        return np.nan_to_num(values).clip(range_of.min, range_of.max).astype(kind)
+
     def floats(self, index, where: str, *widths: int) -> np.ndarray:
         """Return an accessor as (N, width) float32; integers that stand for 0..1 or -1..1 as such.
 
@@ -80,8 +88,8 @@ class GltfAccessors:
         self._buffers.count(values.size)
         if self.file.entries("accessors")[index].get("normalized") is not True:
             return values.astype(np.float32)
-        if values.dtype.kind not in "iu":
-            raise self.file.error(f"damaged: accessors[{index}] has normalized floats")
+        if values.dtype.kind == "f":  # some exporters say it of floats, too, of which it means nothing
+            return values.astype(np.float32)
         return np.maximum(values / np.float32(np.iinfo(values.dtype).max), np.float32(-1))
 
     def indices(self, index, where: str) -> np.ndarray:
@@ -95,8 +103,6 @@ class GltfAccessors:
     def _values(self, accessor: dict, name: str) -> np.ndarray:
         count = self.file.whole(accessor, "count", name)
         width = _WIDTHS[accessor["type"]]
-        if not count:
-            raise self.file.error(f"damaged: {name} is empty")
         if "bufferView" not in accessor or "sparse" in accessor:
             self._buffers.count(count * width)
         values = self._stored(accessor, name, count, width, self._type(accessor, name))
@@ -121,7 +127,7 @@ class GltfAccessors:
         start = self.file.whole(entry, "byteOffset", name, 0)
         if stride < row:
             raise self.file.error(f"damaged: {name} has rows of {row} bytes every {stride}")
-        end = start + (count - 1) * stride + row
+        end = start + (count - 1) * stride + row if count else start
         if end > len(data):
             raise self.file.error(f"damaged: {name} ends at byte {end}, its view at {len(data)}")
         return np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))

@@ -15,6 +15,7 @@ from .linked_files import LinkedFileError, LinkedFiles
 from .posed_parts import MAX_REPEATED
 from .sources import Source
 from .text import shown
+from .warning_list import WarningList
 
 # Several primitives may share what takes a byte a number, honestly.
 _NUMBERS_PER_BYTE = 4
@@ -28,6 +29,7 @@ class GltfBuffers:
     file : GltfFile
     source : Source
         Where it is from.
+    warnings : WarningList
 
     Attributes
     ----------
@@ -36,8 +38,8 @@ class GltfBuffers:
         with the files that are read.
     """
 
-    def __init__(self, file: GltfFile, source: Source) -> None:
-        self._file = file
+    def __init__(self, file: GltfFile, source: Source, warnings: WarningList) -> None:
+        self._file, self._warnings = file, warnings
         self._files = LinkedFiles(source.folder)
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
@@ -145,9 +147,9 @@ class GltfBuffers:
         elif index == 0 and self._file.binary is not None:
             data = self._file.binary
         else:
-            extensions = ", ".join(map(str, self._file.part(buffer, "extensions", name)))
-            note = f" but for {shown(extensions)}, which is not read" if extensions else ""
-            raise self._file.error(f"{name} has no data{note}")
+            self.allow(length, name)
+            self._warnings.add(f"{name} has no data: zeros instead")
+            data = memoryview(bytes(length))
         if len(data) < length:
             raise self._file.error(
                 f"damaged: {name} is announced with {length} bytes, there are {len(data)}"

@@ -17,6 +17,8 @@ from .text import shown
 GLB = b"glTF"
 LIGHTS = "KHR_lights_punctual"
 _HEADER, _CHUNK_HEADER = 12, 8
+_LISTS = ("accessors", "animations", "bufferViews", "buffers", "cameras", "images", "materials")
+_LISTS += ("meshes", "nodes", "samplers", "scenes", "skins", "textures")
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 
 
@@ -36,6 +38,8 @@ class GltfFile:
         The JSON.
     binary : memoryview or None
         The binary chunk of a .glb, if it has one.
+    newer : str or None
+        A version beyond 2.0 that it says it needs.
 
     Raises
     ------
@@ -56,6 +60,10 @@ class GltfFile:
             data = self._first_chunk(data)
         self.tree = self._parsed(data)
         self._check_version()
+        for name in _LISTS:
+            self.entries(name)
+        for name in self.part(self.tree, "extensions", ""):
+            self.part(self.tree["extensions"], name, "extensions")
 
     def error(self, message: str) -> FileFormatError:
         """Return an error that names the file."""
@@ -85,7 +93,10 @@ class GltfFile:
 
     def lights(self) -> list[dict]:
         """Return the lights of KHR_lights_punctual."""
-        lights = self.part(self.part(self.tree, "extensions", ""), LIGHTS, "extensions")
+        extensions = self.part(self.tree, "extensions", "")
+        lights = self.part(extensions, LIGHTS, "extensions")
+        if LIGHTS in extensions and "lights" not in lights:
+            raise self.error(f"damaged: extensions.{LIGHTS} has no lights")
         return self.entries("lights", lights, f"extensions.{LIGHTS}.")
 
     def text(self, entry: dict, name: str, where: str) -> str:
@@ -155,11 +166,23 @@ class GltfFile:
                 raise self.error("damaged: a chunk goes beyond the end of the file")
             if kind == _BINARY:
                 self.binary = data[start : start + size]
+            elif self._has_chunk(data[start + size : length], _BINARY):
+                raise self.error("damaged: the binary chunk is not the second one")
         return data[first:end]
+
+    def _has_chunk(self, data: memoryview, wanted: int) -> bool:
+        """Whether a chunk of a kind stands in the rest of a file."""
+        place = 0
+        while place + _CHUNK_HEADER <= len(data):
+            size, kind = struct.unpack_from("<II", data, place)
+            if kind == wanted:
+                return True
+            place += _CHUNK_HEADER + size
+        return False
 
     def _parsed(self, text: memoryview) -> dict:
         try:
-            tree = json.loads(bytes(text).decode("utf-8-sig"))
+            tree = json.loads(bytes(text).decode("utf-8"))
         except RecursionError:
             raise self.error(f"not a {self.kind} file: its JSON is nested too deeply") from None
         except ValueError as error:
@@ -173,9 +196,10 @@ class GltfFile:
         version, least = asset.get("version"), asset.get("minVersion", "2.0")
         if not isinstance(version, str) or not isinstance(least, str):
             raise self.error("not a glTF file: it does not tell its version as a text")
-        if version.partition(".")[0] != "2" or least not in ("2.0", "2"):
-            wanted = version if version.partition(".")[0] != "2" else least
-            raise self.error(f"glTF of version {shown(wanted)} is not read, only 2.0")
+        for wanted in (version, least):
+            if wanted.partition(".")[0] != "2":
+                raise self.error(f"glTF of version {shown(wanted)} is not read, only 2.0")
+        self.newer = least if least not in ("2.0", "2") else None
 
 
 def _is_number(value) -> bool:

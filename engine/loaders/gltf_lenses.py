@@ -10,6 +10,7 @@ import math
 
 from .documents import LampRecord, LensRecord
 from .gltf_file import LIGHTS, GltfFile
+from .warning_list import WarningList
 
 
 def read_cameras(file: GltfFile) -> tuple[LensRecord, ...]:
@@ -47,7 +48,7 @@ def _camera(file: GltfFile, entry: dict, where: str) -> LensRecord:
         return LensRecord(**common, **size)
     yfov = _needed(file, part, "yfov", where)
     aspect = file.number(part, "aspectRatio", where, 0.0) if "aspectRatio" in part else None
-    if not (0 < yfov < math.pi and common["znear"] > 0 and (aspect is None or aspect > 0)):
+    if not (yfov > 0 and common["znear"] > 0 and (aspect is None or aspect > 0)):
         raise file.error(f"damaged: {where} sees nothing")
     return LensRecord(**common, yfov=yfov, aspect=aspect)
 
@@ -58,7 +59,7 @@ def _needed(file: GltfFile, part: dict, name: str, where: str) -> float:
     return file.number(part, name, where, 0.0)
 
 
-def read_lights(file: GltfFile) -> tuple[LampRecord, ...]:
+def read_lights(file: GltfFile, warnings: WarningList) -> tuple[LampRecord, ...]:
     """Return the lights.
 
     Raises
@@ -67,12 +68,12 @@ def read_lights(file: GltfFile) -> tuple[LampRecord, ...]:
         One has no kind, or is darker than dark.
     """
     return tuple(
-        _light(file, entry, f"{LIGHTS}.lights[{index}]")
+        _light(file, entry, warnings, f"{LIGHTS}.lights[{index}]")
         for index, entry in enumerate(file.lights())
     )
 
 
-def _light(file: GltfFile, entry: dict, where: str) -> LampRecord:
+def _light(file: GltfFile, entry: dict, warnings: WarningList, where: str) -> LampRecord:
     kind = entry.get("type")
     if not isinstance(kind, str):
         raise file.error(f"damaged: {where} is of no type")
@@ -88,7 +89,10 @@ def _light(file: GltfFile, entry: dict, where: str) -> LampRecord:
         outer = file.number(spot, "outerConeAngle", where, outer)
         # Exporters write pi / 2 with a digit too many.
         outer = math.pi / 2 if 0 < outer - math.pi / 2 < 1e-6 else outer
-        if not 0 <= inner < outer <= math.pi / 2:
+        if not (inner >= 0 and 0 < outer <= math.pi / 2):
             raise file.error(f"damaged: {where} has a cone from {inner:g} to {outer:g}")
+        if inner >= outer:
+            warnings.add(f"{where} has a cone from {inner:g} to {outer:g}: its rim is sharp")
+            inner = math.nextafter(outer, 0.0)
     name = file.text(entry, "name", where)
     return LampRecord(kind, name, color, intensity, reach, inner, outer, entry.get("extras"))

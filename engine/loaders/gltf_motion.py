@@ -6,6 +6,8 @@ something else than nodes is left out with a warning.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .documents import ChannelRecord, ClipRecord, MeshRecord, NodeRecord, SkinRecord
@@ -86,7 +88,7 @@ class _Clips:
     def __init__(self, file, accessors, nodes, meshes, warnings) -> None:
         self._file, self._accessors = file, accessors
         self._nodes, self._meshes, self._warnings = nodes, meshes, warnings
-        self._times: dict[int, np.ndarray] = {}
+        self._times: dict[int, tuple[np.ndarray, np.ndarray | None]] = {}
         self._values: dict[int, np.ndarray] = {}
 
     def clip(self, entry: dict, where: str) -> ClipRecord:
@@ -95,23 +97,24 @@ class _Clips:
             if name not in entry:
                 raise file.error(f"damaged: {where} has no {name}")
         samplers = file.entries("samplers", entry, f"{where}.")
-        channels = []
+        channels, last = [], 0.0
         for number, channel in enumerate(file.entries("channels", entry, f"{where}.")):
             place = f"{where}.channels[{number}]"
             index = file.index(channel.get("sampler"), len(samplers), "samplers", place)
-            read = self._channel(channel, samplers[index], place, f"{where}.samplers[{index}]")
+            sampled = self._sampled(samplers[index], f"{where}.samplers[{index}]")
+            last = max(last, float(sampled[0][-1]))
+            read = self._channel(channel, sampled, place)
             channels += [] if read is None else [read]
-        last = max((float(channel.times[-1]) for channel in channels), default=0.0)
         name = file.text(entry, "name", where)
         return ClipRecord(name, last, tuple(channels), entry.get("extras"))
 
-    def _channel(self, channel: dict, sampler: dict, where: str, place: str):
+    def _channel(self, channel: dict, sampled: tuple, where: str) -> ChannelRecord | None:
         file = self._file
         target = file.part(channel, "target", where)
         path = target.get("path")
         if not isinstance(path, str):
             raise file.error(f"damaged: {where} has no path")
-        times, values, interpolation = self._sampled(sampler, place)
+        times, values, is_later, interpolation = sampled
         if "node" in target:
             file.entry("nodes", target["node"], where)
         if path not in (*_WIDTHS, "weights") or "node" not in target:
@@ -120,13 +123,15 @@ class _Clips:
             self._warnings.add(f"{where} moves {shown(str(what))} of no node: left out")
             return None
         width = self._width(path, target["node"], where)
-        rows = len(times) * (_SPLINE if interpolation == "cubicspline" else 1)
-        if values.size != rows * width:
+        shape = (_SPLINE, width) if interpolation == "cubicspline" else (width,)
+        if values.size != len(times) * math.prod(shape):
             raise file.error(
                 f"damaged: {where} has {values.size} numbers for {len(times)} times of {width}"
             )
-        shape = (len(times), _SPLINE, width) if rows > len(times) else (len(times), width)
-        return ChannelRecord(target["node"], path, interpolation, times, values.reshape(shape))
+        values = values.reshape(len(times), *shape)
+        if is_later is not None:
+            times, values = times[is_later], values[is_later]
+        return ChannelRecord(target["node"], path, interpolation, times, values)
 
     def _width(self, path: str, node: int, where: str) -> int:
         """How many numbers there are for each time."""
@@ -138,7 +143,8 @@ class _Clips:
             raise self._file.error(f"damaged: {where} moves weights of no morph targets")
         return count
 
-    def _sampled(self, sampler: dict, where: str) -> tuple[np.ndarray, np.ndarray, str]:
+    def _sampled(self, sampler: dict, where: str) -> tuple:
+        """Times, values, which times differ from the next one (None for all), interpolation."""
         file = self._file
         interpolation = sampler.get("interpolation", "LINEAR")
         if interpolation not in _INTERPOLATIONS:
@@ -154,13 +160,19 @@ class _Clips:
             if not np.isfinite(values).all():
                 raise file.error(f"damaged: {where} has values that are not finite")
             self._values[output] = values
-        return self._times[key], self._values[output], interpolation.lower()
+        times, is_later = self._times[key]
+        return times, self._values[output], is_later, interpolation.lower()
 
-    def _checked_times(self, index: int, where: str) -> np.ndarray:
+    def _checked_times(self, index: int, where: str) -> tuple[np.ndarray, np.ndarray | None]:
         raw = self._accessors.raw(index, where, 1)
         if raw.dtype.kind != "f":
             raise self._file.error(f"damaged: {where} has times that are no floats")
         times = self._accessors.floats(index, where, 1)[:, 0]
-        if not (np.isfinite(times).all() and times[0] >= 0 and (np.diff(times) > 0).all()):
+        steps = np.diff(times)
+        is_sound = len(times) and np.isfinite(times).all() and times[0] >= 0
+        if not is_sound or (steps < 0).any():
             raise self._file.error(f"damaged: {where} has times that go back, or are none")
-        return times
+        if (steps > 0).all():
+            return times, None
+        self._warnings.add(f"{where} has equal times: the last one of each counts")
+        return times, np.append(steps > 0, True)

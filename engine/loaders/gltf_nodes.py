@@ -58,6 +58,22 @@ def read_roots(
 
 
 def _check_tree(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ...]) -> None:
+    """Raise unless each node is below one other at most, and none below itself."""
+    above = [-1] * len(nodes)
+    for index, node in enumerate(nodes):
+        for child in node.children:
+            if above[child] >= 0:
+                raise file.error(f"damaged: nodes[{child}] is named twice")
+            above[child] = index
+    _reached(file, nodes, roots)
+    tops = tuple(index for index, parent in enumerate(above) if parent < 0)
+    missed = _reached(file, nodes, tops).find(0)
+    if missed >= 0:
+        raise file.error(f"damaged: nodes[{missed}] is below itself")
+
+
+def _reached(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ...]) -> bytearray:
+    """A one for each node that stands below these, or is one of them; each is so once."""
     seen = bytearray(len(nodes))
     waiting = list(roots)
     while waiting:
@@ -66,6 +82,7 @@ def _check_tree(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int,
             raise file.error(f"damaged: nodes[{index}] is named twice")
         seen[index] = 1
         waiting += nodes[index].children
+    return seen
 
 
 def _node(file: GltfFile, accessors: GltfAccessors, node: dict, where: str) -> NodeRecord:

@@ -204,7 +204,7 @@ class _Vertices:
             return np.arange(self.total, dtype=np.int32)
         else:
             corners = self._accessors.indices(self._entry["indices"], self.where)
-        highest = int(corners.max(initial=0))
+        highest = int(corners.max()) if len(corners) else -1
         if highest >= self.total:
             raise self._accessors.file.error(
                 f"damaged: {self.where} names vertex {highest}, there are {self.total}"
@@ -221,7 +221,7 @@ class _Vertices:
         unpacked = None if self._unpacked is None else self._unpacked.arrays.get(name)
         if unpacked is not None:
             self._accessors.check(self.attributes[name], where, *widths)
-            values = unpacked
+            values = self._accessors.typed(unpacked, self.attributes[name])
         else:
             values = self._accessors.raw(self.attributes[name], where, *widths)
         self._check_count(values, name)

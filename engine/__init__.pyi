@@ -52,6 +52,11 @@ from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
 from .rendering.renderer import Renderer as Renderer
 from .rendering.renderer import render as render
+from .geometry.morph_targets import MorphTarget as MorphTarget
+from .motion.clips import AnimationClip as AnimationClip
+from .motion.clips import Channel as Channel
+from .motion.player import AnimationPlayer as AnimationPlayer
+from .motion.skins import Skin as Skin
 from .scene.animation import Animator as Animator
 from .scene.cameras import Camera as Camera
 from .scene.cameras import IntrinsicsCamera as IntrinsicsCamera

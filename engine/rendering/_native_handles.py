@@ -39,7 +39,7 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
     made_of, native = _meshes.get(mesh, (None, None))
     if made_of is None or not all(map(operator.is_, arrays.values(), made_of.values())):
-        native = _make_mesh(arrays, threads)
+        native = make_mesh(arrays, threads)
         _meshes[mesh] = arrays, native
     if needs.vertex_normals and "normals" not in native.attributes:
         native.set_attribute("normals", mesh._derive("normals", arrays))
@@ -50,7 +50,8 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     return native
 
 
-def _make_mesh(arrays: dict, threads: int) -> NativeMesh:
+def make_mesh(arrays: dict, threads: int, movers: np.ndarray | None = None) -> NativeMesh:
+    """Return a handle of a mesh's arrays; vertices with different movers share none of clusters."""
     held = {name: arrays[name] for name in vertex_attributes(Mesh) if arrays[name] is not None}
     return NativeMesh(
         arrays["positions"],
@@ -59,6 +60,7 @@ def _make_mesh(arrays: dict, threads: int) -> NativeMesh:
         material_ids=arrays["material_ids"],
         lines=arrays["lines"],
         points=arrays["points"],
+        movers=movers,
         threads=threads,
     )
 

@@ -23,6 +23,7 @@ from ..spatial.colliders import check_collider
 
 if TYPE_CHECKING:
     from ..geometry.mesh import Mesh
+    from ..motion.skins import Skin
     from ..spatial.colliders import Collider
     from .cameras import Camera
     from .instances import InstancedMesh
@@ -45,12 +46,16 @@ class Node:
         "__weakref__",
         "_arrays",
         "_collider",
+        "_drawn",
         "_id",
+        "_morph_weights",
         "_name",
         "_object",
         "_pose",
         "_pose_version",
+        "_posed",
         "_scene",
+        "_skin",
         "_slot",
         "_taken",
         "_taken_with",
@@ -60,7 +65,8 @@ class Node:
 
     def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
         self._scene = scene
-        self._object = obj
+        self._object = self._drawn = obj  # drawn: what is shown of it
+        self._skin = self._morph_weights = self._posed = None
         self._name = name
         self._collider = None
         self._taken = ()  # the nodes below that were removed with this one
@@ -89,6 +95,39 @@ class Node:
         if self._collider is not None:
             check_collider(value, self._collider)
         self._scene._put(self, value)
+
+    @property
+    def skin(self) -> Skin | None:
+        """The joints that bend the node's mesh, or None.
+
+        The mesh needs ``joints`` and ``weights``. It then stands where the joints put it, wherever
+        the node itself is. A mesh may be shown by many nodes, each with a skin of its own.
+        """
+        return self._skin
+
+    @skin.setter
+    def skin(self, value: Skin | None) -> None:
+        from ..motion.posing import check_skin
+
+        self._skin = check_skin(value, self)
+        if self._scene is not None:
+            self._scene._show(self)
+
+    @property
+    def morph_weights(self) -> NDArray[np.float64] | None:
+        """How much of each morph target is added to the node's mesh, (T,) float64; None is 0."""
+        return self._morph_weights
+
+    @morph_weights.setter
+    def morph_weights(self, value: ArrayLike | None) -> None:
+        from ..motion.posing import check_morph_weights, set_weights
+
+        self._morph_weights = check_morph_weights(value, self._object)
+        if self._posed is not None and value is not None:
+            set_weights(self._posed, self._morph_weights)
+            self._arrays.changes += 1
+        elif self._scene is not None:
+            self._scene._show(self)
 
     @property
     def name(self) -> str:

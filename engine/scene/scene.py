@@ -24,6 +24,7 @@ from ..choices import Color, ColorLike, Cull
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import check_color
+from ..motion.posing import Posing, check_fit, posed_for
 from ._objects import ObjectTable
 from .cameras import Camera
 from .instances import InstancedMesh
@@ -34,6 +35,7 @@ from .selection import NodeSelection
 
 if TYPE_CHECKING:
     from ..rendering.frame import Frame
+    from ..motion.clips import AnimationClip
     from ..spatial.colliders import ColliderHit
     from ..spatial.rays import RayHit, RayHits
     from .nodes import SceneObject
@@ -63,6 +65,8 @@ class Scene(Closed):
     ----------
     background, ambient, light_clamp, exposure
         As above; assign at any time.
+    animations : dict of str to AnimationClip
+        Clips of a file, by name, for an `AnimationPlayer`.
     warnings : list of str
         What was left out or replaced where the scene was made from a file.
 
@@ -71,6 +75,7 @@ class Scene(Closed):
     InvalidArgumentError
     """
 
+    animations: dict[str, AnimationClip]
     warnings: list[str]
 
     def __init__(
@@ -94,6 +99,8 @@ class Scene(Closed):
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
         self._renames = 0  # how often a node got another name
+        self._posing: Posing | None = None  # made when a mesh is first bent
+        self.animations = {}
         self.warnings = []
         self.background = background
         self.ambient = ambient
@@ -236,14 +243,29 @@ class Scene(Closed):
     def _put(self, node: Node, obj) -> None:
         """Let a node hold another object."""
         _check_object(obj)
-        number = self._objects.take(obj)
-        self._objects.release(node._object)
+        if node._skin is not None:
+            check_fit(obj, node._skin)
+        if node._object is not obj:
+            node._morph_weights = None
         node._object = obj
-        self._arrays.set_object(node._slot, number)
+        self._show(node)
         self._cameras.pop(node.id, None)
         self._lights.pop(node.id, None)
         self._list(node)
         self._removals += 1
+
+    def _show(self, node: Node) -> None:
+        """Let a node draw what it holds, as its skin and its morph weights bend it."""
+        posed, before = posed_for(node), node._drawn
+        if posed is not None and self._posing is None:
+            self._posing = Posing()
+        drawn = node._object if posed is None else posed
+        number = self._objects.take(drawn)
+        self._objects.release(before)
+        node._posed, node._drawn = posed, drawn
+        self._arrays.set_object(node._slot, number)
+        if self._posing is not None:
+            (self._posing.leave if posed is None else self._posing.take)(node)
 
     def remove(self, node: Node) -> None:
         """Take a node and everything below it out of the scene; see `restore`.
@@ -260,7 +282,7 @@ class Scene(Closed):
             gone, arrays.nodes[slot] = arrays.nodes[slot], None
             taken.append(gone)
             gone._scene = None
-            self._objects.release(gone._object)
+            self._objects.release(gone._drawn)
             self._cameras.pop(gone.id, None)
             self._lights.pop(gone.id, None)
             self._colliders.pop(gone.id, None)
@@ -304,7 +326,7 @@ class Scene(Closed):
         for slot, back in zip(arrays.restore(node._slot), taken, strict=True):
             arrays.nodes[slot] = back
             back._scene, back._taken_with = self, None
-            arrays.set_object(slot, self._objects.take(back._object))
+            arrays.set_object(slot, self._objects.take(back._drawn))
             self._list(back)
             self._set_collider(back)
         self._gone.discard(node)
@@ -538,6 +560,8 @@ class Scene(Closed):
 
     def _update(self, threads: int = 1) -> None:
         """Make world poses, visibility and bounds of all nodes true; threads: 0 is all."""
+        if self._posing is not None:
+            self._posing.update(self, threads)
         self._objects.refresh(self._arrays)
         self._arrays.update(self._objects.boxes, threads)
 

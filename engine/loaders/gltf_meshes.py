@@ -12,7 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..geometry.mesh import Mesh
-from .documents import MeshRecord, MorphRecord
+from ..geometry.morph_targets import MorphTarget
+from .documents import MeshRecord
 from .gltf_buffers import GltfBuffers
 from .gltf_file import GltfFile
 from .gltf_materials import GltfMaterials
@@ -83,14 +84,12 @@ class GltfMeshes:
                 groups.setdefault(_kind_of(read), []).append((read, primitive, place))
         if not groups:
             return MeshRecord(name, Mesh([], name=name), extras=entry.get("extras"))
-        first, *rest = (self._part(name, members) for members in groups.values())
-        names = _target_names(entry.get("extras"), len(first.morphs))
+        (count,) = targets
+        names = _target_names(entry.get("extras"), count)
+        first, *rest = (self._part(name, members, names) for members in groups.values())
+        weights = self._weights(weights, count, where)
         return replace(
-            first,
-            morphs=tuple(map(_named, first.morphs, names)),
-            morph_weights=self._weights(weights, len(first.morphs), where),
-            rest=tuple(rest),
-            extras=entry.get("extras"),
+            first, morph_weights=weights, rest=tuple(rest), extras=entry.get("extras")
         )
 
     def _weights(self, weights, count: int, where: str) -> tuple[float, ...]:
@@ -100,7 +99,9 @@ class GltfMeshes:
             raise self._file.error(f"damaged: {where} has {len(weights)} weights, {count} targets")
         return weights
 
-    def _part(self, name: str, members: list[tuple[Primitive, dict, str]]) -> MeshRecord:
+    def _part(
+        self, name: str, members: list[tuple[Primitive, dict, str]], target_names: list[str]
+    ) -> MeshRecord:
         """Primitives that carry the same as one mesh."""
         primitives = [primitive for primitive, _, _ in members]
         counts = [len(primitive.arrays["positions"]) for primitive in primitives]
@@ -128,13 +129,12 @@ class GltfMeshes:
         )
         if flat:
             join_seams(mesh)
-        joints, weights = (
-            None if primitives[0].joints is None else self._joined(list(held))
-            for held in zip(*((p.joints, p.weights) for p in primitives), strict=True)
-        )
-        return MeshRecord(
-            name, mesh, joints, weights, self._morphs(primitives, counts), variants=_variants(chosen)
-        )
+        if primitives[0].joints is not None:
+            joints = self._joined([primitive.joints for primitive in primitives])
+            mesh.set_influences(joints, self._joined([p.weights for p in primitives]))
+        if target_names:
+            mesh.morph_targets = self._morphs(primitives, counts, target_names)
+        return MeshRecord(name, mesh, variants=_variants(chosen))
 
     def _chosen(self, primitive: Primitive, entry: dict, where: str, *, flat: bool):
         """The material of a primitive, and those of variants."""
@@ -147,22 +147,25 @@ class GltfMeshes:
         }
         return usual, others
 
-    def _morphs(self, primitives: list[Primitive], counts: list[int]) -> tuple[MorphRecord, ...]:
+    def _morphs(
+        self, primitives: list[Primitive], counts: list[int], names: list[str]
+    ) -> list[MorphTarget]:
         """The morph targets of joined primitives: what only some change is 0 for the others."""
         found = []
-        for targets in zip(*(primitive.morphs for primitive in primitives), strict=True):
+        for name, *targets in zip(names, *(p.morphs for p in primitives), strict=True):
             deltas = {}
             for key in _MORPHS:
-                parts = [getattr(target, key) for target in targets]
-                if any(part is not None for part in parts):
+                parts = [target.get(key) for target in targets]
+                # A target that changes nothing still has its weight.
+                if key == "positions" or any(part is not None for part in parts):
                     deltas[key] = self._joined(
                         [
                             np.zeros((count, 3), np.float32) if part is None else part
                             for part, count in zip(parts, counts, strict=True)
                         ]
                     )
-            found.append(MorphRecord(**deltas))
-        return tuple(found)
+            found.append(MorphTarget(**deltas, name=name))
+        return found
 
     def _joined(self, parts: list[np.ndarray]) -> np.ndarray:
         if len(parts) == 1:
@@ -190,7 +193,3 @@ def _target_names(extras, count: int) -> list[str]:
     names = extras.get("targetNames") if isinstance(extras, dict) else None
     names = [str(name) for name in names[:count]] if isinstance(names, list) else []
     return names + [""] * (count - len(names))
-
-
-def _named(morph: MorphRecord, name: str) -> MorphRecord:
-    return replace(morph, name=name)

@@ -138,7 +138,7 @@ class _Clips:
         if path != "weights":
             return _WIDTHS[path]
         mesh = self._nodes[node].mesh
-        count = 0 if mesh is None else len(self._meshes[mesh].morphs)
+        count = 0 if mesh is None else len(self._meshes[mesh].mesh.morph_targets)
         if not count:
             raise self._file.error(f"damaged: {where} moves weights of no morph targets")
         return count

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .._native import loaders as native
-from .documents import MorphRecord
 from .gltf_accessors import GltfAccessors
 from .gltf_draco import GltfDraco
 from .gltf_file import GltfFile
@@ -41,7 +40,8 @@ class Primitive:
         What the vertices carry, by the names that `Mesh` has for it.
     joints : (V, J) uint16 or None
     weights : (V, J) float32 or None
-    morphs : list of MorphRecord
+    morphs : list of dict of str to (V, 3) float32
+        What each morph target adds to positions, normals, tangents.
     material : int or None
     uv_sets : tuple of int
         The sets of texture coordinates of the file that ``uvs`` and ``uvs1`` are.
@@ -52,7 +52,7 @@ class Primitive:
     arrays: dict[str, np.ndarray]
     joints: np.ndarray | None = None
     weights: np.ndarray | None = None
-    morphs: list[MorphRecord] = field(default_factory=list)
+    morphs: list[dict[str, np.ndarray]] = field(default_factory=list)
     material: int | None = None
     uv_sets: tuple[int, ...] = (0, 1)
 
@@ -170,20 +170,22 @@ class GltfPrimitives:
             weights.append(vertices.floats(name, _INFLUENCES))
         if not joints:
             return
-        primitive.joints = np.concatenate(joints, axis=1)
-        primitive.weights = _normalized(np.concatenate(weights, axis=1))
+        primitive.weights = _usable(np.concatenate(weights, axis=1))
+        # Files leave any number beside a weight of 0.
+        primitive.joints = np.where(primitive.weights > 0, np.concatenate(joints, axis=1), 0)
 
-    def _morph(self, vertices: _Vertices, target: dict, where: str) -> MorphRecord:
+    def _morph(self, vertices: _Vertices, target: dict, where: str) -> dict[str, np.ndarray]:
         """Another set of attributes, which count only where the mesh itself has them."""
         for name in target:
             if name not in _MORPHED:
                 self._tell(name, f"{where}: what it adds to {name} is left out")
-        deltas = {
-            place: vertices.deltas(target[name], f"{where} ({name})")
-            for name, place in _MORPHED.items()
-            if name in target and name in vertices.attributes
-        }
-        return MorphRecord(**deltas)
+        deltas = {}
+        for name, place in _MORPHED.items():
+            if name in target and name in vertices.attributes:
+                deltas[place] = vertices.deltas(target[name], f"{where} ({name})")
+                if not np.isfinite(deltas[place]).all():
+                    raise self._file.error(f"damaged: {where} adds what is not finite to {name}")
+        return deltas
 
 
 class _Vertices:
@@ -259,14 +261,11 @@ def _compact(elements: np.ndarray, total: int):
     return np.flatnonzero(used), number[elements]
 
 
-def _normalized(weights: np.ndarray) -> np.ndarray:
-    """Weights of which each row sums to 1, or is 0."""
+def _usable(weights: np.ndarray) -> np.ndarray:
+    """Weights of which each row has one; the first joint moves what none does."""
     weights = np.where(np.isfinite(weights) & (weights > 0), weights, np.float32(0))
-    total = np.zeros(len(weights))
-    for column in weights.T:
-        total += column
-    total[total == 0] = 1.0
-    return (weights / total[:, np.newaxis]).astype(np.float32)
+    weights[~weights.any(axis=1), 0] = 1
+    return weights
 
 
 def _elements(corners: np.ndarray, mode: int) -> np.ndarray:

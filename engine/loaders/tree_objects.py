@@ -13,7 +13,7 @@ from .documents import DocumentObject, TreeRecord
 from .gltf_file import GltfFile
 from .posed_parts import PosedPart, counts_of, document_objects
 from .sources import Source
-from .tree_posing import RestPose, parts_of_mesh
+from .tree_posing import RestPose
 
 # Each takes some kilobytes, however little the file says of it.
 _MAX_OBJECTS = 50_000
@@ -50,7 +50,7 @@ def tree_objects(
     for node in drawn:
         if split:
             record = tree.nodes[node.index]
-            meshes = [(part.mesh, node.world) for part in parts_of_mesh(tree.meshes[record.mesh])]
+            meshes = [(part.mesh, node.world) for part in tree.meshes[record.mesh].parts]
         else:
             meshes = list(rest.posed(node))
         meshes = [(mesh, pose) for mesh, pose in meshes if len(mesh.positions)]
@@ -72,7 +72,7 @@ def _check_vertices(source: Source, tree: TreeRecord, drawn: list, most: int) ->
     for node in drawn:
         record = tree.nodes[node.index]
         times = 1 if record.instances is None else len(record.instances)
-        parts = parts_of_mesh(tree.meshes[record.mesh])
+        parts = tree.meshes[record.mesh].parts
         total += times * sum(len(part.mesh.positions) for part in parts)
         if times > _MAX_OBJECTS:
             raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
@@ -97,10 +97,11 @@ def check_skins(file: GltfFile, tree: TreeRecord) -> None:
             continue
         checked.add((node.mesh, node.skin))
         count = len(tree.skins[node.skin].joints)
-        for part in parts_of_mesh(tree.meshes[node.mesh]):
-            if part.joints is None:
+        for part in tree.meshes[node.mesh].parts:
+            if part.mesh.joints is None:
                 continue
-            highest = int(np.where(part.weights > 0, part.joints, 0).max(initial=0))
+            moving = np.where(part.mesh.weights > 0, part.mesh.joints, 0)
+            highest = int(moving.max(initial=0))
             if highest >= count:
                 raise file.error(
                     f"damaged: nodes[{index}] has a mesh of joint {highest}, its skin {count}"

@@ -74,11 +74,6 @@ def local_pose(node: NodeRecord):
     return [*rows, _IDENTITY[3]]
 
 
-def parts_of_mesh(record: MeshRecord) -> tuple[MeshRecord, ...]:
-    """Return a mesh and its further parts."""
-    return (record, *record.rest)
-
-
 class RestPose:
     """The shapes of a tree's meshes at rest.
 
@@ -111,21 +106,21 @@ class RestPose:
         record = self._tree.meshes[node.mesh]
         weights, skin = self._weights(node, record), self._skin(node, record)
         matrices = None if skin is None else self._joint_matrices(skin)
-        for part in parts_of_mesh(record):
-            mesh = _morphed(part, weights) if weights.any() else part.mesh
-            is_bent = matrices is not None and part.joints is not None
+        for part in record.parts:
+            mesh = _morphed(part.mesh, weights) if weights.any() else part.mesh
+            is_bent = matrices is not None and part.mesh.joints is not None
             if is_bent:
-                mesh = _bent(part, mesh, matrices)
+                mesh = _bent(part.mesh, mesh, matrices)
             poses = [np.eye(4)] if node.instances is None else node.instances
             for pose in poses:
                 yield mesh, np.eye(4) if is_bent else linalg.multiply(shown.world, pose)
 
     def _weights(self, node: NodeRecord, record: MeshRecord) -> np.ndarray:
         given = record.morph_weights if node.weights is None else node.weights
-        return np.array(given[: len(record.morphs)], np.float64)
+        return np.array(given[: len(record.mesh.morph_targets)], np.float64)
 
     def _skin(self, node: NodeRecord, record: MeshRecord) -> SkinRecord | None:
-        has_joints = any(part.joints is not None for part in parts_of_mesh(record))
+        has_joints = any(part.mesh.joints is not None for part in record.parts)
         return self._tree.skins[node.skin] if node.skin is not None and has_joints else None
 
     def _joint_matrices(self, skin: SkinRecord) -> np.ndarray:
@@ -134,32 +129,32 @@ class RestPose:
         return linalg.multiply(worlds, skin.inverse_binds)
 
 
-def _morphed(part: MeshRecord, weights: np.ndarray) -> Mesh:
+def _morphed(mesh: Mesh, weights: np.ndarray) -> Mesh:
     """A mesh with its morph targets added."""
     changed = {}
     for key in ("positions", "normals", "tangents"):
-        base = getattr(part.mesh, key)
-        if base is None or not any(getattr(morph, key) is not None for morph in part.morphs):
+        base = getattr(mesh, key)
+        if base is None or not any(getattr(t, key) is not None for t in mesh.morph_targets):
             continue
         total = base.astype(np.float64)
-        for morph, weight in zip(part.morphs, weights.tolist(), strict=False):
-            deltas = getattr(morph, key)
+        for target, weight in zip(mesh.morph_targets, weights.tolist(), strict=True):
+            deltas = getattr(target, key)
             if deltas is not None and weight:
                 total[:, :3] += weight * deltas.astype(np.float64)
         changed[key] = total
     if "normals" in changed:
         changed["normals"] = unit_vectors(changed["normals"])
-    return _changed(part.mesh, changed)
+    return _changed(mesh, changed)
 
 
-def _bent(part: MeshRecord, mesh: Mesh, matrices: np.ndarray) -> Mesh:
-    """A mesh with its skin applied."""
+def _bent(moved: Mesh, mesh: Mesh, matrices: np.ndarray) -> Mesh:
+    """A mesh, whose morph targets are added already, bent by the joints of another."""
     positions = np.empty((len(mesh.positions), 3))
     normals = np.empty_like(positions) if mesh.has_normals else None
     tangents = None if mesh.tangents is None else mesh.tangents.astype(np.float64)
     for first in range(0, len(positions), _BLOCK):
         rows = slice(first, first + _BLOCK)
-        blended = _blended(part.joints[rows], part.weights[rows], matrices)
+        blended = _blended(moved.joints[rows], moved.weights[rows], matrices)
         positions[rows] = _times(blended, mesh.positions[rows]) + blended[:, :3, 3]
         if normals is not None:
             normals[rows] = _times(_cofactors(blended), mesh.normals[rows])
@@ -180,7 +175,6 @@ def _blended(joints: np.ndarray, weights: np.ndarray, matrices: np.ndarray) -> n
     limit = len(matrices) - 1
     for joint, weight in zip(joints.T, weights.T.astype(np.float64), strict=True):
         total += weight[:, np.newaxis, np.newaxis] * matrices[np.minimum(joint, limit)]
-    total[~weights.any(axis=1)] = np.eye(4)  # no joint moves them
     return total
 
 

@@ -114,25 +114,6 @@ class SceneRecord:
 
 
 @dataclass(frozen=True, eq=False)
-class MorphRecord:
-    """One morph target of a mesh: what is added to its vertices, times a weight.
-
-    Attributes
-    ----------
-    positions, normals, tangents : (V, 3) float32 or None
-        A row for each vertex of the mesh; None where the target leaves them as they are. The fourth
-        number of a tangent never changes.
-    name : str
-        As the mesh's ``extras.targetNames`` has it; may be empty.
-    """
-
-    positions: np.ndarray | None = None
-    normals: np.ndarray | None = None
-    tangents: np.ndarray | None = None
-    name: str = ""
-
-
-@dataclass(frozen=True, eq=False)
 class MeshRecord:
     """A mesh of a tree, which any number of nodes may show.
 
@@ -140,24 +121,30 @@ class MeshRecord:
     ----------
     name : str
     mesh : Mesh
-    joints : (V, J) uint16 or None
-        Rows of the skin's ``joints`` that move a vertex; J is 4, 8, 12, …
-    weights : (V, J) float32 or None
-        How much each of them does: each row sums to 1, or is all 0 where the file has none.
-    morphs : tuple of MorphRecord
+        With what moves it: joints, weights, morph targets.
     morph_weights : tuple of float
         One for each morph target, where the node says nothing else.
+    variants : dict of int to tuple of Material
+        What takes the place of the mesh's materials in a variant of `TreeRecord.variants`.
+    rest : tuple of MeshRecord
+        Further parts of the mesh, which no `Mesh` could hold with the others: what carries other
+        vertex attributes, lines and points of another material. All of them have as many morph
+        targets; weights and extras are those of the first.
     extras : object
         What the file says besides, as JSON has it; None for nothing.
     """
 
     name: str
     mesh: Mesh
-    joints: np.ndarray | None = None
-    weights: np.ndarray | None = None
-    morphs: tuple[MorphRecord, ...] = ()
     morph_weights: tuple[float, ...] = ()
+    variants: dict[int, tuple[Material, ...]] = field(default_factory=dict)
+    rest: tuple[MeshRecord, ...] = ()
     extras: Any = None
+
+    @property
+    def parts(self) -> tuple[MeshRecord, ...]:
+        """All parts of the mesh, this one first."""
+        return (self, *self.rest)
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,7 +254,8 @@ class LampRecord:
 
     Attributes
     ----------
-    kind : {"directional", "point", "spot"}
+    kind : str
+        "directional", "point" or "spot"; a file may have others, which give no light.
     name : str
     color : tuple of 3 float
         Linear light.

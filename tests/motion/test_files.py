@@ -23,8 +23,8 @@ def animated():
         pytest.param(case, id=case["file"])
         for case in cases
         if case.get("outcome") == "ok"
-        and "anim_pointer" not in case["features"]
-        and case["expect"].get("bbox_rest")
+        and "anim_pointer" not in case.get("features", ())
+        and case.get("expect", {}).get("bbox_rest")
         and any(case.get("expect", {}).get(key) for key in ("animation_list", "skin_list", "morph_targets"))
     ]
 

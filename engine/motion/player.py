@@ -168,6 +168,8 @@ class AnimationPlayer(Closed):
             return (clip,)
         if isinstance(clip, str):
             named = [each for each in self._clips if each.name == clip]
+            named = [self._scene.animations.get(clip), *named]
+            named = [each for each in named if each in self._clips]
             if named:
                 return (named[0],)
         elif isinstance(clip, int) and 0 <= clip < len(self._clips):

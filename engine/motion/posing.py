@@ -143,10 +143,12 @@ def check_morph_weights(value, obj) -> np.ndarray | None:
 
 def posed_for(node: Node) -> PosedMesh | None:
     """Return what a node shows instead of its mesh, or None for the mesh itself."""
-    mesh = node._object
-    if node._skin is None and (node._morph_weights is None or not mesh.morph_targets):
+    mesh, posed = node._object, node._posed
+    if not isinstance(mesh, Mesh):
         return None
-    posed = node._posed
+    bent = node._skin is not None and mesh.joints is not None
+    if not bent and (node._morph_weights is None or not mesh.morph_targets):
+        return None
     if posed is None or posed.mesh is not mesh:
         posed = PosedMesh(mesh)
     if node._morph_weights is not None:

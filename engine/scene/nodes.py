@@ -101,7 +101,8 @@ class Node:
         """The joints that bend the node's mesh, or None.
 
         The mesh needs ``joints`` and ``weights``. It then stands where the joints put it, wherever
-        the node itself is. A mesh may be shown by many nodes, each with a skin of its own.
+        the node itself is. A mesh may be shown by many nodes, each with a skin of its own. Whatever
+        else the node holds meanwhile is shown as it is.
         """
         return self._skin
 

@@ -24,7 +24,7 @@ from ..choices import Color, ColorLike, Cull
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import check_color
-from ..motion.posing import Posing, check_fit, posed_for
+from ..motion.posing import Posing, posed_for
 from ._objects import ObjectTable
 from .cameras import Camera
 from .instances import InstancedMesh
@@ -243,10 +243,6 @@ class Scene(Closed):
     def _put(self, node: Node, obj) -> None:
         """Let a node hold another object."""
         _check_object(obj)
-        if node._skin is not None:
-            check_fit(obj, node._skin)
-        if node._object is not obj:
-            node._morph_weights = None
         node._object = obj
         self._show(node)
         self._cameras.pop(node.id, None)

@@ -185,8 +185,14 @@ def test_what_a_node_holds_may_change():
     scene, node = skinned_scene(bent_tube(rng), rng)
     renderer = e3d.Renderer(64, 64)
     renderer.render(scene)
-    with pytest.raises(e3d.InvalidArgumentError, match="skin needs a Mesh"):
-        node.object = e3d.box()
+    mesh, before = node.object, node.bounds
+    node.object = e3d.box()
+    assert np.allclose(node.bounds, [[99.5, -0.5, -0.5], [100.5, 0.5, 0.5]])
+    renderer.render(scene)
+    node.object = None
+    renderer.render(scene)
+    node.object = mesh
+    assert np.array_equal(node.bounds, before)
     node.skin = None
     renderer.render(scene)
     assert scene._arrays.columns["anchor"][node._slot] == -1

@@ -8,7 +8,9 @@
 #include "core/pool.h"
 #include "posing/rest.h"
 
-enum { SMALL = 16384 /* vertices */, VERTICES_A_TASK = 2048, CLUSTERS_A_TASK = 64 };
+enum { SMALL = 16384 /* vertices */,
+       VERTICES_A_TASK = 2048,
+       CLUSTERS_A_TASK = 64 };
 
 typedef struct sharing {
     e3d_pose_job *jobs;

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4, PAD = 4 /* vectors of four are read where a position begins */ };
+enum { INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4,
+       PAD = 4 /* vectors of four are read where a position begins */ };
 
 static int take_influences(e3d_rest *rest)
 {

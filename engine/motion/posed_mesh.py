@@ -15,6 +15,7 @@ from .._native import loaders as native_loaders
 from .._native.rasterizer import NativeMesh, NativePose, NativeRest, pose_meshes
 from .._native.scene_graph import OBJECT_BOX
 from ..geometry.mesh import Mesh
+from ..geometry.native_meshes import make_native_mesh
 
 _MOST_COLUMNS = 8  # that C numbers at once
 _rests: WeakKeyDictionary[Mesh, tuple[dict, NativeRest]] = WeakKeyDictionary()
@@ -99,9 +100,7 @@ def _rest_of(mesh: Mesh, arrays: dict) -> NativeRest:
     """What is known of a mesh at rest; shared by all that pose it."""
     made_of, rest = _rests.get(mesh, ({}, None))
     if rest is None or not _same(arrays, made_of):
-        from ..rendering._native_handles import make_mesh
-
-        native = make_mesh(arrays, 0, _movers_of(arrays))
+        native = make_native_mesh(arrays, 0, _movers_of(arrays))
         rest = NativeRest(
             native,
             mesh._derive("normals", arrays),

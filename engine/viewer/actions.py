@@ -260,7 +260,11 @@ def cycle_animations(viewer, step: int) -> None:
     chosen = following(now, numbers, step)
     play_clips(viewed, chosen)
     viewer.time = 0.0
-    viewer.say("all animations" if chosen < 0 else f"animation {chosen}: {list(viewed.scene.animations)[chosen]}")
+    viewer.say(
+        "all animations"
+        if chosen < 0
+        else f"animation {chosen}: {list(viewed.scene.animations)[chosen]}"
+    )
 
 
 def toggle_grid(viewer, step: int) -> None:

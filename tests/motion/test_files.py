@@ -25,7 +25,10 @@ def animated():
         if case.get("outcome") == "ok"
         and "anim_pointer" not in case.get("features", ())
         and case.get("expect", {}).get("bbox_rest")
-        and any(case.get("expect", {}).get(key) for key in ("animation_list", "skin_list", "morph_targets"))
+        and any(
+            case.get("expect", {}).get(key)
+            for key in ("animation_list", "skin_list", "morph_targets")
+        )
     ]
 
 

@@ -148,8 +148,11 @@ def two_clips():
     scene = e3d.Scene()
     node, other = scene.add(), scene.add(translation=(0, 7, 0))
     first = e3d.AnimationClip(
-        [channel(node, "translation", [(0, 0, 0), (4, 0, 0)], times=(0, 4)),
-         channel(other, "translation", [(0, 1, 0), (0, 1, 0)], times=(0, 4))], "walk",
+        [
+            channel(node, "translation", [(0, 0, 0), (4, 0, 0)], times=(0, 4)),
+            channel(other, "translation", [(0, 1, 0), (0, 1, 0)], times=(0, 4)),
+        ],
+        "walk",
     )
     second = e3d.AnimationClip(
         [channel(node, "translation", [(0, 0, 10), (0, 0, 10)], times=(0, 1))], "stand"

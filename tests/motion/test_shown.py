@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from motion.test_posing import bent_tube, by_matrices, posed, random_poses, skinned_scene
+from motion.test_posing import bent_tube, by_matrices, posed, skinned_scene
 
 import engine3d as e3d
 from engine3d import linalg
@@ -82,7 +82,8 @@ def test_a_posed_mesh_is_drawn_as_one_with_those_vertices(options):
         for node in scene.nodes:
             if node.skin:
                 plain.add(node._posed.now(), pose=placing_pose(node))
-        assert np.array_equal(frame.color, e3d.Renderer(160, 120).render(plain, view(), **options).color)
+        other = e3d.Renderer(160, 120).render(plain, view(), **options)
+        assert np.array_equal(frame.color, other.color)
 
 
 def test_renderers_with_other_needs_show_the_same_pose():

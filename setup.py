@@ -120,6 +120,7 @@ def static_libraries():
             "csrc/pipeline/*/*.c",
             "csrc/kernels/dispatch.c",
             "csrc/ui/*.c",
+            "csrc/posing/*.c",
         ],
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/*.c"],

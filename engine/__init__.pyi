@@ -24,6 +24,7 @@ from .files.resources import Resource as Resource
 from .files.resources import Resources as Resources
 from .files.resources import ResourceStats as ResourceStats
 from .geometry.mesh import Mesh as Mesh
+from .geometry.morph_targets import MorphTarget as MorphTarget
 from .linalg import look_at as look_at
 from .loaders import load_mesh as load_mesh
 from .loaders import load_texture as load_texture
@@ -34,6 +35,10 @@ from .lod import simplify as simplify
 from .materials.material import Material as Material
 from .materials.textures import PlacedTexture as PlacedTexture
 from .materials.textures import Texture as Texture
+from .motion.clips import AnimationClip as AnimationClip
+from .motion.clips import Channel as Channel
+from .motion.player import AnimationPlayer as AnimationPlayer
+from .motion.skins import Skin as Skin
 from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
 from .primitives import box as box

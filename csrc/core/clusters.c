@@ -4,7 +4,7 @@
  * Out: clusters with their boxes, cones of normals and own positions; groups of neighbouring clusters.
  * Always: the same arrays give the same clusters on any number of threads: ordered triangles (face_order.c) are cut into
  *      chunks of a fixed size, and each chunk is built by itself. Corners at the same place share a vertex, since geometry
- *      needs the position alone. A cluster's positions are structure of arrays, padded with its first vertex; a chunk's are one
+ *      needs the position alone; where vertices are moved, those that move alike. A cluster's positions are structure of arrays, padded with its first vertex; a chunk's are one
  *      block of memory.
  */
 #include "core/clusters.h"
@@ -27,7 +27,7 @@ enum {
     RECENT = 256  /* vertices of the mesh whose members are remembered */
 };
 
-/* A position. Two are the same place if their bits are equal. */
+/* A position, of a mesh whose vertices move with its mover as the fourth word. Two are the same place if their bits are equal. */
 typedef union place {
     float at[4];
     float4 all;
@@ -167,6 +167,9 @@ static void fetch(const e3d_mesh_desc *d, const int32_t *faces, int32_t count, c
     for (int32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
             out[i][k].place = place_of(d->positions + (size_t)out[i][k].vertex * (size_t)d->components, d->components);
+    for (int32_t i = 0; i < count && d->movers; i++)
+        for (int k = 0; k < 3; k++)
+            out[i][k].place.bits[1] |= (uint64_t)(uint32_t)d->movers[out[i][k].vertex] << 32;
 }
 
 static void build_clusters(builder *b, const int32_t *faces, int32_t first, int32_t end)

@@ -43,9 +43,10 @@ static int desc_is_valid(const e3d_mesh_desc *d)
            indices_fit(d->edges, 2 * (size_t)d->edges_count, d->vertices);
 }
 
-static void bound_mesh(e3d_mesh *mesh)
+void e3d_mesh_bound(e3d_mesh *mesh)
 {
     const e3d_mesh_desc *d = &mesh->desc;
+    mesh->any_finite = 0;
     for (int32_t c = 0; c < mesh->cluster_count; c++)
         if (mesh->clusters[c].any_finite) {
             e3d_grow_bounds(mesh->clusters[c].lo, mesh->lo, mesh->hi, &mesh->any_finite);
@@ -77,7 +78,7 @@ e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh 
         e3d_mesh_destroy(mesh);
         return E3D_OUT_OF_MEMORY;
     }
-    bound_mesh(mesh);
+    e3d_mesh_bound(mesh);
     *out = mesh;
     return E3D_OK;
 }
@@ -91,7 +92,8 @@ void e3d_mesh_destroy(e3d_mesh *mesh)
     free(mesh->blocks);
     free(mesh->clusters);
     free(mesh->groups);
-    free(mesh->faces);
+    if (!mesh->borrows_faces)
+        free(mesh->faces);
     free(mesh);
 }
 

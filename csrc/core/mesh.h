@@ -42,9 +42,13 @@ struct e3d_mesh {
     float **blocks;    /* one for each chunk of faces: positions and indices of its clusters */
     int32_t block_count;
     int32_t *faces;    /* the faces of the clusters' triangles, cluster after cluster */
+    int32_t borrows_faces; /* a posed mesh: they are those of the mesh at rest, which outlives it */
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */
     int32_t any_finite;
     int32_t material_most; /* the greatest material ID; 0 without faces */
 };
+
+/* Finds the mesh's box from those of its clusters, and from its lines and points. */
+void e3d_mesh_bound(e3d_mesh *mesh);
 
 #endif

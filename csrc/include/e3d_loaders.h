@@ -7,6 +7,7 @@
 #define E3D_LOADERS_H
 
 #include "e3d_forms.h"
+#include "e3d_meshopt.h"
 #include "e3d_numbers.h"
 #include "e3d_obj.h"
 #include "e3d_ply.h"

@@ -45,6 +45,7 @@ typedef struct e3d_mesh_desc {
     int32_t points_count;
     const int32_t *edges;         /* (edges_count, 2) unique visible edges, for wireframe */
     int32_t edges_count;
+    const int32_t *movers;        /* (vertices,) or NULL: vertices at one place move together if these numbers are equal, too */
 } e3d_mesh_desc;
 
 /* On up to `threads` threads (0 is e3d_thread_count()), which change nothing of the mesh. */

@@ -46,6 +46,8 @@ typedef struct e3d_graph {
     double *rotation, *scale;  /* (slots, 4) quaternion x y z w as given; (slots, 3) */
     double *world;             /* (slots, 12) world from node */
     double *bounds;            /* (slots, E3D_BOX) in the world; lowest > highest where nothing shows */
+    int32_t *anchor;           /* NULL, or a slot each: what a node draws is placed by that node's world pose; -1: by its own;
+                                * the node's own slot: it is in the world already */
     uint32_t *pose_version, *world_version; /* grow when pose or world change */
     int32_t *changed;          /* the slots that are LISTED */
     int32_t changed_count;
@@ -88,6 +90,10 @@ void e3d_graph_find_world(e3d_graph *graph, int32_t slot);
 /* Makes all world poses, SHOWN and bounds true. `changed` still lists what was touched, for who has to follow:
  * the caller then empties it. boxes: (objects, E3D_OBJECT_BOX); lowest > highest for none. Threads change nothing. */
 void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects, int threads);
+/* Touches those of the nodes whose anchors were touched: they are drawn elsewhere now. */
+void e3d_graph_follow(e3d_graph *graph, const int32_t *slots, int32_t count);
+/* The world pose that places what a node draws; anchor may be NULL. */
+const double *e3d_placing_pose(const double *world, const int32_t *anchor, int32_t slot);
 /* Touches the nodes of objects whose box changed: dirty is (objects,). */
 void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects);
 /* ---- Boxes ---- */
@@ -136,6 +142,7 @@ typedef struct e3d_node_rows {
     const uint8_t *flags;
     const int32_t *object, *id;
     const double *world;
+    const int32_t *anchor; /* as in e3d_graph */
 } e3d_node_rows;
 
 typedef struct e3d_view_volume {

@@ -67,6 +67,7 @@ cdef extern from "e3d.h" nogil:
         int32_t points_count
         const int32_t *edges
         int32_t edges_count
+        const int32_t *movers
 
     e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out)
     void e3d_mesh_destroy(e3d_mesh *mesh)

@@ -245,3 +245,22 @@ cdef extern from "e3d_loaders.h" nogil:
     bint e3d_read_forms(e3d_form_text *text, const uint8_t *bytes, size_t size, size_t *place)
     bint e3d_add_form_row(
         e3d_form_text *text, size_t form, const double *numbers, bint is_whole)
+
+    bint e3d_meshopt_attributes(const uint8_t *bytes, size_t size, uint8_t *to, size_t count,
+                                size_t stride)
+    bint e3d_meshopt_triangles(const uint8_t *bytes, size_t size, uint8_t *to, size_t count,
+                               size_t stride)
+    bint e3d_meshopt_indices(const uint8_t *bytes, size_t size, uint8_t *to, size_t count,
+                             size_t stride)
+
+    enum:
+        E3D_MESHOPT_MAX_STRIDE
+
+    ctypedef enum e3d_meshopt_filter:
+        E3D_MESHOPT_OCTAHEDRAL
+        E3D_MESHOPT_QUATERNION
+        E3D_MESHOPT_EXPONENTIAL
+        E3D_MESHOPT_COLOR
+
+    void e3d_meshopt_undo_filter(uint8_t *elements, size_t count, size_t stride,
+                                 e3d_meshopt_filter filter)

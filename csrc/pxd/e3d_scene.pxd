@@ -34,6 +34,7 @@ cdef extern from "e3d_scene.h" nogil:
         int32_t *changed
         int32_t changed_count
         int32_t *stack
+        int32_t *anchor
 
     int32_t e3d_graph_add(e3d_graph *graph, int32_t parent, int32_t object, int32_t id)
     void e3d_graph_adopt(e3d_graph *graph, int32_t count)
@@ -53,6 +54,7 @@ cdef extern from "e3d_scene.h" nogil:
     void e3d_graph_find_world(e3d_graph *graph, int32_t slot)
     void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects, int threads)
     void e3d_graph_touch(e3d_graph *graph, int32_t slot)
+    void e3d_graph_follow(e3d_graph *graph, const int32_t *slots, int32_t count)
     void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects)
 
     void e3d_instance_boxes(
@@ -127,6 +129,7 @@ cdef extern from "e3d_scene.h" nogil:
         const int32_t *object
         const int32_t *id
         const double *world
+        const int32_t *anchor
 
     ctypedef struct e3d_view_volume:
         double clip_from_world[16]

@@ -245,7 +245,7 @@ int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64
     for (int32_t i = 0; i < list->nodes; i++) {
         int32_t slot = list->slots[i], number = rows->object[slot];
         const e3d_placed *object = &objects[number];
-        const double *world = rows->world + 12 * (size_t)slot;
+        const double *world = e3d_placing_pose(rows->world, rows->anchor, slot);
         e3d_batch *of = &list->batches[number];
         int together = batch && of->nodes > 1 && object->draw.pose_kind == E3D_POSE_NONE;
         if (!(together ? append_member(list, object, of, world, rows->id[slot])

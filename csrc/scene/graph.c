@@ -82,6 +82,8 @@ int32_t e3d_graph_add(e3d_graph *g, int32_t parent, int32_t object, int32_t id)
     g->first_child[slot] = g->last_child[slot] = -1;
     g->object[slot] = object;
     g->id[slot] = id;
+    if (g->anchor)
+        g->anchor[slot] = -1;
     g->flags[slot] = E3D_NODE_ALIVE | E3D_NODE_VISIBLE;
     g->pose_version[slot] = g->world_version[slot] = 0;
     memcpy(g->pose + 12 * (size_t)slot, IDENTITY, sizeof IDENTITY);
@@ -120,6 +122,21 @@ void e3d_graph_set_flag(e3d_graph *g, int32_t slot, int flag, int on)
 {
     g->flags[slot] = (uint8_t)(on ? g->flags[slot] | flag : g->flags[slot] & ~flag);
     e3d_graph_touch(g, slot);
+}
+
+void e3d_graph_follow(e3d_graph *g, const int32_t *slots, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        int32_t anchor = g->anchor[slots[i]];
+        if (anchor >= 0 && g->flags[anchor] & (E3D_NODE_STALE | E3D_NODE_LISTED))
+            e3d_graph_touch(g, slots[i]);
+    }
+}
+
+const double *e3d_placing_pose(const double *world, const int32_t *anchor, int32_t slot)
+{
+    int32_t by = anchor && anchor[slot] >= 0 ? anchor[slot] : slot;
+    return anchor && anchor[slot] == slot ? IDENTITY : world + 12 * (size_t)by;
 }
 
 void e3d_graph_touch_objects(e3d_graph *g, const uint8_t *dirty, int32_t objects)

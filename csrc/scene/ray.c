@@ -264,7 +264,7 @@ static void meet_instance(search *s, int32_t instance)
 static void meet_node(search *s, int32_t slot)
 {
     int32_t object = s->graph->object[slot];
-    const double *world = s->graph->world + 12 * (size_t)slot;
+    const double *world = e3d_placing_pose(s->graph->world, s->graph->anchor, slot);
     ray local;
     if (!(s->graph->flags[slot] & E3D_NODE_SHOWN) || object < 0 || object >= s->shape_count)
         return;

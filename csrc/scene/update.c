@@ -1,7 +1,8 @@
 /* update: poses in, world poses, visibility and bounds out, for what was touched and what is below it.
  *
  * Method: a node is found from its parent. First come the nodes that others hang from: if a child was listed
- * before its parent, the walk climbs to the topmost stale ancestor. Then come the others, on all threads.
+ * before its parent, the walk climbs to the topmost stale ancestor. Then come the others, on all threads; anchors have
+ * nodes below them, and so are found before what they place.
  * Every node is found once.
  */
 #include <math.h>
@@ -97,7 +98,7 @@ static void find_bounds(e3d_graph *g, int32_t slot, const double *boxes, int32_t
     if ((g->flags[slot] & E3D_NODE_SHOWN) && object >= 0 && object < objects) {
         const double *box = boxes + E3D_OBJECT_BOX * (size_t)object;
         if (box[0] <= box[3]) {
-            e3d_pose_box(g->world + 12 * (size_t)slot, box, bounds);
+            e3d_pose_box(e3d_placing_pose(g->world, g->anchor, slot), box, bounds);
             return;
         }
     }

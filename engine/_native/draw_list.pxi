@@ -84,6 +84,18 @@ cdef class NativeDrawList:
         self.borrowed[index] = mesh, None
         self.trees.pop(index, None)
 
+    def set_meshes(self, const int32_t[::1] numbers not None, list poses not None):
+        """Say that objects of some numbers, which are listed, are drawn by `NativePose` as they are now."""
+        cdef Py_ssize_t k
+        cdef NativePose pose
+        require(numbers.shape[0] == len(poses), "a pose a number")
+        self.forget_places()
+        for k in range(numbers.shape[0]):
+            require(0 <= numbers[k] < self.object_count, "no such object")
+            pose = poses[k]
+            self.objects[numbers[k]].draw.mesh = pose.current.handle
+            self.borrowed[numbers[k]] = pose.current, None
+
     def place(
         self,
         int32_t count,
@@ -91,6 +103,7 @@ cdef class NativeDrawList:
         const int32_t[::1] object not None,
         const int32_t[::1] id not None,
         const double[:, ::1] world not None,
+        const int32_t[::1] anchor not None,
         const uint64_t[::1] selection,
         const double[:, ::1] clip_from_world,
         double widen,
@@ -107,7 +120,7 @@ cdef class NativeDrawList:
         cdef e3d_view_volume volume
         cdef const e3d_view_volume *view = NULL
         cdef const uint64_t *bits = NULL
-        require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0]),
+        require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0], anchor.shape[0]),
                 "the arrays of nodes are too short")
         require(world.shape[1] == 12, "world must be (nodes, 12)")
         require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
@@ -115,6 +128,7 @@ cdef class NativeDrawList:
         if count:
             rows.count = count
             rows.flags, rows.object, rows.id, rows.world = &flags[0], &object[0], &id[0], &world[0, 0]
+            rows.anchor = &anchor[0]
             if selection is not None:
                 bits = &selection[0]
         if clip_from_world is not None:

@@ -17,6 +17,18 @@ ROUND_UP: int
 def clusters_of(
     positions: _Floats, faces: _Integers, threads: int
 ) -> tuple[list[int], list[tuple], list[tuple]]: ...
+def pose_by_reference(
+    positions: _Floats,
+    normals: _Floats,
+    joints: npt.NDArray[np.uint16] | None,
+    weights: _Floats | None,
+    target_positions: _Floats | None,
+    target_normals: _Floats | None,
+    matrices: _Floats | None,
+    target_weights: _Floats | None,
+    out_positions: _Floats,
+    out_normals: _Floats,
+) -> None: ...
 def jobs_alone(rates: _Doubles, passed: int, alone: _Bytes) -> None: ...
 def plan_rules() -> list[tuple[str, list[str], list[str]]]: ...
 def plan_items() -> list[tuple[str, str, bool]]: ...

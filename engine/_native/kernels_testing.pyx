@@ -20,6 +20,7 @@ from e3d cimport (
 from e3d_clusters cimport *
 from e3d_helping cimport e3d_helping, e3d_helping_note, e3d_job_times
 from e3d_kernels cimport *
+from e3d_posing cimport e3d_pose_desc, e3d_reference_pose
 from e3d_plan cimport (
     E3D_PLAN_FIRST, E3D_PLAN_ITEMS, E3D_PLAN_RULE_COUNT, E3D_PLAN_RULES, e3d_plan_item, e3d_plan_rule,
     e3d_plan_name, e3d_plan_text
@@ -96,6 +97,7 @@ def plan_items():
 
 include "float_control.pxi"
 include "kernel_arguments.pxi"
+include "posing_reference.pxi"
 include "mesh_clusters.pxi"
 
 

@@ -30,9 +30,9 @@ cdef class NativeMesh:
     cdef list borrowed
     cdef readonly set attributes  # their names
     cdef readonly bint has_face_normals, has_edges
-    cdef int32_t vertices, faces_count
+    cdef readonly int32_t vertices, faces_count
 
-    def __cinit__(
+    def __init__(
         self,
         const float[:, ::1] positions not None,
         const int32_t[:, ::1] faces not None,
@@ -41,14 +41,16 @@ cdef class NativeMesh:
         const int32_t[::1] material_ids=None,
         const int32_t[:, ::1] lines=None,
         const int32_t[::1] points=None,
+        const int32_t[::1] movers=None,
         int threads=0,
     ):
         cdef e3d_mesh_desc desc
+        require(self.handle == NULL, "a mesh is made once")
         memset(&desc, 0, sizeof(desc))
         cdef int32_t count = <int32_t>positions.shape[0]
         require(positions.shape[1] in (3, 4), "positions must have 3 or 4 columns")
         require(faces.shape[1] == 3, "faces must have 3 columns")
-        self.borrowed = [positions, faces, material_ids, lines, points]
+        self.borrowed = [positions, faces, material_ids, lines, points, movers]
         self.attributes = set(attributes)
         self.vertices = desc.vertices = count
         desc.components = <int32_t>positions.shape[1]
@@ -70,6 +72,9 @@ cdef class NativeMesh:
         if points is not None and points.shape[0]:
             desc.points_count = <int32_t>points.shape[0]
             desc.points = &points[0]
+        if movers is not None and count:
+            require(movers.shape[0] == count, "movers must be (vertices,)")
+            desc.movers = &movers[0]
         cdef e3d_status status
         with nogil:
             status = e3d_mesh_create(&desc, threads, &self.handle)

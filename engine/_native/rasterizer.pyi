@@ -38,6 +38,8 @@ class NativeMesh:
     attributes: set[str]
     has_face_normals: bool
     has_edges: bool
+    vertices: int
+    faces_count: int
     def __init__(
         self,
         positions: _Floats,
@@ -47,11 +49,46 @@ class NativeMesh:
         material_ids: _Integers | None = None,
         lines: _Integers | None = None,
         points: _Integers | None = None,
+        movers: _Integers | None = None,
         threads: int = 0,
     ) -> None: ...
     def set_attribute(self, name: str, array: _Floats | _Bytes) -> None: ...
     def set_face_normals(self, normals: _Floats) -> None: ...
     def set_edges(self, edges: _Integers) -> None: ...
+
+class NativeRest:
+    mesh: NativeMesh
+    joints: int
+    targets: int
+    def __init__(
+        self,
+        mesh: NativeMesh,
+        normals: _Floats | None,
+        joints: npt.NDArray[np.uint16] | None,
+        weights: _Floats | None,
+        target_positions: _Floats | None,
+        target_normals: _Floats | None,
+    ) -> None: ...
+
+class NativePose:
+    rest: NativeRest
+    current: NativeMesh
+    face_normals: bool
+    def __init__(self, rest: NativeRest, face_normals: bool) -> None: ...
+    def set_skeleton(
+        self, slots: _Integers, above: _Integers, ends: _Integers, inverse_binds: _Doubles
+    ) -> None: ...
+    def forget_skeleton(self) -> None: ...
+    def set_weights(self, weights: _Floats) -> None: ...
+    def want_face_normals(self) -> None: ...
+    def want_edges(self, edges: _Integers) -> None: ...
+    def copy_box(self, box: _Doubles) -> None: ...
+    def copy_vertices(self, positions: _Floats, normals: _Floats | None) -> None: ...
+    def copy_matrices(self, matrices: _Floats) -> None: ...
+
+def pose_meshes(
+    poses: list[NativePose], node_poses: _Doubles | None, threads: int
+) -> list[int]: ...
 
 class NativeTexture:
     def __init__(self, pixels: _Bytes, decode_srgb: bool, filter: int, wrap: int) -> None: ...
@@ -71,6 +108,7 @@ class NativeDrawList:
     def clear(self) -> None: ...
     def clear_lights(self) -> None: ...
     def set_object(self, index: int, mesh: NativeMesh | None, material_base: int) -> None: ...
+    def set_meshes(self, numbers: _Integers, poses: list[NativePose]) -> None: ...
     def place(
         self,
         count: int,
@@ -78,6 +116,7 @@ class NativeDrawList:
         object: _Integers,
         id: _Integers,
         world: _Doubles,
+        anchor: _Integers,
         selection: npt.NDArray[np.uint64] | None,
         clip_from_world: _Doubles | None,
         widen: float,

@@ -10,12 +10,14 @@ Always: a handle holds the arrays that the core borrows; the GIL is released for
 
 from cpython.exc cimport PyErr_CheckSignals
 from libc.math cimport INFINITY
-from libc.stdint cimport int32_t, int64_t, uint8_t, uint64_t
-from libc.stdlib cimport free, realloc
-from libc.string cimport memcpy, memset
+from cpython.ref cimport PyObject
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t, uint64_t
+from libc.stdlib cimport calloc, free, realloc
+from libc.string cimport memcmp, memcpy, memset
 from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
 
 from e3d cimport *
+from e3d_posing cimport *
 from e3d_scene cimport *
 
 from .scene_graph cimport NativeTree
@@ -129,6 +131,7 @@ def same_objects(tuple some not None, tuple others not None):
 
 include "mesh_handles.pxi"
 include "environment_handles.pxi"
+include "mesh_poses.pxi"
 include "draw_list.pxi"
 
 

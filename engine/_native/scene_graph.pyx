@@ -4,7 +4,8 @@
 In:  the arrays, by `attach`; then slots, and poses as C-contiguous float64.
 Out: the arrays, changed; single values copied.
 Always: the GIL is held, so that threads take turns; what is asked of a slot that is not there is an
-     error. ``changes`` grows with everything that may show; ``updated`` is what it was at the last update.
+     error. ``changes`` grows with everything that may show; ``updated`` is what it was at the last update;
+     ``links`` grows when a node hangs elsewhere, comes or goes.
 """
 
 from libc.math cimport INFINITY
@@ -39,8 +40,9 @@ cdef class NativeGraph:
     cdef e3d_tree *tree
     cdef int32_t room
     cdef list held
+    cdef object anchored  # slots whose anchor is another
     cdef public uint64_t changes
-    cdef readonly uint64_t updated
+    cdef readonly uint64_t updated, links
 
     def __dealloc__(self):
         e3d_tree_destroy(self.tree)
@@ -65,12 +67,13 @@ cdef class NativeGraph:
         uint32_t[::1] world_version,
         int32_t[::1] changed,
         int32_t[::1] stack,
+        int32_t[::1] anchor,
     ):
         """Work on these arrays from now on: equally long, at least 1, and holding all that was."""
         cdef e3d_graph *g = &self.graph
         arrays = [
             parent, first_child, last_child, next, previous, object, id, flags, pose, rotation,
-            scale, world, bounds, pose_version, world_version, changed, stack,
+            scale, world, bounds, pose_version, world_version, changed, stack, anchor,
         ]
         if len({len(array) for array in arrays}) != 1 or len(flags) < max(g.count, 1):
             raise InvalidArgumentError("the arrays of a scene are equally long")
@@ -97,6 +100,7 @@ cdef class NativeGraph:
         g.world_version = &world_version[0]
         g.changed = &changed[0]
         g.stack = &stack[0]
+        g.anchor = &anchor[0]
 
     cdef int check(self, int32_t slot) except -1:
         if not 0 <= slot < self.graph.count:
@@ -116,6 +120,7 @@ cdef class NativeGraph:
         if self.graph.count >= self.room or not -1 <= parent < self.graph.count:
             raise InvalidArgumentError("no room for a node")
         self.changes += 1
+        self.links += 1
         return e3d_graph_add(&self.graph, parent, object, id)
 
     def adopt(self, int32_t count):
@@ -124,6 +129,7 @@ cdef class NativeGraph:
             raise InvalidArgumentError("no room for the nodes")
         e3d_graph_adopt(&self.graph, count)
         self.changes += 1
+        self.links += 1
 
     def link(self, int32_t slot, int32_t parent, int32_t before):
         """Hang a node under another, or under none (-1); False if that is itself or below it.
@@ -138,12 +144,14 @@ cdef class NativeGraph:
             if before == slot or parent == -1 or self.graph.parent[before] != parent:
                 raise InvalidArgumentError("before must be another child of the parent")
         self.changes += 1
+        self.links += 1
         return e3d_graph_link(&self.graph, slot, parent, before)
 
     def remove(self, int32_t slot):
         """Take out a node; return the slots of it and of all below."""
         self.check(slot)
         self.changes += 1
+        self.links += 1
         e3d_graph_remove(&self.graph, slot)
         return self.below(slot)
 
@@ -151,8 +159,26 @@ cdef class NativeGraph:
         """Put a removed node back, under none, with all below; return their slots."""
         self.check(slot)
         self.changes += 1
+        self.links += 1
         e3d_graph_restore(&self.graph, slot)
         return self.below(slot)
+
+    def place_by(self, const int32_t[::1] slots not None, const int32_t[::1] anchors not None):
+        """Let other nodes' world poses place what these nodes draw, and all others' their own.
+
+        An anchor of -1 is the node itself; the node's own slot says that it is in the world already.
+        """
+        cdef Py_ssize_t i
+        self.check_all(slots, anchors.shape[0])
+        for i in range(anchors.shape[0]):
+            if not -1 <= anchors[i] < self.graph.count:
+                raise InvalidArgumentError("no such slot")
+        for i in range(self.graph.count):
+            self.graph.anchor[i] = -1
+        for i in range(slots.shape[0]):
+            self.graph.anchor[slots[i]] = anchors[i]
+            e3d_graph_touch(&self.graph, slots[i])
+        self.anchored = slots
 
     def below(self, int32_t slot):
         """Return the slots of a node and of all below it, parents first."""
@@ -328,9 +354,14 @@ cdef class NativeGraph:
         cdef e3d_graph *g = &self.graph
         if boxes.shape[1] != E3D_OBJECT_BOX:
             raise InvalidArgumentError("boxes must be (objects, OBJECT_BOX)")
+        cdef const int32_t[::1] anchored
         self.updated = self.changes
         if g.changed_count == 0:
             return
+        if self.anchored is not None:
+            anchored = self.anchored
+            if anchored.shape[0]:
+                e3d_graph_follow(g, &anchored[0], <int32_t>anchored.shape[0])
         cdef int32_t objects = <int32_t>boxes.shape[0]
         threads = threads if threads else e3d_thread_count()
         e3d_graph_update(g, &boxes[0, 0] if objects else NULL, objects, threads)

@@ -23,6 +23,7 @@ from .._support.dirty_tracking import renew
 from .._support.validation import Closed, own
 from ..errors import InvalidArgumentError
 from ..materials.material import Material
+from . import _movers
 from . import normals as _normals
 from . import topology as _topology
 from ._arrays import (
@@ -38,6 +39,7 @@ from ._arrays import (
     check_vectors4,
     require_range,
 )
+from .morph_targets import MorphTarget
 from .vertex_attributes import VertexAttribute, vertex_attributes
 
 _Floats: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.float32]]
@@ -86,6 +88,13 @@ class Mesh(Closed):
     position_ids : (V,) int, optional
         Vertices with the same number are one point of the surface that was split for another
         attribute, such as a texture seam. Computed normals and the edges respect it.
+    joints : (V, N) int, optional
+        The joints that move a vertex, as numbers in the `Skin` of the node that shows the mesh.
+    weights : (V, N) float, optional
+        How much each of them does: not negative; of each vertex one is not 0. They are kept as
+        shares of their sum.
+    morph_targets : iterable of MorphTarget, optional
+        What nodes may add to the vertices, each times a weight of ``node.morph_weights``.
     name : str
 
     Attributes
@@ -94,6 +103,10 @@ class Mesh(Closed):
     edge_visible, position_ids
         As above, read-only: float32, int32, uint8 or bool. Assigning replaces one; arrays that go
         together must keep matching lengths.
+    joints : (V, N) uint16 or None
+    weights : (V, N) float32 or None
+        Read-only; `set_influences` replaces both.
+    morph_targets : tuple of MorphTarget
     materials : list of Material
     groups : dict of str to (N,) int32
         Face indices of named parts; none once the number of faces changes.
@@ -123,6 +136,7 @@ class Mesh(Closed):
     position_ids: _OptionalIntegers = ArrayAttribute(check_indices, optional=True)
     _given_normals: _OptionalFloats = ArrayAttribute(check_vectors3, optional=True)
     _origin: Any = None  # see origins.py
+    _morph_targets: tuple[MorphTarget, ...] = ()
     _FORGOTTEN = ("_derived", "_origin")
 
     def __init__(
@@ -141,6 +155,9 @@ class Mesh(Closed):
         points: ArrayLike | None = None,
         edge_visible: ArrayLike | None = None,
         position_ids: ArrayLike | None = None,
+        joints: ArrayLike | None = None,
+        weights: ArrayLike | None = None,
+        morph_targets: Iterable[MorphTarget] | None = None,
         name: str = "",
     ) -> None:
         self.name = str(name)
@@ -162,6 +179,49 @@ class Mesh(Closed):
         self.colors = colors
         self.edge_visible = edge_visible
         self.position_ids = position_ids
+        if joints is not None or weights is not None:
+            self.set_influences(joints, weights)
+        if morph_targets is not None:
+            self.morph_targets = morph_targets
+
+    @property
+    def joints(self) -> NDArray[np.uint16] | None:
+        """(V, N) uint16, or None."""
+        return self._arrays.get("joints")
+
+    @property
+    def weights(self) -> NDArray[np.float32] | None:
+        """(V, N) float32, whose rows sum to 1, or None."""
+        return self._arrays.get("weights")
+
+    def set_influences(self, joints: ArrayLike | None, weights: ArrayLike | None) -> None:
+        """Say which joints move each vertex, and how much; None takes both away.
+
+        Parameters
+        ----------
+        joints : (V, N) int
+        weights : (V, N) float
+            As in the constructor.
+
+        Raises
+        ------
+        InvalidArgumentError
+            Shapes do not match, a joint is no number below 65536, a weight is negative or not
+            finite, or a vertex has none.
+        """
+        self._put(_movers.check_influences(joints, weights, len(self.positions)))
+
+    @property
+    def morph_targets(self) -> tuple[MorphTarget, ...]:
+        """What may be added to the vertices, in the order of the weights; assign at any time."""
+        return self._morph_targets
+
+    @morph_targets.setter
+    def morph_targets(self, value: Iterable[MorphTarget]) -> None:
+        targets = _movers.check_targets(value, len(self.positions))
+        stacks = _movers.stacked(targets, len(self.positions))
+        self._morph_targets = targets
+        self._put(stacks)
 
     @property
     def normals(self) -> NDArray[np.float32]:
@@ -352,6 +412,23 @@ class Mesh(Closed):
                 break
         if anew:
             self._groups = {}
+        self._changed()
+
+    def _put(self, fresh: dict) -> None:
+        """Put arrays in their places together, which have a row for each vertex."""
+        while True:
+            others = dict(self._arrays)
+            for what, array in fresh.items():
+                rows = None if array is None else array.shape[_movers.VERTEX_AXES[what]]
+                if rows not in (None, len(others["positions"])):
+                    raise InvalidArgumentError(
+                        f"{what} has {rows} rows for {len(others['positions'])} vertices"
+                    )
+            if exchange(self._arrays, others, fresh):
+                break
+        self._changed()
+
+    def _changed(self) -> None:
         self._origin = None
         self._derived.clear()
         renew(self)
@@ -374,7 +451,9 @@ class Mesh(Closed):
 
     def _become(self, other: Mesh) -> None:
         """Take over everything of another mesh but its name."""
-        self._arrays.update(other._arrays)  # one step: they fit together at every moment
+        gone = dict.fromkeys(_movers.VERTEX_AXES)
+        self._arrays.update({**gone, **other._arrays})  # one step: they fit at every moment
+        self._morph_targets = other._morph_targets
         self._derived.clear()
         self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
@@ -389,6 +468,13 @@ def _check_new_positions(positions: np.ndarray, others: dict) -> None:
         if other is not None and len(other) != count:
             raise InvalidArgumentError(
                 f"positions has {count} rows, but {what.removeprefix('_given_')} {len(other)}"
+            )
+    for what, axis in _movers.VERTEX_AXES.items():
+        other = others.get(what)
+        if other is not None and other.shape[axis] != count:
+            raise InvalidArgumentError(
+                f"positions has {count} rows, but {what} {other.shape[axis]}: "
+                "take joints and morph targets away first"
             )
     for what in ("faces", "lines", "points"):
         other = others.get(what)

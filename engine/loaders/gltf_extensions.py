@@ -1,19 +1,27 @@
 """What a glTF file needs or says that is not read.
 
 In: a `GltfFile`. Out: an error for an extension that it cannot be read without; one warning for
-each other extension, and one for each kind of thing that is left out.
+each other extension.
 """
 
 from __future__ import annotations
 
-from . import gltf_materials
+from . import (
+    gltf_draco,
+    gltf_materials,
+    gltf_meshopt,
+    gltf_nodes,
+    gltf_primitives,
+    gltf_textures,
+)
 from .gltf_file import GltfFile
 from .text import shown
 from .warning_list import WarningList
 
-_READ = {*gltf_materials.READ, "KHR_mesh_quantization", "KHR_node_visibility"}
+_MODULES = (gltf_draco, gltf_materials, gltf_meshopt, gltf_nodes, gltf_primitives, gltf_textures)
+READ = frozenset().union(*(module.READ for module in _MODULES))
 # What changes only how surfaces look or move: the rest of the file is right without it.
-_OF_LOOKS = ("KHR_materials_", "KHR_lights_punctual", "KHR_animation_pointer", "KHR_xmp")
+_OF_LOOKS = ("KHR_materials_", "KHR_animation_pointer", "KHR_xmp")
 
 
 def check_extensions(file: GltfFile, warnings: WarningList) -> None:
@@ -23,38 +31,15 @@ def check_extensions(file: GltfFile, warnings: WarningList) -> None:
     ------
     FileFormatError
     """
+    if file.newer is not None:
+        warnings.add(f"it needs glTF {shown(file.newer)}: what is new in it is not read")
     used, required = (_names(file, name) for name in ("extensionsUsed", "extensionsRequired"))
-    lacking = [name for name in required if name not in _READ and not name.startswith(_OF_LOOKS)]
+    lacking = [name for name in required if name not in READ and not name.startswith(_OF_LOOKS)]
     if lacking:
         raise file.error(f"needs the extension {shown(lacking[0])}, which is not read")
     for name in dict.fromkeys(used + required):
-        if name not in _READ:
+        if name not in READ:
             warnings.add(f"the extension {shown(name)} is not read")
-
-
-def warn_of_unread(file: GltfFile, meshes: set[int], warnings: WarningList) -> None:
-    """Tell of animations, skins, morph targets and cameras.
-
-    Parameters
-    ----------
-    file : GltfFile
-    meshes : set of int
-        Those that are in the scene.
-    warnings : WarningList
-    """
-    entries = file.entries("meshes")
-    morphed = sum(
-        any("targets" in primitive for primitive in file.entries("primitives", entries[index]))
-        for index in meshes
-    )
-    for count, one, several, consequence in (
-        (len(file.entries("animations")), "animation", "animations", "left out"),
-        (len(file.entries("skins")), "skin", "skins", "left out, what moves is drawn as modelled"),
-        (morphed, "mesh has morph targets", "meshes have morph targets", "drawn without"),
-        (len(file.entries("cameras")), "camera", "cameras", "left out"),
-    ):
-        if count:
-            warnings.add(f"{count} {one if count == 1 else several}: {consequence}")
 
 
 def _names(file: GltfFile, name: str) -> list[str]:

@@ -15,7 +15,10 @@ from .sources import Source
 from .text import shown
 
 GLB = b"glTF"
+LIGHTS = "KHR_lights_punctual"
 _HEADER, _CHUNK_HEADER = 12, 8
+_LISTS = ("accessors", "animations", "bufferViews", "buffers", "cameras", "images", "materials")
+_LISTS += ("meshes", "nodes", "samplers", "scenes", "skins", "textures")
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 
 
@@ -28,11 +31,15 @@ class GltfFile:
 
     Attributes
     ----------
+    path : str
+        What messages call it.
     kind : {"glb", "gltf"}
     tree : dict
         The JSON.
     binary : memoryview or None
         The binary chunk of a .glb, if it has one.
+    newer : str or None
+        A version beyond 2.0 that it says it needs.
 
     Raises
     ------
@@ -41,7 +48,7 @@ class GltfFile:
     """
 
     def __init__(self, source: Source) -> None:
-        self._path = source.path
+        self.path = source.path
         data = memoryview(source.data)
         is_binary = source.data.startswith(GLB)
         if source.extension == ".glb" and not is_binary:
@@ -53,10 +60,14 @@ class GltfFile:
             data = self._first_chunk(data)
         self.tree = self._parsed(data)
         self._check_version()
+        for name in _LISTS:
+            self.entries(name)
+        for name in self.part(self.tree, "extensions", ""):
+            self.part(self.tree["extensions"], name, "extensions")
 
     def error(self, message: str) -> FileFormatError:
         """Return an error that names the file."""
-        return FileFormatError(message, self._path)
+        return FileFormatError(message, self.path)
 
     def entries(self, name: str, parent: dict | None = None, where: str = "") -> list[dict]:
         """Return a list of objects of the JSON, or of an object in it; empty if it is left out."""
@@ -72,11 +83,28 @@ class GltfFile:
     def entry(self, name: str, index, where: str) -> dict:
         """Return the object that an index means; ``where`` is the place that names it."""
         entries = self.entries(name)
-        if type(index) is not int or not 0 <= index < len(entries):
-            raise self.error(
-                f"damaged: {where} names {name}[{_short(index)}], there are {len(entries)}"
-            )
-        return entries[index]
+        return entries[self.index(index, len(entries), name, where)]
+
+    def index(self, value, count: int, name: str, where: str) -> int:
+        """Return the number of one of ``count`` things."""
+        if type(value) is not int or not 0 <= value < count:
+            raise self.error(f"damaged: {where} names {name}[{_short(value)}], there are {count}")
+        return value
+
+    def lights(self) -> list[dict]:
+        """Return the lights of KHR_lights_punctual."""
+        extensions = self.part(self.tree, "extensions", "")
+        lights = self.part(extensions, LIGHTS, "extensions")
+        if LIGHTS in extensions and "lights" not in lights:
+            raise self.error(f"damaged: extensions.{LIGHTS} has no lights")
+        return self.entries("lights", lights, f"extensions.{LIGHTS}.")
+
+    def text(self, entry: dict, name: str, where: str) -> str:
+        """Return a text; empty if it is left out."""
+        value = entry.get(name, "")
+        if not isinstance(value, str):
+            raise self.error(f"damaged: {where}.{name} is {_short(value)}, no text")
+        return value
 
     def part(self, parent: dict, name: str, where: str) -> dict:
         """Return an object in an object; empty if it is left out."""
@@ -102,6 +130,22 @@ class GltfFile:
             raise self.error(f"damaged: {where}.{name} is not {len(default)} numbers")
         return tuple(float(value) for value in values)
 
+    def number(self, entry: dict, name: str, where: str, default: float) -> float:
+        """Return a finite number."""
+        value = entry.get(name, default)
+        if not _is_number(value):
+            raise self.error(f"damaged: {where}.{name} is {_short(value)}, no finite number")
+        return float(value)
+
+    def number_list(self, entry: dict, name: str, where: str) -> tuple[float, ...] | None:
+        """Return any number of finite numbers; None if they are left out."""
+        values = entry.get(name)
+        if values is None:
+            return None
+        if not isinstance(values, list) or not all(map(_is_number, values)):
+            raise self.error(f"damaged: {where}.{name} is no list of numbers")
+        return tuple(map(float, values))
+
     def _first_chunk(self, data: memoryview) -> memoryview:
         """The bytes of the JSON; takes note of the binary chunk."""
         if len(data) < _HEADER + _CHUNK_HEADER:
@@ -122,11 +166,23 @@ class GltfFile:
                 raise self.error("damaged: a chunk goes beyond the end of the file")
             if kind == _BINARY:
                 self.binary = data[start : start + size]
+            elif self._has_chunk(data[start + size : length], _BINARY):
+                raise self.error("damaged: the binary chunk is not the second one")
         return data[first:end]
+
+    def _has_chunk(self, data: memoryview, wanted: int) -> bool:
+        """Whether a chunk of a kind stands in the rest of a file."""
+        place = 0
+        while place + _CHUNK_HEADER <= len(data):
+            size, kind = struct.unpack_from("<II", data, place)
+            if kind == wanted:
+                return True
+            place += _CHUNK_HEADER + size
+        return False
 
     def _parsed(self, text: memoryview) -> dict:
         try:
-            tree = json.loads(bytes(text).decode("utf-8-sig"))
+            tree = json.loads(bytes(text).decode("utf-8"))
         except RecursionError:
             raise self.error(f"not a {self.kind} file: its JSON is nested too deeply") from None
         except ValueError as error:
@@ -140,9 +196,10 @@ class GltfFile:
         version, least = asset.get("version"), asset.get("minVersion", "2.0")
         if not isinstance(version, str) or not isinstance(least, str):
             raise self.error("not a glTF file: it does not tell its version as a text")
-        if version.partition(".")[0] != "2" or least not in ("2.0", "2"):
-            wanted = version if version.partition(".")[0] != "2" else least
-            raise self.error(f"glTF of version {shown(wanted)} is not read, only 2.0")
+        for wanted in (version, least):
+            if wanted.partition(".")[0] != "2":
+                raise self.error(f"glTF of version {shown(wanted)} is not read, only 2.0")
+        self.newer = least if least not in ("2.0", "2") else None
 
 
 def _is_number(value) -> bool:

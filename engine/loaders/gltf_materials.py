@@ -1,33 +1,100 @@
-"""The materials of a glTF file, as far as the engine has a place for them.
+"""The materials of a glTF file.
 
-In: a `GltfFile` and its buffers. Out: a `Material` for each number, with the image of its base
-colour; where the coordinates of that image stand; which kinds of things are left out. An image that
-is missing, damaged or too large is a warning, its material has none then.
+In: a `GltfFile` and its textures. Out: a `Material` for each number, all fields of the core format
+and of the extensions in `READ`. KHR_materials_pbrSpecularGlossiness becomes what KHR_materials_ior
+and KHR_materials_specular say of it: no metal, an index of refraction of 0, and the specular colour.
 """
 
 from __future__ import annotations
 
-import math
+from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import Engine3DError
+from ..errors import InvalidArgumentError
 from ..materials.material import Material
-from ..materials.textures import Texture
-from .gltf_buffers import GltfBuffers
+from ..materials.textures import PlacedTexture, Texture
 from .gltf_file import GltfFile
-from .registry import find_reader
-from .sources import Source
+from .gltf_textures import GltfTextures, changed
 from .warning_list import WarningList
 
-_WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
-_REPEAT, _NEAREST = 10497, 9728
-_TRANSFORM, _WEBP = "KHR_texture_transform", "EXT_texture_webp"
-_STRENGTH, _UNLIT = "KHR_materials_emissive_strength", "KHR_materials_unlit"
-_GLOSSY = "KHR_materials_pbrSpecularGlossiness"
-#: The extensions that are read here, or told of by a warning of their own.
-READ = {_TRANSFORM, _WEBP, _STRENGTH, _UNLIT, _GLOSSY}
-_NO_TRANSFORM = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+_GLOSSY, _UNLIT = "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit"
+_VARIANTS = "KHR_materials_variants"
+
+
+class Numbers(NamedTuple):
+    """A number, or several, of a part of a material."""
+
+    field: str
+    key: str
+    default: float | tuple[float, ...]
+
+
+class Map(NamedTuple):
+    """A texture of a part of a material, and a number that stands beside it."""
+
+    field: str
+    key: str
+    beside: str = ""
+    beside_key: str = ""
+
+
+#: The parts of a material by their names in files; "" for the material itself.
+PARTS: dict[str, tuple[Numbers | Map, ...]] = {
+    "pbrMetallicRoughness": (
+        Numbers("color", "baseColorFactor", (1.0, 1.0, 1.0, 1.0)),
+        Numbers("metallic", "metallicFactor", 1.0),
+        Numbers("roughness", "roughnessFactor", 1.0),
+        Map("texture", "baseColorTexture"),
+        Map("metallic_roughness_texture", "metallicRoughnessTexture"),
+    ),
+    "": (
+        Numbers("emissive", "emissiveFactor", (0.0, 0.0, 0.0)),
+        Numbers("alpha_cutoff", "alphaCutoff", 0.5),
+        Map("normal_texture", "normalTexture", "normal_scale", "scale"),
+        Map("occlusion_texture", "occlusionTexture", "occlusion_strength", "strength"),
+        Map("emissive_texture", "emissiveTexture"),
+    ),
+    "KHR_materials_emissive_strength": (Numbers("emissive_strength", "emissiveStrength", 1.0),),
+    "KHR_materials_ior": (Numbers("ior", "ior", 1.5),),
+    "KHR_materials_specular": (
+        Numbers("specular_intensity", "specularFactor", 1.0),
+        Numbers("specular_color", "specularColorFactor", (1.0, 1.0, 1.0)),
+        Map("specular_texture", "specularTexture"),
+        Map("specular_color_texture", "specularColorTexture"),
+    ),
+    "KHR_materials_clearcoat": (
+        Numbers("clearcoat", "clearcoatFactor", 0.0),
+        Numbers("clearcoat_roughness", "clearcoatRoughnessFactor", 0.0),
+        Map("clearcoat_texture", "clearcoatTexture"),
+        Map("clearcoat_roughness_texture", "clearcoatRoughnessTexture"),
+        Map("clearcoat_normal_texture", "clearcoatNormalTexture", "clearcoat_normal_scale", "scale"),
+    ),
+    "KHR_materials_sheen": (
+        Numbers("sheen_color", "sheenColorFactor", (0.0, 0.0, 0.0)),
+        Numbers("sheen_roughness", "sheenRoughnessFactor", 0.0),
+        Map("sheen_color_texture", "sheenColorTexture"),
+        Map("sheen_roughness_texture", "sheenRoughnessTexture"),
+    ),
+    "KHR_materials_transmission": (
+        Numbers("transmission", "transmissionFactor", 0.0),
+        Map("transmission_texture", "transmissionTexture"),
+    ),
+    "KHR_materials_volume": (
+        Numbers("thickness", "thicknessFactor", 0.0),
+        Numbers("attenuation_color", "attenuationColor", (1.0, 1.0, 1.0)),
+        Numbers("attenuation_distance", "attenuationDistance", float("inf")),
+        Map("thickness_texture", "thicknessTexture"),
+    ),
+}
+_GLOSSY_PARTS = (
+    Numbers("color", "diffuseFactor", (1.0, 1.0, 1.0, 1.0)),
+    Numbers("specular_color", "specularFactor", (1.0, 1.0, 1.0)),
+    Map("texture", "diffuseTexture"),
+    Map("specular_color_texture", "specularGlossinessTexture"),
+)
+#: The extensions that are read here.
+READ = {*(name for name in PARTS if name.startswith("KHR")), _GLOSSY, _UNLIT, _VARIANTS}
 
 
 class GltfMaterials:
@@ -36,162 +103,185 @@ class GltfMaterials:
     Parameters
     ----------
     file : GltfFile
-    buffers : GltfBuffers
+    textures : GltfTextures
     warnings : WarningList
     """
 
-    def __init__(self, file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> None:
-        self._file, self._buffers, self._warnings = file, buffers, warnings
-        self._materials: dict[tuple, Material] = {}
-        self._textures: dict[tuple, Texture | None] = {}
-        self._undrawn: dict[int, set[str]] = {}
+    def __init__(self, file: GltfFile, textures: GltfTextures, warnings: WarningList) -> None:
+        self._file, self._textures, self._warnings = file, textures, warnings
+        self._made: dict[tuple, Material] = {}
+        self._sets: dict[int, set[int]] = {}
+        self._textures.decode(self._named_textures())
 
-    def get(self, index: int | None, where: str, *, flat: bool) -> Material:
-        """Return a material; with ``flat`` one for triangles without normals."""
-        if (index, flat) not in self._materials:
-            entry = {} if index is None else self._file.entry("materials", index, where)
-            self._materials[index, flat] = self._material(entry, index, flat)
-        return self._materials[index, flat]
+    def all(self) -> tuple[Material, ...]:
+        """Return all materials of the file, for meshes with normals."""
+        return tuple(self.get(index, "") for index in range(len(self._file.entries("materials"))))
 
-    def coordinates(self, index: int | None, where: str) -> tuple[int, np.ndarray]:
-        """Return the set of texture coordinates of a material's image, and what to do to them.
+    def get(
+        self, index: int | None, where: str, *, flat: bool = False, uv_sets: tuple[int, ...] = (0, 1)
+    ) -> Material:
+        """Return a material.
 
-        Returns
-        -------
-        uv_set : int
-        transform : (2, 3) float64
-            Applies to (u, v, 1), v from the top down.
+        Parameters
+        ----------
+        index : int or None
+            None for that of what has no material.
+        where : str
+            The place that names it.
+        flat : bool
+            It is for triangles without normals.
+        uv_sets : tuple of int
+            The sets of texture coordinates of the file that the mesh has.
         """
         entry = {} if index is None else self._file.entry("materials", index, where)
-        where = f"materials[{index}]"
-        _, info = self._base(entry, where)
-        transform = self._file.part(self._file.part(info, "extensions", where), _TRANSFORM, where)
-        default = self._file.whole(info, "texCoord", where, 0)
-        return self._file.whole(transform, "texCoord", where, default), _matrix(
-            self._file, transform, where
-        )
+        key = index, flat, uv_sets
+        if key not in self._made:
+            self._made[key] = self._material(entry, f"materials[{index}]", flat, uv_sets)
+        return self._made[key]
 
-    def names(self) -> list[str]:
-        """Return the names of the materials in use."""
-        names = dict.fromkeys(material.name for material in self._materials.values())
-        return [name for name in names if name]
+    def uv_sets(self, primitive: dict, where: str) -> set[int]:
+        """Return the sets of texture coordinates that the materials of a primitive use."""
+        indices = [primitive["material"]] if "material" in primitive else []
+        indices += [material for material, _ in self.variants(primitive, where)]
+        return set().union(*(self._uv_sets(index, where) for index in indices))
 
-    def undrawn(self) -> list[set[str]]:
-        """Return for each material in use what is left out, as keys of `undrawn.KINDS`."""
-        return list(self._undrawn.values())
-
-    def _base(self, entry: dict, where: str) -> tuple[tuple[float, ...], dict]:
-        """The factor of the base colour, and what is said of its image."""
-        glossy = self._file.part(self._file.part(entry, "extensions", where), _GLOSSY, where)
-        part = glossy or self._file.part(entry, "pbrMetallicRoughness", where)
-        names = ("diffuseFactor", "diffuseTexture") if glossy else _BASE
-        factor = self._file.numbers(part, names[0], where, (1.0, 1.0, 1.0, 1.0))
-        return factor, self._file.part(part, names[1], where)
-
-    def _material(self, entry: dict, index: int | None, flat: bool) -> Material:
-        where = f"materials[{index}]"
+    def variants(self, primitive: dict, where: str) -> list[tuple[int, list[int]]]:
+        """Return the other materials of a primitive, each with the variants that it is of."""
         file = self._file
-        factor, info = self._base(entry, where)
-        emissive = file.numbers(entry, "emissiveFactor", where, (0.0, 0.0, 0.0))
-        if min(*factor, *emissive) < 0:
-            raise file.error(f"damaged: {where} has a factor below zero")
-        strength = file.part(file.part(entry, "extensions", where), _STRENGTH, where)
-        times = file.numbers({"s": [strength.get("emissiveStrength", 1.0)]}, "s", where, (1.0,))[0]
-        undrawn = self._undrawn.setdefault(-1 if index is None else index, set())
-        undrawn |= _undrawn_kinds(entry, file.part(entry, "pbrMetallicRoughness", where))
-        texture = None if "index" not in info else self._texture(info["index"], where, undrawn)
-        # Where an image says what gives off light, all of it would be too much.
-        is_dark = "emission map" in undrawn or not math.isfinite(max(emissive) * times)
-        return Material(
-            name=str(entry.get("name") or ""),
-            color=factor[:3],
-            texture=texture,
-            emissive=(0.0, 0.0, 0.0) if is_dark else tuple(e * max(times, 0) for e in emissive),
-            two_sided=entry.get("doubleSided") is True,
-            flat_shading=flat,
-            extras=self._extras(entry, where),
-        )
+        extensions = file.part(primitive, "extensions", where)
+        where = f"{where}.{_VARIANTS}"
+        found = []
+        mappings = file.entries("mappings", file.part(extensions, _VARIANTS, where), f"{where}.")
+        for mapping in mappings:
+            file.entry("materials", mapping.get("material"), where)
+            variants = mapping.get("variants")
+            if not isinstance(variants, list):
+                raise file.error(f"damaged: {where}.mappings name no variants")
+            count = len(self.variant_names())
+            for variant in variants:
+                file.index(variant, count, "variants", where)
+            found.append((mapping["material"], variants))
+        return found
+
+    def variant_names(self) -> tuple[str, ...]:
+        """Return the names of the file's sets of materials."""
+        file = self._file
+        extension = file.part(file.part(file.tree, "extensions", ""), _VARIANTS, "extensions")
+        entries = file.entries("variants", extension, f"extensions.{_VARIANTS}.")
+        return tuple(file.text(entry, "name", f"{_VARIANTS}.variants") for entry in entries)
+
+    def _uv_sets(self, index: int, where: str) -> set[int]:
+        entry = self._file.entry("materials", index, where)
+        if index not in self._sets:
+            where = f"materials[{index}]"
+            self._sets[index] = {
+                self._textures.uv_set(info, where) for info in self._infos(entry, where)
+            }
+        return self._sets[index]
+
+    def _named_textures(self) -> set[int]:
+        """The textures that materials name, as far as there are such textures."""
+        count = len(self._file.entries("textures"))
+        infos = [
+            info
+            for index, entry in enumerate(self._file.entries("materials"))
+            for info in self._infos(entry, f"materials[{index}]")
+        ]
+        named = {info.get("index") for info in infos if type(info.get("index")) is int}
+        return {index for index in named if 0 <= index < count}
+
+    def _parts(self, entry: dict, where: str):
+        """The parts that a material has, and what may stand in them."""
+        file = self._file
+        extensions = file.part(entry, "extensions", where)
+        glossy = _GLOSSY in extensions
+        for name, items in PARTS.items():
+            if not name:
+                yield entry, items
+            elif name == "pbrMetallicRoughness":
+                part = file.part(entry, name, where)
+                yield from () if glossy else [(part, items)]
+            elif name in extensions:
+                yield file.part(extensions, name, where), items
+        if glossy:
+            yield file.part(extensions, _GLOSSY, where), _GLOSSY_PARTS
+
+    def _infos(self, entry: dict, where: str) -> list[dict]:
+        """What a material says of its textures."""
+        return [
+            self._file.part(part, item.key, where)
+            for part, items in self._parts(entry, where)
+            for item in items
+            if isinstance(item, Map) and item.key in part
+        ]
+
+    def _material(self, entry: dict, where: str, flat: bool, uv_sets: tuple[int, ...]) -> Material:
+        file = self._file
+        values = {"metallic": 1.0, "roughness": 1.0}
+        for part, items in self._parts(entry, where):
+            for item in items:
+                values.update(self._values(part, item, where, uv_sets))
+        extensions = file.part(entry, "extensions", where)
+        if _GLOSSY in extensions:
+            glossiness = file.number(file.part(extensions, _GLOSSY, where), "glossinessFactor", where, 1)
+            values.update(_from_glossiness(values, glossiness))
+        color = values.get("color", (1.0, 1.0, 1.0))
+        values["color"] = color[:3] if color[3:] == (1.0,) else color
+        try:
+            return Material(
+                **values,
+                name=file.text(entry, "name", where),
+                two_sided=entry.get("doubleSided") is True,
+                unlit=_UNLIT in extensions,
+                alpha_mode=self._alpha_mode(entry, where),
+                flat_shading=flat,
+                extras=self._extras(entry, where),
+            )
+        except InvalidArgumentError as error:
+            raise file.error(f"damaged: {where}: {error}") from None
+
+    def _values(self, part: dict, item: Numbers | Map, where: str, uv_sets) -> dict:
+        """What one item says, as parameters of a material."""
+        if item.key not in part:
+            return {}
+        if isinstance(item, Numbers):
+            if isinstance(item.default, tuple):
+                return {item.field: self._file.numbers(part, item.key, where, item.default)}
+            return {item.field: self._file.number(part, item.key, where, item.default)}
+        info = self._file.part(part, item.key, where)
+        values = {item.field: self._textures.placed(info, f"{where}.{item.key}", uv_sets)}
+        if item.beside and item.beside_key in info:
+            values[item.beside] = self._file.number(info, item.beside_key, where, 1.0)
+        return values
+
+    def _alpha_mode(self, entry: dict, where: str) -> str:
+        mode = entry.get("alphaMode", "OPAQUE")
+        if mode not in ("OPAQUE", "MASK", "BLEND"):
+            self._warnings.add_once(f"{where} has no alpha mode that is known: drawn opaque")
+            mode = "OPAQUE"
+        return mode.lower()
 
     def _extras(self, entry: dict, where: str) -> dict:
-        part = self._file.part(entry, "pbrMetallicRoughness", where)
-        return {
-            key: self._file.numbers({name: [part[name]]}, name, where, (1.0,))[0]
-            for key, name in (("Pm", "metallicFactor"), ("Pr", "roughnessFactor"))
-            if name in part
-        }
-
-    def _texture(self, index, where: str, undrawn: set[str]) -> Texture | None:
-        entry = self._file.entry("textures", index, where)
-        where = f"textures[{index}]"
-        sampler = {}
-        if "sampler" in entry:
-            sampler = self._file.entry("samplers", entry["sampler"], where)
-        wraps = [_wrap(sampler.get(name, _REPEAT)) for name in ("wrapS", "wrapT")]
-        if wraps[0] != wraps[1]:
-            undrawn.add("wraps")
-        webp = self._file.part(self._file.part(entry, "extensions", where), _WEBP, where)
-        image = webp.get("source", entry.get("source"))
-        if image is None:
-            others = " that is read" if "extensions" in entry else ""
-            self._warnings.add(f"{where} has no image{others}: left out")
-            return None
-        entry = self._file.entry("images", image, where)
-        key = (image, wraps[0], "nearest" if sampler.get("magFilter") == _NEAREST else "trilinear")
-        if key not in self._textures:
-            self._textures[key] = self._load(entry, *key)
-        return self._textures[key]
-
-    def _load(self, entry: dict, image: int, wrap: str, filter: str) -> Texture | None:
-        uri = entry.get("uri")
-        is_file = isinstance(uri, str) and uri[:5].lower() != "data:"
-        name = str(entry.get("name") or (uri if is_file else ""))
-        where = f"images[{image}]"
-        try:
-            if "bufferView" in entry:
-                data = bytes(self._buffers.view(entry["bufferView"], where))
-            else:
-                data = self._buffers.named(uri, where)
-            source = Source(f"<{uri if is_file else where}>", data)
-            pixels = find_reader(source, "image").read(source)
-        except Engine3DError as error:
-            reason = getattr(error, "message", None) or str(error)
-            reason = reason.removeprefix(f"{where}: ")
-            self._warnings.add(f"{where} is left out: {reason}")
-            return None
-        return Texture(pixels, wrap=wrap, filter=filter, name=name)
+        extras = entry.get("extras", {})
+        if isinstance(extras, dict):
+            return extras
+        self._warnings.add_once(f"{where}.extras is no object: left out")
+        return {}
 
 
-_BASE = ("baseColorFactor", "baseColorTexture")
-
-
-def _wrap(value) -> str:
-    return _WRAPS.get(value, "repeat") if type(value) is int else "repeat"
-
-
-def _undrawn_kinds(entry: dict, physical: dict) -> set[str]:
-    """What a material says that is not drawn, as keys of `undrawn.KINDS`."""
-    extensions = entry.get("extensions", ())
-    says = {
-        "transparent": entry.get("alphaMode") == "BLEND",
-        "cut out": entry.get("alphaMode") == "MASK",
-        "emission map": "emissiveTexture" in entry,
-        "normal map": "normalTexture" in entry,
-        "occlusion": "occlusionTexture" in entry,
-        "physical": "metallicRoughnessTexture" in physical
-        or physical.get("metallicFactor", 0) != 0
-        or physical.get("roughnessFactor", 1) != 1
-        or _GLOSSY in extensions,
-        "unlit": _UNLIT in extensions,
-    }
-    return {kind for kind, is_said in says.items() if is_said}
-
-
-def _matrix(file: GltfFile, transform: dict, where: str) -> np.ndarray:
-    """Scale, then turn, then move, as KHR_texture_transform has it."""
-    if not transform.keys() & {"scale", "rotation", "offset"}:
-        return _NO_TRANSFORM
-    (across, down) = file.numbers(transform, "scale", where, (1.0, 1.0))
-    (angle,) = file.numbers({"rotation": [transform.get("rotation", 0.0)]}, "rotation", where, (0,))
-    (left, top) = file.numbers(transform, "offset", where, (0.0, 0.0))
-    cosine, sine = math.cos(angle), math.sin(angle)
-    return np.array([[cosine * across, sine * down, left], [-sine * across, cosine * down, top]])
+def _from_glossiness(values: dict, glossiness: float) -> dict:
+    """What a specular-glossiness material is as a metallic-roughness one."""
+    found = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}
+    held: Texture | PlacedTexture | None = values.get("specular_color_texture")
+    if held is not None:
+        texture = held.texture if isinstance(held, PlacedTexture) else held
+        roughness = np.zeros_like(texture.pixels)
+        gloss = texture.pixels[:, :, 3].astype(np.float64) * glossiness
+        roughness[:, :, 1] = np.floor(255.0 - gloss + 0.5).clip(0, 255)
+        roughness[:, :, 3] = 255
+        made = changed(texture, roughness, texture.name)
+        if isinstance(held, PlacedTexture):
+            place = {key: value for key, value in vars(held).items() if key != "texture"}
+            made = PlacedTexture(made, **place)
+        found |= {"metallic_roughness_texture": made, "roughness": 1.0}
+    return found

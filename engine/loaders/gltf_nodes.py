@@ -1,114 +1,177 @@
-"""The nodes of a glTF file that show a mesh, each with its place in the scene.
+"""The nodes of a glTF file: the tree that its scene shows, and what each of them names.
 
-In: a `GltfFile`. Out: names, numbers of meshes and poses, in the order of the file's own tree.
-Nodes may be nested to any depth; one that two others name, or that names itself, is an error.
+In: a `GltfFile`. Out: a `NodeRecord` each, and the nodes that the scene begins with. Nodes may be
+nested to any depth; one that two others name, or that names itself, is an error.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
-from ..linalg import single
-from .gltf_file import GltfFile
+from .. import linalg
+from .documents import NodeRecord
+from .gltf_accessors import GltfAccessors
+from .gltf_file import LIGHTS, GltfFile
 from .warning_list import WarningList
 
-_IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+INSTANCING, VISIBILITY = "EXT_mesh_gpu_instancing", "KHR_node_visibility"
+#: The extensions that are read here.
+READ = (INSTANCING, VISIBILITY, LIGHTS)
 
 
-class PlacedMesh(NamedTuple):
-    """A node that shows a mesh.
-
-    Attributes
-    ----------
-    name : str
-        The node's, or its number.
-    mesh : int
-    pose : (4, 4) float64
-    """
-
-    name: str
-    mesh: int
-    pose: np.ndarray
-
-
-def placed_meshes(file: GltfFile, warnings: WarningList) -> list[PlacedMesh]:
-    """Return the nodes of the file's scene that show a mesh.
+def read_nodes(file: GltfFile, accessors: GltfAccessors) -> tuple[NodeRecord, ...]:
+    """Return all nodes of a file.
 
     Raises
     ------
     FileFormatError
-        The nodes are no tree, or a pose is none.
+        A node names what does not exist, or is no node.
     """
-    nodes = file.entries("nodes")
-    seen = [False] * len(nodes)
-    found = []
-    waiting = [(root, _IDENTITY, place) for root, place in reversed(_roots(file, nodes, warnings))]
+    return tuple(
+        _node(file, accessors, node, f"nodes[{index}]")
+        for index, node in enumerate(file.entries("nodes"))
+    )
+
+
+def read_roots(
+    file: GltfFile, nodes: tuple[NodeRecord, ...], warnings: WarningList
+) -> tuple[int, ...]:
+    """Return the nodes that the file's scene begins with.
+
+    Raises
+    ------
+    FileFormatError
+        The nodes below them are no tree.
+    """
+    scenes = file.entries("scenes")
+    if scenes:
+        number = file.tree.get("scene", 0)
+        scene = file.entry("scenes", number, "scene")
+        if len(scenes) > 1:
+            warnings.add(f"{len(scenes)} scenes: only scenes[{number}] is shown")
+        roots = _references(file, scene, "nodes", f"scenes[{number}]")
+    else:
+        named = {child for node in nodes for child in node.children}
+        roots = tuple(index for index in range(len(nodes)) if index not in named)
+    _check_tree(file, nodes, roots)
+    return roots
+
+
+def _check_tree(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ...]) -> None:
+    """Raise unless each node is below one other at most, and none below itself."""
+    above = [-1] * len(nodes)
+    for index, node in enumerate(nodes):
+        for child in node.children:
+            if above[child] >= 0:
+                raise file.error(f"damaged: nodes[{child}] is named twice")
+            above[child] = index
+    _reached(file, nodes, roots)
+    tops = tuple(index for index, parent in enumerate(above) if parent < 0)
+    missed = _reached(file, nodes, tops).find(0)
+    if missed >= 0:
+        raise file.error(f"damaged: nodes[{missed}] is below itself")
+
+
+def _reached(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ...]) -> bytearray:
+    """A one for each node that stands below these, or is one of them; each is so once."""
+    seen = bytearray(len(nodes))
+    waiting = list(roots)
     while waiting:
-        index, above, place = waiting.pop()
-        node = file.entry("nodes", index, place)
+        index = waiting.pop()
         if seen[index]:
             raise file.error(f"damaged: nodes[{index}] is named twice")
-        seen[index] = True
-        where = f"nodes[{index}]"
-        if not _is_visible(file, node, where):
-            continue
-        pose = single.multiply(above, _pose(file, node, where))
-        if "mesh" in node:
-            file.entry("meshes", node["mesh"], where)
-            name = node.get("name") or index
-            found.append(PlacedMesh(str(name), node["mesh"], np.array(pose, np.float64)))
-        children = _list(file, node, "children", where)
-        waiting.extend((child, pose, where) for child in reversed(children))
-    return found
+        seen[index] = 1
+        waiting += nodes[index].children
+    return seen
 
 
-def _roots(file: GltfFile, nodes: list[dict], warnings: WarningList) -> list[tuple[int, str]]:
-    """The nodes that the scene begins with, and the place that names them."""
-    scenes = file.entries("scenes")
-    if not scenes:
-        named = {
-            child
-            for index, node in enumerate(nodes)
-            for child in _list(file, node, "children", f"nodes[{index}]")
-            if type(child) is int
-        }
-        return [(index, "") for index in range(len(nodes)) if index not in named]
-    number = file.tree.get("scene", 0)
-    scene = file.entry("scenes", number, "scene")
-    if len(scenes) > 1:
-        warnings.add(f"{len(scenes)} scenes: only scenes[{number}] is read")
-    where = f"scenes[{number}]"
-    return [(root, where) for root in _list(file, scene, "nodes", where)]
+def _node(file: GltfFile, accessors: GltfAccessors, node: dict, where: str) -> NodeRecord:
+    extensions = file.part(node, "extensions", where)
+    matrix = None
+    if "matrix" in node:
+        columns = file.numbers(node, "matrix", where, (0.0,) * 16)
+        matrix = np.array(columns).reshape(4, 4).T.copy()
+        if columns[3::4] != (0.0, 0.0, 0.0, 1.0):
+            raise file.error(f"{where}.matrix is no affine pose")
+    rotation = _numbers(file, node, "rotation", where, 4)
+    if rotation is not None and not 0.0 < sum(x * x for x in rotation) < np.inf:
+        raise file.error(f"damaged: {where}.rotation has no direction")
+    mesh = _reference(file, node, "mesh", "meshes", where)
+    return NodeRecord(
+        name=file.text(node, "name", where),
+        children=_references(file, node, "children", where),
+        translation=_numbers(file, node, "translation", where, 3),
+        rotation=rotation,
+        scale=_numbers(file, node, "scale", where, 3),
+        matrix=matrix,
+        visible=file.part(extensions, VISIBILITY, where).get("visible") is not False,
+        mesh=mesh,
+        skin=_reference(file, node, "skin", "skins", where),
+        camera=_reference(file, node, "camera", "cameras", where),
+        light=_light(file, extensions, where),
+        weights=file.number_list(node, "weights", where),
+        instances=_instances(file, accessors, extensions, where) if mesh is not None else None,
+        extras=node.get("extras"),
+    )
 
 
-def _list(file: GltfFile, entry: dict, name: str, where: str) -> list:
+def _numbers(file: GltfFile, node: dict, name: str, where: str, count: int):
+    return file.numbers(node, name, where, (0.0,) * count) if name in node else None
+
+
+def _reference(file: GltfFile, node: dict, name: str, list_name: str, where: str) -> int | None:
+    if name not in node:
+        return None
+    file.entry(list_name, node[name], where)
+    return node[name]
+
+
+def _references(file: GltfFile, entry: dict, name: str, where: str) -> tuple[int, ...]:
     values = entry.get(name, [])
     if not isinstance(values, list):
         raise file.error(f"damaged: {where}.{name} is no list")
-    return values
+    for value in values:
+        file.entry("nodes", value, where)
+    return tuple(values)
 
 
-def _is_visible(file: GltfFile, node: dict, where: str) -> bool:
-    extensions = file.part(node, "extensions", where)
-    return file.part(extensions, "KHR_node_visibility", where).get("visible") is not False
+def _light(file: GltfFile, extensions: dict, where: str) -> int | None:
+    if LIGHTS not in extensions:
+        return None
+    return file.index(
+        file.part(extensions, LIGHTS, where).get("light"), len(file.lights()), "lights", where
+    )
 
 
-def _pose(file: GltfFile, node: dict, where: str):
-    """The rows of a node's matrix, or of its translation, rotation and scale."""
-    if "matrix" in node:
-        columns = file.numbers(node, "matrix", where, (0.0,) * 16)
-        return [columns[row::4] for row in range(4)]
-    if not node.keys() & {"translation", "rotation", "scale"}:
-        return _IDENTITY
-    offset = file.numbers(node, "translation", where, (0.0, 0.0, 0.0))
-    scale = file.numbers(node, "scale", where, (1.0, 1.0, 1.0))
-    turned = single.rotation(file.numbers(node, "rotation", where, (0.0, 0.0, 0.0, 1.0)))
-    if turned is None:
-        raise file.error(f"damaged: {where}.rotation has no direction")
-    rows = [
-        (*(value * factor for value, factor in zip(row, scale, strict=True)), moved)
-        for row, moved in zip(turned, offset, strict=True)
-    ]
-    return [*rows, _IDENTITY[3]]
+def _instances(file: GltfFile, accessors: GltfAccessors, extensions: dict, where: str):
+    """node-from-instance, (N, 4, 4) float64; None where the mesh is drawn once."""
+    if INSTANCING not in extensions:
+        return None
+    where = f"{where}.{INSTANCING}"
+    entry = file.part(extensions, INSTANCING, where)
+    attributes = file.part(entry, "attributes", where)
+    held = {
+        name: accessors.floats(attributes[name], where, width).astype(np.float64)
+        for name, width in (("TRANSLATION", 3), ("ROTATION", 4), ("SCALE", 3))
+        if name in attributes
+    }
+    if len({len(values) for values in held.values()}) != 1:
+        raise file.error(f"damaged: {where} has no instances, or unequal numbers of their parts")
+    count = len(next(iter(held.values())))
+    rotations = held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1)))
+    return poses_of(
+        held.get("TRANSLATION", np.zeros((count, 3))),
+        rotations,
+        held.get("SCALE", np.ones((count, 3))),
+    )
+
+
+def poses_of(translations: np.ndarray, rotations: np.ndarray, scales: np.ndarray) -> np.ndarray:
+    """Return matrices (N, 4, 4) of (N, 3), (N, 4) and (N, 3); no rotation for a null quaternion."""
+    square = (rotations * rotations).sum(axis=1)
+    is_none = ~((square > 0) & (square < np.inf))
+    rotations = np.where(is_none[:, np.newaxis], (0.0, 0.0, 0.0, 1.0), rotations)
+    poses = linalg.quaternion_to_matrix(rotations)
+    poses[:, :3, :3] *= scales[:, np.newaxis, :]
+    poses[:, :3, 3] = translations
+    return poses

@@ -19,6 +19,7 @@ class WarningList:
         self.path = path
         self._messages: list[str] = []
         self._left_out = 0
+        self._once: set[str] = set()
 
     def add(self, message: str, line: int | None = None, path: str | None = None) -> None:
         """Note a warning about a line of the file, or of another file that it names."""
@@ -26,6 +27,12 @@ class WarningList:
             self._left_out += 1
             return
         self._messages.append(located(message, path or self.path, line))
+
+    def add_once(self, message: str) -> None:
+        """Note a warning about the file, unless it was noted before."""
+        if message not in self._once:
+            self._once.add(message)
+            self.add(message)
 
     def messages(self) -> list[str]:
         """Return the warnings, with a last one that tells how many more there were."""

@@ -68,6 +68,7 @@ class Texture(Closed):
     name: str
     version: int
     _path: str | None = None  # of the file that holds these pixels
+    _file: bytes | None = None  # of an image file that holds these pixels
     _is_missing = False  # whether that file is not there, and these pixels take its place
     color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
     filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
@@ -95,7 +96,7 @@ class Texture(Closed):
     @pixels.setter
     def pixels(self, value: ArrayLike) -> None:
         self._pixels = as_rgba(value)
-        self._path, self._is_missing = None, False
+        self._path, self._file, self._is_missing = None, None, False
         renew(self)
 
     @property

@@ -17,6 +17,7 @@ from .._support.dirty_tracking import Watch
 from ..geometry.mesh import Mesh
 from ..materials.material import Material, placed_textures_of
 from ..materials.textures import Texture
+from ..motion.posed_mesh import PosedMesh
 from ..scene.instances import InstancedMesh
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
@@ -71,6 +72,7 @@ class DrawList:
         self._frustum: np.ndarray | None = None
         self._how = 1.0, True
         self._selected: bytes | None = None
+        self._posed: tuple | None = None  # what poses the scene's meshes, and its moment
         self._lights = LightList(self.native, color_space)
         self.changes = 0
 
@@ -105,11 +107,21 @@ class DrawList:
         scene._update(self._threads)
         if self._needs != needs or self._normals != normals or not self._lists(scene):
             self._renew(scene, needs, normals)
+        self._follow_poses(scene)
         if self._many and not self._trees:
             self._settle()
         widen = 1.0 + marks if self._marks or needs.edges else 1.0
         self._place(scene._arrays, frustum, widen, batching)
         self._lights.update(scene, headlight)
+
+    def _follow_poses(self, scene: Scene) -> None:
+        """Draw meshes that were bent anew as they are now."""
+        posing = scene._posing
+        posed = None if posing is None else (posing, posing.moment)
+        if posed != self._posed and posing is not None:
+            self.native.set_meshes(posing.numbers, posing.poses)
+            self._placed = None
+        self._posed = posed
 
     def _settle(self) -> None:
         """Make trees of many instances, once these have stayed as they are for some frames."""
@@ -214,18 +226,22 @@ class DrawList:
             self.native.set_object(number, None, 0)
             self._note(number, (), (), [])
             return
-        mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
-        things = (mesh,) if obj is mesh else (mesh, obj)
+        mesh = obj if isinstance(obj, Mesh) else obj.mesh
+        things = (mesh, obj) if isinstance(obj, InstancedMesh) else (mesh,)
         for thing in things:
             self._watch.add(thing)  # before it is read
         surfaces = tuple(map(id, mesh.materials))
         if surfaces not in self._bases:
             self._bases[surfaces] = self._add_materials(mesh.materials)
-        native = native_mesh(mesh, _needs_of(mesh, self._needs, self._normals), self._threads)
+        needs = _needs_of(mesh, self._needs, self._normals)
+        if isinstance(obj, PosedMesh):
+            native = obj.handle(needs, self._threads)
+        else:
+            native = native_mesh(mesh, needs, self._threads)
         self.native.set_object(number, native, self._bases[surfaces])
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
         self._note(number, things, surfaces, mesh.materials)
-        if obj is not mesh:
+        if isinstance(obj, InstancedMesh):
             self._set_instances(number, obj)
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
@@ -291,6 +307,7 @@ class DrawList:
                 columns["object"],
                 columns["object_id"],
                 columns["world"],
+                columns["anchor"],
                 selection,
                 frustum,
                 widen,

@@ -15,6 +15,7 @@ import numpy as np
 from .._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
 from .._support.dirty_tracking import Watch
 from ..geometry.mesh import Mesh
+from ..motion.posed_mesh import PosedMesh
 from .instances import InstancedMesh, mesh_box
 
 _REMEMBERED = 1024  # numbers that got other objects
@@ -60,7 +61,7 @@ class ObjectTable:
 
     def take(self, obj) -> int:
         """Return the number of an object for one more node; -1 for what is never drawn."""
-        if not isinstance(obj, (Mesh, InstancedMesh)):
+        if not isinstance(obj, (Mesh, InstancedMesh, PosedMesh)):
             return -1
         number = self._numbers.get(obj)
         if number is None:
@@ -72,11 +73,20 @@ class ObjectTable:
                 self._make_room()
             number = self._numbers[obj] = self._free.pop()
             self._give(number, obj)
-            self._look_at(obj, number)
-            if isinstance(obj, InstancedMesh):
+            if not isinstance(obj, PosedMesh):
+                self._look_at(obj, number)
+            if not isinstance(obj, Mesh):
                 self._look_at(obj.mesh, number)
         self._uses[number] += 1
         return number
+
+    def number_of(self, obj) -> int:
+        """Return the number of an object that some node draws."""
+        return self._numbers[obj]
+
+    def forget_shapes(self) -> None:
+        """Say that what is drawn has other faces, or has them elsewhere."""
+        self._shapes = None
 
     def release(self, obj) -> None:
         """Say that a node of the object is gone."""
@@ -169,4 +179,6 @@ class ObjectTable:
 def _box(obj) -> np.ndarray:
     if isinstance(obj, Mesh):
         return mesh_box(obj)
+    if isinstance(obj, PosedMesh):
+        return obj.box()
     return _NO_BOX if obj is None else obj._box_in_node()

@@ -16,6 +16,7 @@ from .. import linalg
 from .._support.numbers import floats, real
 from .._support.validation import Closed, finite, vector3
 from ..errors import InvalidArgumentError
+from ..motion.interpolation import slerp
 from .nodes import Node
 from .scene import Scene
 
@@ -232,31 +233,6 @@ class Track:
             self.node.scale = _between(self._scales, before, after, share)
         if self._rotations is not None:
             self.node.rotation = slerp(self._rotations[before], self._rotations[after], share)
-
-
-def slerp(a: np.ndarray, b: np.ndarray, share: float) -> np.ndarray:
-    """Return the rotation between two, the shorter way round.
-
-    Parameters
-    ----------
-    a, b : (4,) float64
-        Quaternions of any length but zero.
-    share : float
-        0 is a, 1 is b.
-
-    Returns
-    -------
-    (4,) float64
-    """
-    a, b = (q / math.sqrt(sum(x * x for x in q.tolist())) for q in (a, b))
-    cosine = sum(x * y for x, y in zip(a.tolist(), b.tolist(), strict=True))
-    if cosine < 0.0:
-        b, cosine = -b, -cosine
-    sine = math.sqrt(max(0.0, 1.0 - cosine * cosine))
-    if sine < 1e-6:
-        return a * (1.0 - share) + b * share
-    angle = linalg.atan2(sine, cosine)
-    return (a * linalg.sin((1.0 - share) * angle) + b * linalg.sin(share * angle)) / sine
 
 
 def _between(values: np.ndarray, before: int, after: int, share: float) -> np.ndarray:

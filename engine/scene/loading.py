@@ -1,8 +1,8 @@
 """From a file that holds objects, lights and cameras to a scene.
 
 In: a path, or the `Document` that a loader made of it. Out: a `Scene` in the file's coordinates,
-one node an object. What a file says in other terms than ours (lights without falloff, spots, camera
-rolls) is translated here.
+with the file's tree of nodes if it has one, else one node an object. What a file says in other
+terms than ours (lights without falloff, camera rolls) is translated here.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from ..errors import InvalidArgumentError
 from ..loaders import CameraRecord, Document, LightRecord, load_document
 from ..loaders.sources import File
 from ._scene_records import fill_scene
+from ._tree_records import choose_variant, fill_from_tree
 from .cameras import PerspectiveCamera
 from .lights import DirectionalLight, PointLight
 from .scene import Scene
@@ -26,8 +27,9 @@ def load_scene(
     *,
     format: str | None = None,
     progress: Callable[[float], object] | None = None,
+    variant: str | int | None = None,
 ) -> Scene:
-    """Read a file with all its objects, lights and cameras.
+    """Read a file with all its objects, lights, cameras, skins and animations.
 
     Parameters
     ----------
@@ -37,6 +39,9 @@ def load_scene(
         The format's name, such as ``"asc"``. Left out, it is told by the content and the name.
     progress : callable, optional
         As in `load_mesh`.
+    variant : str or int, optional
+        The name or number of one of the sets of materials that a glTF file offers
+        (KHR_materials_variants); the usual one if left out.
 
     Returns
     -------
@@ -47,14 +52,25 @@ def load_scene(
     ------
     FileFormatError, FileAccessError, InvalidArgumentError
     """
-    return scene_from_document(load_document(path, format=format, progress=progress))
+    return scene_from_document(load_document(path, format=format, progress=progress), variant)
 
 
 @np.errstate(all="ignore")
-def scene_from_document(document: Document) -> Scene:
-    """Return the scene that a document describes."""
+def scene_from_document(document: Document, variant: str | int | None = None) -> Scene:
+    """Return the scene that a document describes; ``variant`` as in `load_scene`.
+
+    Raises
+    ------
+    InvalidArgumentError
+        There is no such variant.
+    """
     scene = Scene()
     scene.warnings.extend(document.warnings)
+    if variant is not None:
+        choose_variant(document.tree, variant)
+    if document.tree is not None:
+        fill_from_tree(scene, document.tree)
+        return scene
     if document.scene is not None:
         fill_scene(scene, document.scene)
         return scene

@@ -30,8 +30,9 @@ _COLUMNS = {
     "world_version": (np.uint32, ()),
     "changed": (np.int32, ()),
     "stack": (np.int32, ()),
+    "anchor": (np.int32, ()),
 }
-_LINKS = ("parent", "first_child", "last_child", "next", "previous")
+_LINKS = ("parent", "first_child", "last_child", "next", "previous", "anchor")
 _ROOM = 16
 
 

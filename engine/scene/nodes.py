@@ -23,6 +23,7 @@ from ..spatial.colliders import check_collider
 
 if TYPE_CHECKING:
     from ..geometry.mesh import Mesh
+    from ..motion.skins import Skin
     from ..spatial.colliders import Collider
     from .cameras import Camera
     from .instances import InstancedMesh
@@ -45,12 +46,16 @@ class Node:
         "__weakref__",
         "_arrays",
         "_collider",
+        "_drawn",
         "_id",
+        "_morph_weights",
         "_name",
         "_object",
         "_pose",
         "_pose_version",
+        "_posed",
         "_scene",
+        "_skin",
         "_slot",
         "_taken",
         "_taken_with",
@@ -60,7 +65,8 @@ class Node:
 
     def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
         self._scene = scene
-        self._object = obj
+        self._object = self._drawn = obj  # drawn: what is shown of it
+        self._skin = self._morph_weights = self._posed = None
         self._name = name
         self._collider = None
         self._taken = ()  # the nodes below that were removed with this one
@@ -84,11 +90,33 @@ class Node:
 
     @object.setter
     def object(self, value: SceneObject | None) -> None:
-        if self._scene is None:
-            raise InvalidArgumentError("the node was removed from its scene")
+        scene = self._in_scene()
         if self._collider is not None:
             check_collider(value, self._collider)
-        self._scene._put(self, value)
+        scene._put(self, value)
+
+    @property
+    def skin(self) -> Skin | None:
+        """The joints that bend the node's mesh, or None.
+
+        The mesh needs ``joints`` and ``weights``. It then stands where the joints put it, wherever
+        the node itself is. A mesh may be shown by many nodes, each with a skin of its own. Whatever
+        else the node holds meanwhile is shown as it is.
+        """
+        return self._skin
+
+    @skin.setter
+    def skin(self, value: Skin | None) -> None:
+        self._in_scene()._set_skin(self, value)
+
+    @property
+    def morph_weights(self) -> NDArray[np.float64] | None:
+        """How much of each morph target is added to the node's mesh, (T,) float64; None is 0."""
+        return self._morph_weights
+
+    @morph_weights.setter
+    def morph_weights(self, value: ArrayLike | None) -> None:
+        self._in_scene()._set_morph_weights(self, value)
 
     @property
     def name(self) -> str:
@@ -290,6 +318,12 @@ class Node:
     def __repr__(self) -> str:
         what = "group" if self._object is None else type(self._object).__name__
         return f"<Node {self.id} {self.name!r}: {what}>"
+
+    def _in_scene(self) -> Scene:
+        """The scene that the node is in."""
+        if self._scene is None:
+            raise InvalidArgumentError("the node was removed from its scene")
+        return self._scene
 
     def _show_as(self, other: Node) -> None:
         """Let frames show another node's id for this one."""

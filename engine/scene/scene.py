@@ -25,6 +25,7 @@ from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import check_color
+from ..motion.posing import Posing, check_morph_weights, check_skin, posed_for, set_weights
 from ._objects import ObjectTable
 from .cameras import Camera
 from .instances import InstancedMesh
@@ -34,6 +35,8 @@ from .nodes import Node, check_pose, check_rotation, check_scale
 from .selection import NodeSelection
 
 if TYPE_CHECKING:
+    from ..motion.clips import AnimationClip
+    from ..motion.skins import Skin
     from ..rendering.frame import Frame
     from ..spatial.colliders import ColliderHit
     from ..spatial.rays import RayHit, RayHits
@@ -73,6 +76,8 @@ class Scene(Closed):
         Radians about +Y, counter-clockwise seen from above; as a background, too.
     background_blur : float
         0..1: how blurred an environment is as the background, 1 most.
+    animations : dict of str to AnimationClip
+        Clips of a file, by name, for an `AnimationPlayer`.
     warnings : list of str
         What was left out or replaced where the scene was made from a file.
 
@@ -81,6 +86,7 @@ class Scene(Closed):
     InvalidArgumentError
     """
 
+    animations: dict[str, AnimationClip]
     warnings: list[str]
 
     def __init__(
@@ -104,6 +110,8 @@ class Scene(Closed):
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
         self._renames = 0  # how often a node got another name
+        self._posing: Posing | None = None  # made when a mesh is first bent
+        self.animations = {}
         self.warnings = []
         self.background = background
         self.ambient = ambient
@@ -292,14 +300,39 @@ class Scene(Closed):
     def _put(self, node: Node, obj) -> None:
         """Let a node hold another object."""
         _check_object(obj)
-        number = self._objects.take(obj)
-        self._objects.release(node._object)
         node._object = obj
-        self._arrays.set_object(node._slot, number)
+        self._show(node)
         self._cameras.pop(node.id, None)
         self._lights.pop(node.id, None)
         self._list(node)
         self._removals += 1
+
+    def _show(self, node: Node) -> None:
+        """Let a node draw what it holds, as its skin and its morph weights bend it."""
+        posed, before = posed_for(node), node._drawn
+        if posed is not None and self._posing is None:
+            self._posing = Posing()
+        drawn = node._object if posed is None else posed
+        number = self._objects.take(drawn)
+        self._objects.release(before)
+        node._posed, node._drawn = posed, drawn
+        self._arrays.set_object(node._slot, number)
+        if self._posing is not None:
+            (self._posing.leave if posed is None else self._posing.take)(node)
+
+    def _set_skin(self, node: Node, skin: Skin | None) -> None:
+        """Let joints bend what a node holds."""
+        node._skin = check_skin(skin, node)
+        self._show(node)
+
+    def _set_morph_weights(self, node: Node, weights: ArrayLike | None) -> None:
+        """Let a node add morph targets to its mesh."""
+        node._morph_weights = check_morph_weights(weights, node._object)
+        if node._posed is not None and node._morph_weights is not None:
+            set_weights(node._posed, node._morph_weights)
+            self._arrays.changes += 1
+        else:
+            self._show(node)
 
     def remove(self, node: Node) -> None:
         """Take a node and everything below it out of the scene; see `restore`.
@@ -316,7 +349,7 @@ class Scene(Closed):
             gone, arrays.nodes[slot] = arrays.nodes[slot], None
             taken.append(gone)
             gone._scene = None
-            self._objects.release(gone._object)
+            self._objects.release(gone._drawn)
             self._cameras.pop(gone.id, None)
             self._lights.pop(gone.id, None)
             self._colliders.pop(gone.id, None)
@@ -360,7 +393,7 @@ class Scene(Closed):
         for slot, back in zip(arrays.restore(node._slot), taken, strict=True):
             arrays.nodes[slot] = back
             back._scene, back._taken_with = self, None
-            arrays.set_object(slot, self._objects.take(back._object))
+            arrays.set_object(slot, self._objects.take(back._drawn))
             self._list(back)
             self._set_collider(back)
         self._gone.discard(node)
@@ -594,6 +627,8 @@ class Scene(Closed):
 
     def _update(self, threads: int = 1) -> None:
         """Make world poses, visibility and bounds of all nodes true; threads: 0 is all."""
+        if self._posing is not None:
+            self._posing.update(self, threads)
         self._objects.refresh(self._arrays)
         self._arrays.update(self._objects.boxes, threads)
 

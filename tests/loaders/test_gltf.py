@@ -104,7 +104,7 @@ def test_poses_that_are_none(write, matrix):
     tree["nodes"][0]["matrix"] = matrix
     path = write("a.gltf", json.dumps(tree))
     for load in (load_mesh, e3d.load_scene):
-        with pytest.raises(FileFormatError, match=r"a\.gltf: node '.*' has no affine pose"):
+        with pytest.raises(FileFormatError, match=r"a\.gltf: nodes\[0\]\.matrix is no affine pose"):
             load(path)
 
 
@@ -291,40 +291,21 @@ def test_a_material_comes_along(write):
     mesh = document.objects[0].mesh
     (material,) = mesh.materials
     assert (material.name, material.two_sided, material.color) == ("paint", True, (1, 0.5, 0.25))
-    assert material.emissive == (2, 0, 0)
-    assert material.extras == {"Pm": 0.0}
-    texture = material.texture
+    assert (material.emissive, material.emissive_strength) == ((0.5, 0, 0), 4)
+    assert (material.metallic, material.roughness) == (0, 1)
+    texture = material.texture.texture
+    assert material.texture == e3d.PlacedTexture(texture, offset=(0.5, 0), scale=(0.5, 2))
     assert np.array_equal(texture.pixels[:, :, :3], red)
     assert (texture.wrap, texture.filter) == ("clamp", "nearest")
-    assert mesh.uvs.tolist() == [[0.5, 1], [1, 1], [0.5, -1]]
+    assert mesh.uvs.tolist() == [[0, 1], [1, 1], [0, 0]]
     assert document.counts["materials"] == ["paint"]
     assert document.warnings == []
 
 
-def test_an_emission_map_does_not_make_a_white_silhouette(write):
+def test_what_is_left_out_is_told_once(write):
     tree = triangle_tree()
-    add_material(tree, png(np.zeros((1, 1), np.uint8)), emissiveFactor=[1, 1, 1])
-    tree["materials"][0]["emissiveTexture"] = {"index": 0}
-    with pytest.warns(Engine3DWarning, match="1 material has an emission map: drawn without"):
-        mesh = load_mesh(write("a.gltf", json.dumps(tree)))
-    assert mesh.materials[0].emissive == (0, 0, 0)
-
-
-def test_what_is_not_drawn_is_told_once_a_kind(write):
-    tree = triangle_tree()
-    materials = [{"alphaMode": "BLEND"}] * 3 + [
-        {"alphaMode": "MASK", "normalTexture": {"index": 0}, "occlusionTexture": {"index": 0}},
-        {"pbrMetallicRoughness": {"roughnessFactor": 0.5}},
-        {"extensions": {"KHR_materials_unlit": {}}},
-    ]
-    tree["materials"] = [*materials, {"alphaMode": "BLEND", "name": "not in use"}]
     primitive = tree["meshes"][0]["primitives"][0]
-    primitives = [{**primitive, "material": number} for number in range(len(materials))]
-    primitives[0]["targets"] = [{"POSITION": 0}]
-    tree["meshes"][0]["primitives"] = [*primitives, primitive]
-    tree["animations"] = [{}, {}]
-    tree["skins"] = [{}]
-    tree["cameras"] = [{}]
+    primitive["targets"] = [{"POSITION": 0, "COLOR_0": 0}, {"COLOR_0": 0}]
     tree["scenes"] *= 2
     tree["extensionsUsed"] = ["KHR_materials_unlit", "EXT_nobody_knows"]
     path = write("a.gltf", json.dumps(tree))
@@ -333,38 +314,20 @@ def test_what_is_not_drawn_is_told_once_a_kind(write):
     told = [warning.removeprefix(f"{path}: ") for warning in document.warnings]
     assert told == [
         "the extension 'EXT_nobody_knows' is not read",
-        "2 scenes: only scenes[0] is read",
-        "3 materials are transparent: drawn opaque",
-        "1 material has its alpha cut off: drawn whole",
-        "1 material has a normal map: drawn without",
-        "1 material has physically based values or maps: drawn as a matt surface",
-        "1 material has an occlusion map: drawn without",
-        "1 material is to be drawn unlit: lit like others",
-        "2 animations: left out",
-        "1 skin: left out, what moves is drawn as modelled",
-        "1 mesh has morph targets: drawn without",
-        "1 camera: left out",
+        "2 scenes: only scenes[0] is shown",
+        "meshes[0].primitives[0].targets[0]: what it adds to COLOR_0 is left out",
     ]
     assert describe(path)["warnings"] == [f"{path}: {line}" for line in told]
     with pytest.warns(Engine3DWarning):
         assert load_mesh(path).warnings == [f"{path}: {line}" for line in told]
 
 
-@pytest.mark.parametrize("name", ["KHR_draco_mesh_compression", "EXT_nobody_knows"])
-def test_an_extension_that_is_needed_is_named(write, name):
+def test_an_extension_that_is_needed_is_named(write):
+    name = "EXT_nobody_knows"
     tree = triangle_tree()
     tree["extensionsUsed"] = tree["extensionsRequired"] = [name]
     tree["accessors"][0]["count"] = 10**7
     with pytest.raises(FileFormatError, match=rf"a\.gltf: needs the extension '{name}'"):
-        load_mesh(write("a.gltf", json.dumps(tree)))
-
-
-def test_positions_that_are_only_compressed(write):
-    tree = triangle_tree()
-    del tree["accessors"][0]["bufferView"]
-    missing = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}
-    tree["meshes"][0]["primitives"][0]["extensions"] = missing
-    with pytest.raises(FileFormatError, match="compressed by KHR_draco_mesh_compression"):
         load_mesh(write("a.gltf", json.dumps(tree)))
 
 
@@ -374,7 +337,7 @@ def test_names_are_the_same_in_every_run(write):
     tree["nodes"] = [{"mesh": 0}, {"mesh": 0, "name": "house"}]
     tree["scenes"][0]["nodes"] = [0, 1]
     path = write("a.gltf", json.dumps(tree))
-    expected = [f"{name}_{k}" for name in ("0", "house") for k in range(3)]
+    expected = ["0", "house"]
     assert [entry.name for entry in load_document(path).objects] == expected
     assert [entry["name"] for entry in describe(path)["objects"]] == expected
 
@@ -466,7 +429,7 @@ def test_nodes_nested_deeply(write):
 def test_very_many_primitives_are_refused(write):
     tree = triangle_tree()
     tree["meshes"][0]["primitives"] *= 10_001
-    with pytest.raises(FileFormatError, match=r"a\.gltf: meshes\[0\] has more than 10000 prim"):
+    with pytest.raises(FileFormatError, match=r"a\.gltf: more than 10000 primitives"):
         load_mesh(write("a.gltf", json.dumps(tree)))
     half = tree["meshes"][0]["primitives"][:3]
     tree["meshes"] = [{"primitives": half}] * 4000

@@ -1,0 +1,77 @@
+/* Posing: meshes whose vertices are moved by morph targets and joints.
+ *
+ * In:  a mesh at rest, what moves its vertices, and then, as often as something moves, the matrices of the joints and the weights
+ *      of the targets.
+ * Out: meshes of their own positions and normals, which share faces, texture coordinates and what clusters hold with the one
+ *      at rest; boxes, so that culling stays right.
+ * Always: rules R70 to R75 of docs/exactness.md; the same bytes on any number of threads.
+ */
+#ifndef E3D_POSING_H
+#define E3D_POSING_H
+
+#include "e3d_mesh.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    E3D_JOINT_MATRIX = 16, /* floats: four columns of x y z 0 */
+    E3D_POSED_BOX = 9      /* a box as E3D_OBJECT_BOX of e3d_scene.h says */
+};
+
+/* What moves the vertices of a mesh. Arrays are borrowed. */
+typedef struct e3d_pose_desc {
+    const float *normals;         /* (vertices, 3) or NULL */
+    int32_t influences;           /* of each vertex; 0: no joints */
+    const uint16_t *joints;       /* (vertices, influences) */
+    const float *weights;         /* (vertices, influences), finite, at least one of each vertex is not 0 */
+    int32_t targets;
+    const float *target_positions, *target_normals; /* (targets, vertices, 3) or NULL */
+} e3d_pose_desc;
+
+typedef struct e3d_rest e3d_rest;
+
+/* The mesh must outlive it, and has `movers` where clusters share vertices that do not move alike. */
+e3d_status e3d_rest_create(const e3d_mesh *mesh, const e3d_pose_desc *desc, e3d_rest **out);
+void e3d_rest_destroy(e3d_rest *rest);
+/* How many joints the vertices refer to: the highest and one. */
+int32_t e3d_rest_joints(const e3d_rest *rest);
+/* A mesh to be posed; it borrows from the one at rest. With face_normals it has normals of its faces. */
+e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **out);
+const float *e3d_posed_positions(const e3d_mesh *posed);
+const float *e3d_posed_normals(const e3d_mesh *posed);
+
+/* One mesh to pose. */
+typedef struct e3d_pose_job {
+    const e3d_rest *rest;
+    const float *matrices; /* (joints, E3D_JOINT_MATRIX), node from rest; NULL: no joints */
+    const float *weights;  /* (targets,); NULL: all 0 */
+    e3d_mesh *out;
+    double box[E3D_POSED_BOX]; /* found */
+} e3d_pose_job;
+
+/* Poses meshes, each another one, on up to `threads` threads. */
+void e3d_pose_meshes(e3d_pose_job *jobs, int32_t count, int threads);
+/* The same of one mesh's vertices, one by one, as the rules say: what tests compare with. normals may be NULL. */
+void e3d_reference_pose(const e3d_mesh_desc *mesh, const e3d_pose_desc *desc, const float *matrices, const float *weights,
+                        float *positions, float *normals);
+
+/* The joints of a skin, found from the poses of the nodes between an anchor and them. */
+typedef struct e3d_skeleton {
+    int32_t links;         /* nodes on the ways from the anchor to the joints, those above first */
+    const int32_t *slots;  /* (links,) */
+    const int32_t *above;  /* (links,) the number of the link that each hangs from; -1: the anchor */
+    int32_t joints;
+    const int32_t *ends;   /* (joints,) the link that each joint is */
+    const double *inverse_binds; /* (joints, 12) joint from rest */
+} e3d_skeleton;
+
+/* Writes the joints' matrices (R70); ways: (links, 12), scratch. poses: (slots, 12), parent from node. */
+void e3d_skeleton_matrices(const e3d_skeleton *skeleton, const double *poses, double *ways, float *matrices);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,195 @@
+"""The meshes of a glTF file.
+
+In: a `GltfFile` and what reads its primitives. Out: a `MeshRecord` each. The primitives of a mesh
+that carry the same attributes become one `Mesh`, with a material for each; others become further
+parts of the record.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..geometry.mesh import Mesh
+from ..geometry.morph_targets import MorphTarget
+from .documents import MeshRecord
+from .gltf_buffers import GltfBuffers
+from .gltf_file import GltfFile
+from .gltf_materials import GltfMaterials
+from .gltf_primitives import GltfPrimitives, Primitive
+from .smoothing import join_seams
+
+# Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
+_MAX_PRIMITIVES = 10_000
+_MORPHS = ("positions", "normals", "tangents")
+
+
+class GltfMeshes:
+    """Reads the meshes of a file.
+
+    Parameters
+    ----------
+    file : GltfFile
+    buffers : GltfBuffers
+    primitives : GltfPrimitives
+    materials : GltfMaterials
+    """
+
+    def __init__(
+        self,
+        file: GltfFile,
+        buffers: GltfBuffers,
+        primitives: GltfPrimitives,
+        materials: GltfMaterials,
+    ) -> None:
+        self._file, self._buffers = file, buffers
+        self._primitives, self._materials = primitives, materials
+
+    def all(self) -> tuple[MeshRecord, ...]:
+        """Return the meshes.
+
+        Raises
+        ------
+        FileFormatError
+        """
+        file = self._file
+        lists = [
+            file.entries("primitives", entry, f"meshes[{index}].")
+            for index, entry in enumerate(file.entries("meshes"))
+        ]
+        if sum(map(len, lists)) > _MAX_PRIMITIVES:
+            raise file.error(f"more than {_MAX_PRIMITIVES} primitives")
+        return tuple(
+            self._mesh(entry, primitives, f"meshes[{index}]")
+            for index, (entry, primitives) in enumerate(
+                zip(file.entries("meshes"), lists, strict=True)
+            )
+        )
+
+    def _mesh(self, entry: dict, primitives: list[dict], where: str) -> MeshRecord:
+        file = self._file
+        if "primitives" not in entry:
+            raise file.error(f"damaged: {where} has no primitives")
+        name = file.text(entry, "name", where)
+        weights = file.number_list(entry, "weights", where)
+        targets = {len(primitive.get("targets") or ()) for primitive in primitives}
+        if len(targets) > 1:
+            raise file.error(f"damaged: the primitives of {where} have unequal morph targets")
+        groups: dict[tuple, list[tuple[Primitive, dict, str]]] = {}
+        for number, primitive in enumerate(primitives):
+            place = f"{where}.primitives[{number}]"
+            read = self._primitives.read(primitive, place)
+            if read is not None:
+                groups.setdefault(_kind_of(read), []).append((read, primitive, place))
+        if not groups:
+            return MeshRecord(name, Mesh([], name=name), extras=entry.get("extras"))
+        (count,) = targets
+        names = _target_names(entry.get("extras"), count)
+        first, *rest = (self._part(name, members, names) for members in groups.values())
+        weights = self._weights(weights, count, where)
+        return replace(
+            first, morph_weights=weights, rest=tuple(rest), extras=entry.get("extras")
+        )
+
+    def _weights(self, weights, count: int, where: str) -> tuple[float, ...]:
+        if weights is None:
+            return (0.0,) * count
+        if len(weights) != count:
+            raise self._file.error(f"damaged: {where} has {len(weights)} weights, {count} targets")
+        return weights
+
+    def _part(
+        self, name: str, members: list[tuple[Primitive, dict, str]], target_names: list[str]
+    ) -> MeshRecord:
+        """Primitives that carry the same as one mesh."""
+        primitives = [primitive for primitive, _, _ in members]
+        counts = [len(primitive.arrays["positions"]) for primitive in primitives]
+        starts = np.cumsum([0, *counts])[:-1]
+        arrays = {key: self._joined([p.arrays[key] for p in primitives]) for key in primitives[0].arrays}
+        kind = primitives[0].kind
+        elements = [
+            primitive.elements + np.int32(start) if start else primitive.elements
+            for primitive, start in zip(primitives, starts, strict=True)
+        ]
+        flat = kind == "faces" and "normals" not in arrays
+        chosen = [self._chosen(*member, flat=flat) for member in members]
+        ids = None
+        if kind == "faces" and len(members) > 1:
+            sizes = [len(part) for part in elements]
+            ids = np.repeat(np.arange(len(members), dtype=np.int32), sizes)
+        materials = [usual for usual, _ in chosen] if kind == "faces" else [chosen[0][0]]
+        mesh = Mesh(
+            arrays.pop("positions"),
+            **{kind: self._joined(elements)},
+            materials=materials,
+            material_ids=ids,
+            name=name,
+            **arrays,
+        )
+        if flat:
+            join_seams(mesh)
+        if primitives[0].joints is not None:
+            joints = self._joined([primitive.joints for primitive in primitives])
+            mesh.set_influences(joints, self._joined([p.weights for p in primitives]))
+        if target_names:
+            mesh.morph_targets = self._morphs(primitives, counts, target_names)
+        return MeshRecord(name, mesh, variants=_variants(chosen))
+
+    def _chosen(self, primitive: Primitive, entry: dict, where: str, *, flat: bool):
+        """The material of a primitive, and those of variants."""
+        common = {"flat": flat, "uv_sets": primitive.uv_sets}
+        usual = self._materials.get(primitive.material, where, **common)
+        others = {
+            variant: self._materials.get(material, where, **common)
+            for material, variants in self._materials.variants(entry, where)
+            for variant in variants
+        }
+        return usual, others
+
+    def _morphs(
+        self, primitives: list[Primitive], counts: list[int], names: list[str]
+    ) -> list[MorphTarget]:
+        """The morph targets of joined primitives: what only some change is 0 for the others."""
+        found = []
+        for name, *targets in zip(names, *(p.morphs for p in primitives), strict=True):
+            deltas = {}
+            for key in _MORPHS:
+                parts = [target.get(key) for target in targets]
+                # A target that changes nothing still has its weight.
+                if key == "positions" or any(part is not None for part in parts):
+                    deltas[key] = self._joined(
+                        [
+                            np.zeros((count, 3), np.float32) if part is None else part
+                            for part, count in zip(parts, counts, strict=True)
+                        ]
+                    )
+            found.append(MorphTarget(**deltas, name=name))
+        return found
+
+    def _joined(self, parts: list[np.ndarray]) -> np.ndarray:
+        if len(parts) == 1:
+            return parts[0]
+        self._buffers.count(sum(part.size for part in parts))
+        return np.concatenate(parts)
+
+
+def _kind_of(primitive: Primitive) -> tuple:
+    """What primitives of one mesh have in common."""
+    joints = 0 if primitive.joints is None else primitive.joints.shape[1]
+    material = None if primitive.kind == "faces" else primitive.material
+    # The materials of other sets of texture coordinates are others, of these one may be drawn.
+    return primitive.kind, tuple(primitive.arrays), joints, material
+
+
+def _variants(chosen: list[tuple]) -> dict[int, tuple]:
+    named = sorted({variant for _, others in chosen for variant in others})
+    return {
+        variant: tuple(others.get(variant, usual) for usual, others in chosen) for variant in named
+    }
+
+
+def _target_names(extras, count: int) -> list[str]:
+    names = extras.get("targetNames") if isinstance(extras, dict) else None
+    names = [str(name) for name in names[:count]] if isinstance(names, list) else []
+    return names + [""] * (count - len(names))

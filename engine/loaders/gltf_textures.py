@@ -1,0 +1,188 @@
+"""The images and textures of a glTF file.
+
+In: a `GltfFile` and its buffers. Out: a `Texture` for each image with each sampler, which keeps the
+image's own bytes; placed where a material places it. An image that is missing, damaged or too large
+is a warning, and materials have none then. Images are decoded side by side.
+"""
+
+from __future__ import annotations
+
+import contextvars
+import os
+import warnings as python_warnings
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from ..errors import Engine3DError
+from ..materials.textures import PlacedTexture, Texture
+from . import gltf_basisu
+from .gltf_buffers import GltfBuffers
+from .gltf_file import GltfFile
+from .registry import find_reader
+from .sources import Source
+from .warning_list import WarningList
+
+TRANSFORM, _WEBP = "KHR_texture_transform", "EXT_texture_webp"
+#: The extensions that are read here.
+READ = (TRANSFORM, _WEBP, *gltf_basisu.READ)
+_WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
+_REPEAT, _NEAREST, _LINEAR = 10497, 9728, 9729
+_MOST_THREADS = 4
+
+
+class GltfTextures:
+    """The textures of a file, each image decoded once.
+
+    Parameters
+    ----------
+    file : GltfFile
+    buffers : GltfBuffers
+    warnings : WarningList
+    """
+
+    def __init__(self, file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> None:
+        self._file, self._buffers, self._warnings = file, buffers, warnings
+        self._images: dict[int, Texture | None] = {}
+        self._textures: dict[tuple, Texture] = {}
+        self._sources: dict[int, int | None] = {}
+
+    def decode(self, textures: set[int]) -> None:
+        """Decode the images of some textures, all at once."""
+        wanted = dict.fromkeys(self._image_of(texture) for texture in sorted(textures))
+        images = [image for image in wanted if image is not None and image not in self._images]
+        if not images:
+            return
+        with python_warnings.catch_warnings(), ThreadPoolExecutor(_threads(images)) as pool:
+            contexts = [contextvars.copy_context() for _ in images]
+            calls = [
+                pool.submit(context.run, self._decoded, image)
+                for context, image in zip(contexts, images, strict=True)
+            ]
+            results = [call.result() for call in calls]
+        for image, result in zip(images, results, strict=True):
+            if isinstance(result, str):
+                self._warnings.add(f"images[{image}] is left out: {result}")
+            self._images[image] = None if isinstance(result, str) else result
+
+    def get(self, info: dict, where: str) -> Texture | None:
+        """Return the texture that a material's ``info`` names; None if its image is left out."""
+        index = info.get("index")
+        entry = self._file.entry("textures", index, where)
+        self.decode({index})
+        image = self._image_of(index)
+        held = None if image is None else self._images[image]
+        if held is None:
+            return None
+        wrap, filter = self._sampling(entry, f"textures[{index}]")
+        key = image, wrap, filter
+        if key not in self._textures:
+            texture = Texture(held.pixels, wrap=wrap, filter=filter, name=held.name)
+            texture._file = held._file
+            self._textures[key] = texture
+        return self._textures[key]
+
+    def placed(self, info: dict, where: str, uv_sets: tuple[int, ...]):
+        """Return a texture with the coordinates that it is read at.
+
+        Parameters
+        ----------
+        info : dict
+        where : str
+        uv_sets : tuple of int
+            The sets of the file that the mesh has.
+        """
+        texture = self.get(info, where)
+        if texture is None:
+            return None
+        transform = self._transform(info, where)
+        uv_set = self.uv_set(info, where)
+        place = {
+            "uv_set": uv_sets.index(uv_set) if uv_set in uv_sets else 0,
+            "offset": self._file.numbers(transform, "offset", where, (0.0, 0.0)),
+            "rotation": self._file.number(transform, "rotation", where, 0.0),
+            "scale": self._file.numbers(transform, "scale", where, (1.0, 1.0)),
+        }
+        found = PlacedTexture(texture, **place)
+        return found if found.uv_set or found.is_moved else texture
+
+    def uv_set(self, info: dict, where: str) -> int:
+        """Return the set of texture coordinates that ``info`` names."""
+        default = self._file.whole(info, "texCoord", where, 0)
+        return self._file.whole(self._transform(info, where), "texCoord", where, default)
+
+    def _transform(self, info: dict, where: str) -> dict:
+        extensions = self._file.part(info, "extensions", where)
+        return self._file.part(extensions, TRANSFORM, where)
+
+    def _image_of(self, index: int) -> int | None:
+        """The image of a texture; told once if it has none."""
+        if index in self._sources:
+            return self._sources[index]
+        file, where = self._file, f"textures[{index}]"
+        entry = file.entry("textures", index, where)
+        extensions = file.part(entry, "extensions", where)
+        candidates = [file.part(extensions, _WEBP, where).get("source"), entry.get("source")]
+        place = 0 if gltf_basisu.is_installed() else len(candidates)
+        for name in gltf_basisu.READ:
+            candidates.insert(place, file.part(extensions, name, where).get("source"))
+        image = next((source for source in candidates if source is not None), None)
+        if image is None:
+            others = " that is read" if extensions else ""
+            self._warnings.add(f"{where} has no image{others}: left out")
+        else:
+            file.entry("images", image, where)
+        self._sources[index] = image
+        return image
+
+    def _sampling(self, entry: dict, where: str) -> tuple[str, str]:
+        sampler = {}
+        if "sampler" in entry:
+            sampler = self._file.entry("samplers", entry["sampler"], where)
+        wraps = [_wrap(sampler.get(name, _REPEAT)) for name in ("wrapS", "wrapT")]
+        if wraps[0] != wraps[1]:
+            message = f"{where} wraps differently along its sides: as along u along both"
+            self._warnings.add_once(message)
+        if sampler.get("magFilter") == _NEAREST:
+            return wraps[0], "nearest"
+        has_levels = sampler.get("minFilter") not in (_NEAREST, _LINEAR)
+        return wraps[0], "trilinear" if has_levels else "bilinear"
+
+    def _decoded(self, image: int) -> Texture | str:
+        """The image as a texture, or why there is none."""
+        where = f"images[{image}]"
+        entry = self._file.entries("images")[image]
+        uri = entry.get("uri")
+        is_file = isinstance(uri, str) and uri[:5].lower() != "data:"
+        try:
+            if "bufferView" in entry:
+                data = bytes(self._buffers.view(entry["bufferView"], where))
+            else:
+                data = self._buffers.named(uri, where)
+            source = Source(f"<{uri if is_file else where}>", data)
+            if gltf_basisu.is_packed(data):
+                pixels = gltf_basisu.read_packed(source)
+            else:
+                pixels = find_reader(source, "image").read(source)
+        except gltf_basisu.NotInstalledError as error:
+            raise self._file.error(f"{where} {error}") from None
+        except Engine3DError as error:
+            reason = getattr(error, "message", None) or str(error)
+            return reason.removeprefix(f"{where}: ")
+        texture = Texture(pixels, name=str(entry.get("name") or (uri if is_file else "")))
+        texture._file = data
+        return texture
+
+
+def changed(texture: Texture, pixels: np.ndarray, name: str) -> Texture:
+    """Return a texture of other pixels that is sampled like this one."""
+    pixels.setflags(write=False)
+    return Texture(pixels, wrap=texture.wrap, filter=texture.filter, name=name)
+
+
+def _threads(images: list) -> int:
+    return max(min(len(images), os.cpu_count() or 1, _MOST_THREADS), 1)
+
+
+def _wrap(value) -> str:
+    return _WRAPS.get(value, "repeat") if type(value) is int else "repeat"

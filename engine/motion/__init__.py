@@ -1,0 +1,1 @@
+"""Motion: skins and morph targets that bend meshes, clips of keyframes, and what plays them."""

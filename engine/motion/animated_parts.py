@@ -1,0 +1,86 @@
+"""The parts of a scene's nodes that clips move: a row for each, path by path.
+
+In: clips; then rows of values. Out: nodes that are there. Where they were at first is remembered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..scene.nodes import Node
+from ..scene.scene import Scene
+from .clips import PATHS, AnimationClip
+
+#: Values by path: (rows, N) float64; of weights a list of (T,) arrays.
+Values = dict
+
+
+class AnimatedParts:
+    """All that some clips move.
+
+    Attributes
+    ----------
+    rows : dict of str to dict of Node to int
+        The row of each node, by path.
+    rest : dict
+        The values that the nodes had when this was made.
+    """
+
+    def __init__(self, scene: Scene, clips: Iterable[AnimationClip]) -> None:
+        self.rows: dict[str, dict[Node, int]] = {path: {} for path in PATHS}
+        for clip in clips:
+            for channel in clip.channels:
+                rows = self.rows[channel.path]
+                rows.setdefault(channel.node, len(rows))
+        self.rest: Values = {path: _values_of(scene, path, self.rows[path]) for path in PATHS}
+        self._slots: tuple | None = None
+
+    def none(self) -> dict[str, np.ndarray]:
+        """Return a mask by path, all False."""
+        return {path: np.zeros(len(rows), np.bool_) for path, rows in self.rows.items()}
+
+    def write(self, scene: Scene, values: Values, masks: dict[str, np.ndarray]) -> None:
+        """Give the nodes of the rows that are masked their values."""
+        arrays = scene._arrays
+        slots = self._slots_in(scene)
+        for path in ("translation", "rotation", "scale"):
+            rows = np.flatnonzero(masks[path] & (slots[path] >= 0))
+            if not len(rows):
+                continue
+            part, where = values[path][rows], slots[path][rows]
+            if path == "translation":
+                arrays.set_translations(where, part)
+            elif path == "rotation":
+                arrays.set_many_parts(where, part, None)
+            else:
+                arrays.set_many_parts(where, None, part)
+        for node, row in self.rows["weights"].items():
+            if masks["weights"][row] and slots["weights"][row] >= 0:
+                weights = values["weights"][row]
+                if len(weights) == len(getattr(node.object, "morph_targets", ())):
+                    node.morph_weights = weights
+
+    def _slots_in(self, scene: Scene) -> dict[str, np.ndarray]:
+        """The slots of all rows, -1 for nodes that were removed."""
+        state = scene._arrays, scene._removals
+        if self._slots is None or self._slots[0] != state:
+            slots = {
+                path: np.array([n._slot if n._scene is scene else -1 for n in rows], np.int32)
+                for path, rows in self.rows.items()
+            }
+            self._slots = state, slots
+        return self._slots[1]
+
+
+def _values_of(scene: Scene, path: str, nodes: dict[Node, int]):
+    if path == "weights":
+        return [_weights_of(node) for node in nodes]
+    return getattr(scene.select(nodes), f"{path}s")
+
+
+def _weights_of(node: Node) -> np.ndarray:
+    if node.morph_weights is not None:
+        return node.morph_weights
+    return np.zeros(len(getattr(node.object, "morph_targets", ())))

@@ -1,0 +1,214 @@
+"""From the tree of a file to a scene.
+
+In: a `TreeRecord`, whose meshes are made. Out: the nodes of its shown scene with what they hold:
+meshes, shared as in the file, cameras, lights, skins, and clips for an `AnimationPlayer`. What has
+no place in a scene is warned of.
+"""
+
+from __future__ import annotations
+
+import math
+from weakref import WeakKeyDictionary
+
+from .._support.numbers import shown
+from ..errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..loaders.documents import ClipRecord, LampRecord, LensRecord, NodeRecord, TreeRecord
+from ..loaders.tree_posing import shown_nodes
+from .cameras import Camera, OrthographicCamera, PerspectiveCamera
+from .instances import InstancedMesh
+from .lights import DirectionalLight, Light, PointLight, SpotLight
+from .nodes import Node
+from .scene import Scene
+
+#: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
+records: WeakKeyDictionary = WeakKeyDictionary()
+
+
+def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
+    """Give the meshes of a tree the materials of one of its variants.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    names = () if tree is None else tree.variants
+    number = (
+        variant
+        if isinstance(variant, int)
+        else next((index for index, name in enumerate(names) if name == variant), -1)
+    )
+    if tree is None or not 0 <= number < len(names):
+        known = ", ".join(map(repr, names)) or "none"
+        raise InvalidArgumentError(f"no variant {shown(variant)} (there are: {known})")
+    for record in tree.meshes:
+        for part in record.parts:
+            if number in part.variants:
+                part.mesh.materials = part.variants[number]
+
+
+def fill_from_tree(scene: Scene, tree: TreeRecord) -> None:
+    """Add the nodes of a tree's shown scene to an empty scene, and its clips."""
+    _Filling(scene, tree).fill()
+
+
+class _Filling:
+    """Makes each thing of a tree once."""
+
+    def __init__(self, scene: Scene, tree: TreeRecord) -> None:
+        self._scene, self._tree = scene, tree
+        self._objects: dict[tuple, object] = {}
+        self._nodes: dict[int, Node] = {}  # by their numbers in the tree
+        self._parts: dict[int, list[Node]] = {}  # the nodes that show parts of their meshes
+
+    def fill(self) -> None:
+        """Add everything."""
+        for node in shown_nodes(self._tree):
+            self._add(node.index, self._nodes.get(node.parent))
+        self._add_skins()
+        for number, clip in enumerate(self._tree.clips):
+            self._add_clip(clip, number)
+
+    def _add(self, index: int, parent: Node | None) -> None:
+        record = self._tree.nodes[index]
+        held = [*self._meshes(record), *self._placed(record)]
+        # What a node of ours cannot hold besides hangs below it.
+        first, others = (held[0], held[1:]) if held else (None, [])
+        node = self._scene.add(first, name=record.name, parent=parent, **_place(record))
+        node.visible = record.visible
+        records[node] = record
+        self._nodes[index] = node
+        shows = [node] if isinstance(first, (Mesh, InstancedMesh)) else []
+        for number, obj in enumerate(others, start=1):
+            below = self._scene.add(obj, name=f"{record.name}_{number}", parent=node)
+            shows += [below] if isinstance(obj, (Mesh, InstancedMesh)) else []
+        if shows:
+            self._parts[index] = shows
+            self._set_weights(record, shows)
+
+    def _meshes(self, record: NodeRecord) -> list[Mesh | InstancedMesh]:
+        if record.mesh is None:
+            return []
+        mesh_record = self._tree.meshes[record.mesh]
+        meshes = [part.mesh for part in mesh_record.parts if len(part.mesh.positions)]
+        for part in mesh_record.parts:
+            records.setdefault(part.mesh, (part, self._tree.variants))
+        if record.instances is None:
+            return meshes
+        return [InstancedMesh(mesh, record.instances) for mesh in meshes]
+
+    def _placed(self, record: NodeRecord) -> list[Camera | Light]:
+        """The camera and the light of a node, each made once for all nodes that name it."""
+        found = []
+        for kind, number, entries, make in (
+            ("camera", record.camera, self._tree.cameras, _camera),
+            ("light", record.light, self._tree.lights, _light),
+        ):
+            if number is None:
+                continue
+            key = kind, number
+            if key not in self._objects:
+                self._objects[key] = self._made(kind, entries[number], make)
+            found += [] if self._objects[key] is None else [self._objects[key]]
+        return found
+
+    def _made(self, kind: str, entry: LensRecord | LampRecord, make):
+        try:
+            obj = make(entry)
+        except InvalidArgumentError as error:
+            self._scene.warnings.append(f"{kind} {entry.name!r} is left out: {error}")
+            return None
+        records[obj] = entry
+        return obj
+
+    def _set_weights(self, record: NodeRecord, shows: list[Node]) -> None:
+        mesh_record = self._tree.meshes[record.mesh]
+        count = len(mesh_record.mesh.morph_targets)
+        weights = mesh_record.morph_weights if record.weights is None else record.weights
+        if any(weights) and count and record.instances is None:
+            weights = [*weights[:count], *(0.0,) * (count - len(weights))]
+            for node in shows:
+                node.morph_weights = weights
+
+    def _add_skins(self) -> None:
+        from ..motion.skins import Skin
+
+        for index, shows in self._parts.items():
+            number = self._tree.nodes[index].skin
+            if number is None:
+                continue
+            key = "skin", number
+            record = self._tree.skins[number]
+            if key not in self._objects:
+                joints = [self._nodes.get(joint) for joint in record.joints]
+                if None in joints:
+                    self._scene.warnings.append(
+                        f"skin {record.name!r} is left out: a joint of it is not in the scene"
+                    )
+                    self._objects[key] = None
+                else:
+                    skin = Skin(joints, record.inverse_binds, record.name)
+                    self._objects[key] = skin
+                    records[skin] = record
+            skin = self._objects[key]
+            for node in shows if skin is not None else ():
+                if isinstance(node.object, Mesh) and node.object.joints is not None:
+                    node.skin = skin
+
+    def _add_clip(self, record: ClipRecord, number: int) -> None:
+        from ..motion.clips import AnimationClip, Channel
+
+        channels, missing = [], 0
+        for channel in record.channels:
+            node = self._nodes.get(channel.node)
+            moved = [] if node is None else [node]
+            if channel.path == "weights":
+                moved = self._parts.get(channel.node, []) if node is not None else []
+            missing += not moved
+            channels += [
+                Channel(each, channel.path, channel.times, channel.values, channel.interpolation)
+                for each in moved
+            ]
+        if missing:
+            self._scene.warnings.append(
+                f"animation {record.name!r}: {missing} of its channels move nothing that is shown"
+            )
+        clip = AnimationClip(channels, record.name)
+        records[clip] = record
+        self._scene.animations[_free(record.name or f"animation_{number}", self._scene)] = clip
+
+
+def _free(name: str, scene: Scene) -> str:
+    """The name, or one with a number behind it where another clip is called so."""
+    number, free = 1, name
+    while free in scene.animations:
+        number += 1
+        free = f"{name}_{number}"
+    return free
+
+
+def _place(record: NodeRecord) -> dict:
+    """The parts of a node's pose, as `Scene.add` takes them."""
+    if record.matrix is not None:
+        return {"pose": record.matrix}
+    parts = {name: getattr(record, name) for name in ("translation", "rotation", "scale")}
+    return {name: value for name, value in parts.items() if value is not None}
+
+
+def _camera(record: LensRecord) -> Camera:
+    """A camera of the picture's own shape, whatever shape the file thinks of."""
+    if record.kind == "orthographic":
+        return OrthographicCamera(record.ymag, znear=record.znear, zfar=record.zfar)
+    return PerspectiveCamera(record.yfov, znear=record.znear, zfar=record.zfar)
+
+
+def _light(record: LampRecord) -> Light:
+    if record.kind == "directional":
+        return DirectionalLight(color=record.color, intensity=record.intensity)
+    if record.kind == "point":
+        falloff = "inverse_square" if math.isinf(record.range) else "gltf"
+        return PointLight(record.color, record.intensity, record.range, falloff)
+    if record.kind == "spot":
+        angles = record.inner_cone_angle, record.outer_cone_angle
+        return SpotLight(record.color, record.intensity, record.range, *angles)
+    raise InvalidArgumentError(f"no light is known of the kind {shown(record.kind)}")

@@ -11,21 +11,23 @@ import engine3d as e3d
 from engine3d import linalg
 
 OUTPUTS = {"depth": "ndc_depth", "id": "instance_id"}
+KEYED_FRAMES = 300  # of scenes that move: keys of a clip, as animated files have them
 
 
 class Peer:
     """Draws one scene; `scene.view` is read anew for each frame."""
 
     split = False  # a frame is delivered as an array
-    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id"}
+    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "skin"}
 
     def __init__(self, scene):
         self.source = scene
         self.output = OUTPUTS.get(scene.mode, "color")
         ambient = (float(scene.ambient),) * 3
         self.scene = e3d.Scene(background=tuple(map(float, scene.clear[:3])), ambient=ambient)
-        for draw in scene.draws:
-            self.scene.add(drawable(draw))
+        made = {}
+        nodes = [self.scene.add(drawable(draw, made)) for draw in scene.draws]
+        self.crowd = Crowd(self.scene, nodes, scene.draws) if scene.mode == "skin" else None
         for light, pose in lights(scene):
             self.scene.add(light, translation=pose)
         self.camera = e3d.Camera(np.asarray(scene.proj, np.float64))
@@ -36,6 +38,8 @@ class Peer:
 
     def render(self):
         source = self.source
+        if self.crowd is not None:
+            self.crowd.show(source.frame)
         pose = linalg.inverse(np.asarray(source.view, np.float64))
         self.frame = self.renderer.render(
             self.scene,
@@ -55,8 +59,51 @@ class Peer:
         return self.read()
 
 
-def drawable(draw):
-    """A mesh or instances, from the neutral description."""
+class Crowd:
+    """Skinned nodes: the joints' matrices are keys of clips, which a player plays."""
+
+    def __init__(self, scene, nodes, draws):
+        self.draws, self.joints = draws, []
+        for node, draw in zip(nodes, draws, strict=True):
+            joints = [scene.add() for _ in draw.joint_matrices(0)]
+            node.skin = e3d.Skin(joints, np.tile(np.eye(4), (len(joints), 1, 1)))
+            self.joints += joints
+        self.selection = scene.select(self.joints)
+        times, channels = np.arange(KEYED_FRAMES), []
+        translations, rotations = zip(*map(self.keys_of, times.tolist()), strict=True)
+        for number, joint in enumerate(self.joints):
+            for path, keys in (("translation", translations), ("rotation", rotations)):
+                values = [key[number] for key in keys]
+                channels.append(e3d.Channel(joint, path, times, values))
+        self.player = e3d.AnimationPlayer(scene, [e3d.AnimationClip(channels)])
+        self.player.loop = "once"
+        self.player.play()
+
+    def keys_of(self, frame):
+        """Where all joints are in a frame: translations and rotations."""
+        poses = [draw.joint_matrices(frame) for draw in self.draws]
+        self.selection.poses = np.array(poses, np.float64).reshape(-1, 4, 4)
+        return self.selection.translations, self.selection.rotations
+
+    def show(self, frame):
+        """Move all to where they are in a frame."""
+        if frame < KEYED_FRAMES:
+            self.player.seek(frame)
+        else:
+            self.keys_of(frame)
+
+
+def drawable(draw, made):
+    """A mesh or instances, from the neutral description; the same mesh once."""
+    if draw.mesh.joints is None or draw.inst is not None:
+        return new_drawable(draw)
+    if id(draw.mesh) not in made:
+        made[id(draw.mesh)] = new_drawable(draw)
+    return made[id(draw.mesh)]
+
+
+def new_drawable(draw):
+    """A mesh or instances."""
     mesh = draw.mesh
     material = e3d.Material()
     if draw.texture is not None:
@@ -68,6 +115,8 @@ def drawable(draw):
         uvs=mesh.uv,
         colors=mesh.col,
         materials=[material],
+        joints=mesh.joints,
+        weights=mesh.weights,
     )
     if draw.inst is None:
         return made
@@ -83,7 +132,7 @@ def lights(scene):
                 color=color, intensity=1.0, range=float(radius), falloff="window"
             )
             yield light, (float(x), float(y), float(z))
-    elif scene.mode == "lit":
+    elif scene.mode in ("lit", "skin"):
         strength = 1.0 - float(scene.ambient)
         direction = tuple(-float(c) for c in scene.light_dir)
         yield e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0), None

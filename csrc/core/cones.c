@@ -46,8 +46,6 @@ static float radius_of(const e3d_cluster *c)
     return 1.0001f * (float)sqrt(square);
 }
 
-static inline float4 root_of(float4 v) { return (float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
-
 /* Points the axis to the middle of the box of the normals; 0 where that has no direction. The mean would follow the majority of the
  * normals and leave a wider cone: of 50,000 clusters that face away, it lets 32,070 be found instead of 37,076. */
 static int find_axis(const float lo[3], const float hi[3], float axis[3])

@@ -2,6 +2,7 @@
 #ifndef E3D_VECTORS_H
 #define E3D_VECTORS_H
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 #if defined(__SSE2__)
@@ -35,6 +36,22 @@ static inline float4 load4(const float *p)
     float4 v;
     memcpy(&v, p, sizeof v);
     return v;
+}
+static inline float4 root_of(float4 v) { return (float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
+/* Lanes of a and b (those of b count from 4), by their numbers. */
+#if defined(__clang__)
+#define LANES(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+#define LANES(a, b, ...) __builtin_shuffle(a, b, (int4){__VA_ARGS__})
+#endif
+/* The first three columns of four rows. */
+static inline void columns_of(const float4 row[4], float4 column[3])
+{
+    float4 low = LANES(row[0], row[1], 0, 4, 1, 5), low2 = LANES(row[2], row[3], 0, 4, 1, 5);
+    float4 high = LANES(row[0], row[1], 2, 6, 3, 7), high2 = LANES(row[2], row[3], 2, 6, 3, 7);
+    column[0] = LANES(low, low2, 0, 1, 4, 5);
+    column[1] = LANES(low, low2, 2, 3, 6, 7);
+    column[2] = LANES(high, high2, 0, 1, 4, 5);
 }
 static inline void store4(float *p, float4 v) { memcpy(p, &v, sizeof v); }
 

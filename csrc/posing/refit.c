@@ -1,15 +1,20 @@
 /* refit: clusters, groups and boxes of a posed mesh, after its vertices moved.
  *
  * In:  positions of the vertices, which vertices a cluster was made from.
- * Out: the clusters' positions, boxes and cones; boxes of groups and of the mesh; normals of faces (R75).
+ * Out: the clusters' positions and boxes; boxes of groups and of the mesh; normals of faces (R75).
  */
 #include <math.h>
 #include <string.h>
 
 #include "core/bounds.h"
-#include "core/clusters.h"
 #include "core/vectors.h"
 #include "posing/rest.h"
+
+static inline float least_lane(float4 v)
+{
+    float a = v[0] < v[1] ? v[0] : v[1], b = v[2] < v[3] ? v[2] : v[3];
+    return a < b ? a : b;
+}
 
 static void bound_slowly(e3d_cluster *c)
 {
@@ -26,24 +31,28 @@ static void bound_slowly(e3d_cluster *c)
 /* Box and positions in one pass; where one isn't finite, the box is found vertex by vertex. */
 static void refit_cluster(const int32_t *members, const float *positions, e3d_cluster *c, float *out)
 {
-    float4 lo = load4(positions + 3 * (size_t)members[0]), hi = lo, none = splat(0);
-    for (int v = 0; v < c->stride; v++) {
-        float4 p = load4(positions + 3 * (size_t)members[v]);
-        lo = less_of(p, lo);
-        hi = more_of(p, hi);
-        none += p - p; /* 0, or a NaN */
-        out[v] = p[0];
-        out[c->stride + v] = p[1];
-        out[2 * c->stride + v] = p[2];
+    float4 lo[3], hi[3], none = splat(0), row[4], column[3];
+    for (int k = 0; k < 3; k++)
+        lo[k] = hi[k] = splat(positions[3 * (size_t)members[0] + (size_t)k]);
+    for (int v = 0; v < c->stride; v += 4) {
+        for (int i = 0; i < 4; i++)
+            row[i] = load4(positions + 3 * (size_t)members[v + i]);
+        columns_of(row, column);
+        for (int k = 0; k < 3; k++) {
+            store4(out + k * c->stride + v, column[k]);
+            lo[k] = less_of(column[k], lo[k]);
+            hi[k] = more_of(column[k], hi[k]);
+            none += column[k] - column[k]; /* 0, or a NaN */
+        }
     }
     c->any_finite = 1;
+    c->altitude = 0; /* no cone: to find one takes as long as all the rest, and setup drops what faces away in less */
     for (int k = 0; k < 3; k++) {
-        c->lo[k] = lo[k];
-        c->hi[k] = hi[k];
+        c->lo[k] = least_lane(lo[k]);
+        c->hi[k] = -least_lane(-hi[k]);
     }
-    if (!((none[0] + none[1]) + none[2] == 0))
+    if (!((none[0] + none[1]) + (none[2] + none[3]) == 0))
         bound_slowly(c);
-    c->altitude = 0;
 }
 
 void e3d_refit_clusters(const e3d_rest *rest, e3d_mesh *posed, int32_t first, int32_t count)

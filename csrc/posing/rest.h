@@ -24,7 +24,7 @@ struct e3d_rest {
 
 /* Poses vertices first … first + count - 1 into arrays of all vertices. normals may be NULL. */
 void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, float *positions, float *normals);
-/* Brings the positions of some clusters, their boxes and cones up to date with those of the vertices. */
+/* Brings the positions of some clusters and their boxes up to date with those of the vertices. */
 void e3d_refit_clusters(const e3d_rest *rest, e3d_mesh *posed, int32_t first, int32_t count);
 /* Then the boxes of groups and of the mesh, and normals of faces, if it has them. */
 void e3d_refit_mesh(e3d_mesh *posed, double box[E3D_POSED_BOX]);

@@ -5,7 +5,6 @@
  * Always: a vertex at a time, its four columns side by side in vectors of four, which have the same bits on every processor;
  *      lane 3 means nothing.
  */
-#include <math.h>
 #include <string.h>
 
 #include "core/vectors.h"
@@ -13,28 +12,25 @@
 
 enum { RUN = 128 }; /* vertices whose morphed rows stay in the first cache */
 
-#if defined(__clang__)
-#define TURNED(v) __builtin_shufflevector(v, v, 1, 2, 0, 3)
-#else
-#define TURNED(v) __builtin_shuffle(v, (int4){1, 2, 0, 3})
-#endif
+#define TURNED(v) LANES(v, v, 1, 2, 0, 3)
 
 typedef struct rows {
     float positions[3 * RUN + 4], normals[3 * RUN + 4];
 } rows;
 
-/* out = base, then + weight * delta, target after target (R71). */
-static void morph(const float *base, const float *deltas, const float *weights, int32_t targets, size_t stride, size_t count,
-                  float *restrict out)
+/* out = base, then + weight * delta, target after target (R71); returns out. */
+static const float *morph(const float *base, const float *deltas, const float *weights, int32_t targets, size_t stride,
+                          size_t count, float *restrict out)
 {
     memcpy(out, base, count * sizeof *out);
-    for (int32_t t = 0; t < targets && deltas; t++) {
+    for (int32_t t = 0; t < targets; t++) {
         const float *delta = deltas + (size_t)t * stride;
         float weight = weights[t];
         if (weight != 0)
             for (size_t i = 0; i < count; i++)
                 out[i] = out[i] + weight * delta[i];
     }
+    return out;
 }
 
 /* The cross product: y z x of a * (b turned) - (a turned) * b. */
@@ -51,13 +47,23 @@ static inline void store3(float *out, float4 v)
     out[2] = v[2];
 }
 
-/* Unit length, as in R22. */
-static inline float4 unit4(float4 v)
+/* Rows of vertices; the last one's fourth lane is not written. */
+static inline void store_rows(float *out, const float4 row[4], int count)
 {
-    float x = v[0], y = v[1], z = v[2];
-    float square = (x * x + y * y) + z * z;
-    square = 0x1p-126f > square ? 0x1p-126f : square;
-    return v * splat(1.0f / sqrtf(square));
+    for (int i = 0; i < count - 1; i++)
+        store4(out + 3 * i, row[i]);
+    store3(out + 3 * (count - 1), row[count - 1]);
+}
+
+/* Unit length, as in R22. */
+static inline void make_unit(float4 row[4])
+{
+    float4 column[3], least = splat(0x1p-126f);
+    columns_of(row, column);
+    float4 square = (column[0] * column[0] + column[1] * column[1]) + column[2] * column[2];
+    float4 factor = splat(1) / root_of(choose(least > square, least, square));
+    for (int i = 0; i < 4; i++)
+        row[i] = row[i] * splat(factor[i]);
 }
 
 /* The blend of the matrices that move a vertex (R72). */
@@ -75,29 +81,47 @@ static inline void blend(const e3d_influence *at, const e3d_influence *end, cons
     }
 }
 
-/* Positions by the matrix, normals by its cofactors (R73, R74). */
-static void skin(const e3d_rest *rest, const float *matrices, int32_t first, int32_t count, const rows *from, float *positions,
-                 float *normals)
+/* Four vertices at a time, or what is left: positions by the matrix, normals by its cofactors (R73, R74). */
+static inline void skin_four(const e3d_rest *rest, const float *matrices, int32_t first, int count, const float *p,
+                             const float *n, float *positions, float *normals)
 {
-    for (int32_t v = 0; v < count; v++) {
-        const uint32_t *start = rest->starts + first + v;
-        const float *p = from->positions + 3 * v, *n = from->normals + 3 * v;
+    float4 point[4] = {{0}}, normal[4] = {{0}};
+    for (int i = 0; i < count; i++, p += 3) {
+        const uint32_t *start = rest->starts + first + i;
         float4 m[4];
         blend(rest->influences + start[0], rest->influences + start[1], matrices, m);
-        store3(positions + 3 * v, ((m[0] * splat(p[0]) + m[1] * splat(p[1])) + m[2] * splat(p[2])) + m[3]);
+        point[i] = ((m[0] * splat(p[0]) + m[1] * splat(p[1])) + m[2] * splat(p[2])) + m[3];
         if (normals) {
             float4 a = cross4(m[1], m[2]), b = cross4(m[2], m[0]), c = cross4(m[0], m[1]);
-            store3(normals + 3 * v, unit4((a * splat(n[0]) + b * splat(n[1])) + c * splat(n[2])));
+            normal[i] = (a * splat(n[3 * i]) + b * splat(n[3 * i + 1])) + c * splat(n[3 * i + 2]);
         }
+    }
+    store_rows(positions, point, count);
+    if (normals) {
+        make_unit(normal);
+        store_rows(normals, normal, count);
     }
 }
 
-static void copy_rows(const rows *from, int32_t count, int morphed, float *positions, float *normals)
+static void skin(const e3d_rest *rest, const float *matrices, int32_t first, int32_t count, const float *p, const float *n,
+                 float *positions, float *normals)
 {
-    memcpy(positions, from->positions, 3 * (size_t)count * sizeof *positions);
-    for (int32_t v = 0; v < count && normals; v++) {
-        float4 n = load4(from->normals + 3 * v);
-        store3(normals + 3 * v, morphed ? unit4(n) : n);
+    int32_t v = 0;
+    for (; v + 4 <= count; v += 4)
+        skin_four(rest, matrices, first + v, 4, p + 3 * v, n + 3 * v, positions + 3 * v, normals ? normals + 3 * v : NULL);
+    if (v < count)
+        skin_four(rest, matrices, first + v, count - v, p + 3 * v, n + 3 * v, positions + 3 * v, normals ? normals + 3 * v : NULL);
+}
+
+static void unit_rows(const float *from, int32_t count, float *out)
+{
+    for (int32_t v = 0; v < count; v += 4) {
+        float4 row[4] = {{0}};
+        int some = count - v < 4 ? count - v : 4;
+        for (int i = 0; i < some; i++)
+            row[i] = load4(from + 3 * (v + i));
+        make_unit(row);
+        store_rows(out + 3 * v, row, some);
     }
 }
 
@@ -106,17 +130,22 @@ static void pose_run(const e3d_pose_job *job, int32_t first, int32_t count, floa
     const e3d_rest *rest = job->rest;
     const e3d_pose_desc *d = &rest->desc;
     size_t stride = 3 * (size_t)rest->mesh->desc.vertices, at = 3 * (size_t)first, floats = 3 * (size_t)count;
-    int32_t targets = job->weights ? d->targets : 0;
+    const float *p = rest->mesh->desc.positions + at, *n = normals ? d->normals + at : p;
+    int moved = job->weights && d->targets, turned = moved && normals && d->target_normals;
     rows now;
-    morph(rest->mesh->desc.positions + at, d->target_positions ? d->target_positions + at : NULL, job->weights, targets, stride,
-          floats, now.positions);
-    if (normals)
-        morph(d->normals + at, d->target_normals ? d->target_normals + at : NULL, job->weights, targets, stride, floats,
-              now.normals);
-    if (rest->starts && job->matrices)
-        skin(rest, job->matrices, first, count, &now, positions + at, normals ? normals + at : NULL);
-    else
-        copy_rows(&now, count, targets && d->target_normals, positions + at, normals ? normals + at : NULL);
+    if (moved && d->target_positions)
+        p = morph(p, d->target_positions + at, job->weights, d->targets, stride, floats, now.positions);
+    if (turned)
+        n = morph(n, d->target_normals + at, job->weights, d->targets, stride, floats, now.normals);
+    if (rest->starts && job->matrices) {
+        skin(rest, job->matrices, first, count, p, n, positions + at, normals ? normals + at : NULL);
+        return;
+    }
+    memcpy(positions + at, p, floats * sizeof *p);
+    if (turned)
+        unit_rows(n, count, normals + at);
+    else if (normals)
+        memcpy(normals + at, n, floats * sizeof *n);
 }
 
 void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, float *positions, float *normals)

@@ -15,6 +15,7 @@ import numpy as np
 from .. import linalg
 from .._native.scene_graph import SHOWN
 from ..geometry.mesh import Mesh
+from ..motion.shown import as_shown, placing_poses
 from ..scene.instances import InstancedMesh
 from ..scene.scene import Scene
 
@@ -52,7 +53,7 @@ def support_of_scene(scene: Scene) -> SupportFunction | None:
     for number, obj in enumerate(scene._objects.objects):
         slots = np.flatnonzero(shown & (numbers == number))
         if obj is not None and len(slots):
-            placed.add(obj, arrays.world_poses(slots))
+            placed.add(as_shown(obj), placing_poses(arrays, slots))
     return placed.support if placed.count else None
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from .._native.scene_graph import ALIVE
 from ..geometry.mesh import Mesh
 from ..materials.material import textures_of
+from ..motion.posed_mesh import PosedMesh
 from .instances import InstancedMesh
 from .nodes import Node
 from .scene import Scene
@@ -44,7 +45,7 @@ def users_of(scene: Scene, thing: Any) -> tuple[Node, ...]:
 
 def made_of(obj: Any) -> dict[Any, None]:
     """Return the mesh, materials and textures that an object of a node is made of, each once."""
-    mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
+    mesh = obj.mesh if isinstance(obj, (InstancedMesh, PosedMesh)) else obj
     if not isinstance(mesh, Mesh):
         return {}
     found: dict[Any, None] = {mesh: None}

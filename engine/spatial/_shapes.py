@@ -12,6 +12,7 @@ import numpy as np
 
 from .._native.scene_graph import BOX, NativeShapes, NativeTree, triangle_boxes
 from ..geometry.mesh import Mesh
+from ..motion.shown import as_shown
 from ..scene.instances import InstancedMesh
 
 _triangles: WeakKeyDictionary[Mesh, tuple[tuple, NativeTree]] = WeakKeyDictionary()
@@ -50,7 +51,7 @@ def way_to_face(
 
 def tell(shapes: NativeShapes, number: int, obj) -> None:
     """Tell the shape of a scene's object, as it is at one moment."""
-    mesh, poses, tree = obj, None, None
+    mesh, poses, tree = as_shown(obj), None, None
     if isinstance(obj, InstancedMesh):
         mesh, (tree, poses) = obj.mesh, obj._tree()
     arrays = dict(mesh._arrays)

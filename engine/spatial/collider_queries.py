@@ -17,6 +17,7 @@ from .._support.dirty_tracking import Watch
 from .._support.validation import how_far, positive, vector3
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..motion.shown import placing_poses
 from ..scene.nodes import Node
 from ._shapes import faces_in_box, way_to_face
 from ._triangles import sphere_meets_triangles, triangles_meet_box
@@ -38,8 +39,10 @@ class _Placed:
         self._radii = np.full(count, -1.0)  # of spheres
         self._watch = Watch()
         self.meshes: dict[int, Mesh] = {}
+        self._bent: list[int] = []  # rows of what stands where joints and morph targets put it
         for row, node in enumerate(self.nodes):
             self._describe(row, node)
+        self._moment = _moment(scene) if self._bent else 0
 
     def _describe(self, row: int, node: Node) -> None:
         """Keep what a collider is in its node's space."""
@@ -48,6 +51,9 @@ class _Placed:
             self._middles[row], self._radii[row] = collider.center, collider.radius
             return
         mesh = _mesh_of(node)
+        if mesh is not None and mesh is node.object and node._posed is not None:
+            self._bent.append(row)
+            mesh = node._posed.now()
         if isinstance(collider, MeshCollider):
             self.meshes[row] = mesh
         if mesh is not None:
@@ -57,14 +63,18 @@ class _Placed:
 
     def is_of(self, scene) -> bool:
         """Whether these are the scene's colliders still."""
-        return self._removals == scene._removals and not self._watch.found()
+        posed = not self._bent or self._moment == _moment(scene)
+        return posed and self._removals == scene._removals and not self._watch.found()
 
     def follow(self, scene) -> None:
         """Find where the colliders are, if anything moved."""
         state = scene._arrays, scene._arrays.updated
         if self._state == state:
             return
-        self.poses = poses = self._selection.world_poses
+        self.poses = poses = self._selection.world_poses.copy()
+        if self._bent:
+            rows = self._selection._rows[self._bent]
+            poses[self._bent] = placing_poses(scene._arrays, rows)
         shown = scene._arrays.columns["flags"][self._selection._rows] & SHOWN != 0
         self.centers = linalg.dot(poses[:, :3, :3], self._middles[:, np.newaxis]) + poses[:, :3, 3]
         around = linalg.dot(np.abs(poses[:, :3, :3]), self._halves[:, np.newaxis])
@@ -97,6 +107,11 @@ class _Placed:
 
     def _rows_of(self, bits: np.ndarray) -> np.ndarray:
         return np.flatnonzero(np.unpackbits(bits.view(np.uint8), bitorder="little"))
+
+
+def _moment(scene) -> int:
+    """What grows when meshes were bent anew."""
+    return 0 if scene._posing is None else scene._posing.moment
 
 
 def _placed(scene) -> _Placed:

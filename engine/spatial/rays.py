@@ -18,6 +18,7 @@ from .._native.rasterizer import CULLS
 from .._support.numbers import floats
 from .._support.validation import choose, how_far, vector3
 from ..errors import InvalidArgumentError
+from ..motion.shown import placing_pose, shown_object
 from ..rendering.frame import Frame
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
@@ -223,9 +224,10 @@ def _hit_of_face(node: Node, instance: int, face: int, origin, direction) -> Ray
     unknown = np.full(3, np.nan)
     if face < 0:
         return RayHit(node, instance, face, math.nan, unknown, unknown, unknown)
-    mesh, pose = _mesh_of(node), node.world_pose
-    if mesh is not node.object:
-        pose = linalg.multiply(pose, node.object._pose_of(instance))
+    mesh, pose = shown_object(node), placing_pose(node)
+    if isinstance(mesh, InstancedMesh):
+        pose = linalg.multiply(pose, mesh._pose_of(instance))
+        mesh = mesh.mesh
     a, b, c = linalg.transform_points(pose, mesh.positions[mesh.faces[face]])
     across = linalg.cross(b - a, c - a)
     normal = linalg.normalize(across)

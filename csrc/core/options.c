@@ -5,6 +5,7 @@
 #define NAMES(list) (const char *const[]){list(NAME) NULL}
 
 static const char *const *const NAMES_OF[E3D_OPTIONS] = {
+    [E3D_OPTION_ALPHA_MODE] = NAMES(E3D_EACH_ALPHA_MODE),
     [E3D_OPTION_BACKEND] = NAMES(E3D_EACH_BACKEND),
     [E3D_OPTION_CULL] = NAMES(E3D_EACH_CULL),
     [E3D_OPTION_CULLING] = NAMES(E3D_EACH_CULLING),

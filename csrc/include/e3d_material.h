@@ -15,6 +15,10 @@ extern "C" {
 #define E3D_EACH_TEXTURE_SLOT(X) X(E3D_SLOT_TEXTURE, texture) /* multiplies the colour */
 typedef enum e3d_texture_slot { E3D_EACH_TEXTURE_SLOT(E3D_ENUMERATOR) E3D_TEXTURE_SLOTS } e3d_texture_slot;
 
+/* What alpha means: nothing; that the surface is cut out where it is less than alpha_cutoff; how much of what is behind shows. */
+#define E3D_EACH_ALPHA_MODE(X) X(E3D_ALPHA_OPAQUE, opaque) X(E3D_ALPHA_MASK, mask) X(E3D_ALPHA_BLEND, blend)
+typedef enum e3d_alpha_mode { E3D_EACH_ALPHA_MODE(E3D_ENUMERATOR) } e3d_alpha_mode;
+
 typedef struct e3d_material {
     float color[3];              /* in the frame's working space (linear, or raw 8-bit / 255) */
     float specular[3];           /* Blinn-Phong Ks; all zero: no highlight is computed */
@@ -25,6 +29,9 @@ typedef struct e3d_material {
     int32_t id;                  /* what material_id outputs */
     int32_t two_sided;           /* not culled */
     int32_t flat;                /* face normals instead of vertex normals */
+    float alpha;                 /* multiplies that of the texture, the vertices and the instance */
+    e3d_alpha_mode alpha_mode;
+    float alpha_cutoff;          /* of E3D_ALPHA_MASK */
 } e3d_material;
 
 void e3d_material_set_texture(e3d_material *material, e3d_texture_slot slot, const e3d_texture *texture);

@@ -13,7 +13,8 @@ extern "C" {
 #define E3D_ENUMERATOR(enumerator, ...) enumerator,
 
 typedef enum e3d_option {
-    E3D_OPTION_BACKEND = 0,
+    E3D_OPTION_ALPHA_MODE = 0,
+    E3D_OPTION_BACKEND,
     E3D_OPTION_CULL,
     E3D_OPTION_CULLING,
     E3D_OPTION_FALLOFF,

@@ -10,6 +10,7 @@
 #include "core/mesh.h"
 #include "e3d.h"
 #include "e3d_canvas.h"
+#include "kernels/types/alpha.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
@@ -52,6 +53,9 @@ typedef struct e3d_kernels {
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Measures each block that isn't noted: its zmax, and the farthest depth of each column. */
     void (*raster_measure)(e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
+    /* Adds the samples that a piece, whose slot is its ID, covers in front of what shows: row by row from y0 on, while there is room
+     * for a whole one. Returns the row that comes next. */
+    int32_t (*raster_alpha)(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out);
     /* Finds the runs of the first width x height samples that show something, row by row; returns how many. `gaps`: whether some
      * samples show nothing. It writes the IDs of noted blocks where it must look at samples; the blocks stay noted. */
     int (*find_runs)(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps);
@@ -87,6 +91,11 @@ typedef struct e3d_kernels {
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
     /* color = (color * energy + specular * shine) + emissive; specular may be NULL */
     void (*combine)(e3d_batch *batch, const float specular[3], const float emissive[3]);
+    /* alpha (R80): base, times the texture's (which may be NULL), the vertices' and the instance's. */
+    void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, float base, int by_vertex,
+                  int by_instance);
+    /* Lays the colours of a batch over the samples, each of which it has once (R84). */
+    void (*lay)(const e3d_batch *batch, e3d_samples *samples);
     /* Clamps planes of colours to [0, 1], and encodes them as RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);

@@ -22,6 +22,7 @@
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
+#include "kernels/generic/alpha.inl"
 #include "kernels/generic/stream.inl"
 #include "kernels/generic/ui.inl"
 
@@ -40,6 +41,7 @@ const e3d_kernels E3D_TABLE = {
     .raster_visible = kernel_raster_visible,
     .raster_fragments = kernel_raster_fragments,
     .raster_settle = kernel_raster_settle,
+    .raster_alpha = kernel_raster_alpha,
     .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
     .take_runs = kernel_take_runs,
@@ -56,6 +58,8 @@ const e3d_kernels E3D_TABLE = {
     .tint = kernel_tint,
     .light = kernel_light,
     .combine = kernel_combine,
+    .alpha = kernel_alpha,
+    .lay = kernel_lay,
     .encode = kernel_encode,
     .put = kernel_put,
     .keep = kernel_keep,

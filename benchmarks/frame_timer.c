@@ -108,7 +108,7 @@ int main(void)
         return 3;
     if (make_mesh(&mesh) != E3D_OK || make_texture(&texture) != E3D_OK || e3d_renderer_create(E3D_TIMED, 1, &renderer) != E3D_OK)
         return 1;
-    const e3d_material material = {.color = {0.9f, 0.8f, 0.7f}, .specular = {0.3f, 0.3f, 0.3f}, .shininess = 24.0f, .texture = texture};
+    const e3d_material material = {.color = {0.9f, 0.8f, 0.7f}, .specular = {0.3f, 0.3f, 0.3f}, .shininess = 24.0f, .texture = {.texture = texture}};
     const e3d_light lights[2] = {
         {.kind = E3D_LIGHT_DIRECTIONAL, .color = {0.8f, 0.8f, 0.8f}, .to_light = {0.36f, 0.48f, 0.8f}},
         {.kind = E3D_LIGHT_POINT, .color = {0.5f, 0.4f, 0.3f}, .position = {0.5f, 0.5f, 1.0f}, .range = INFINITY},
@@ -118,7 +118,7 @@ int main(void)
         draw.world_from_node[5 * k] = 1.0;
     e3d_frame frame = {.width = WIDTH, .height = HEIGHT, .samples_axis = 1, .cull = E3D_CULL_BACK, .line_width = 1, .point_size = 1,
                        .background = {0, 0, 0, 1}, .encode_srgb = 1, .decode_srgb = 1, .depth_far = 1, .ambient = {0.1f, 0.1f, 0.1f},
-                       .light_clamp = {0, INFINITY}, .materials = &material, .material_count = 1, .lights = lights,
+                       .light_clamp = {0, INFINITY}, .exposure = 1.0f, .materials = &material, .material_count = 1, .lights = lights,
                        .light_count = 2, .draws = &draw, .draw_count = 1};
     aim(&frame);
     int failed = report(renderer, &frame);

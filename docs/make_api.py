@@ -38,6 +38,7 @@ CHAPTERS = {
         "InstancedMesh",
         "DirectionalLight",
         "PointLight",
+        "SpotLight",
         "Animator",
         "BoxCollider",
         "SphereCollider",
@@ -56,7 +57,7 @@ CHAPTERS = {
         "frame_bounds",
         "frame_scene",
     ),
-    "Meshes": ("Mesh", "Material", "Texture"),
+    "Meshes": ("Mesh", "Material", "Texture", "PlacedTexture"),
     "Primitives": (
         "box",
         "hexahedron",

@@ -31,6 +31,7 @@ from .lod import DetailedMeshes as DetailedMeshes
 from .lod import Impostor as Impostor
 from .lod import simplify as simplify
 from .materials.material import Material as Material
+from .materials.textures import PlacedTexture as PlacedTexture
 from .materials.textures import Texture as Texture
 from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
@@ -59,6 +60,7 @@ from .scene.cameras import PerspectiveCamera as PerspectiveCamera
 from .scene.instances import InstancedMesh as InstancedMesh
 from .scene.lights import DirectionalLight as DirectionalLight
 from .scene.lights import PointLight as PointLight
+from .scene.lights import SpotLight as SpotLight
 from .scene.loading import load_scene as load_scene
 from .scene.nodes import Node as Node
 from .scene.orbiting import orbit as orbit

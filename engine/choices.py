@@ -37,7 +37,8 @@ HiddenSurfaces = Literal["zbuffer", "painter", "none"]
 Culling = Literal["all", "frustum", "none", "always"]
 Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
-Falloff = Literal["inverse_square", "window"]
+Falloff = Literal["inverse_square", "window", "gltf"]
+AlphaMode = Literal["opaque", "mask", "blend"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
 PixelFormat = Literal["rgba", "bgra"]
 PointerShape = Literal[
@@ -58,4 +59,6 @@ EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
 
 #: Three numbers: floats are linear light, integers from 0 to 255 sRGB.
 Color: TypeAlias = tuple[float, float, float]
+#: The same, or four numbers: the last is alpha, from 0 to 1, or to 255 beside integers.
+SurfaceColor: TypeAlias = Color | tuple[float, float, float, float]
 ColorLike: TypeAlias = Union[Sequence[float], "NDArray[Any]"]

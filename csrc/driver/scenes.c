@@ -282,7 +282,7 @@ static e3d_status add_materials(scene *s, random_stream *r)
             material->emissive[k] = glowing ? random_float(r, 0.0f, 0.5f) : 0.0f;
         }
         material->shininess = random_float(r, 0.01f, 300.0f);
-        material->texture = i < SCENE_MAX_TEXTURES ? s->textures[i] : NULL;
+        material->texture.texture = i < SCENE_MAX_TEXTURES ? s->textures[i] : NULL;
         material->id = 100 + i;
         material->two_sided = random_once_in(r, 3);
         material->flat = random_once_in(r, 3);
@@ -361,6 +361,7 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     int clamped = random_once_in(r, 3);
     frame->light_clamp[0] = clamped ? 0.1f : 0.0f;
     frame->light_clamp[1] = clamped ? 1.0f : INFINITY;
+    frame->exposure = 1.0f;
 }
 
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)

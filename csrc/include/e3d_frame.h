@@ -73,6 +73,7 @@ typedef struct e3d_frame {
     float depth_near, depth_far; /* metric depths that mode depth shows white and black; near < far */
     float ambient[3];
     float light_clamp[2];        /* {0, +inf}: no clamp */
+    float exposure;              /* multiplies what lit surfaces show; > 0 */
     const e3d_material *materials;
     int32_t material_count;
     const e3d_light *lights;

@@ -10,19 +10,21 @@
 extern "C" {
 #endif
 
-typedef enum e3d_light_kind { E3D_LIGHT_DIRECTIONAL = 0, E3D_LIGHT_POINT } e3d_light_kind;
+typedef enum e3d_light_kind { E3D_LIGHT_DIRECTIONAL = 0, E3D_LIGHT_POINT, E3D_LIGHT_SPOT } e3d_light_kind;
 
-#define E3D_EACH_FALLOFF(X) X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) X(E3D_FALLOFF_WINDOW, window)
+#define E3D_EACH_FALLOFF(X) \
+    X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) X(E3D_FALLOFF_WINDOW, window) X(E3D_FALLOFF_GLTF, gltf)
 typedef enum e3d_falloff { E3D_EACH_FALLOFF(E3D_ENUMERATOR) } e3d_falloff;
 
 typedef struct e3d_light {
     e3d_light_kind kind;
     e3d_falloff falloff;
     float color[3];      /* colour times intensity, in the frame's working space */
-    float to_light[3];   /* directional: unit vector towards the light, world space */
-    float position[3];   /* point: world space */
-    float range;         /* point: contributes exactly 0 at distance >= range; may be +inf
-                          * (inverse square only) */
+    float to_light[3];   /* directional, spot: unit vector against the way that the light shines, world space */
+    float position[3];   /* point, spot: world space */
+    float range;         /* point, spot: contributes exactly 0 at distance >= range; may be +inf
+                          * (not with E3D_FALLOFF_WINDOW) */
+    float cone[2];       /* spot: the cosine of the outer angle, and 1 over what the inner one's is more */
 } e3d_light;
 
 #ifdef __cplusplus

@@ -11,30 +11,66 @@
 extern "C" {
 #endif
 
-/* The textures of a material: X(ENUMERATOR, name). */
-#define E3D_EACH_TEXTURE_SLOT(X) X(E3D_SLOT_TEXTURE, texture) /* multiplies the colour */
+/* The textures of a material: X(ENUMERATOR, name). Each multiplies what it is named after, by some of its channels. */
+#define E3D_EACH_TEXTURE_SLOT(X) \
+    X(E3D_SLOT_TEXTURE, texture) /* the colour, and alpha */ \
+    X(E3D_SLOT_METALLIC_ROUGHNESS, metallic_roughness_texture) /* G roughness, B metallic */ \
+    X(E3D_SLOT_NORMAL, normal_texture) \
+    X(E3D_SLOT_OCCLUSION, occlusion_texture) /* R */ \
+    X(E3D_SLOT_EMISSIVE, emissive_texture) \
+    X(E3D_SLOT_CLEARCOAT, clearcoat_texture) /* R */ \
+    X(E3D_SLOT_CLEARCOAT_ROUGHNESS, clearcoat_roughness_texture) /* G */ \
+    X(E3D_SLOT_CLEARCOAT_NORMAL, clearcoat_normal_texture) \
+    X(E3D_SLOT_SPECULAR, specular_texture) /* A */ \
+    X(E3D_SLOT_SPECULAR_COLOR, specular_color_texture) \
+    X(E3D_SLOT_SHEEN_COLOR, sheen_color_texture) \
+    X(E3D_SLOT_SHEEN_ROUGHNESS, sheen_roughness_texture) /* A */ \
+    X(E3D_SLOT_TRANSMISSION, transmission_texture) /* R */ \
+    X(E3D_SLOT_THICKNESS, thickness_texture) /* G */
 typedef enum e3d_texture_slot { E3D_EACH_TEXTURE_SLOT(E3D_ENUMERATOR) E3D_TEXTURE_SLOTS } e3d_texture_slot;
 
-/* What alpha means: nothing; that the surface is cut out where it is less than alpha_cutoff; how much of what is behind shows. */
+/* A texture, and the coordinates that it is read at. */
+typedef struct e3d_texture_use {
+    const e3d_texture *texture; /* or NULL */
+    int32_t uv_set;             /* 0: uvs, 1: uvs1 */
+    int32_t is_moved;           /* 0: the matrix is the identity, and not read */
+    float matrix[6];            /* two rows of three, of coordinates whose origin is at the bottom left */
+} e3d_texture_use;
+
 #define E3D_EACH_ALPHA_MODE(X) X(E3D_ALPHA_OPAQUE, opaque) X(E3D_ALPHA_MASK, mask) X(E3D_ALPHA_BLEND, blend)
 typedef enum e3d_alpha_mode { E3D_EACH_ALPHA_MODE(E3D_ENUMERATOR) } e3d_alpha_mode;
 
+/* What a physically based material is made of beside its colours (docs/exactness.md, section 12). */
+typedef struct e3d_physical {
+    float metallic, roughness; /* 0 .. 1 */
+    float normal_scale, occlusion_strength;
+    float reflectance[3];      /* of what is no metal, seen from above; before specular_intensity */
+    float specular_intensity;
+    float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
+    float sheen_color[3], sheen_roughness;
+    float transmission, thickness;
+    float absorption[3];       /* per world unit of thickness: minus the logarithm of what is left of light */
+} e3d_physical;
+
 typedef struct e3d_material {
     float color[3];              /* in the frame's working space (linear, or raw 8-bit / 255) */
+    float alpha;                 /* 0 .. 1 */
     float specular[3];           /* Blinn-Phong Ks; all zero: no highlight is computed */
     float shininess;             /* Blinn-Phong Ns, > 0 */
     float emissive[3];
-#define E3D_MATERIAL_TEXTURE(enumerator, name) const e3d_texture *name;
-    E3D_EACH_TEXTURE_SLOT(E3D_MATERIAL_TEXTURE) /* or NULL */
+#define E3D_MATERIAL_TEXTURE(enumerator, name) e3d_texture_use name;
+    E3D_EACH_TEXTURE_SLOT(E3D_MATERIAL_TEXTURE)
     int32_t id;                  /* what material_id outputs */
     int32_t two_sided;           /* not culled */
     int32_t flat;                /* face normals instead of vertex normals */
-    float alpha;                 /* multiplies that of the texture, the vertices and the instance */
+    int32_t is_unlit;            /* shows its colour in mode lit as well */
     e3d_alpha_mode alpha_mode;
     float alpha_cutoff;          /* of E3D_ALPHA_MASK */
+    int32_t is_physical;         /* 0: `physical` is not read */
+    e3d_physical physical;
 } e3d_material;
 
-void e3d_material_set_texture(e3d_material *material, e3d_texture_slot slot, const e3d_texture *texture);
+void e3d_material_set_texture(e3d_material *material, e3d_texture_slot slot, const e3d_texture_use *use);
 
 #ifdef __cplusplus
 }

@@ -19,6 +19,8 @@ typedef struct e3d_mesh e3d_mesh;
 #define E3D_EACH_VERTEX_ATTRIBUTE(X) \
     X(E3D_VERTEX_NORMALS, normals, float, 3) \
     X(E3D_VERTEX_UVS, uvs, float, 2) /* origin bottom-left */ \
+    X(E3D_VERTEX_UVS1, uvs1, float, 2) /* a second set */ \
+    X(E3D_VERTEX_TANGENTS, tangents, float, 4) /* w times cross(normal, tangent) is the bitangent */ \
     X(E3D_VERTEX_COLORS_U8, colors_u8, uint8_t, 4) \
     X(E3D_VERTEX_COLORS_F32, colors_f32, float, 4) /* linear */
 

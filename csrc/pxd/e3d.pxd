@@ -13,6 +13,7 @@ cdef extern from "e3d.h" nogil:
         E3D_CANCELLED
 
     ctypedef enum e3d_option:
+        E3D_OPTION_ALPHA_MODE
         E3D_OPTION_BACKEND
         E3D_OPTION_CULL
         E3D_OPTION_CULLING
@@ -89,24 +90,56 @@ cdef extern from "e3d.h" nogil:
                                   e3d_texture **out)
     void e3d_texture_destroy(e3d_texture *texture)
 
+    ctypedef struct e3d_texture_use:
+        const e3d_texture *texture
+        int32_t uv_set
+        int32_t is_moved
+        float matrix[6]
+
+    ctypedef enum e3d_alpha_mode:
+        pass
+
+    ctypedef struct e3d_physical:
+        float metallic
+        float roughness
+        float normal_scale
+        float occlusion_strength
+        float reflectance[3]
+        float specular_intensity
+        float clearcoat
+        float clearcoat_roughness
+        float clearcoat_normal_scale
+        float sheen_color[3]
+        float sheen_roughness
+        float transmission
+        float thickness
+        float absorption[3]
+
     ctypedef struct e3d_material:
         float color[3]
+        float alpha
         float specular[3]
         float shininess
         float emissive[3]
         int32_t id
         int32_t two_sided
         int32_t flat
+        int32_t is_unlit
+        e3d_alpha_mode alpha_mode
+        float alpha_cutoff
+        int32_t is_physical
+        e3d_physical physical
 
     ctypedef enum e3d_texture_slot:
         pass
 
     void e3d_material_set_texture(e3d_material *material, e3d_texture_slot slot,
-                                  const e3d_texture *texture)
+                                  const e3d_texture_use *use)
 
     ctypedef enum e3d_light_kind:
         E3D_LIGHT_DIRECTIONAL
         E3D_LIGHT_POINT
+        E3D_LIGHT_SPOT
 
     ctypedef enum e3d_falloff:
         pass
@@ -118,6 +151,7 @@ cdef extern from "e3d.h" nogil:
         float to_light[3]
         float position[3]
         float range
+        float cone[2]
 
     ctypedef enum e3d_pose_kind:
         E3D_POSE_NONE
@@ -186,6 +220,7 @@ cdef extern from "e3d.h" nogil:
         float depth_far
         float ambient[3]
         float light_clamp[2]
+        float exposure
         const e3d_material *materials
         int32_t material_count
         const e3d_light *lights

@@ -7,8 +7,24 @@
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
+/* R31, R43: `x` is the squared distance over that of the range. */
+static float falloff(const e3d_light *light, float d2, float x)
+{
+    float t = 1.0f - x;
+    if (light->falloff == E3D_FALLOFF_WINDOW)
+        return t * t;
+    return (light->falloff == E3D_FALLOFF_GLTF ? ref_max(1.0f - x * x, 0.0f) : 1.0f) / d2;
+}
+
+/* R43: how much of a spot light goes along l. */
+static float cone(const e3d_light *light, const float l[3])
+{
+    float t = ref_clamp((ref_dot3(l, light->to_light) - light->cone[0]) * light->cone[1], 0.0f, 1.0f);
+    return t * t;
+}
+
 /* Unit vector towards the light and attenuation; returns 0 where the light is out of range. */
-static int reach(const e3d_light *light, const float p[3], float l[3], float *attenuation)
+int ref_light_reach(const e3d_light *light, const float p[3], float l[3], float *attenuation)
 {
     if (light->kind == E3D_LIGHT_DIRECTIONAL) {
         for (int c = 0; c < 3; c++)
@@ -25,8 +41,9 @@ static int reach(const e3d_light *light, const float p[3], float l[3], float *at
     float i = 1.0f / sqrtf(d2);
     for (int c = 0; c < 3; c++)
         l[c] = d[c] * i;
-    float t = 1.0f - d2 * (1.0f / range2);
-    *attenuation = light->falloff == E3D_FALLOFF_WINDOW ? t * t : 1.0f / d2;
+    *attenuation = falloff(light, d2, d2 * (1.0f / range2));
+    if (light->kind == E3D_LIGHT_SPOT)
+        *attenuation = *attenuation * cone(light, l);
     return 1;
 }
 
@@ -61,7 +78,7 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
     for (int32_t n = 0; n < frame->light_count; n++) {
         const e3d_light *light = &frame->lights[n];
         float l[3], attenuation;
-        if (!reach(light, surface->world_position, l, &attenuation))
+        if (!ref_light_reach(light, surface->world_position, l, &attenuation))
             continue;
         float cosine = ref_dot3(surface->world_normal, l);
         cosine = cosine > 0.0f ? cosine : 0.0f;

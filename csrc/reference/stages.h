@@ -147,6 +147,8 @@ void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[
 float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, float out[4]);
 
 /* light.c */
+/* The unit vector from p towards the light, and its attenuation; returns 0 where the light is out of range. */
+int ref_light_reach(const e3d_light *light, const float p[3], float l[3], float *attenuation);
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
 /* alpha.c */

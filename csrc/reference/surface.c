@@ -152,8 +152,8 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     for (int c = 0; c < 3; c++)
         s->albedo[c] = primitive->material->color[c];
     s->alpha = primitive->material->alpha;
-    if (primitive->kind == REF_FACE && primitive->material->texture && mesh->uvs) {
-        const e3d_texture_view *texture = e3d_texture_get_view(primitive->material->texture);
+    if (primitive->kind == REF_FACE && primitive->material->texture.texture && mesh->uvs) {
+        const e3d_texture_view *texture = e3d_texture_get_view(primitive->material->texture.texture);
         float unit = ref_texture_sample(texture, s, factor);
         for (int c = 0; c < 3; c++)
             s->albedo[c] = factor[c] * (s->albedo[c] * unit);

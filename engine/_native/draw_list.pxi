@@ -171,9 +171,13 @@ cdef class NativeDrawList:
 
     def set_material(
         self, int index, color, specular, float shininess, emissive, dict textures not None, int32_t id,
-        bint two_sided, bint flat,
+        bint two_sided, bint flat, bint unlit, float alpha, int alpha_mode, float alpha_cutoff,
     ):
-        """Say what a material is, or the next one; textures by the names of `TEXTURE_SLOTS`."""
+        """Say what a material is, or the next one.
+
+        ``textures`` are by the names of `TEXTURE_SLOTS`: a NativeTexture, the number of its set of
+        coordinates, and the six numbers of the matrix that these are moved by, or None.
+        """
         require(0 <= index <= self.material_count, "no such material")
         self.materials = <e3d_material *>grown(
             self.materials, self.material_count, &self.material_capacity, sizeof(e3d_material)
@@ -184,13 +188,49 @@ cdef class NativeDrawList:
         copy_vector(material.specular, specular, 3)
         copy_vector(material.emissive, emissive, 3)
         material.shininess = shininess
-        for slot, texture in textures.items():
-            e3d_material_set_texture(material, TEXTURE_SLOTS[slot], (<NativeTexture?>texture).handle)
+        cdef e3d_texture_use use
+        for slot, (texture, uv_set, matrix) in textures.items():
+            memset(&use, 0, sizeof(use))
+            use.texture = (<NativeTexture?>texture).handle
+            use.uv_set = uv_set
+            use.is_moved = matrix is not None
+            if matrix is not None:
+                copy_vector(use.matrix, matrix, 6)
+            e3d_material_set_texture(material, TEXTURE_SLOTS[slot], &use)
         self.textures[index] = textures
         material.id = id
         material.two_sided = two_sided
         material.flat = flat
+        material.is_unlit = unlit
+        material.alpha = alpha
+        material.alpha_mode = <e3d_alpha_mode>alpha_mode
+        material.alpha_cutoff = alpha_cutoff
         self.material_count = max(self.material_count, index + 1)
+
+    def set_physical(
+        self, int index, *, float metallic, float roughness, float normal_scale,
+        float occlusion_strength, reflectance, float specular_intensity, float clearcoat,
+        float clearcoat_roughness, float clearcoat_normal_scale, sheen_color, float sheen_roughness,
+        float transmission, float thickness, absorption,
+    ):
+        """Say what a material that was set is as a physically based one."""
+        require(0 <= index < self.material_count, "no such material")
+        self.materials[index].is_physical = True
+        cdef e3d_physical *physical = &self.materials[index].physical
+        physical.metallic = metallic
+        physical.roughness = roughness
+        physical.normal_scale = normal_scale
+        physical.occlusion_strength = occlusion_strength
+        copy_vector(physical.reflectance, reflectance, 3)
+        physical.specular_intensity = specular_intensity
+        physical.clearcoat = clearcoat
+        physical.clearcoat_roughness = clearcoat_roughness
+        physical.clearcoat_normal_scale = clearcoat_normal_scale
+        copy_vector(physical.sheen_color, sheen_color, 3)
+        physical.sheen_roughness = sheen_roughness
+        physical.transmission = transmission
+        physical.thickness = thickness
+        copy_vector(physical.absorption, absorption, 3)
 
     def add_directional_light(self, color, to_light):
         cdef e3d_light *light = self.new_light(E3D_LIGHT_DIRECTIONAL, color)
@@ -202,17 +242,24 @@ cdef class NativeDrawList:
         light.range = range
         light.falloff = <e3d_falloff>falloff
 
+    def add_spot_light(self, color, float range, float cone_cosine, float cone_scale):
+        """A spot light, which is then moved and turned to where it is."""
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_SPOT, color)
+        light.range = range
+        light.falloff = <e3d_falloff><int>FALLOFFS["gltf"]
+        light.cone[0], light.cone[1] = cone_cosine, cone_scale
+
     cdef e3d_light *light_at(self, int number) except NULL:
         if not 0 <= number < self.light_count:
             raise InvalidArgumentError("no such light")
         return &self.lights[number]
 
     def turn_light(self, int number, to_light):
-        """Set where a directional light comes from."""
+        """Set where a directional light comes from, or the back of a spot light."""
         copy_vector(self.light_at(number).to_light, to_light, 3)
 
     def move_light(self, int number, position):
-        """Set where a point light is."""
+        """Set where a point or spot light is."""
         copy_vector(self.light_at(number).position, position, 3)
 
     cdef e3d_light *new_light(self, e3d_light_kind kind, color) except NULL:

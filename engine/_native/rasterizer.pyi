@@ -12,6 +12,7 @@ _Floats = npt.NDArray[np.float32]
 _Doubles = npt.NDArray[np.float64]
 _Integers = npt.NDArray[np.int32]
 
+ALPHA_MODES: dict[str, int]
 FILTERS: dict[str, int]
 WRAPS: dict[str, int]
 FALLOFFS: dict[str, int]
@@ -92,10 +93,33 @@ class NativeDrawList:
         specular: Sequence[float] | _Floats,
         shininess: float,
         emissive: Sequence[float] | _Floats,
-        textures: dict[str, NativeTexture],
+        textures: dict[str, tuple[NativeTexture, int, Sequence[float] | None]],
         id: int,
         two_sided: bool,
         flat: bool,
+        unlit: bool,
+        alpha: float,
+        alpha_mode: int,
+        alpha_cutoff: float,
+    ) -> None: ...
+    def set_physical(
+        self,
+        index: int,
+        *,
+        metallic: float,
+        roughness: float,
+        normal_scale: float,
+        occlusion_strength: float,
+        reflectance: Sequence[float],
+        specular_intensity: float,
+        clearcoat: float,
+        clearcoat_roughness: float,
+        clearcoat_normal_scale: float,
+        sheen_color: Sequence[float],
+        sheen_roughness: float,
+        transmission: float,
+        thickness: float,
+        absorption: Sequence[float],
     ) -> None: ...
     def add_directional_light(
         self, color: Sequence[float], to_light: Sequence[float] | _Doubles
@@ -106,6 +130,9 @@ class NativeDrawList:
         position: Sequence[float] | _Doubles,
         range: float,
         falloff: int,
+    ) -> None: ...
+    def add_spot_light(
+        self, color: Sequence[float], range: float, cone_cosine: float, cone_scale: float
     ) -> None: ...
     def turn_light(self, number: int, to_light: Sequence[float] | _Doubles) -> None: ...
     def move_light(self, number: int, position: Sequence[float] | _Doubles) -> None: ...
@@ -130,6 +157,7 @@ class NativeOptions:
         decode_srgb: bool,
         ambient: Sequence[float],
         light_clamp: Sequence[float],
+        exposure: float,
     ) -> None: ...
 
 class NativeStats:

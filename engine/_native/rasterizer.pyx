@@ -31,6 +31,7 @@ cdef dict values_of(e3d_option option):
     return values
 
 
+ALPHA_MODES = values_of(E3D_OPTION_ALPHA_MODE)
 CULLS = values_of(E3D_OPTION_CULL)
 CULLINGS = values_of(E3D_OPTION_CULLING)
 FALLOFFS = values_of(E3D_OPTION_FALLOFF)
@@ -184,6 +185,7 @@ cdef class NativeOptions:
         bint decode_srgb,
         ambient,
         light_clamp,
+        float exposure,
     ):
         cdef e3d_frame *frame = &self.frame
         memset(frame, 0, sizeof(e3d_frame))
@@ -203,6 +205,7 @@ cdef class NativeOptions:
         frame.decode_srgb = decode_srgb
         copy_vector(frame.ambient, ambient, 3)
         copy_vector(frame.light_clamp, light_clamp, 2)
+        frame.exposure = exposure
 
 
 cdef class NativeStats:

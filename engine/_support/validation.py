@@ -156,6 +156,19 @@ def optional_positive(value: float | None, what: str) -> float | None:
     return None if value is None else positive(value, what)
 
 
+def fraction(value: float, what: str) -> float:
+    """Check a number from 0 to 1."""
+    number = real(value)
+    if not 0 <= number <= 1:
+        raise InvalidArgumentError(f"{what} must be a number from 0 to 1, not {shown(value)}")
+    return number
+
+
+def optional_fraction(value: float | None, what: str) -> float | None:
+    """Check a number from 0 to 1, or None."""
+    return None if value is None else fraction(value, what)
+
+
 def not_negative(value: float, what: str) -> float:
     """Check a finite number that is 0 or greater."""
     number = real(value)

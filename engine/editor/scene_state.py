@@ -22,7 +22,7 @@ from ..spatial.colliders import MeshCollider
 from .contents import contents, kept, put_contents, same
 from .selection import topmost
 
-_SCENE_VALUES = ("background", "ambient", "light_clamp", "warnings")
+_SCENE_VALUES = ("background", "ambient", "light_clamp", "exposure", "warnings")
 
 
 class SceneState:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ..scene.cameras import Camera
-from ..scene.lights import PointLight
+from ..scene.lights import PointLight, SpotLight
 from ..scene.nodes import Node
 from .contents import kept
 from .history import Command
@@ -62,7 +62,7 @@ def check(thing: Any) -> None:
     """Raise if what a thing holds does not go together, such as its near and far planes."""
     if isinstance(thing, Camera):
         thing.projection(1, 1)
-    elif isinstance(thing, PointLight):
+    elif isinstance(thing, PointLight | SpotLight):
         thing.check()
 
 

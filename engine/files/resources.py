@@ -19,7 +19,13 @@ from ..geometry.mesh import Mesh
 from ..loaders import load_mesh, load_texture
 from ..loaders.linked_files import found_files
 from ..loaders.open_files import unreadable
-from ..materials.material import Material, textures_of
+from ..materials.material import (
+    TEXTURE_SLOTS,
+    Material,
+    placed_textures_of,
+    put_texture,
+    textures_of,
+)
 from ..materials.textures import Texture
 from ..scene.usage import uses_in
 from .stamps import FileState
@@ -223,7 +229,7 @@ class Resources:
         """The object of what was read: this one, or one that is there already."""
         for material in thing.materials if isinstance(thing, Mesh) else ():
             for slot, texture in textures_of(material).items():
-                setattr(material, slot, self._same(texture, count=False))
+                put_texture(material, slot, self._same(texture, count=False))
         thing = self._same(thing)
         loaded.versions = _versions(thing)
         self._files[key] = loaded
@@ -306,10 +312,14 @@ def _content(thing) -> tuple:
 
 
 def _material_content(material: Material) -> tuple:
-    numbers = material.specular, material.shininess, material.emissive, material.two_sided
-    look = material.color, *numbers, material.flat_shading, material.name
-    textures = tuple((slot, _content(texture)) for slot, texture in textures_of(material).items())
-    return (*map(repr, look), repr(material.extras), textures)
+    unseen = {*TEXTURE_SLOTS, "version"}
+    look = [value for name, value in vars(material).items() if name not in unseen]
+    placed = placed_textures_of(material)
+    textures = tuple(
+        (slot, use.uv_set, use.offset, use.rotation, use.scale, _content(use.texture))
+        for slot, use in placed.items()
+    )
+    return (*map(repr, look), textures)
 
 
 def _become(thing, fresh) -> None:

@@ -59,6 +59,11 @@ def check_vectors3(value, what: str) -> np.ndarray:
     return _frozen(_floats(value, what, 3), np.float32)
 
 
+def check_vectors4(value, what: str) -> np.ndarray:
+    """(N, 4) float32."""
+    return _frozen(_floats(value, what, 4), np.float32)
+
+
 def check_colors(value, what: str) -> np.ndarray:
     """(N, 4) uint8 or float32; three components get an opaque alpha."""
     array = as_array(value, what)

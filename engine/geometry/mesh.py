@@ -35,6 +35,7 @@ from ._arrays import (
     check_triples,
     check_vectors2,
     check_vectors3,
+    check_vectors4,
     require_range,
 )
 from .vertex_attributes import VertexAttribute, vertex_attributes
@@ -63,6 +64,11 @@ class Mesh(Closed):
         Vertex normals; without them they are computed.
     uvs : (V, 2) float, optional
         Texture coordinates, (0, 0) at the image's bottom left.
+    uvs1 : (V, 2) float, optional
+        A second set of them, for the textures that name it.
+    tangents : (V, 4) float, optional
+        Which way is right in the image of normal maps, and 1 or -1: up is this times
+        ``cross(normal, tangent)``.
     colors : (V, 3) or (V, 4) int or float, optional
         Vertex colours: integers 0..255 are sRGB, floats are linear light; integers that are all 0
         or 1 mean 0.0 and 1.0, unless they are ``uint8``. Alpha is opaque if left out.
@@ -84,7 +90,8 @@ class Mesh(Closed):
 
     Attributes
     ----------
-    positions, faces, normals, uvs, colors, material_ids, lines, points, edge_visible, position_ids
+    positions, faces, normals, uvs, uvs1, tangents, colors, material_ids, lines, points
+    edge_visible, position_ids
         As above, read-only: float32, int32, uint8 or bool. Assigning replaces one; arrays that go
         together must keep matching lengths.
     materials : list of Material
@@ -106,6 +113,8 @@ class Mesh(Closed):
     positions: _Floats = ArrayAttribute(check_vectors3)
     faces: _Integers = ArrayAttribute(check_triples)
     uvs: _VertexFloats = VertexAttribute(check_vectors2, fill=0)
+    uvs1: _VertexFloats = VertexAttribute(check_vectors2, fill=0)
+    tangents: _VertexFloats = VertexAttribute(check_vectors4, fill=0)
     colors: _VertexColors = VertexAttribute(check_colors, fill=1)
     material_ids: _Integers = ArrayAttribute(check_indices)
     lines: _Integers = ArrayAttribute(check_pairs)
@@ -123,6 +132,8 @@ class Mesh(Closed):
         *,
         normals: ArrayLike | None = None,
         uvs: ArrayLike | None = None,
+        uvs1: ArrayLike | None = None,
+        tangents: ArrayLike | None = None,
         colors: ArrayLike | None = None,
         materials: Iterable[Material] | None = None,
         material_ids: ArrayLike | None = None,
@@ -146,6 +157,8 @@ class Mesh(Closed):
             self.material_ids = material_ids
         self._given_normals = normals
         self.uvs = uvs
+        self.uvs1 = uvs1
+        self.tangents = tangents
         self.colors = colors
         self.edge_visible = edge_visible
         self.position_ids = position_ids

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..materials.material import TEXTURE_SLOTS, Material
+from ..materials.textures import PlacedTexture, Texture
 
 if TYPE_CHECKING:
     from .mesh import Mesh
@@ -95,7 +96,14 @@ def _held(material: Material) -> dict[str, Any]:
     held = {key: value for key, value in vars(material).items() if key != "version"}
     for slot in TEXTURE_SLOTS:
         if (texture := held[slot]) is not None:
-            held[slot] = {key: value for key, value in vars(texture).items() if key != "version"}
+            held[slot] = _held_by(texture)
+    return held
+
+
+def _held_by(texture: Texture | PlacedTexture) -> dict[str, Any]:
+    held = {key: value for key, value in vars(texture).items() if key != "version"}
+    if isinstance(texture, PlacedTexture):
+        held["texture"] = _held_by(texture.texture)
     return held
 
 

@@ -46,5 +46,15 @@ def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
         name=mesh.name,
         **attributes_of(mesh),
     )
+    if mesh.tangents is not None:
+        posed.tangents = _posed_tangents(mesh.tangents, pose, mirrored)
     posed.groups = mesh.groups
+    return posed
+
+
+def _posed_tangents(tangents: np.ndarray, pose: np.ndarray, mirrored: bool) -> np.ndarray:
+    """Tangents move with the surface; where this is mirrored, up is on the other side of them."""
+    posed = np.empty_like(tangents)
+    posed[:, :3] = unit_vectors(transform_directions(pose, tangents[:, :3]))
+    posed[:, 3] = -tangents[:, 3] if mirrored else tangents[:, 3]
     return posed

@@ -15,7 +15,7 @@ from ..loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
 from ..loaders.posed_parts import PosedPart
 from ..loaders.warning_list import WarningList
 from ..materials.colors import linear_color, srgb_bytes
-from ..materials.material import Material
+from ..materials.material import Material, textures_of
 from ..materials.textures import Texture
 from .mesh import Mesh
 from .posing import posed_mesh
@@ -198,21 +198,22 @@ def _trimesh_part(trimesh, mesh: Mesh, number: int, is_part: bool):
         geometry.visual = trimesh.visual.TextureVisuals(
             uv=mesh.uvs[vertices].astype(np.float64), material=_trimesh_material(trimesh, material)
         )
-    elif not np.array_equal(linear_color(material.color), (1, 1, 1)):
-        linear = np.append(linear_color(material.color), np.float32(1))[np.newaxis]
+    elif not np.array_equal(linear_color(material.rgb), (1, 1, 1)):
+        linear = np.append(linear_color(material.rgb), np.float32(1))[np.newaxis]
         geometry.visual.face_colors = np.repeat(srgb_bytes(linear), len(faces), axis=0)
     return geometry
 
 
 def _trimesh_material(trimesh, material: Material):
     image = None
-    if material.texture is not None:
+    texture = textures_of(material).get("texture")
+    if texture is not None:
         from PIL import Image
 
-        image = Image.fromarray(material.texture.pixels)
+        image = Image.fromarray(texture.pixels)
     return trimesh.visual.material.PBRMaterial(
         name=material.name or None,
-        baseColorFactor=[*map(float, linear_color(material.color).clip(0, 1)), 1.0],
+        baseColorFactor=[*map(float, linear_color(material.rgb).clip(0, 1)), 1.0],
         baseColorTexture=image,
         metallicFactor=material.extras.get("Pm"),
         roughnessFactor=material.extras.get("Pr"),

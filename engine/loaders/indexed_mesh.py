@@ -32,6 +32,8 @@ class IndexedGeometry:
         Vertex indices.
     normals : (V, 3) float32 or None
     uvs : (V, 2) float32 or None
+    uvs1 : (V, 2) float32 or None
+    tangents : (V, 4) float32 or None
     colors : (V, 4) uint8 or float32, or None
     corner_uvs : (T, 3, 2) float32 or None
         Take the place of ``uvs``.
@@ -47,6 +49,8 @@ class IndexedGeometry:
     corners: np.ndarray
     normals: np.ndarray | None = None
     uvs: np.ndarray | None = None
+    uvs1: np.ndarray | None = None
+    tangents: np.ndarray | None = None
     colors: np.ndarray | None = None
     corner_uvs: np.ndarray | None = None
     face_colors: np.ndarray | None = None

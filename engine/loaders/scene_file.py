@@ -22,7 +22,7 @@ from ..errors import FileFormatError, InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..geometry.origins import FileOrigin, remember_origin
 from ..materials.material import TEXTURE_SLOTS, Material
-from ..materials.textures import Texture
+from ..materials.textures import PlacedTexture, Texture
 from .documents import Document, SceneRecord
 from .images import read_image
 from .json_values import JsonValue, parsed_json
@@ -170,10 +170,22 @@ class _Reading:
         values = {key: held.value for key, held in entry.members().items()}
         for slot in TEXTURE_SLOTS:
             if slot in values:
-                number = entry.need(slot).index(len(self._textures), "textures")
-                values[slot] = self._textures[number]
+                values[slot] = self._slot(entry.need(slot))
+        if values.get("attenuation_distance", 0) is None:
+            values["attenuation_distance"] = math.inf
         try:
             return Material(**values)
+        except (InvalidArgumentError, TypeError) as error:
+            raise entry.error(str(error)) from None
+
+    def _slot(self, entry: JsonValue) -> Texture | PlacedTexture:
+        """A texture by its number, or one that is placed."""
+        if not isinstance(entry.value, dict):
+            return self._textures[entry.index(len(self._textures), "textures")]
+        values = {key: held.value for key, held in entry.members().items()}
+        number = entry.need("texture").index(len(self._textures), "textures")
+        try:
+            return PlacedTexture(**{**values, "texture": self._textures[number]})
         except (InvalidArgumentError, TypeError) as error:
             raise entry.error(str(error)) from None
 

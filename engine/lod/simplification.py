@@ -13,8 +13,9 @@ import numpy as np
 from .. import linalg
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..geometry.vertex_attributes import attributes_of, vertex_attributes
 
-_ATTRIBUTES = ("normals", "uvs", "colors")
+_ATTRIBUTES = ("normals", *vertex_attributes(Mesh))
 
 
 def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
@@ -68,7 +69,7 @@ def _equal_vertices(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     """A number for each vertex, the same for those that are equal in all, and the first of each."""
     columns = [mesh.positions]
     columns += [mesh.normals] if mesh.has_normals else []
-    columns += [array for array in (mesh.uvs, mesh.colors) if array is not None]
+    columns += attributes_of(mesh).values()
     rows = np.concatenate([column.astype(np.float32) for column in columns], axis=1)
     _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     return number.reshape(-1), first

@@ -15,7 +15,7 @@ from typing import get_args
 import numpy as np
 
 from .._support.numbers import real, shown
-from ..choices import Color, ColorLike, ColorSpace
+from ..choices import Color, ColorLike, ColorSpace, SurfaceColor
 from ..errors import InvalidArgumentError, warn
 
 COLOR_SPACES: tuple[ColorSpace, ...] = get_args(ColorSpace)
@@ -51,18 +51,58 @@ def check_color(value: ColorLike, what: str = "color") -> Color:
     ------
     InvalidArgumentError
     """
-    components = tuple(_scalar(component) for component in _sequence(value, what))
+    components = _components(value, what)
     if len(components) != 3:
         raise InvalidArgumentError(f"{what} needs 3 components, got {len(components)}")
+    if max(components) >= _LEAST_SUSPECT and not is_8bit(components):
+        warn_of_8bit_floats(np.array(components, np.float64), what)
+    return components
+
+
+def check_surface_color(value: ColorLike, what: str = "color") -> SurfaceColor:
+    """Return ``value`` unchanged as a tuple, or raise if it is not a colour with or without alpha.
+
+    Parameters
+    ----------
+    value : sequence of 3 or 4 numbers
+        As for `check_color`; alpha is at most 1, or 255 where the four are 8-bit values.
+    what : str
+        The name used in the message.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    components = _components(value, what)
+    if len(components) not in (3, 4):
+        raise InvalidArgumentError(f"{what} needs 3 or 4 components, got {len(components)}")
+    if not is_8bit(components):
+        if max(components[:3]) >= _LEAST_SUSPECT:
+            warn_of_8bit_floats(np.array(components[:3], np.float64), what)
+        if len(components) == 4 and components[3] > 1:
+            raise InvalidArgumentError(f"the alpha of {what} must be in 0..1: {shown(value)}")
+    return components
+
+
+def split_alpha(color: SurfaceColor) -> tuple[Color, float]:
+    """Return a colour of three numbers that means the same, and its alpha, 1 where it has none."""
+    if len(color) == 3:
+        return color, 1.0
+    rgb = color[:3]
+    if not is_8bit(color):
+        return tuple(map(float, rgb)), float(color[3])
+    return tuple(map(np.uint8, rgb)), int(color[3]) / 255
+
+
+def _components(value: ColorLike, what: str) -> tuple:
+    components = tuple(_scalar(component) for component in _sequence(value, what))
     for component in components:
         if not isinstance(component, numbers.Real) or isinstance(component, bool):
             raise InvalidArgumentError(f"{what} is not made of numbers: {value!r}")
         if not 0 <= real(component) < math.inf:
             raise InvalidArgumentError(f"{what} must be finite and not negative: {shown(value)}")
-    if is_8bit(components) and max(components) > 255:
+    if components and is_8bit(components) and max(components) > 255:
         raise InvalidArgumentError(f"{what} of integers must be in 0..255: {value!r}")
-    if max(components) >= _LEAST_SUSPECT and not is_8bit(components):
-        warn_of_8bit_floats(np.array(components, np.float64), what)
     return components
 
 

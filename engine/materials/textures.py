@@ -8,17 +8,21 @@ makes them anew when ``version`` has changed.
 
 from __future__ import annotations
 
+import math
 import os
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TypedDict, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._support.dirty_tracking import renew
-from .._support.numbers import as_array
+from .._support.numbers import as_array, real, shown
 from .._support.validation import CheckedAttribute, Closed, one_of
 from ..choices import ColorSpace, Filter, Wrap
 from ..errors import InvalidArgumentError
+from ..linalg import cos, sin
 from .colors import COLOR_SPACES
 
 FILTERS: tuple[Filter, ...] = get_args(Filter)
@@ -104,6 +108,87 @@ class Texture(Closed):
 
     def __repr__(self) -> str:
         return f"Texture({self.width}x{self.height}, name={self.name!r})"
+
+
+UV_SETS = 2  # of a mesh: `uvs` and `uvs1`
+
+
+@dataclass(frozen=True)
+class PlacedTexture:
+    """A texture in a slot of a material, with the coordinates that it is read at.
+
+    They are a vertex's, scaled, then rotated, then moved, as KHR_texture_transform has it: with the
+    origin at the top left and v downwards,
+    ``u' = sx * u * cos + sy * v * sin + tx`` and ``v' = -sx * u * sin + sy * v * cos + ty``.
+
+    Parameters
+    ----------
+    texture : Texture
+    uv_set : {0, 1}
+        Of `Mesh.uvs` and `Mesh.uvs1`.
+    offset : (2,) float
+        tx and ty, in sides of the image.
+    rotation : float
+        Radians, counter-clockwise about the origin.
+    scale : (2,) float
+        sx and sy: how often the image is repeated over what it would cover.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    texture: Texture
+    uv_set: int = 0
+    offset: Sequence[float] = (0.0, 0.0)
+    rotation: float = 0.0
+    scale: Sequence[float] = (1.0, 1.0)
+
+    def __init__(
+        self,
+        texture: Texture,
+        *,
+        uv_set: int = 0,
+        offset: Sequence[float] = (0.0, 0.0),
+        rotation: float = 0.0,
+        scale: Sequence[float] = (1.0, 1.0),
+    ) -> None:
+        if not isinstance(texture, Texture):
+            raise InvalidArgumentError(f"texture must be a Texture: {type(texture).__name__}")
+        if uv_set not in range(UV_SETS):
+            raise InvalidArgumentError(f"uv_set must be 0 or 1, not {shown(uv_set)}")
+        angle = real(rotation)
+        if not math.isfinite(angle):
+            raise InvalidArgumentError(f"rotation must be finite, not {shown(rotation)}")
+        self.__dict__.update(
+            texture=texture,
+            uv_set=int(uv_set),
+            offset=_two(offset, "offset"),
+            rotation=angle,
+            scale=_two(scale, "scale"),
+        )
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether coordinates are not read as they are."""
+        return (self.offset, self.rotation, self.scale) != ((0.0, 0.0), 0.0, (1.0, 1.0))
+
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        """What places coordinates whose origin is at the bottom left: (2, 3) float64."""
+        (sx, sy), (tx, ty) = self.scale, self.offset
+        c, s = cos(self.rotation), sin(self.rotation)
+        return np.array([[sx * c, -(sy * s), sy * s + tx], [sx * s, sy * c, 1 - sy * c - ty]])
+
+
+def _two(value: Sequence[float], what: str) -> tuple[float, float]:
+    try:
+        numbers = tuple(map(real, value))
+    except TypeError:
+        numbers = ()
+    if len(numbers) != 2 or not all(map(math.isfinite, numbers)):
+        raise InvalidArgumentError(f"{what} must be two finite numbers, not {shown(value)}")
+    return numbers
 
 
 def as_rgba(pixels: ArrayLike) -> NDArray[np.uint8]:

@@ -15,18 +15,17 @@ import numpy as np
 from .._native.rasterizer import NativeDrawList
 from .._support.dirty_tracking import Watch
 from ..geometry.mesh import Mesh
-from ..materials.display_colors import shading_color
-from ..materials.material import Material, textures_of
+from ..materials.material import Material, placed_textures_of
 from ..materials.textures import Texture
 from ..scene.instances import InstancedMesh
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
 from ._light_list import LightList
-from ._native_handles import MeshNeeds, native_mesh, native_texture
+from ._native_handles import MeshNeeds, native_mesh
+from ._native_materials import set_material
 
 _MANY = 1024  # instances that are worth a tree of their boxes
 _SETTLED = 3  # frames in which they did not change
-_SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 
 
 class DrawList:
@@ -305,19 +304,9 @@ class DrawList:
     def _set_material(self, index: int, material: Material, number: int) -> None:
         self._watch.add(material)
         self._flat[material] = material.flat_shading
-        textures = textures_of(material)
-        self._note_textures(material, set(textures.values()))
-        self.native.set_material(
-            index,
-            shading_color(material.color, self._color_space),
-            shading_color(material.specular, self._color_space),
-            max(material.shininess, _SMALLEST_SHININESS),
-            shading_color(material.emissive, self._color_space),
-            {slot: native_texture(textures[slot], self._color_space) for slot in textures},
-            number,
-            material.two_sided,
-            material.flat_shading,
-        )
+        placed = placed_textures_of(material)
+        self._note_textures(material, {use.texture for use in placed.values()})
+        set_material(self.native, index, number, material, placed, self._color_space)
 
     def _note_textures(self, material: Material, textures: set[Texture]) -> None:
         """Look at the textures of a material, and no longer at those that no material has now."""

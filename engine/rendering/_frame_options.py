@@ -72,6 +72,7 @@ class FrameOptions:
             decode_srgb=color_space == "srgb",
             ambient=ambient,
             light_clamp=scene.light_clamp or _NO_CLAMP,
+            exposure=2.0**scene.exposure,
         )
         # Twice as far from its middle as the widest line or point reaches, and for rounding.
         self.mark_size = 2.0 * (max(options.line_width, options.point_size) + 2.0)
@@ -133,7 +134,7 @@ class OptionsCache:
 
     def get(self, scene: Scene, options: RenderOptions) -> FrameOptions:
         """Return what the options are for a scene as it is now."""
-        seen = options, scene.background, scene.ambient, scene.light_clamp
+        seen = options, scene.background, scene.ambient, scene.light_clamp, scene.exposure
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
             known = seen, FrameOptions(scene, self._color_space, options)

@@ -12,7 +12,7 @@ from .._native.rasterizer import FALLOFFS, NativeDrawList
 from .._native.scene_graph import SHOWN
 from ..linalg.single import normalize
 from ..materials.display_colors import shading_color
-from ..scene.lights import DirectionalLight
+from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
 
 
@@ -94,6 +94,9 @@ class LightList:
         color = [component * light.intensity for component in color]
         if isinstance(light, DirectionalLight):
             self._native.add_directional_light(color, (0.0, 0.0, 1.0))
+        elif isinstance(light, SpotLight):
+            light.check()
+            self._native.add_spot_light(color, light.range, *light.cone())
         else:
             light.check()
             falloff = FALLOFFS[light.falloff]
@@ -105,5 +108,7 @@ class LightList:
             x, y, z = light.direction.tolist()
             towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
             self._native.turn_light(number, normalize(towards))
-        else:
-            self._native.move_light(number, pose[3::4])
+            return
+        self._native.move_light(number, pose[3::4])
+        if isinstance(light, SpotLight):
+            self._native.turn_light(number, normalize([pose[2], pose[6], pose[10]]))

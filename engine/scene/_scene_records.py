@@ -25,7 +25,7 @@ _NODE_KEYS |= {"collider", "children"}
 def fill_scene(scene: Scene, record: SceneRecord) -> None:
     """Add the nodes of a record to an empty scene, and take over its background and light."""
     for key, value in record.values.members().items():
-        if key not in ("background", "ambient", "light_clamp"):
+        if key not in ("background", "ambient", "light_clamp", "exposure"):
             raise value.error("is no property of a scene")
         _try(value, lambda key=key, value=value: setattr(scene, key, value.value))
     objects = [_object(record, number) for number in range(len(record.objects))]

@@ -1,14 +1,15 @@
 """Lights: plain data that a scene's nodes place in the world.
 
 A light has a colour (floats are linear light, 8-bit integers sRGB) times an intensity. Directional
-lights shine along their node's rotated ``direction``; point lights from their node's origin.
-docs/exactness.md, section 9, has the formulas.
+lights shine along their node's rotated ``direction``, point lights from their node's origin, spot
+lights from there along its -Z. docs/exactness.md, sections 9 and 12, has the formulas;
+docs/conventions.md says in which units intensities are.
 """
 
 from __future__ import annotations
 
 import math
-from typing import get_args
+from typing import TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +26,7 @@ from .._support.validation import (
 )
 from ..choices import ColorLike, Falloff
 from ..errors import InvalidArgumentError
+from ..linalg import cos
 from ..materials.colors import check_color
 from ._placed_by_node import PlacedByNode
 
@@ -45,6 +47,13 @@ def _range(value: float, what: str) -> float:
     return number
 
 
+def _angle(value: float, what: str) -> float:
+    number = real(value)
+    if not 0 <= number <= math.pi / 2:
+        raise InvalidArgumentError(f"{what} must be a number from 0 to pi/2, not {shown(value)}")
+    return number
+
+
 class DirectionalLight(PlacedByNode):
     """A light infinitely far away, such as the sun.
 
@@ -54,7 +63,8 @@ class DirectionalLight(PlacedByNode):
         The way the light travels, in the space of its node; of any length but zero.
     color : sequence of 3 numbers
     intensity : float
-        Multiplies the colour; a white surface that faces the light gets ``color * intensity``.
+        Multiplies the colour; a white surface that faces the light gets ``color * intensity``. Of
+        physical materials it is in lux: such a surface shows it over pi.
 
     Attributes
     ----------
@@ -93,12 +103,14 @@ class PointLight(PlacedByNode):
     ----------
     color : sequence of 3 numbers
     intensity : float
-        As for `DirectionalLight`; with ``"inverse_square"`` at distance 1.
+        As for `DirectionalLight`; at distance 1 but with ``"window"``. Of physical materials it is
+        in candela.
     range : float
-        World units; the light adds exactly nothing from this distance on. May be infinite with
-        ``"inverse_square"``.
-    falloff : {"inverse_square", "window"}
-        Attenuation at distance d: ``1 / d**2``, or ``(1 - d**2 / range**2)**2``.
+        World units; the light adds exactly nothing from this distance on. May be infinite but with
+        ``"window"``.
+    falloff : {"inverse_square", "window", "gltf"}
+        Attenuation at distance d: ``1 / d**2``, or ``(1 - d**2 / range**2)**2``, or, as
+        KHR_lights_punctual has it, ``(1 - (d / range)**4) / d**2``.
 
     Attributes
     ----------
@@ -139,3 +151,77 @@ class PointLight(PlacedByNode):
             f"PointLight(color={self.color}, intensity={self.intensity:g}, range={self.range:g}, "
             f"falloff={self.falloff!r})"
         )
+
+
+class SpotLight(PlacedByNode):
+    """A light that shines from one point into a cone, along the -Z of its node.
+
+    As KHR_lights_punctual has it: all of it inside of the inner cone, nothing outside of the outer
+    one, and in between the square of how far the cosine of the angle has come. Attenuation at
+    distance d is ``(1 - (d / range)**4) / d**2``.
+
+    Parameters
+    ----------
+    color : sequence of 3 numbers
+    intensity : float
+        As for `PointLight`, along the axis.
+    range : float
+        World units; the light adds exactly nothing from this distance on. May be infinite.
+    inner_cone_angle, outer_cone_angle : float
+        Radians from the axis: 0 <= inner < outer <= pi/2.
+
+    Attributes
+    ----------
+    version : int
+        As for `DirectionalLight`.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    version: int
+    color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+    range: NumberAttribute = CheckedAttribute(_range)
+    inner_cone_angle: NumberAttribute = CheckedAttribute(_angle)
+    outer_cone_angle: NumberAttribute = CheckedAttribute(_angle)
+
+    def __init__(
+        self,
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        range: float = math.inf,
+        inner_cone_angle: float = 0.0,
+        outer_cone_angle: float = math.pi / 4,
+    ) -> None:
+        self.color = color
+        self.intensity = intensity
+        self.range = range
+        self.inner_cone_angle = inner_cone_angle
+        self.outer_cone_angle = outer_cone_angle
+        self.check()
+
+    def check(self) -> None:
+        """Raise unless the inner cone is narrower than the outer one."""
+        if not self.inner_cone_angle < self.outer_cone_angle:
+            raise InvalidArgumentError(
+                f"inner_cone_angle must be less than outer_cone_angle, {self.outer_cone_angle:g}, "
+                f"not {self.inner_cone_angle:g}"
+            )
+
+    def cone(self) -> tuple[float, float]:
+        """Return the cosine of the outer angle, and 1 over what the inner one's is more."""
+        inner, outer = cos(self.inner_cone_angle), cos(self.outer_cone_angle)
+        return outer, 1.0 / max(0.001, inner - outer)
+
+    def __repr__(self) -> str:
+        return (
+            f"SpotLight(color={self.color}, intensity={self.intensity:g}, range={self.range:g}, "
+            f"inner_cone_angle={self.inner_cone_angle:g}, "
+            f"outer_cone_angle={self.outer_cone_angle:g})"
+        )
+
+
+LIGHTS = (DirectionalLight, PointLight, SpotLight)
+Light: TypeAlias = DirectionalLight | PointLight | SpotLight

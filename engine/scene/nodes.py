@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from ..spatial.colliders import Collider
     from .cameras import Camera
     from .instances import InstancedMesh
-    from .lights import DirectionalLight, PointLight
+    from .lights import Light
     from .scene import Scene
 
     #: What a node holds.
-    SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | DirectionalLight | PointLight
+    SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | Light
 
 
 class Node:
@@ -75,7 +75,7 @@ class Node:
 
     @property
     def object(self) -> SceneObject | None:
-        """Mesh, InstancedMesh, Camera, DirectionalLight, PointLight, or None for a group.
+        """Mesh, InstancedMesh, Camera, one of the lights, or None for a group.
 
         Assign another, or None, at any time: the node keeps its id, name, pose and children. A
         collider of the node's own mesh needs a mesh there.

@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 
 from .cameras import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
-from .lights import DirectionalLight, PointLight
+from .lights import DirectionalLight, PointLight, SpotLight
 
 KINDS: dict[str, type] = {
     "directional light": DirectionalLight,
     "point light": PointLight,
+    "spot light": SpotLight,
     "perspective camera": PerspectiveCamera,
     "orthographic camera": OrthographicCamera,
     "intrinsics camera": IntrinsicsCamera,

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import OBJECT_BOX, union
+from .._support.numbers import real, shown
 from .._support.validation import Closed, vector3
 from ..choices import Color, ColorLike, Cull
 from ..errors import InvalidArgumentError
@@ -26,7 +27,7 @@ from ..materials.colors import check_color
 from ._objects import ObjectTable
 from .cameras import Camera
 from .instances import InstancedMesh
-from .lights import DirectionalLight, PointLight
+from .lights import LIGHTS
 from .node_arrays import NodeArrays
 from .nodes import Node, check_pose, check_rotation, check_scale
 from .selection import NodeSelection
@@ -37,8 +38,9 @@ if TYPE_CHECKING:
     from ..spatial.rays import RayHit, RayHits
     from .nodes import SceneObject
 
+MAX_EXPOSURE = 64
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
-_OBJECT_TYPES = (Mesh, InstancedMesh, Camera, DirectionalLight, PointLight)
+_OBJECT_TYPES = (Mesh, InstancedMesh, Camera, *LIGHTS)
 
 
 class Scene(Closed):
@@ -49,14 +51,17 @@ class Scene(Closed):
     background : sequence of 3 numbers, or None
         Colour behind everything; None is transparent black (alpha 0).
     ambient : sequence of 3 numbers
-        Light that reaches every surface from all sides.
+        Light that reaches every surface from all sides; to physical materials, surroundings that
+        look so everywhere.
     light_clamp : (low, high), optional
         Limits of the light that a surface receives (ambient included) before its colour multiplies
-        it, such as (0.1, 1).
+        it, such as (0.1, 1). Physical materials have no such limits.
+    exposure : float
+        Stops: what lit surfaces show is multiplied by ``2**exposure``.
 
     Attributes
     ----------
-    background, ambient, light_clamp
+    background, ambient, light_clamp, exposure
         As above; assign at any time.
     warnings : list of str
         What was left out or replaced where the scene was made from a file.
@@ -73,6 +78,7 @@ class Scene(Closed):
         background: ColorLike | None = (0, 0, 0),
         ambient: ColorLike = (0.1, 0.1, 0.1),
         light_clamp: Sequence[float] | None = None,
+        exposure: float = 0.0,
     ) -> None:
         self._arrays = NodeArrays()
         self._objects = ObjectTable()
@@ -92,6 +98,7 @@ class Scene(Closed):
         self.background = background
         self.ambient = ambient
         self.light_clamp = light_clamp
+        self.exposure = exposure
 
     @property
     def background(self) -> Color | None:
@@ -123,6 +130,19 @@ class Scene(Closed):
             raise InvalidArgumentError(f"light_clamp must be 0 <= low <= high, not {value!r}")
         self._light_clamp = (low, high)
 
+    @property
+    def exposure(self) -> float:
+        return self._exposure
+
+    @exposure.setter
+    def exposure(self, value: float) -> None:
+        number = real(value)
+        if not abs(number) <= MAX_EXPOSURE:
+            raise InvalidArgumentError(
+                f"exposure must be from {-MAX_EXPOSURE} to {MAX_EXPOSURE} stops, not {shown(value)}"
+            )
+        self._exposure = number
+
     def add(
         self,
         obj: SceneObject | None = None,
@@ -140,7 +160,7 @@ class Scene(Closed):
 
         Parameters
         ----------
-        obj : Mesh, InstancedMesh, Camera, DirectionalLight, PointLight or None
+        obj : Mesh, InstancedMesh, Camera, DirectionalLight, PointLight, SpotLight or None
             The same object may be added many times. None adds a node that groups others, or gets
             its ``object`` later.
         name : str, optional
@@ -205,7 +225,7 @@ class Scene(Closed):
     def _list(self, node: Node) -> None:
         """Keep the nodes of cameras and of lights, in the order in which the nodes were added."""
         listed = self._cameras if isinstance(node.object, Camera) else self._lights
-        if isinstance(node.object, (Camera, DirectionalLight, PointLight)):
+        if isinstance(node.object, (Camera, *LIGHTS)):
             last = max(listed, default=-1)
             listed[node.id] = node
             if node.id < last:

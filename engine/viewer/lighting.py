@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from .. import linalg
-from ..scene.lights import DirectionalLight, PointLight
+from ..scene.lights import LIGHTS, DirectionalLight, PointLight
 from ..scene.orbiting import home_axes
 from .viewpoint import Sphere
 
@@ -188,4 +188,4 @@ def _pose_of(rotation: np.ndarray) -> np.ndarray:
 
 def is_light(node) -> bool:
     """Return whether a scene's node holds a light."""
-    return isinstance(node.object, (DirectionalLight, PointLight))
+    return isinstance(node.object, LIGHTS)

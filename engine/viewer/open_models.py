@@ -14,7 +14,7 @@ from .. import linalg
 from ..errors import Engine3DWarning
 from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh
-from ..scene.lights import DirectionalLight, PointLight
+from ..scene.lights import LIGHTS
 from ..scene.scene import Scene
 from .open_model import open_model
 from .viewed_scene import ViewedScene
@@ -24,7 +24,7 @@ from .viewpoint import UP_DIRECTIONS, home_axes
 GAP = 0.15
 #: Models that differ more than this in size can hardly be seen together.
 ALIKE = 50.0
-_SHOWN = (Mesh, InstancedMesh, DirectionalLight, PointLight)
+_SHOWN = (Mesh, InstancedMesh, *LIGHTS)
 
 
 def open_models(

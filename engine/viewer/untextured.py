@@ -24,7 +24,7 @@ class Textures:
         things = [node.object for node in self._scene.nodes if isinstance(node.object, DRAWABLE)]
         materials = {id(m): m for thing in things for m in mesh_of(thing).materials}
         for material in materials.values():
-            textures = textures_of(material)
+            textures = {slot: getattr(material, slot) for slot in textures_of(material)}
             if textures:
                 self._taken.append((material, textures))
                 for slot in textures:

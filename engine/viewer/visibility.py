@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..geometry.mesh import Mesh
+from ..geometry.vertex_attributes import attributes_of
 from ..materials.material import Material
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
@@ -154,8 +155,6 @@ def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
         mesh.positions,
         mesh.faces[kept],
         normals=mesh.normals,
-        uvs=mesh.uvs,
-        colors=mesh.colors,
         materials=mesh.materials,
         material_ids=mesh.material_ids[kept],
         lines=mesh.lines,
@@ -163,4 +162,5 @@ def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
         edge_visible=None if edges is None else edges[kept],
         position_ids=mesh.position_ids,
         name=mesh.name,
+        **attributes_of(mesh),
     )

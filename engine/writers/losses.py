@@ -6,10 +6,12 @@ from collections.abc import Iterable
 
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
-from ..materials.material import Material, says_something
+from ..materials.material import Material, says_something, textures_of
 
 _NAMES = {
     "uvs": "texture coordinates",
+    "uvs1": "a second set of texture coordinates",
+    "tangents": "tangents",
     "colors": "vertex colours",
     "lines": "lines",
     "points": "points",
@@ -65,14 +67,14 @@ def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
     things = ["two_sided"] if material.two_sided else []
     if material.flat_shading and has_normals:
         things.append("flat_shading")  # without normals, smoothing groups say it
-    texture = material.texture
+    texture = textures_of(material).get("texture")
     if texture is not None:
         things += ["the texture's wrap 'mirror'"] if texture.wrap == "mirror" else []
         is_usual = texture.filter == "trilinear"
         things += [] if is_usual else [f"the texture's filter {texture.filter!r}"]
         is_srgb = texture.color_space == "srgb"
         things += [] if is_srgb else [f"the texture's colour space {texture.color_space!r}"]
-        if not linear_color(material.color).any():
+        if not linear_color(material.rgb).any():
             things.append("black under a texture")  # which readers take for left out
     if linear_color(material.specular).any() and not material.shininess:
         things.append("a highlight of no shininess")

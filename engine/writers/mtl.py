@@ -14,7 +14,7 @@ from .._native.images import encode_png
 from ..files.atomic_write import AtomicFiles
 from ..loaders.mtl import parse_map
 from ..materials.colors import linear_color
-from ..materials.material import Material, says_something
+from ..materials.material import Material, says_something, textures_of
 from .names import encoded, line_text, unique
 from .rows import float_words
 from .side_files import LIBRARY_MARK, SideFiles
@@ -72,7 +72,7 @@ class Library:
 
     def _statements(self, material: Material, name: str) -> list[str]:
         specular = linear_color(material.specular)
-        lines = [f"newmtl {name}", f"Kd {_numbers(linear_color(material.color))}"]
+        lines = [f"newmtl {name}", f"Kd {_numbers(linear_color(material.rgb))}"]
         lines += [f"Ks {_numbers(specular)}", f"Ns {_numbers([material.shininess])}"]
         if linear_color(material.emissive).any():
             lines.append(f"Ke {_numbers(linear_color(material.emissive))}")
@@ -99,7 +99,7 @@ class Library:
     def _map_statements(self, material: Material, name: str) -> list[str]:
         maps = material.extras.get("maps", {})
         maps = dict(maps) if isinstance(maps, dict) else {}
-        texture, entry = material.texture, maps.pop("map_Kd", {})
+        texture, entry = textures_of(material).get("texture"), maps.pop("map_Kd", {})
         lines = []
         if texture is not None:
             options = {"clamp": ["on"]} if texture.wrap == "clamp" else {}

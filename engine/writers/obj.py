@@ -17,7 +17,7 @@ from ..files.atomic_write import Files, StreamFiles
 from ..geometry.mesh import Mesh
 from ..loaders.welding import number_rows
 from ..materials.colors import srgb_bytes
-from .losses import lost_of_materials, not_held
+from .losses import lost_of_materials, lost_parts, not_held
 from .mtl import Library, is_plain, material_names
 from .names import encoded, line_text, renamed, unique
 from .outlines import Outlines, polygon_outlines
@@ -47,7 +47,8 @@ def write_obj(mesh: Mesh, path: str, files: Files) -> list[str]:
         unwritten = library.unwritten
         told += _about(side_files, library, mesh, names)
     told += _write_model(mesh, files.create(path), side_files, names)
-    return [*lost_of_materials(mesh, unwritten), *told]
+    lost = lost_parts(mesh, "obj", "uvs1", "tangents")
+    return [*lost_of_materials(mesh, unwritten), *lost, *told]
 
 
 def _about(side_files: SideFiles, library: Library, mesh: Mesh, names: list[str]) -> list[str]:

@@ -30,7 +30,8 @@ def write_ply(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[
     file = files.create(path)
     file.write(header.encode())
     (_write_text if ascii else _write_binary)(file, columns, outlines, mesh.lines)
-    lost = lost_parts(mesh, "ply", "materials", *(["points"] if has_elements else []), "groups")
+    points = ["points"] if has_elements else []
+    lost = lost_parts(mesh, "ply", "uvs1", "tangents", "materials", *points, "groups")
     if outlines.lost_edges:
         lost += not_held("ply", [f"the hidden edges of {outlines.lost_edges} triangles"])
     return lost

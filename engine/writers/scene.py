@@ -24,7 +24,7 @@ from ..geometry.origins import FileOrigin, PrimitiveOrigin, has_own_materials, o
 from ..loaders.json_values import ARRAY_TYPES
 from ..loaders.scene_file import FORMAT, LISTS, VERSION
 from ..materials.material import TEXTURE_SLOTS, Material
-from ..materials.textures import Texture
+from ..materials.textures import PlacedTexture, Texture
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.object_kinds import kind_of, parameters, plain, values_of
@@ -71,6 +71,8 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     values = {name: plain(getattr(scene, name)) for name in ("background", "ambient")}
     if scene.light_clamp is not None:
         values["light_clamp"] = plain(scene.light_clamp)
+    if scene.exposure:
+        values["exposure"] = scene.exposure
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
     return "".join(_lines(tree)).encode("ascii"), writing.told
 
@@ -206,13 +208,22 @@ class _Writing:
             value = getattr(material, name)
             if name in TEXTURE_SLOTS:
                 if value is not None:
-                    entry[name] = self._number("textures", value, self._texture)
+                    entry[name] = self._slot(value)
             elif name == "extras":
                 if value and self._is_json(value, material):
                     entry[name] = value
             elif plain(value) != plain(default):
                 entry[name] = plain(value)
         return entry
+
+    def _slot(self, value: Texture | PlacedTexture) -> int | dict[str, Any]:
+        """The number of a texture; of one that is placed, this and where."""
+        if isinstance(value, Texture):
+            return self._number("textures", value, self._texture)
+        return {
+            **values_of(value),
+            "texture": self._number("textures", value.texture, self._texture),
+        }
 
     def _is_json(self, extras: dict[str, Any], material: Material) -> bool:
         try:

@@ -35,8 +35,8 @@ def write_stl(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[
     else:
         file.write(_HEADER + len(facets).to_bytes(4, "little"))
         file.write(facets.tobytes())
-    parts = ("uvs", "colors", "materials", "lines", "points", "groups", "normals", "edge_visible")
-    return told + lost_parts(mesh, "stl", *parts)
+    parts = ("uvs", "uvs1", "tangents", "colors", "materials", "lines", "points", "groups")
+    return told + lost_parts(mesh, "stl", *parts, "normals", "edge_visible")
 
 
 def _write_text(file, name: bytes, facets: np.ndarray) -> None:

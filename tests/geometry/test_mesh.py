@@ -357,3 +357,18 @@ def test_poses_of_joined_meshes_are_checked():
     assert len(Mesh.concatenate([], poses=[]).faces) == 0
     empty = Mesh.concatenate([mesh], poses=np.zeros((1, 4, 4)) + np.diag([1.0, 1, 0, 1]))
     assert (empty.positions[:, 2] == 0).all()
+
+
+def test_uvs1_and_tangents_are_joined_and_posed():
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    tangents = [(1, 0, 0, 1)] * 3
+    mesh = Mesh(corners, [(0, 1, 2)], uvs1=[(0, 0), (1, 0), (0, 1)], tangents=tangents)
+    turned = np.array([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1.0]])
+    mirrored = np.diag([-2.0, 1, 1, 1])
+    joined = Mesh.concatenate([mesh, Mesh(corners), mesh], poses=[turned, np.eye(4), mirrored])
+    assert joined.tangents[:3].tolist() == [[0, 1, 0, 1]] * 3
+    assert joined.tangents[3:6].tolist() == [[0, 0, 0, 0]] * 3
+    assert joined.tangents[6:].tolist() == [[-1, 0, 0, -1]] * 3
+    assert joined.uvs1[6:].tolist() == [[0, 0], [1, 0], [0, 1]]
+    with pytest.raises(InvalidArgumentError, match=r"tangents must have shape \(N, 4\)"):
+        Mesh(corners, tangents=corners)

@@ -148,6 +148,7 @@ LIGHT = np.dtype(
         ("to_light", "f4", 3),
         ("position", "f4", 3),
         ("range", "f4"),
+        ("cone", "f4", 2),
     ]
 )
 STRUCTS = {

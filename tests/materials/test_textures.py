@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from engine3d.errors import InvalidArgumentError
-from engine3d.materials.textures import Texture
+from engine3d.materials.textures import PlacedTexture, Texture
 
 
 def image(*shape):
@@ -67,3 +67,38 @@ def test_unknown_options_are_refused(option):
 def test_a_path_is_not_taken_for_pixels():
     with pytest.raises(InvalidArgumentError, match=r"use load_texture\('wood.png'\)"):
         Texture("wood.png")
+
+
+def test_placed_textures_compare_by_value_and_stay_as_they_are():
+    texture = Texture(np.zeros((1, 1), np.uint8))
+    placed = PlacedTexture(texture, uv_set=1, offset=[1, 2], rotation=0.5, scale=np.ones(2))
+    assert placed == PlacedTexture(texture, uv_set=1, offset=(1, 2), rotation=0.5)
+    assert placed != PlacedTexture(texture)
+    assert not PlacedTexture(texture, uv_set=1).is_moved and placed.is_moved
+    with pytest.raises(AttributeError):
+        placed.offset = (0, 0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"uv_set": 2}, "uv_set must be 0 or 1, not 2"),
+        ({"offset": (1,)}, "offset must be two finite numbers"),
+        ({"scale": 2.0}, "scale must be two finite numbers"),
+        ({"rotation": "left"}, "rotation must be finite"),
+    ],
+)
+def test_wrong_places_are_refused(arguments, message):
+    with pytest.raises(InvalidArgumentError, match=message):
+        PlacedTexture(Texture(np.zeros((1, 1), np.uint8)), **arguments)
+
+
+def test_the_matrix_is_that_of_the_extension():
+    """Scaled, turned, moved; with v downwards, as the extension has it."""
+    texture = Texture(np.zeros((1, 1), np.uint8))
+    placed = PlacedTexture(texture, offset=(0.25, -0.5), rotation=0.7, scale=(3.0, 2.0))
+    c, s = np.cos(0.7), np.sin(0.7)
+    for u, v in [(0, 0), (1, 0), (0.3, 0.8)]:
+        expected = 3 * u * c + 2 * v * s + 0.25, -3 * u * s + 2 * v * c - 0.5
+        got = placed.matrix @ (u, 1 - v, 1)
+        assert np.allclose((got[0], 1 - got[1]), expected, atol=1e-12)

@@ -35,6 +35,7 @@ ACCEPTED = {
     "Filter": native.FILTERS,
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,
+    "AlphaMode": native.ALPHA_MODES,
     "ImageFormat": frame._FORMATS,
     "PixelFormat": pixels.FORMATS,
     "PointerShape": POINTERS,

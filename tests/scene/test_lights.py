@@ -36,7 +36,13 @@ def test_window_needs_a_range():
         (lambda: e3d.DirectionalLight(intensity=-1), "intensity"),
         (lambda: e3d.PointLight(intensity=math.inf), "intensity"),
         (lambda: e3d.PointLight(range=0), "range"),
-        (lambda: e3d.PointLight(falloff="cubic"), "'inverse_square', 'window'"),
+        (lambda: e3d.PointLight(falloff="cubic"), "'inverse_square', 'window', 'gltf'"),
+        (lambda: e3d.SpotLight(inner_cone_angle=1.0), "inner_cone_angle must be less than outer"),
+        (
+            lambda: e3d.SpotLight(outer_cone_angle=2.0),
+            "outer_cone_angle must be a number from 0 to",
+        ),
+        (lambda: e3d.SpotLight(range=-1), "range"),
     ],
 )
 def test_invalid_arguments(make, message):

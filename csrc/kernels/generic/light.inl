@@ -15,7 +15,23 @@ typedef struct lit_lanes {
     vf32 energy[3], shine[3];
 } lit_lanes;
 
-/* Finds the unit vector towards a point light and its attenuation; returns the lanes within its range. */
+/* R43: what of a light's range is left, over the squared distance. */
+static inline vf32 light_gltf_falloff(vf32 d2, float over_range2)
+{
+    vf32 x = v_mul(d2, v_setf(over_range2)), one = v_setf(1.0f);
+    return v_div(v_max(v_sub(one, v_mul(x, x)), v_setf(0.0f)), d2);
+}
+
+/* R43: how much of a spot light goes this way. */
+static inline vf32 light_cone(const e3d_light *light, const vf32 l[3])
+{
+    const vf32 axis[3] = {v_setf(light->to_light[0]), v_setf(light->to_light[1]), v_setf(light->to_light[2])};
+    vf32 t = v_mul(v_sub(dot_three(l, axis), v_setf(light->cone[0])), v_setf(light->cone[1]));
+    t = v_min(v_max(t, v_setf(0.0f)), v_setf(1.0f));
+    return v_mul(t, t);
+}
+
+/* Finds the unit vector towards a point or spot light and its attenuation; returns the lanes within its range. */
 static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], vf32 l[3],
                                   vf32 *attenuation)
 {
@@ -32,9 +48,13 @@ static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf3
     if (light->falloff == E3D_FALLOFF_WINDOW) {
         vf32 t = v_sub(one, v_mul(d2, v_setf(lighting->reach[4][n])));
         *attenuation = v_mul(t, t);
+    } else if (light->falloff == E3D_FALLOFF_GLTF) {
+        *attenuation = light_gltf_falloff(d2, lighting->reach[4][n]);
     } else {
         *attenuation = v_div(one, d2);
     }
+    if (light->kind == E3D_LIGHT_SPOT)
+        *attenuation = v_mul(*attenuation, light_cone(light, l));
     return near;
 }
 

@@ -20,7 +20,7 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
         wanted |= E3D_WANT_WEIGHTS;
     if (bucket->textured) {
         wanted |= E3D_WANT_UV | E3D_WANT_SURFACE;
-        if (e3d_texture_get_view(bucket->material->texture)->filter == E3D_TRILINEAR)
+        if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
             wanted |= E3D_WANT_LEVEL;
     }
     return wanted;
@@ -68,7 +68,7 @@ void e3d_alpha_batch(const e3d_prepared *pass, const e3d_bucket *bucket, const e
     const e3d_material *m = bucket->material;
     e3d_batch *batch = &out->memory->batch;
     int hidden = bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY;
-    pass->kernels->alpha(batch, &out->memory->surfaces, bucket->textured ? e3d_texture_get_view(m->texture) : NULL, m->alpha,
+    pass->kernels->alpha(batch, &out->memory->surfaces, bucket->textured ? e3d_texture_get_view(m->texture.texture) : NULL, m->alpha,
                          bucket->by_vertex, bucket->by_instance);
     if (out->alpha->use == E3D_ALPHA_TEST)
         test(out->memory, out->alpha);

@@ -104,7 +104,7 @@ static void find_albedo(const e3d_kernels *kernels, const e3d_bucket *bucket, e3
         for (int i = 0; i < batch->count; i++)
             batch->color[k][i] = base[k];
     if (bucket->textured)
-        kernels->texture(batch, e3d_texture_get_view(bucket->material->texture), base);
+        kernels->texture(batch, e3d_texture_get_view(bucket->material->texture.texture), base);
     if (bucket->by_vertex || bucket->by_instance)
         kernels->tint(batch, &memory->surfaces, bucket->by_vertex, bucket->by_instance);
 }
@@ -142,7 +142,7 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
     int wanted = e3d_plan_inputs(pass->plan), colored = e3d_plans(pass, E3D_PLAN_BASE_COLOR);
     if (bucket->textured && colored) {
         wanted |= E3D_WANT_UV;
-        if (e3d_texture_get_view(bucket->material->texture)->filter == E3D_TRILINEAR)
+        if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
             wanted |= E3D_WANT_LEVEL;
     }
     if (pass->targets->barycentric || (colored && bucket->by_vertex))
@@ -171,7 +171,7 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
     int lit = pass->frame->mode == E3D_MODE_LIT && bucket->face, shiny = e3d_adds(m->specular);
     const e3d_paint paint = {
         .wanted = wanted,
-        .texture = bucket->textured ? e3d_texture_get_view(m->texture) : NULL,
+        .texture = bucket->textured ? e3d_texture_get_view(m->texture.texture) : NULL,
         .base = m->color,
         .by_vertex = bucket->by_vertex,
         .by_instance = bucket->by_instance,

@@ -104,7 +104,7 @@ static e3d_bucket bucket_of(const e3d_frame *frame, const e3d_draw_state *state,
     int flat = frame->normals == E3D_NORMALS_FLAT ||
                (frame->normals == E3D_NORMALS_AUTO && g.material->flat);
     g.flat = g.face && flat && mesh->face_normals;
-    g.textured = g.face && g.material->texture && mesh->uvs;
+    g.textured = g.face && g.material->texture.texture && mesh->uvs;
     g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
     g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
     return g;
@@ -382,7 +382,7 @@ static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *piece, con
 
 static void set_texels(const e3d_bucket *bucket, e3d_surfaces *s)
 {
-    const e3d_level *level = &e3d_texture_get_view(bucket->material->texture)->levels[0];
+    const e3d_level *level = &e3d_texture_get_view(bucket->material->texture.texture)->levels[0];
     s->texels[0] = (float)level->width;
     s->texels[1] = (float)level->height;
 }

@@ -7,7 +7,7 @@ from typing import Any
 
 from ... import primitives
 from ...scene.cameras import PerspectiveCamera
-from ...scene.lights import DirectionalLight, PointLight
+from ...scene.lights import DirectionalLight, PointLight, SpotLight
 from ...scene.nodes import Node
 from ..gizmo import on_ground
 from ..node_commands import (
@@ -32,6 +32,7 @@ ADDED: dict[str, Callable[[], Any]] = {
     "Plane": primitives.plane,
     "Directional light": DirectionalLight,
     "Point light": PointLight,
+    "Spot light": SpotLight,
     "Camera": PerspectiveCamera,
 }
 

@@ -14,10 +14,10 @@ from imgui_bundle import imgui
 
 from ...geometry.mesh import Mesh
 from ...materials.display_colors import display_color
-from ...materials.material import TEXTURE_SLOTS, Material
+from ...materials.material import TEXTURE_SLOTS, Material, textures_of
 from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...scene.instances import InstancedMesh
-from ...scene.lights import DirectionalLight, PointLight
+from ...scene.lights import LIGHTS, DirectionalLight, Light, SpotLight
 from ...scene.nodes import Node
 from ...spatial.colliders import BoxCollider, MeshCollider, SphereCollider
 from ..value_commands import SetValues
@@ -131,7 +131,7 @@ class PropertiesPanel:
         held = node.object
         if isinstance(held, Mesh | InstancedMesh):
             self._draw_mesh(node, held)
-        elif isinstance(held, DirectionalLight | PointLight):
+        elif isinstance(held, LIGHTS):
             self._draw_light(held)
         elif isinstance(held, Camera):
             self._draw_camera(node, held)
@@ -193,7 +193,7 @@ class PropertiesPanel:
             self._draw_slot(material, slot)
 
     def _draw_slot(self, material: Material, slot: str) -> None:
-        texture = getattr(material, slot)
+        texture = textures_of(material).get(slot)
         imgui.push_id(slot)
         label = slot.replace("_", " ").capitalize()
         self._choose(label, "texture", texture, lambda chosen: {slot: chosen}, [material])
@@ -221,12 +221,15 @@ class PropertiesPanel:
             ball = node.collider
             imgui.label_text("Radius", f"{ball.radius:g}")
 
-    def _draw_light(self, light: DirectionalLight | PointLight) -> None:
+    def _draw_light(self, light: Light) -> None:
         if not imgui.collapsing_header("Light", imgui.TreeNodeFlags_.default_open):
             return
         self._color(light, "color", "Colour")
         self._number(light, "intensity", "Intensity", 0.05, 0.0)
-        if isinstance(light, PointLight):
+        if isinstance(light, SpotLight):
+            self._number(light, "inner_cone_angle", "Inner cone", 0.01, 0.0)
+            self._number(light, "outer_cone_angle", "Outer cone", 0.01, 0.0)
+        if not isinstance(light, DirectionalLight):
             self._number(light, "range", "Range", 0.1, 0.001)
         else:
             direction = self._numbers("Direction", light.direction, 0.01)

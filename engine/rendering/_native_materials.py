@@ -1,0 +1,100 @@
+"""Materials as the core takes them: constants computed once in float64, textures by slot.
+
+In: a `Material` with its textures. Out: one material of a `NativeDrawList`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from .._native.rasterizer import ALPHA_MODES, NativeDrawList, NativeTexture
+from ..materials.display_colors import shading_color
+from ..materials.material import Material
+from ..materials.textures import PlacedTexture
+from ._native_handles import native_texture
+
+_SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
+_LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
+
+
+def set_material(
+    native: NativeDrawList,
+    index: int,
+    id: int,
+    material: Material,
+    textures: dict[str, PlacedTexture],
+    color_space: str,
+) -> None:
+    """Set a material of a native draw list, or the next one.
+
+    Parameters
+    ----------
+    native : NativeDrawList
+    index : int
+        Its number there.
+    id : int
+        What the output material_id says.
+    material : Material
+    textures : dict of str to PlacedTexture
+        Its own, by slot.
+    color_space : {"srgb", "linear"}
+        How 8-bit colours are read.
+    """
+    strength = material.emissive_strength if material.is_physical else 1.0
+    emissive = shading_color(material.emissive, color_space)
+    native.set_material(
+        index,
+        shading_color(material.rgb, color_space),
+        shading_color(material.specular, color_space),
+        max(material.shininess, _SMALLEST_SHININESS),
+        tuple(component * strength for component in emissive),
+        {slot: _use(slot, placed, color_space) for slot, placed in textures.items()},
+        id,
+        material.two_sided,
+        material.flat_shading,
+        material.unlit,
+        material.alpha,
+        ALPHA_MODES[material.alpha_mode],
+        material.alpha_cutoff,
+    )
+    if material.is_physical:
+        native.set_physical(index, **_physical(material, color_space))
+
+
+def _use(
+    slot: str, placed: PlacedTexture, color_space: str
+) -> tuple[NativeTexture, int, list[float] | None]:
+    """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
+    is_color = vars(Material)[slot].is_color
+    handle = native_texture(placed.texture, color_space if is_color else "linear")
+    return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None
+
+
+def _physical(material: Material, color_space: str) -> dict[str, Any]:
+    """The numbers of a physically based material."""
+    root = (1.0 - material.ior) / (1.0 + material.ior)
+    tint = shading_color(material.specular_color, color_space)
+    left = shading_color(material.attenuation_color, color_space)
+    depth = material.attenuation_distance
+    return {
+        "metallic": 1.0 if material.metallic is None else material.metallic,
+        "roughness": 1.0 if material.roughness is None else material.roughness,
+        "normal_scale": material.normal_scale,
+        "occlusion_strength": material.occlusion_strength,
+        "reflectance": tuple(root * root * component for component in tint),
+        "specular_intensity": material.specular_intensity,
+        "clearcoat": material.clearcoat,
+        "clearcoat_roughness": material.clearcoat_roughness,
+        "clearcoat_normal_scale": material.clearcoat_normal_scale,
+        "sheen_color": shading_color(material.sheen_color, color_space),
+        "sheen_roughness": material.sheen_roughness,
+        "transmission": material.transmission,
+        "thickness": material.thickness,
+        "absorption": tuple(_absorption(component, depth) for component in left),
+    }
+
+
+def _absorption(left: float, depth: float) -> float:
+    """How fast light goes, per unit: of 1, ``left`` is there after ``depth``."""
+    return max(0.0, -math.log(max(left, _LEAST_LEFT)) / depth)

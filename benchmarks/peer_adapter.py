@@ -11,13 +11,15 @@ import engine3d as e3d
 from engine3d import linalg
 
 OUTPUTS = {"depth": "ndc_depth", "id": "instance_id"}
+UNLIT = {"unlit", "blend"}
+BLENDED = {"blend", "glass"}
 
 
 class Peer:
     """Draws one scene; `scene.view` is read anew for each frame."""
 
     split = False  # a frame is delivered as an array
-    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id"}
+    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "blend", "glass"}
 
     def __init__(self, scene):
         self.source = scene
@@ -25,7 +27,7 @@ class Peer:
         ambient = (float(scene.ambient),) * 3
         self.scene = e3d.Scene(background=tuple(map(float, scene.clear[:3])), ambient=ambient)
         for draw in scene.draws:
-            self.scene.add(drawable(draw))
+            self.scene.add(drawable(draw, scene.mode))
         for light, pose in lights(scene):
             self.scene.add(light, translation=pose)
         self.camera = e3d.Camera(np.asarray(scene.proj, np.float64))
@@ -40,7 +42,7 @@ class Peer:
         self.frame = self.renderer.render(
             self.scene,
             (self.camera, pose),
-            mode="unlit" if source.mode == "unlit" else "lit",
+            mode="unlit" if source.mode in UNLIT else "lit",
             outputs=(self.output,),
         )
         if self.output == "instance_id":
@@ -55,12 +57,16 @@ class Peer:
         return self.read()
 
 
-def drawable(draw):
+def drawable(draw, mode):
     """A mesh or instances, from the neutral description."""
     mesh = draw.mesh
     material = e3d.Material()
     if draw.texture is not None:
-        material = e3d.Material(texture=e3d.Texture(draw.texture, filter="bilinear"))
+        material.texture = e3d.Texture(draw.texture, filter="bilinear")
+    if mode in BLENDED:
+        material.color = (1.0, 1.0, 1.0, float(draw.alpha))
+        material.alpha_mode = "blend"
+        material.two_sided = mode == "glass"
     made = e3d.Mesh(
         mesh.pos,
         mesh.idx.astype(np.int32),
@@ -83,7 +89,7 @@ def lights(scene):
                 color=color, intensity=1.0, range=float(radius), falloff="window"
             )
             yield light, (float(x), float(y), float(z))
-    elif scene.mode == "lit":
+    elif scene.mode in ("lit", "glass"):
         strength = 1.0 - float(scene.ambient)
         direction = tuple(-float(c) for c in scene.light_dir)
         yield e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0), None

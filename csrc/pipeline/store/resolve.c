@@ -114,7 +114,7 @@ void e3d_resolve_batch(const e3d_store *store, const e3d_batch *batch, e3d_store
         pass->kernels->keep(batch, &memory->samples);
 }
 
-void e3d_resolve_overdraw(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory)
+void e3d_resolve_overdraw(const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory)
 {
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++) {

@@ -210,7 +210,7 @@ int e3d_slots_mark(const e3d_tile_job *job)
         clear_marks(marks);
         if (!visit_bins(job, E3D_SET_SCENE, act_count) || !e3d_alpha_count(job))
             return 0;
-        e3d_resolve_overdraw(job->in->shade->store, marks->count, &job->tile, &job->memory->pixels);
+        e3d_resolve_overdraw(marks->count, &job->tile, &job->memory->pixels);
     }
     if (edges) {
         clear_marks(marks);

@@ -12,13 +12,15 @@ from engine3d import linalg
 
 OUTPUTS = {"depth": "ndc_depth", "id": "instance_id"}
 KEYED_FRAMES = 300  # of scenes that move: keys of a clip, as animated files have them
+UNLIT = {"unlit", "blend"}
+BLENDED = {"blend", "glass"}
 
 
 class Peer:
     """Draws one scene; `scene.view` is read anew for each frame."""
 
     split = False  # a frame is delivered as an array
-    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "skin"}
+    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "blend", "glass", "skin"}
 
     def __init__(self, scene):
         self.source = scene
@@ -26,7 +28,7 @@ class Peer:
         ambient = (float(scene.ambient),) * 3
         self.scene = e3d.Scene(background=tuple(map(float, scene.clear[:3])), ambient=ambient)
         made = {}
-        nodes = [self.scene.add(drawable(draw, made)) for draw in scene.draws]
+        nodes = [self.scene.add(drawable(draw, scene.mode, made)) for draw in scene.draws]
         self.crowd = Crowd(self.scene, nodes, scene.draws) if scene.mode == "skin" else None
         for light, pose in lights(scene):
             self.scene.add(light, translation=pose)
@@ -44,7 +46,7 @@ class Peer:
         self.frame = self.renderer.render(
             self.scene,
             (self.camera, pose),
-            mode="unlit" if source.mode == "unlit" else "lit",
+            mode="unlit" if source.mode in UNLIT else "lit",
             outputs=(self.output,),
         )
         if self.output == "instance_id":
@@ -93,21 +95,25 @@ class Crowd:
             self.keys_of(frame)
 
 
-def drawable(draw, made):
+def drawable(draw, mode, made):
     """A mesh or instances, from the neutral description; the same mesh once."""
     if draw.mesh.joints is None or draw.inst is not None:
-        return new_drawable(draw)
+        return new_drawable(draw, mode)
     if id(draw.mesh) not in made:
-        made[id(draw.mesh)] = new_drawable(draw)
+        made[id(draw.mesh)] = new_drawable(draw, mode)
     return made[id(draw.mesh)]
 
 
-def new_drawable(draw):
+def new_drawable(draw, mode):
     """A mesh or instances."""
     mesh = draw.mesh
     material = e3d.Material()
     if draw.texture is not None:
-        material = e3d.Material(texture=e3d.Texture(draw.texture, filter="bilinear"))
+        material.texture = e3d.Texture(draw.texture, filter="bilinear")
+    if mode in BLENDED:
+        material.color = (1.0, 1.0, 1.0, float(draw.alpha))
+        material.alpha_mode = "blend"
+        material.two_sided = mode == "glass"
     made = e3d.Mesh(
         mesh.pos,
         mesh.idx.astype(np.int32),
@@ -132,7 +138,7 @@ def lights(scene):
                 color=color, intensity=1.0, range=float(radius), falloff="window"
             )
             yield light, (float(x), float(y), float(z))
-    elif scene.mode in ("lit", "skin"):
+    elif scene.mode in ("lit", "skin", "glass"):
         strength = 1.0 - float(scene.ambient)
         direction = tuple(-float(c) for c in scene.light_dir)
         yield e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0), None

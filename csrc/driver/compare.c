@@ -207,12 +207,14 @@ static outcome compare(const drawing *what, const run_plan *plan, const char *ti
     return result;
 }
 
-outcome compare_scene(random_stream r, const run_plan *plan, const char *title)
+static outcome compare_made(random_stream r, int alpha, const run_plan *plan, const char *title)
 {
     scene s;
     /* Most scenes ask for everything; the others show that no output depends on another. */
     uint32_t mask = random_once_in(&r, 3) ? (uint32_t)random_bits(&r) : 0xFFFFFFFFu;
     outcome result = {.status = scene_create(&s, &r, plan->most_side), .agrees = 1};
+    if (alpha)
+        scene_add_alpha(&s, &r);
     if (result.status == E3D_OK) {
         drawing all = {draw_scene, &s, 0, mask};
         all.pixels = (size_t)s.frame.width * (size_t)s.frame.height;
@@ -221,6 +223,10 @@ outcome compare_scene(random_stream r, const run_plan *plan, const char *title)
     scene_destroy(&s);
     return result;
 }
+
+outcome compare_scene(random_stream r, const run_plan *plan, const char *title) { return compare_made(r, 0, plan, title); }
+
+outcome compare_alpha(random_stream r, const run_plan *plan, const char *title) { return compare_made(r, 1, plan, title); }
 
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title)
 {

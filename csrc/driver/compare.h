@@ -35,6 +35,8 @@ typedef struct run_plan {
 
 /* `title` (or NULL for silence) begins the lines that tell standard error what differs. */
 outcome compare_scene(random_stream r, const run_plan *plan, const char *title);
+/* The same scene, some of whose materials are masked or blended. */
+outcome compare_alpha(random_stream r, const run_plan *plan, const char *title);
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title);
 
 #endif

@@ -81,6 +81,8 @@ int main(int count, char **arguments)
         failures += report("scene", i, compare_scene(r, &o.plan, title));
         snprintf(title, sizeof title, "passes %04ld", i);
         failures += report("passes", i, compare_passes(r, &o.plan, title));
+        snprintf(title, sizeof title, "alpha %04ld", i);
+        failures += report("alpha", i, compare_alpha(r, &o.plan, title));
         snprintf(title, sizeof title, "rasterize %04ld", i);
         failures += report("rasterize", i, compare_rasterize(r, &o.plan, title));
         snprintf(title, sizeof title, "canvas %04ld", i);

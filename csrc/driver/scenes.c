@@ -378,6 +378,20 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     return status == E3D_OK ? add_draws(s, r) : status;
 }
 
+void scene_add_alpha(scene *s, random_stream *r)
+{
+    int32_t sure = random_below(r, SCENE_MAX_MATERIALS);
+    for (int i = 0; i < SCENE_MAX_MATERIALS; i++) {
+        e3d_material *material = &s->materials[i];
+        int usual = !random_once_in(r, 6);
+        int32_t mode = random_below(r, 4);
+        material->alpha_mode = i == sure || mode == 3 ? E3D_ALPHA_BLEND : (e3d_alpha_mode)mode;
+        material->alpha = usual ? random_float(r, 0.2f, 1.1f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+        material->alpha_cutoff = usual ? random_float(r, 0.1f, 0.7f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+    }
+    s->frame.transparent_outputs = random_below(r, 2);
+}
+
 void scene_destroy(scene *s)
 {
     for (int i = 0; i < SCENE_MAX_MESHES; i++)

@@ -40,6 +40,8 @@ typedef struct clip_triangles {
 
 /* Sides are limited to `most_side` pixels; 0: by nothing. The scene must be destroyed also where this gives an error. */
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side);
+/* Masks some of its materials, and blends some: at least one. */
+void scene_add_alpha(scene *s, random_stream *r);
 void scene_destroy(scene *s);
 
 clip_triangles clip_triangles_create(random_stream *r, int32_t most_side);

@@ -87,6 +87,7 @@ typedef struct e3d_frame {
      * NULL: the draws as given, none of which is of E3D_POSE_NODES. */
     const int32_t *order;
     int32_t order_count;
+    int32_t transparent_outputs; /* outputs but colour are of the nearest surface, blended or not; else of the nearest that isn't blended */
     e3d_culling culling;
     const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
 } e3d_frame;

@@ -10,6 +10,7 @@
 #include "core/mesh.h"
 #include "e3d.h"
 #include "e3d_canvas.h"
+#include "kernels/types/alpha.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/lobe.h"
 #include "kernels/types/maps.h"
@@ -54,6 +55,9 @@ typedef struct e3d_kernels {
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Measures each block that isn't noted: its zmax, and the farthest depth of each column. */
     void (*raster_measure)(e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
+    /* Adds the samples that a piece, whose slot is its ID, covers in front of what shows: row by row from y0 on, while there is room
+     * for a whole one. Returns the row that comes next. */
+    int32_t (*raster_alpha)(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out);
     /* Finds the runs of the first width x height samples that show something, row by row; returns how many. `gaps`: whether some
      * samples show nothing. It writes the IDs of noted blocks where it must look at samples; the blocks stay noted. */
     int (*find_runs)(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps);
@@ -111,6 +115,11 @@ typedef struct e3d_kernels {
     void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block);
     /* Finds the clamped colours of an environment behind `count` pixels of a row, from (x, y) on. */
     void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]);
+    /* alpha (R80): base, times the texture's (NULL: base has it already), the vertices' and the instance's. */
+    void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const e3d_varying *base, int by_vertex,
+                  int by_instance);
+    /* Lays the colours of a batch over the samples, each of which it has once (R84). */
+    void (*lay)(const e3d_batch *batch, e3d_samples *samples);
     /* Clamps planes of colours to [0, 1], and encodes them as RGBA8 with alpha 255. */
     void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                    uint32_t *rgba);

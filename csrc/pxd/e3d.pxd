@@ -245,6 +245,7 @@ cdef extern from "e3d.h" nogil:
         e3d_shading shading
         e3d_normals normals
         int32_t remove_hidden_lines
+        int32_t transparent_outputs
         float line_width
         float point_size
         float line_color[3]

@@ -3,7 +3,7 @@
  * In:  the scene's pieces, in the order of R16 or sorted for the painter.
  * Out: depth, visible piece, layers of overdraw and wireframe edges of each sample of the band.
  * Rules: R12 (coverage, in exact integers), R14 and R15 (depth), R16 (order), R17 (overdraw),
- *      R36 (wireframe).
+ *      R36 (wireframe), R81 and R82 through alpha.c.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -33,15 +33,18 @@ float ref_depth_at(const ref_piece *piece, int32_t x, int32_t y)
 }
 
 /* Pieces come in order, so that an equal depth never replaces an earlier piece. */
-static void keep_fragment(const ref_scene *scene, const ref_piece *piece, int64_t number, float z,
-                          ref_band *band, size_t sample)
+static e3d_status keep_fragment(const ref_scene *scene, const ref_piece *piece, int64_t number, float z,
+                                ref_band *band, size_t sample)
 {
+    if (ref_is_blended(scene->frame, piece))
+        return ref_add_fragment(band, sample, z, number);
     if (piece->primitive.kind == REF_FACE && band->layers[sample] < 255)
         band->layers[sample]++;
     if (scene->frame->hidden != E3D_HIDDEN_ZBUFFER || z < band->depth[sample]) {
         band->depth[sample] = z;
         band->piece[sample] = number;
     }
+    return E3D_OK;
 }
 
 /* R36: how far behind the kept depth an edge still shows: the slope of that piece over the line's reach. */
@@ -63,7 +66,7 @@ static void keep_edge(const ref_scene *scene, float z, ref_band *band, size_t sa
         band->edge[sample] = 1;
 }
 
-static void raster_piece(const ref_scene *scene, const ref_piece *piece, int64_t number, ref_band *band)
+static e3d_status raster_piece(const ref_scene *scene, const ref_piece *piece, int64_t number, ref_band *band)
 {
     int32_t last_row = band->first_row + band->rows - 1;
     int32_t top = piece->top > band->first_row ? piece->top : band->first_row;
@@ -74,14 +77,18 @@ static void raster_piece(const ref_scene *scene, const ref_piece *piece, int64_t
             if (!covers(piece, x, y))
                 continue;
             float z = ref_depth_at(piece, x, y);
-            if (z > 1.0f)
+            if (z > 1.0f || !ref_alpha_covers(scene, piece, x, y))
                 continue;
+            e3d_status status = E3D_OK;
             if (piece->primitive.kind == REF_EDGE)
                 keep_edge(scene, z, band, row + (size_t)x);
             else
-                keep_fragment(scene, piece, number, z, band, row + (size_t)x);
+                status = keep_fragment(scene, piece, number, z, band, row + (size_t)x);
+            if (status != E3D_OK)
+                return status;
         }
     }
+    return E3D_OK;
 }
 
 static int farther_first(const void *left, const void *right)
@@ -98,7 +105,7 @@ void ref_sort_for_painter(ref_piece_list *pieces)
         qsort(pieces->items, (size_t)pieces->count, sizeof *pieces->items, farther_first);
 }
 
-void ref_raster_band(const ref_scene *scene, ref_band *band)
+e3d_status ref_raster_band(const ref_scene *scene, ref_band *band)
 {
     size_t samples = (size_t)band->rows * (size_t)band->width;
     for (size_t sample = 0; sample < samples; sample++) {
@@ -107,8 +114,13 @@ void ref_raster_band(const ref_scene *scene, ref_band *band)
         band->layers[sample] = 0;
         band->edge[sample] = 0;
     }
-    for (int64_t n = 0; n < scene->pieces.count; n++)
-        raster_piece(scene, &scene->pieces.items[n], n, band);
-    for (int64_t n = 0; n < scene->edges.count; n++)
-        raster_piece(scene, &scene->edges.items[n], n, band);
+    e3d_status status = E3D_OK;
+    band->fragment_count = 0;
+    for (int64_t n = 0; n < scene->pieces.count && status == E3D_OK; n++)
+        status = raster_piece(scene, &scene->pieces.items[n], n, band);
+    for (int64_t n = 0; n < scene->edges.count && status == E3D_OK; n++)
+        status = raster_piece(scene, &scene->edges.items[n], n, band);
+    if (status == E3D_OK)
+        ref_sort_fragments(scene, band);
+    return status;
 }

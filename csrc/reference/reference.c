@@ -3,7 +3,7 @@
  * In:  a frame and the caller's targets.
  * Out: the targets, filled; counters and milliseconds.
  * Always: one thread; the default floating-point environment; memory for the pieces that may be seen
- *      and one band of at most BAND_SAMPLES samples (or one row of pixels).
+ *      and one band of at most BAND_SAMPLES samples (or one row of pixels), with its blended fragments.
  */
 #include "reference/reference.h"
 
@@ -86,7 +86,8 @@ static e3d_status allocate_band(ref_band *band, const ref_scene *scene)
     band->piece = malloc(samples * sizeof *band->piece);
     band->layers = malloc(samples);
     band->edge = malloc(samples);
-    return band->depth && band->piece && band->layers && band->edge ? E3D_OK : E3D_OUT_OF_MEMORY;
+    band->first_fragment = malloc((samples + 1) * sizeof *band->first_fragment);
+    return band->depth && band->piece && band->layers && band->edge && band->first_fragment ? E3D_OK : E3D_OUT_OF_MEMORY;
 }
 
 static void free_band(ref_band *band)
@@ -95,6 +96,8 @@ static void free_band(ref_band *band)
     free(band->piece);
     free(band->layers);
     free(band->edge);
+    free(band->first_fragment);
+    free(band->fragments);
 }
 
 static e3d_status draw_bands(ref_scene *scene, const e3d_targets *targets)
@@ -106,9 +109,10 @@ static e3d_status draw_bands(ref_scene *scene, const e3d_targets *targets)
         band.first_row = y;
         band.rows = scene->height - y < rows ? scene->height - y : rows;
         double start = milliseconds();
-        ref_raster_band(scene, &band);
+        status = ref_raster_band(scene, &band);
         double rastered = milliseconds();
-        ref_resolve_band(scene, &band, targets);
+        if (status == E3D_OK)
+            ref_resolve_band(scene, &band, targets);
         scene->stats.ms_raster += rastered - start;
         scene->stats.ms_resolve += milliseconds() - rastered;
         scene->stats.tiles++;

@@ -3,7 +3,8 @@
  * In:  what raster left at each sample.
  * Out: one row of pixels after another: colour averaged over a pixel's samples and encoded; every
  *      other output from the one sample of R35.
- * Rules: R32 (overdraw), R33 (average), R34 (encoding), R35 (outputs), R36 (what wireframe shows), R63 (an environment as the background).
+ * Rules: R32 (overdraw), R33 and R85 (average), R34 (encoding), R35 and R86 (outputs), R36 (what wireframe shows), R63 (an
+ *      environment as the background); R84 through alpha.c.
  */
 #include <math.h>
 
@@ -59,8 +60,8 @@ static void background_color(const e3d_frame *frame, int32_t x, int32_t y, float
     clamp_color(shows_backdrop(frame) ? color : frame->background, out);
 }
 
-/* The colour of a sample, clamped; returns 0, and the background's colour, where nothing shows. */
-static int sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
+/* The colour of what is kept at a sample, clamped; returns 0, and the background's colour, where nothing shows. */
+static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
 {
     const e3d_frame *frame = scene->frame;
     size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
@@ -89,28 +90,38 @@ static int sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32
     return 1;
 }
 
-/* R33 and R34 of the pixel whose first sample is (x, y). */
+/* The colour of a sample, multiplied by its alpha, which it returns. */
+static float sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
+{
+    int has_background = shows_backdrop(scene->frame) || scene->frame->background[3] != 0.0f;
+    float alpha = kept_color(scene, band, x, y, out) || has_background ? 1.0f : 0.0f;
+    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    for (int c = 0; c < 3 && alpha == 0.0f; c++)
+        out[c] = 0.0f;
+    if (!band->edge[sample])
+        ref_blend_sample(scene, band, x, y, out, &alpha);
+    return alpha;
+}
+
+/* R33, R85 and R34 of the pixel whose first sample is (x, y). */
 static void resolve_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, uint8_t out[4])
 {
     const e3d_frame *frame = scene->frame;
     int32_t n = frame->samples_axis;
-    int opaque_background = shows_backdrop(frame) || frame->background[3] != 0.0f;
-    int32_t count = 0; /* samples of alpha 1: exactly those that the sum holds */
+    float count = 0.0f; /* the sum of alphas */
     float sum[3] = {0.0f, 0.0f, 0.0f}, color[3];
     for (int32_t j = 0; j < n; j++)
         for (int32_t i = 0; i < n; i++) {
-            if (!sample_color(scene, band, x + i, y + j, color) && !opaque_background)
-                continue;
-            count++;
+            count = count + sample_color(scene, band, x + i, y + j, color);
             for (int c = 0; c < 3; c++)
                 sum[c] = sum[c] + color[c];
         }
-    if (count == 0)
+    if (count == 0.0f)
         clamp_color(frame->background, sum);
-    float scale = count == 0 ? 1.0f : 1.0f / (float)count;
+    float scale = count == 0.0f ? 1.0f : 1.0f / count;
     for (int c = 0; c < 3; c++)
         out[c] = encode(frame, sum[c] * scale);
-    out[3] = (uint8_t)ref_rint(255.0f * ((float)count / (float)(n * n)));
+    out[3] = (uint8_t)ref_rint(255.0f * (count / (float)(n * n)));
 }
 
 static void write_floats(float *target, size_t pixel, const float *values, int components)
@@ -162,13 +173,19 @@ static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_
                             const e3d_targets *targets, size_t pixel)
 {
     size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
-    if (band->piece[sample] < 0) {
+    int64_t end = band->first_fragment[sample + 1], number = band->piece[sample];
+    float depth = band->depth[sample];
+    if (scene->frame->transparent_outputs && end > band->first_fragment[sample]) { /* R86 */
+        number = band->fragments[end - 1].piece;
+        depth = band->fragments[end - 1].depth;
+    }
+    if (number < 0) {
         write_background(targets, pixel);
         return;
     }
     ref_surface surface;
-    ref_surface_at(scene, &scene->pieces.items[band->piece[sample]], x, y, &surface);
-    write_surface(targets, pixel, &surface, band->depth[sample]);
+    ref_surface_at(scene, &scene->pieces.items[number], x, y, &surface);
+    write_surface(targets, pixel, &surface, depth);
 }
 
 void ref_resolve_band(ref_scene *scene, const ref_band *band, const e3d_targets *targets)

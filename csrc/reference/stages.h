@@ -74,6 +74,13 @@ typedef struct ref_scene {
     e3d_stats stats;
 } ref_scene;
 
+/* What a blended piece adds to a sample. */
+typedef struct ref_fragment {
+    size_t sample; /* of the band */
+    float depth;
+    int64_t piece;
+} ref_fragment;
+
 /* One band of samples: full rows of the viewport. */
 typedef struct ref_band {
     int32_t first_row, rows, width;
@@ -81,6 +88,9 @@ typedef struct ref_band {
     int64_t *piece;              /* index of the visible piece, -1 where nothing is */
     uint8_t *layers;             /* overdraw, R17: saturates at 255 */
     uint8_t *edge;               /* 1 where a wireframe edge shows, R36 */
+    ref_fragment *fragments;     /* blended ones in front of what is kept: by sample, the farthest first (R83) */
+    int64_t fragment_count, fragment_capacity;
+    int64_t *first_fragment;     /* of each sample, and behind the last */
 } ref_band;
 
 /* Where a texture is read: a set of coordinates, moved (R45). */
@@ -109,7 +119,8 @@ typedef struct ref_surface {
     float world_normal[3], view_normal[3];
     float tangent[4], view_tangent[4]; /* R47; all 0 where there is none */
     float uv[2];                                 /* of set 0 */
-    float albedo[3], emissive[3];
+    float albedo[3], alpha; /* alpha: R80 */
+    float emissive[3];
     ref_physical physical; /* of faces whose material is */
 } ref_surface;
 
@@ -143,13 +154,13 @@ e3d_status ref_build_geometry(ref_scene *scene, int with_edges);
 
 /* raster.c */
 void ref_sort_for_painter(ref_piece_list *pieces);
-void ref_raster_band(const ref_scene *scene, ref_band *band);
+e3d_status ref_raster_band(const ref_scene *scene, ref_band *band);
 float ref_depth_at(const ref_piece *piece, int32_t x, int32_t y);
 
 /* surface.c */
 void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, ref_surface *out);
 float ref_interpolate(const ref_surface *surface, const float corners[3]);
-void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[3]);
+void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[4]);
 
 /* texture.c */
 /* Returns the unit. */
@@ -177,6 +188,16 @@ void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, fl
 
 /* physical.c */
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+/* alpha.c */
+/* R81: whether a piece, which covers the sample by R12, shows anything there. */
+int ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y);
+/* R82: whether a piece is laid over what is kept, rather than kept. */
+int ref_is_blended(const e3d_frame *frame, const ref_piece *piece);
+e3d_status ref_add_fragment(ref_band *band, size_t sample, float depth, int64_t piece);
+/* R83: drops those that are hidden, and sorts the others. */
+void ref_sort_fragments(const ref_scene *scene, ref_band *band);
+/* R84: lays the fragments of a sample over its colour, which is multiplied by its alpha. */
+void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float color[3], float *alpha);
 
 /* shade.c */
 void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3]);

@@ -104,37 +104,39 @@ static void find_uv(ref_surface *s)
         s->uv[c] = at.uv[c];
 }
 
-/* R23 */
-void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[3])
+/* R23, R80 */
+void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[4])
 {
+    out[3] = (float)(color[3] * 257) * E3D_UNORM16;
     for (int c = 0; c < 3; c++) {
         int32_t linear = frame->decode_srgb ? SRGB_TO_LINEAR16[color[c]] : color[c] * 257;
         out[c] = (float)linear * E3D_UNORM16;
     }
 }
 
-static void vertex_color(const ref_scene *scene, const ref_surface *s, float out[3])
+static void vertex_color(const ref_scene *scene, const ref_surface *s, float out[4])
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
-    float corners[3][3] = {{0}};
+    float corners[3][4] = {{0}};
     for (int k = 0; k < 3; k++) {
         int32_t vertex = s->piece->primitive.vertices[k];
         if (vertex >= 0 && mesh->colors_u8)
             ref_decode_color(scene->frame, mesh->colors_u8 + 4 * (size_t)vertex, corners[k]);
     }
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 4; c++) {
         float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
         out[c] = mesh->colors_f32 ? interpolate_attribute(s, mesh->colors_f32, 4, c) : ref_interpolate(s, v);
     }
 }
 
-static void multiply_color(float color[3], const float factor[3])
+static void multiply_color(ref_surface *s, const float factor[4])
 {
     for (int c = 0; c < 3; c++)
-        color[c] = color[c] * factor[c];
+        s->albedo[c] = s->albedo[c] * factor[c];
+    s->alpha = s->alpha * factor[3];
 }
 
-/* R24: material, texture, vertex, instance, in this order. */
+/* R24, and R80 before it is clamped: material, texture, vertex, instance, in this order. */
 static void find_albedo(const ref_scene *scene, ref_surface *s)
 {
     const ref_primitive *primitive = &s->piece->primitive;
@@ -144,20 +146,22 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     float factor[4];
     for (int c = 0; c < 3; c++)
         s->albedo[c] = primitive->material->color[c];
+    s->alpha = primitive->material->alpha;
     if (ref_slot_counts(&primitive->material->texture, s)) {
         float unit = ref_slot_sample(&primitive->material->texture, s, factor);
         for (int c = 0; c < 3; c++)
             s->albedo[c] = factor[c] * (s->albedo[c] * unit);
+        s->alpha = factor[3] * (s->alpha * unit);
     }
     if (mesh->colors_u8 || mesh->colors_f32) {
         vertex_color(scene, s, factor);
-        multiply_color(s->albedo, factor);
+        multiply_color(s, factor);
     }
     if (draw->instance_colors_u8) {
         ref_decode_color(scene->frame, draw->instance_colors_u8 + 4 * number, factor);
-        multiply_color(s->albedo, factor);
+        multiply_color(s, factor);
     } else if (draw->instance_colors_f32) {
-        multiply_color(s->albedo, draw->instance_colors_f32 + 4 * number);
+        multiply_color(s, draw->instance_colors_f32 + 4 * number);
     }
 }
 
@@ -171,4 +175,5 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, i
     find_uv(out);
     find_albedo(scene, out);
     ref_find_maps(scene, out);
+    out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
 }

@@ -1,7 +1,7 @@
 /* Texture: filtered texels at a place, in 8-bit fixed-point weights.
  *
  * In:  a texture's levels (linear RGBA, top row first), uv and how they change over the piece.
- * Out: the four channels of the texture there, and their unit.
+ * Out: the red, green, blue and alpha of the texture there, and their unit.
  * Rules: R25 and R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
  */
 #include <string.h>

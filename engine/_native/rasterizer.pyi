@@ -201,6 +201,7 @@ class NativeOptions:
         normals: int,
         culling: int,
         remove_hidden_lines: bool,
+        transparent_outputs: bool,
         line_width: float,
         point_size: float,
         line_color: Sequence[float],

@@ -182,6 +182,7 @@ cdef class NativeOptions:
         int normals,
         int culling,
         bint remove_hidden_lines,
+        bint transparent_outputs,
         float line_width,
         float point_size,
         line_color,
@@ -208,6 +209,7 @@ cdef class NativeOptions:
         frame.normals = <e3d_normals>normals
         frame.culling = <e3d_culling>culling
         frame.remove_hidden_lines = remove_hidden_lines
+        frame.transparent_outputs = transparent_outputs
         frame.line_width = line_width
         frame.point_size = point_size
         copy_vector(frame.line_color, line_color, 3)

@@ -93,6 +93,7 @@ class FrameOptions:
             normals=_native.NORMALS[options.normals],
             culling=_native.CULLINGS[options.culling],
             remove_hidden_lines=not options.hidden_lines,
+            transparent_outputs=options.transparent_outputs,
             line_width=options.line_width,
             point_size=options.point_size,
             line_color=convert(options.line_color, color_space),

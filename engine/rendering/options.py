@@ -72,6 +72,7 @@ class RenderKeywords(TypedDict, total=False):
     culling: Culling
     culling_camera: CameraChoice
     batching: bool
+    transparent_outputs: bool
     options: RenderOptions | None
 
 
@@ -85,7 +86,7 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching
+    hidden_lines, point_size, culling, batching, transparent_outputs
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -106,6 +107,7 @@ class RenderOptions:
     point_size: float = 1.0
     culling: Culling = "all"
     batching: bool = True
+    transparent_outputs: bool = False
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -122,6 +124,7 @@ class RenderOptions:
             hidden_lines=bool(self.hidden_lines),
             point_size=_line_size(self.point_size, "point_size"),
             batching=bool(self.batching),
+            transparent_outputs=bool(self.transparent_outputs),
         )
 
 

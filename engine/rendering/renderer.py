@@ -224,6 +224,7 @@ class Renderer(Closed):
         culling: Culling = "all",
         culling_camera: CameraChoice = None,
         batching: bool = True,
+        transparent_outputs: bool = False,
         options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
@@ -272,6 +273,10 @@ class Renderer(Closed):
             leaves out.
         batching : bool
             Hand nodes of the same mesh to the core as one draw. The picture is the same.
+        transparent_outputs : bool
+            Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
+            the nearest that isn't. Modes other than "lit" and "unlit" show blended surfaces as
+            opaque ones anyway.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 
@@ -305,6 +310,7 @@ class Renderer(Closed):
                 point_size,
                 culling,
                 batching,
+                transparent_outputs,
             )
             named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)

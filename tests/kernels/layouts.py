@@ -90,9 +90,10 @@ VISIBLE_TILE = np.dtype(
     + [("noted", "u8"), ("stale", "u8"), ("x", "i4"), ("y", "i4")]
 )
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
+SHOWN_ROOM = TILE * TILE + TILE
 SHOWN = np.dtype(
-    [("sample", "i4", TILE * TILE + 2 * PAD), ("of", "i4", TILE * TILE + 2 * PAD)]
-    + [("piece", [("id", "u4"), ("first", "i4")], TILE * TILE + 1)]
+    [("sample", "i4", SHOWN_ROOM + 2 * PAD), ("of", "i4", SHOWN_ROOM + 2 * PAD)]
+    + [("piece", [("id", "u4"), ("first", "i4")], SHOWN_ROOM + 1)]
     + [("count", "i4"), ("pieces", "i4"), ("runs", "i4")]
 )
 RUN_LENGTH = 16  # of a run in that list: the bit that its length begins at
@@ -116,7 +117,9 @@ SURFACES = np.dtype(
     + [("normals", "f4", (9, _ELEMENTS))]
     + [("position", "f4", (3, 3, _ELEMENTS)), ("normal", "f4", (3, 3, _ELEMENTS))]
     + [("uv", "f4", (2, 3, _ELEMENTS)), ("color", "f4", (3, 3, _ELEMENTS))]
-    + [("instance_color", "f4", (3, _ELEMENTS)), ("back", "i4", _ELEMENTS)]
+    + [("instance_color", "f4", (3, _ELEMENTS))]
+    + [("alpha", "f4", (3, _ELEMENTS)), ("instance_alpha", "f4", _ELEMENTS)]
+    + [("back", "i4", _ELEMENTS)]
     + [(name, "f4", (3, _ELEMENTS)) for name in ("p", "px", "py")]
     + [("base_x", "f4", _ELEMENTS), ("base_y", "f4", _ELEMENTS)]
     + [("slope", "f4", (2, 3, _ELEMENTS))]
@@ -139,6 +142,7 @@ BATCH_RECORD = np.dtype(
         ("lod", "i4", _LANES),
         ("energy", "f4", (3, _LANES)),
         ("shine", "f4", (3, _LANES)),
+        ("alpha", "f4", _LANES),
         ("count", "i4"),
     ]
 )

@@ -7,6 +7,7 @@
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
+#include "kernels/generic/texel_alpha.inl"
 
 /* ---- what surfaces bring ---- */
 
@@ -146,38 +147,6 @@ static inline int maps_are_alike(const e3d_map *a, const e3d_map *b)
            x->level_count == y->level_count && x->levels[0].width == y->levels[0].width && x->levels[0].height == y->levels[0].height;
 }
 
-/* The fourth channel, where it is read at all: one lane's texels after the other's. */
-static inline float map_alpha_blend(const texture_plan *plan, const texture_places *places, int i)
-{
-    const e3d_texture_view *view = plan->view;
-    const char *texels = view->levels[0].texels;
-    int32_t across = places->across[i], down = places->down[i];
-    if (view->channel_bits == 16) {
-        const int16_t *t = (const int16_t *)texels + 4 * (intptr_t)places->top[i] + 3;
-        const int16_t *b = (const int16_t *)texels + 4 * (intptr_t)places->bottom[i] + 3;
-        int32_t left = t[0] + (((b[0] - t[0]) * down + 128) >> 8), right = t[4] + (((b[4] - t[4]) * down + 128) >> 8);
-        return (float)(left * (256 - across) + right * across);
-    }
-    const uint8_t *t = (const uint8_t *)texels + 4 * (intptr_t)places->top[i] + 3, *b = t + 4 * (intptr_t)plan->levels.stride[0];
-    int32_t upper = (t[0] ^ 0x80) * (255 - across) + (t[4] ^ 0x80) * across;
-    int32_t lower = (b[0] ^ 0x80) * (255 - across) + (b[4] ^ 0x80) * across;
-    return (float)(upper * (255 - down) + lower * down);
-}
-
-static inline float map_alpha(const texture_plan *plan, int i)
-{
-    const e3d_texture_view *view = plan->view;
-    if (view->filter == E3D_NEAREST) {
-        size_t at = 4 * (size_t)plan->near.top[i] + 3;
-        return view->channel_bits == 16 ? (float)((const int16_t *)view->levels[0].texels)[at]
-                                        : (float)(((const uint8_t *)view->levels[0].texels)[at] ^ 0x80);
-    }
-    float a = map_alpha_blend(plan, &plan->near, i);
-    if (view->filter == E3D_BILINEAR || !(plan->lod[i] & 255))
-        return a;
-    return a + (map_alpha_blend(plan, &plan->far, i) - a) * ((float)(plan->lod[i] & 255) * 0x1p-8f);
-}
-
 /* Reads a texture whose places are found already. */
 static ALWAYS_INLINE void map_read(const texture_plan *plan, int filter, int bits, int count, e3d_lane_array *out)
 {
@@ -205,8 +174,8 @@ static inline void map_texture(texture_plan *plan, const e3d_map *map, int is_fo
         map_read(plan, E3D_TRILINEAR, 16, count, texels);
     else
         map_read(plan, map->view->filter, map->view->channel_bits, count, texels);
-    for (int i = 0; i < count && map->has_alpha; i++)
-        texels[3][i] = map_alpha(plan, i);
+    for (int i = 0; i < count && map->has_alpha; i += V_LANES)
+        v_storef(texels[3] + i, alpha_read(plan, map->view->filter, map->view->channel_bits, i));
 }
 
 /* Coordinates, tangents and texels of a batch, whose weights and normals are there. */

@@ -46,6 +46,10 @@ static void kernel_keep(const e3d_batch *batch, e3d_samples *samples)
 static ALWAYS_INLINE void samples_columns(const float *row, int axis, vf32 column[4])
 {
     vf32 even[2], odd[2];
+    if (axis == 1) {
+        column[0] = v_loadf(row);
+        return;
+    }
     for (int i = 0; i < axis / 2; i++)
         v_split(v_loadf(row + 2 * i * V_LANES), v_loadf(row + (2 * i + 1) * V_LANES), &even[i], &odd[i]);
     if (axis == 2) {
@@ -77,7 +81,7 @@ static ALWAYS_INLINE void samples_average(const e3d_samples *samples, int axis, 
         int first = row * E3D_TILE + x * axis;
         vf32 color[3], one = v_setf(1.0f), count = samples_sum(samples->counts + first, axis);
         vmask some = v_gt(count, v_setf(0.0f));
-        vf32 scale = v_div(one, v_max(count, one));
+        vf32 scale = v_div(one, v_self(some, count, one));
         for (int k = 0; k < 3; k++)
             color[k] = v_self(some, v_mul(samples_sum(samples->color[k] + first, axis), scale), v_setf(background[k]));
         vi32 alpha = v_rint(v_mul(v_setf(255.0f), v_mul(count, v_setf(1.0f / all))));
@@ -88,7 +92,9 @@ static ALWAYS_INLINE void samples_average(const e3d_samples *samples, int axis, 
 static void kernel_average(const e3d_samples *samples, int axis, int row, int width, const float background[3], int srgb,
                            uint32_t *rgba)
 {
-    if (axis == 2)
+    if (axis == 1)
+        samples_average(samples, 1, row, width, background, srgb, rgba);
+    else if (axis == 2)
         samples_average(samples, 2, row, width, background, srgb, rgba);
     else
         samples_average(samples, 4, row, width, background, srgb, rgba);

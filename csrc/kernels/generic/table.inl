@@ -27,6 +27,7 @@
 #include "kernels/generic/physical.inl"
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
+#include "kernels/generic/alpha.inl"
 #include "kernels/generic/stream.inl"
 #include "kernels/generic/ui.inl"
 
@@ -45,6 +46,7 @@ const e3d_kernels E3D_TABLE = {
     .raster_visible = kernel_raster_visible,
     .raster_fragments = kernel_raster_fragments,
     .raster_settle = kernel_raster_settle,
+    .raster_alpha = kernel_raster_alpha,
     .raster_measure = kernel_raster_measure,
     .find_runs = kernel_find_runs,
     .take_runs = kernel_take_runs,
@@ -71,6 +73,8 @@ const e3d_kernels E3D_TABLE = {
     .albedo = kernel_albedo,
     .lobe = kernel_lobe,
     .backdrop = kernel_backdrop,
+    .alpha = kernel_alpha,
+    .lay = kernel_lay,
     .encode = kernel_encode,
     .put = kernel_put,
     .keep = kernel_keep,

@@ -28,6 +28,7 @@ typedef struct e3d_surfaces {
     e3d_surface_floats uv[2][3];
     e3d_surface_floats color[3][3];    /* [component][vertex] */
     e3d_surface_floats instance_color[3];
+    e3d_surface_floats alpha[3], instance_alpha; /* of the vertices */
     e3d_surface_words back;        /* not 0: the face looks away */
     e3d_surface_floats p[3], px[3], py[3]; /* barycentric planes, R18 */
     e3d_surface_floats base_x, base_y;     /* relative to the tile's first sample */
@@ -58,7 +59,7 @@ typedef struct e3d_batch {
     e3d_lane_array weight[3], r; /* P_k and r of R19 */
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];
-    e3d_lane_array energy[3], shine[3];
+    e3d_lane_array energy[3], shine[3], alpha;
     int count;
 } e3d_batch;
 
@@ -70,7 +71,9 @@ enum {
     E3D_WANT_FLAT = 8, /* with E3D_WANT_NORMAL: the face's normal, not the vertices' */
     E3D_WANT_LEVEL = 16, /* lod of R26, not yet limited to the levels of the texture */
     E3D_WANT_SURFACE = 32, /* anything of the surface at all */
-    E3D_WANT_WEIGHTS = 64  /* weight and r */
+    E3D_WANT_WEIGHTS = 64, /* weight and r */
+    E3D_WANT_ALPHA = 128,  /* the alphas of vertices and instances, if these have colours */
+    E3D_WANT_MAPS = 256    /* all textures that count, of materials of more than a base colour; else of these only what alpha needs */
 };
 
 /* `reach` has five rows of a number a light, and E3D_PAD more: x, y and z of its position, the square of its range (a NaN for
@@ -83,10 +86,10 @@ typedef struct e3d_lighting {
     const e3d_environment_light *environment; /* NULL where there is none */
 } e3d_lighting;
 
-/* A tile's samples, where there are several a pixel. */
+/* A tile's samples, where there are several a pixel, or where blended ones are laid over them. */
 typedef struct e3d_samples {
-    float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* clamped; 0 where the sample doesn't count */
-    float counts[E3D_TILE_SAMPLES + E3D_PAD];   /* 1, or 0 where a transparent background shows */
+    float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* clamped, and multiplied by its alpha */
+    float counts[E3D_TILE_SAMPLES + E3D_PAD];   /* alpha: 1, or 0 where a transparent background shows, or between */
 } e3d_samples;
 
 /* Rows of pixels to copy: `count` rows of `bytes`. `to` moves by `pitch` from one row to the next, `from` by `step`. */

@@ -19,11 +19,14 @@ typedef struct e3d_shown_piece {
     int32_t first;
 } e3d_shown_piece;
 
+/* Entries of a list: as many as a tile has samples, and a row more, so that a list of whole rows is full only where samples repeat. */
+enum { E3D_SHOWN_ROOM = E3D_TILE_SAMPLES + E3D_TILE };
+
 /* What shows in a tile, piece after piece, as samples or as runs. */
 typedef struct e3d_shown {
-    int32_t sample[E3D_TILE_SAMPLES + 2 * E3D_PAD]; /* y * E3D_TILE + x; a run: its first sample | its length << E3D_RUN_LENGTH */
-    int32_t of[E3D_TILE_SAMPLES + 2 * E3D_PAD];     /* the number of its piece */
-    e3d_shown_piece piece[E3D_TILE_SAMPLES + 1];
+    int32_t sample[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* y * E3D_TILE + x; a run: its first sample | its length << E3D_RUN_LENGTH */
+    int32_t of[E3D_SHOWN_ROOM + 2 * E3D_PAD];     /* the number of its piece */
+    e3d_shown_piece piece[E3D_SHOWN_ROOM + 1];
     int32_t count, pieces; /* how many samples or runs, and how many pieces */
     int runs;              /* whether `sample` has runs */
 } e3d_shown;

@@ -39,7 +39,7 @@ static int reset_workers(e3d_renderer *renderer, const e3d_store *store)
         if (!e3d_array_reserve(&memory->pixels.words, store->words, sizeof(int32_t)))
             return 0;
     }
-    return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view));
+    return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view), e3d_plans(store->pass, E3D_ASKED_ALPHA));
 }
 
 /* What the stages that shade and store read. */
@@ -80,7 +80,7 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
                                .view = &renderer->view,
                                .frustum = frame->frozen_clip_from_world ? &renderer->frozen : &renderer->view};
     out->history = e3d_history_of(&renderer->histories, frame->view);
-    e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES));
+    e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_ASKED_ALPHA));
     if (status != E3D_OK)
         return status;
     if (!prepare_views(renderer, frame, out->pass.frustum) || !clear_marks(renderer))

@@ -14,6 +14,7 @@
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
+#include "pipeline/tile/alpha.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/tile.h"
@@ -35,6 +36,7 @@ static void destroy_worker(e3d_worker *worker)
     e3d_array_free(&worker->cull.candidates);
     e3d_geometry_free(&worker->geometry);
     e3d_slots_free(&worker->tile.slots);
+    e3d_alpha_free(&worker->tile.alpha);
     e3d_shade_free(&worker->tile.shade);
     e3d_array_free(&worker->tile.pixels.words);
     free(worker);

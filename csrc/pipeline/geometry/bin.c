@@ -45,6 +45,8 @@ void e3d_geometry_free(e3d_geometry_state *state)
         e3d_array_free(&set->corners);
         e3d_array_free(&set->keys);
         free_chains(&set->chains);
+        for (int kind = 0; kind < E3D_ALPHA_KINDS; kind++)
+            free_chains(&set->alpha[kind]);
     }
     e3d_array_free(&state->fragments.drawn);
     free_chains(&state->fragments.chains);
@@ -72,7 +74,7 @@ static int keep(e3d_chains *chains, int32_t tiles)
     return empty(&chains->bins, tiles);
 }
 
-static int reset(e3d_geometry_state *state, int32_t tiles)
+static int reset(e3d_geometry_state *state, int32_t tiles, int alpha)
 {
     memset(&state->counters, 0, sizeof state->counters);
     state->failed = 0;
@@ -83,14 +85,17 @@ static int reset(e3d_geometry_state *state, int32_t tiles)
         set->records.count = set->corners.count = set->keys.count = 0;
         made = made && clear(&set->chains, tiles);
     }
+    for (int kind = 0; kind < E3D_ALPHA_KINDS && alpha; kind++)
+        made = made && clear(&state->sets[E3D_SET_SCENE].alpha[kind], tiles);
     return made;
 }
 
-int e3d_bins_reset(e3d_bins *bins, int64_t tiles)
+int e3d_bins_reset(e3d_bins *bins, int64_t tiles, int alpha)
 {
     bins->tiles = (int32_t)tiles;
+    bins->alpha = alpha;
     for (int32_t t = 0; t < bins->threads; t++)
-        if (!reset(bins->of[t], bins->tiles))
+        if (!reset(bins->of[t], bins->tiles, alpha))
             return 0;
     return 1;
 }
@@ -142,12 +147,12 @@ static int __attribute__((noinline)) add_block(e3d_array *array, e3d_bin *bin)
     return 1;
 }
 
-static inline int push(e3d_record_set *set, e3d_bin *bin, uint32_t id)
+static inline int push(e3d_chains *chains, e3d_bin *bin, uint32_t id)
 {
-    const e3d_bin_block *blocks = set->chains.blocks.data;
-    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&set->chains.blocks, bin))
+    const e3d_bin_block *blocks = chains->blocks.data;
+    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&chains->blocks, bin))
         return 0;
-    e3d_bin_block *block = (e3d_bin_block *)set->chains.blocks.data + bin->last;
+    e3d_bin_block *block = (e3d_bin_block *)chains->blocks.data + bin->last;
     block->id[block->count++] = id;
     return 1;
 }
@@ -170,15 +175,15 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile
 
 /* Lists a record in the tiles of a span that it does not miss; it meets each tile of a single row or column. This is a function of
  * its own because its registers would spill those of the common case. */
-static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_state *state, e3d_record_set *set, uint32_t number,
+static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_state *state, const e3d_record *record, e3d_chains *to,
                                               e3d_tile_span span, uint32_t id)
 {
-    e3d_bin *bins = set->chains.bins.data;
+    e3d_bin *bins = to->bins.data;
     int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
     int32_t x1 = (int32_t)(span.last & 0xFFFF), y1 = (int32_t)(span.last >> 16);
     tile_edges edges = {{0}, {0}, {0}};
     if (x0 < x1 && y0 < y1)
-        find_tile_edges((const e3d_record *)set->records.data + number, x0 * E3D_TILE, y0 * E3D_TILE, &edges);
+        find_tile_edges(record, x0 * E3D_TILE, y0 * E3D_TILE, &edges);
     for (int32_t ty = y0; ty <= y1; ty++) {
         int64_t most[3] = {edges.most[0], edges.most[1], edges.most[2]};
         for (int32_t tx = x0; tx <= x1; tx++) {
@@ -187,7 +192,7 @@ static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry
                 most[k] += edges.across[k];
             if (misses)
                 continue;
-            if (!push(set, &bins[(int64_t)ty * view->tiles_x + tx], id))
+            if (!push(to, &bins[(int64_t)ty * view->tiles_x + tx], id))
                 return 0;
             state->counters.bin_entries++;
         }
@@ -197,24 +202,24 @@ static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry
     return 1;
 }
 
-static inline e3d_bin *bin_at(const e3d_view *view, e3d_record_set *set, uint32_t tile)
+static inline e3d_bin *bin_at(const e3d_view *view, e3d_chains *chains, uint32_t tile)
 {
-    return (e3d_bin *)set->chains.bins.data + (int64_t)(tile >> 16) * view->tiles_x + (tile & 0xFFFF);
+    return (e3d_bin *)chains->bins.data + (int64_t)(tile >> 16) * view->tiles_x + (tile & 0xFFFF);
 }
 
 /* Most are in one tile, or in two side by side. */
-int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
-                    int count)
+int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
+                    const e3d_tile_span *spans, int count)
 {
     int bits = state->id_bits, entries = 0;
     for (int i = 0; i < count; i++) {
         uint32_t number = first + (uint32_t)i, id = number << bits | state->number, apart = spans[i].last - spans[i].first;
         if (apart > 1 && apart != 1 << 16) {
-            if (!bin_wide(view, state, set, number, spans[i], id))
+            if (!bin_wide(view, state, (const e3d_record *)set->records.data + number, to, spans[i], id))
                 return 0;
             continue;
         }
-        if (!push(set, bin_at(view, set, spans[i].first), id) || (apart && !push(set, bin_at(view, set, spans[i].last), id)))
+        if (!push(to, bin_at(view, to, spans[i].first), id) || (apart && !push(to, bin_at(view, to, spans[i].last), id)))
             return 0;
         entries += apart ? 2 : 1;
     }
@@ -233,9 +238,18 @@ int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile)
     return 0;
 }
 
+int e3d_has_alpha(const e3d_bins *bins, int kind, int64_t tile)
+{
+    for (int32_t t = 0; t < bins->threads && bins->alpha; t++)
+        if (e3d_first_alpha(&bins->of[t]->sets[E3D_SET_SCENE], kind, tile))
+            return 1;
+    return 0;
+}
+
 int e3d_has_bins(const e3d_bins *bins, int64_t tile)
 {
-    return e3d_has_bin(bins, E3D_SET_SCENE, tile) || e3d_has_bin(bins, E3D_SET_EDGES, tile);
+    return e3d_has_bin(bins, E3D_SET_SCENE, tile) || e3d_has_bin(bins, E3D_SET_EDGES, tile) ||
+           e3d_has_alpha(bins, E3D_ALPHA_MASKED, tile) || e3d_has_alpha(bins, E3D_ALPHA_BLENDED, tile);
 }
 
 static uint32_t count_records(const e3d_record_set *set, int64_t tile)

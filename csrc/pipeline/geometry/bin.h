@@ -12,6 +12,7 @@
 /* What the geometry leaves for the tiles: each thread's records and fragments, listed by tile, and what tells them by their IDs. */
 typedef struct e3d_bins {
     int32_t threads, tiles;
+    int alpha; /* whether there may be records with alpha */
     e3d_geometry_state *of[E3D_MAX_THREADS];
     const e3d_record *records[E3D_SETS][E3D_MAX_THREADS];
     const e3d_drawn_cluster *drawn[E3D_MAX_THREADS];
@@ -22,8 +23,8 @@ typedef struct e3d_bins {
 /* The bins of so many threads, whose memory is theirs already. */
 void e3d_bins_init(e3d_bins *bins, int32_t threads);
 void e3d_geometry_free(e3d_geometry_state *state);
-/* Begins a pass with nothing in the bins; 0 when memory is out. */
-int e3d_bins_reset(e3d_bins *bins, int64_t tiles);
+/* Begins a pass with nothing in the bins, which has records with alpha or not; 0 when memory is out. */
+int e3d_bins_reset(e3d_bins *bins, int64_t tiles, int alpha);
 /* Empties the bins of the scene. */
 void e3d_bins_clear(e3d_bins *bins);
 /* Puts what they hold aside; 0 when memory is out. */
@@ -31,9 +32,9 @@ int e3d_bins_keep(e3d_bins *bins);
 /* After the records have their places: the tables that tell a record by its ID. */
 void e3d_bins_index(e3d_bins *bins);
 
-/* Lists `count` records from `first` on in the bins of the tiles that they may touch; 0 when memory is out. */
-int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, e3d_record_set *set, uint32_t first, const e3d_tile_span *spans,
-                    int count);
+/* Lists `count` records of a set from `first` on in the bins `to` of the tiles that they may touch; 0 when memory is out. */
+int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
+                    const e3d_tile_span *spans, int count);
 static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 {
     return (e3d_tile_span){(uint32_t)(box->y0 >> E3D_TILE_SHIFT << 16 | box->x0 >> E3D_TILE_SHIFT),
@@ -42,7 +43,9 @@ static inline e3d_tile_span e3d_span_of(const e3d_box *box)
 
 /* Whether any thread has a record or a fragment for the tile. */
 int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile);
-/* Whether that holds for either set. */
+/* Whether any thread has a record with alpha for the tile. */
+int e3d_has_alpha(const e3d_bins *bins, int kind, int64_t tile);
+/* Whether there is anything for the tile. */
 int e3d_has_bins(const e3d_bins *bins, int64_t tile);
 /* How many a tile's bins of the scene hold. */
 typedef struct e3d_entries {

@@ -19,6 +19,7 @@
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/depths.h"
 #include "pipeline/cull/history.h"
+#include "pipeline/geometry/alpha.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/clip.h"
 #include "pipeline/geometry/fragments.h"
@@ -83,6 +84,7 @@ static e3d_primitive face_primitive(const walker *w, int32_t face)
     return (e3d_primitive){.order = w->order + (uint32_t)face,
                            .set = E3D_SET_SCENE,
                            .face = 1,
+                           .alpha = e3d_alpha_kind_of(w->pass, w->draw, face),
                            .cull = cull_of(w, face),
                            .mirrored = w->instance->mirrored};
 }
@@ -135,7 +137,7 @@ static void draw_clipped(walker *w, const e3d_cluster *cluster, const uint8_t *i
     w->state->counters.triangles_drawn += w->state->counters.records > before;
 }
 
-static void draw_records(walker *w, const e3d_record_request *request)
+static void draw_records(walker *w, const e3d_record_request *request, int alpha)
 {
     e3d_record_set *set = &w->state->sets[E3D_SET_SCENE];
     e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
@@ -149,13 +151,13 @@ static void draw_records(walker *w, const e3d_record_request *request)
     set->records.count += (size_t)made;
     w->state->counters.records += made;
     w->state->counters.triangles_drawn += made;
-    if (!e3d_bin_records(w->pass->view, w->state, set, number, spans, made))
+    if (!e3d_bin_records(w->pass->view, w->state, set, e3d_chains_of(set, alpha), number, spans, made))
         w->state->failed = 1;
 }
 
 /* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them; those are dropped whose area has the sign
  * `cull`. */
-static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int tiny, int cull)
+static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int tiny, int cull, int alpha)
 {
     uint8_t list[E3D_CLUSTER_TRIANGLES + E3D_PAD];
     int count = 0;
@@ -167,7 +169,7 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
     const e3d_record_request request = {.vertices = &w->state->vertices, .indices = indices, .triangles = list,
                                         .count = count, .tiny = tiny, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
                                         .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->pass->view->viewport};
-    draw_records(w, &request);
+    draw_records(w, &request, alpha);
 }
 
 /* The triangles whose materials are two-sided: a bit each. */
@@ -180,11 +182,25 @@ static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint
     return found;
 }
 
-static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, int tiny)
+static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t draw, int tiny, int alpha)
 {
-    uint64_t draw = w->state->survivors.draw, both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
-    draw_some(w, cluster, indices, draw & ~both, tiny, culled_sign(w));
-    draw_some(w, cluster, indices, both, tiny, 0);
+    uint64_t both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
+    draw_some(w, cluster, indices, draw & ~both, tiny, culled_sign(w), alpha);
+    draw_some(w, cluster, indices, both, tiny, 0, alpha);
+}
+
+/* Takes the triangles that have alpha from the survivors, small or not. They become records of their own lists: a fragment of a
+ * micro-triangle would hide what is behind it at once. */
+static void draw_alpha(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
+{
+    e3d_survivors *s = &w->state->survivors;
+    uint64_t of[E3D_ALPHA_UNSEEN + 1] = {0};
+    for (uint64_t left = s->draw | s->small; left; left &= left - 1)
+        of[e3d_alpha_kind_of(w->pass, w->draw, w->draw->mesh->faces[cluster->first + __builtin_ctzll(left)])] |= left & -left;
+    s->draw &= of[E3D_ALPHA_NONE];
+    s->small &= of[E3D_ALPHA_NONE];
+    for (int kind = 0; kind < E3D_ALPHA_KINDS; kind++)
+        draw_triangles(w, cluster, indices, of[kind], 1, kind);
 }
 
 /* The small triangles that are culled, where some materials are two-sided. */
@@ -259,11 +275,13 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     int count = kernels->setup(&state->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
     state->counters.triangles_rejected += cluster->triangles - count;
     fetch_records(w, __builtin_popcountll(s->draw));
+    int sorts = e3d_plans(w->pass, E3D_PLAN_SORTS);
+    if (w->draw->any_alpha && !sorts)
+        draw_alpha(w, cluster, indices);
     if (s->small)
         draw_small(w, cluster, indices);
-    int sorts = e3d_plans(w->pass, E3D_PLAN_SORTS);
     if (!sorts)
-        draw_triangles(w, cluster, indices, !fragments);
+        draw_triangles(w, cluster, indices, s->draw, !fragments, E3D_ALPHA_NONE);
     for (uint64_t left = sorts ? s->draw : 0; left; left &= left - 1)
         draw_triangle(w, cluster, indices, __builtin_ctzll(left));
     for (uint64_t left = s->clip; left; left &= left - 1)

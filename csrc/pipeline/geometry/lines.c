@@ -4,6 +4,7 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/vertices.h"
+#include "pipeline/geometry/alpha.h"
 #include "pipeline/geometry/clip.h"
 #include "pipeline/geometry/lines.h"
 #include "pipeline/geometry/records.h"
@@ -20,6 +21,7 @@ typedef struct unit_walk {
     const e3d_draw_state *draw;
     const e3d_view_instance *instance;
     uint32_t order; /* of the instance's first primitive */
+    int alpha;      /* of lines and points (e3d_alpha_kind) */
 } unit_walk;
 
 /* R11 */
@@ -46,7 +48,8 @@ static void position_of(const unit_walk *w, int32_t vertex, float out[4])
 
 static void emit_quad(unit_walk *w, const e3d_corner q[4], uint32_t order, int which)
 {
-    e3d_primitive primitive = {.order = order, .set = which, .cut = 1, .cull = E3D_CULL_NONE};
+    int alpha = which == E3D_SET_SCENE ? w->alpha : E3D_ALPHA_NONE;
+    e3d_primitive primitive = {.order = order, .set = which, .cut = 1, .cull = E3D_CULL_NONE, .alpha = alpha};
     const e3d_corner first[3] = {q[0], q[1], q[2]}, second[3] = {q[0], q[2], q[3]};
     e3d_emit(w->pass, w->state, first, &primitive);
     e3d_emit(w->pass, w->state, second, &primitive);
@@ -159,7 +162,7 @@ void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_state *state, const e3
 {
     int64_t number = draw->instance_base + instance;
     unit_walk w = {pass, state, e3d_line_style_of(pass->frame), draw, &pass->view->instances[number],
-                   pass->draws->instances[number].order};
+                   pass->draws->instances[number].order, e3d_alpha_kind_of(pass, draw, draw->mesh->desc.faces_count)};
     if (unit < draw->line_units)
         run_lines(&w, unit);
     else if ((unit -= draw->line_units) < draw->point_units)

@@ -8,9 +8,13 @@
 #include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
+#include "pipeline/geometry/alpha.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/order.h"
 #include "pipeline/geometry/records.h"
+#include "pipeline/geometry/setup.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 
 typedef struct entry {
@@ -83,6 +87,31 @@ static void install(e3d_bins *bins, e3d_record_set *sorted)
         bins->of[t]->sets[E3D_SET_SCENE].records.count = 0;
 }
 
+/* The list that a record goes to. */
+static int alpha_of(const e3d_prepared *pass, const e3d_record *record)
+{
+    if (!e3d_plans(pass, E3D_ASKED_ALPHA))
+        return E3D_ALPHA_NONE;
+    const e3d_order_entry *entry = e3d_find_order_entry(pass->draws, record->order);
+    const e3d_draw_state *draw = &pass->draws->states[entry->draw];
+    return e3d_alpha_kind_of(pass, draw, (int32_t)((record->order - entry->order) % (uint32_t)draw->primitives));
+}
+
+/* Lists the records of worker 0, in their order. */
+static int bin_sorted(const e3d_prepared *pass, e3d_bins *bins, size_t count)
+{
+    e3d_record_set *set = &bins->of[0]->sets[E3D_SET_SCENE];
+    for (size_t r = 0; r < count; r++) {
+        const e3d_record *record = (const e3d_record *)set->records.data + r;
+        e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
+        const e3d_tile_span span = e3d_span_of(&box);
+        if (!e3d_bin_records(pass->view, bins->of[0], set, e3d_chains_of(set, alpha_of(pass, record)), (uint32_t)r, &span, 1))
+            return 0;
+    }
+    e3d_bins_index(bins);
+    return 1;
+}
+
 int e3d_sort_records(const e3d_prepared *pass, e3d_bins *bins)
 {
     size_t count = count_records(bins);
@@ -100,14 +129,5 @@ int e3d_sort_records(const e3d_prepared *pass, e3d_bins *bins)
         return 0;
     }
     install(bins, &sorted);
-    e3d_record_set *set = &bins->of[0]->sets[E3D_SET_SCENE];
-    for (size_t r = 0; r < count; r++) {
-        const e3d_record *record = (const e3d_record *)set->records.data + r;
-        e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
-        const e3d_tile_span span = e3d_span_of(&box);
-        if (!e3d_bin_records(pass->view, bins->of[0], set, (uint32_t)r, &span, 1))
-            return 0;
-    }
-    e3d_bins_index(bins);
-    return 1;
+    return bin_sorted(pass, bins, count);
 }

@@ -23,6 +23,13 @@ typedef struct e3d_chains {
     e3d_array earlier; /* the same, of the round that finished the tiles */
 } e3d_chains;
 
+/* Records whose alpha counts are listed apart: what they cut out is known late, and nothing of them hides clusters. */
+enum { E3D_ALPHA_MASKED = 0, /* that show wherever their alpha is enough */
+       E3D_ALPHA_BLENDED,
+       E3D_ALPHA_KINDS,
+       E3D_ALPHA_NONE,    /* has no alpha */
+       E3D_ALPHA_UNSEEN }; /* isn't drawn at all */
+
 /* Records are of the scene, or of the edges of a wireframe. */
 enum { E3D_SET_SCENE = 0,
        E3D_SET_EDGES,
@@ -34,6 +41,7 @@ typedef struct e3d_record_set {
     e3d_array corners; /* float[9]: c[k][j] of the cut ones */
     e3d_array keys;    /* float: painter's algorithm only */
     e3d_chains chains;
+    e3d_chains alpha[E3D_ALPHA_KINDS]; /* of the scene, of the whole pass: they are drawn after the last round */
     size_t earlier_records; /* how many there were when the tiles were finished */
 } e3d_record_set;
 
@@ -72,6 +80,15 @@ static inline uint32_t e3d_first_block(const e3d_chains *chains, int earlier, in
 static inline const e3d_bin_block *e3d_bin_block_at(const e3d_record_set *set, uint32_t number)
 {
     return number == E3D_NO_BLOCK ? NULL : (const e3d_bin_block *)set->chains.blocks.data + number;
+}
+static inline const e3d_bin_block *e3d_first_alpha(const e3d_record_set *set, int kind, int64_t tile)
+{
+    uint32_t number = ((const e3d_bin *)set->alpha[kind].bins.data)[tile].first;
+    return number == E3D_NO_BLOCK ? NULL : (const e3d_bin_block *)set->alpha[kind].blocks.data + number;
+}
+static inline const e3d_bin_block *e3d_next_alpha(const e3d_record_set *set, int kind, const e3d_bin_block *block)
+{
+    return block->next == E3D_NO_BLOCK ? NULL : (const e3d_bin_block *)set->alpha[kind].blocks.data + block->next;
 }
 static inline const e3d_bin_block *e3d_first_records(const e3d_record_set *set, int earlier, int64_t tile)
 {

@@ -85,13 +85,15 @@ static int is_culled(const e3d_primitive *primitive, int front)
     return (primitive->cull == E3D_CULL_BACK && !front) || (primitive->cull == E3D_CULL_FRONT && front);
 }
 
+e3d_chains *e3d_chains_of(e3d_record_set *set, int alpha) { return alpha < E3D_ALPHA_KINDS ? &set->alpha[alpha] : &set->chains; }
+
 void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_corner corner[3], const e3d_primitive *primitive)
 {
     const int32_t x[3] = {corner[0].x, corner[1].x, corner[2].x};
     const int32_t y[3] = {corner[0].y, corner[1].y, corner[2].y};
     int64_t area = e3d_doubled_area(x, y);
     int front = (area < 0) != (primitive->mirrored != 0);
-    if (area == 0 || is_culled(primitive, front))
+    if (area == 0 || is_culled(primitive, front) || primitive->alpha == E3D_ALPHA_UNSEEN)
         return;
     const e3d_corner *c[3] = {&corner[0], &corner[area < 0 ? 2 : 1], &corner[area < 0 ? 1 : 2]};
     e3d_record_set *set = &state->sets[primitive->set];
@@ -120,6 +122,6 @@ void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_cor
     const e3d_tile_span span = e3d_span_of(&box);
     uint32_t number = (uint32_t)set->records.count++;
     state->counters.records++;
-    if (!sorted && !e3d_bin_records(pass->view, state, set, number, &span, 1)) /* or after sorting */
+    if (!sorted && !e3d_bin_records(pass->view, state, set, e3d_chains_of(set, primitive->alpha), number, &span, 1)) /* or after sorting */
         state->failed = 1;
 }

@@ -17,6 +17,15 @@ static int has_two_sided(const e3d_frame *frame)
     return 0;
 }
 
+/* Whether any material of a draw is masked or blended. */
+static int has_alpha(const e3d_frame *frame, const e3d_draw *draw)
+{
+    for (int32_t m = 0; m <= draw->mesh->material_most; m++)
+        if (frame->materials[draw->material_base + m].alpha_mode != E3D_ALPHA_OPAQUE)
+            return 1;
+    return 0;
+}
+
 static int64_t primitives_of(const e3d_mesh_desc *desc)
 {
     return (int64_t)desc->faces_count + desc->lines_count + desc->points_count;
@@ -34,7 +43,7 @@ static e3d_draw_state state_of(const e3d_draw *draw, int edges)
     return s;
 }
 
-static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edges)
+static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edges, int alpha)
 {
     int64_t primitives = 0, instances = 0;
     int two_sided = has_two_sided(frame);
@@ -47,6 +56,7 @@ static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edge
         e3d_draw_state *s = &draws->states[d];
         *s = state_of(draw, edges);
         s->any_two_sided = two_sided;
+        s->any_alpha = alpha && has_alpha(frame, draw);
         s->instance_base = instances;
         s->unit_base = draws->units;
         s->group_base = draws->groups;
@@ -94,7 +104,7 @@ static e3d_status place_draws(e3d_draws *draws, const e3d_frame *frame)
     return E3D_OK;
 }
 
-e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges)
+e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges, int alpha)
 {
     draws->order_count = frame->order ? frame->order_count : frame->draw_count;
     if (!e3d_array_reserve(&draws->state_memory, (size_t)frame->draw_count + 1, sizeof(e3d_draw_state)) ||
@@ -102,7 +112,7 @@ e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges
         return E3D_OUT_OF_MEMORY;
     draws->states = draws->state_memory.data;
     draws->order = draws->order_memory.data;
-    e3d_status status = count_draws(draws, frame, edges);
+    e3d_status status = count_draws(draws, frame, edges, alpha);
     if (status != E3D_OK)
         return status;
     if (!e3d_array_reserve(&draws->instance_memory, (size_t)draws->instance_count + 1, sizeof(e3d_instance)))

@@ -25,7 +25,7 @@ typedef struct e3d_draw_state {
     uint32_t order;      /* of the first primitive; of several nodes, each instance has its own */
     int32_t line_units, point_units, edge_units; /* an instance */
     int32_t units;       /* their sum */
-    int32_t any_two_sided;
+    int32_t any_two_sided, any_alpha; /* of the frame's materials, of its own */
 } e3d_draw_state;
 
 /* A place in the order of drawing: all instances of a draw, or one node of several. */
@@ -44,8 +44,8 @@ typedef struct e3d_draws {
     e3d_array state_memory, instance_memory, order_memory;
 } e3d_draws;
 
-/* `edges`: those of wireframes are drawn, too. */
-e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges);
+/* `edges`: those of wireframes are drawn, too. `alpha`: some materials are masked or blended. */
+e3d_status e3d_draws_prepare(e3d_draws *draws, const e3d_frame *frame, int edges, int alpha);
 void e3d_draws_free(e3d_draws *draws);
 
 /* The draw that an instance, a unit of work or a group of clusters belongs to, by its number in the frame: it must exist. */

@@ -28,6 +28,14 @@ static int has_mapped_normals(const e3d_frame *frame)
     return 0;
 }
 
+static int has_alpha(const e3d_frame *frame)
+{
+    for (int32_t m = 0; m < frame->material_count; m++)
+        if (frame->materials[m].alpha_mode != E3D_ALPHA_OPAQUE)
+            return 1;
+    return 0;
+}
+
 static int has_lines(const e3d_frame *frame)
 {
     for (int32_t d = 0; d < frame->draw_count; d++)
@@ -82,6 +90,7 @@ static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
     return asked_outputs(targets) | asked_mode(f) | asked_wireframe(f) | asked_if(f->hidden == E3D_HIDDEN_ZBUFFER, E3D_ASKED_ZBUFFER) |
            asked_if(has_mapped_normals(f), E3D_ASKED_MAPPED_NORMALS) | asked_if(f->shading == E3D_SHADING_FORWARD, E3D_ASKED_FORWARD) | asked_if(f->encode_srgb, E3D_ASKED_SRGB) |
            asked_if(f->culling == E3D_CULLING_ALL || f->culling == E3D_CULLING_ALWAYS, E3D_ASKED_OCCLUSION) |
+           asked_if(has_alpha(f), E3D_ASKED_ALPHA) | asked_if(f->transparent_outputs, E3D_ASKED_TRANSPARENT_OUTPUTS) |
            asked_if(f->frozen_clip_from_world != NULL, E3D_ASKED_OTHER_FRUSTUM) |
            asked_if(f->backdrop.light.environment != NULL, E3D_ASKED_BACKDROP) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
 }
@@ -118,7 +127,13 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_FACES, PLAN(OUTPUTS), 0},
     {E3D_PLAN_FACES, ASKED(NDC_DEPTH), 0},
     {E3D_PLAN_SORTS, 0, ASKED(ZBUFFER)},
-    {E3D_PLAN_AT_ONCE, PLAN(SHADES) | ASKED(FORWARD), 0},
+    {E3D_PLAN_BLENDS, PLAN(COLORS) | ASKED(ALPHA) | ASKED(LIT), 0},
+    {E3D_PLAN_BLENDS, PLAN(COLORS) | ASKED(ALPHA) | ASKED(UNLIT), 0},
+    {E3D_PLAN_SOLID, ASKED(ALPHA), ASKED(LIT) | ASKED(UNLIT)},
+    {E3D_PLAN_SOLID, ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), PLAN(COLORS)},
+    {E3D_PLAN_FRONT, PLAN(BLENDS) | PLAN(OUTPUTS) | ASKED(TRANSPARENT_OUTPUTS), 0},
+    {E3D_PLAN_FRONT, PLAN(BLENDS) | ASKED(NDC_DEPTH) | ASKED(TRANSPARENT_OUTPUTS), 0},
+    {E3D_PLAN_AT_ONCE, PLAN(SHADES) | ASKED(FORWARD), ASKED(ALPHA)}, /* what is cut out or laid over is known last */
     {E3D_PLAN_SLOTS, PLAN(SORTS), 0},
     {E3D_PLAN_SLOTS, PLAN(AT_ONCE), 0},
     {E3D_PLAN_DEPTHS, ASKED(NDC_DEPTH), 0},
@@ -130,7 +145,7 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(UNLIT), PLAN(OUTPUTS)},
     {E3D_PLAN_ROUNDS, PLAN(FACES) | ASKED(OCCLUSION),
      PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(OTHER_FRUSTUM) | ASKED(HUGE)},
-    {E3D_PLAN_FINISHES, PLAN(ROUNDS), ASKED(WIREFRAME)},
+    {E3D_PLAN_FINISHES, PLAN(ROUNDS), ASKED(WIREFRAME) | ASKED(ALPHA)},
     {E3D_PLAN_COUNTS_OVERDRAW, ASKED(COLOR) | ASKED(OVERDRAW_MODE), ASKED(WIRE_ONLY)},
     {E3D_PLAN_EDGES, ASKED(COLOR) | ASKED(WIREFRAME), 0},
     {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER), ASKED(WIRE_ONLY)},

@@ -36,6 +36,8 @@
     X(FORWARD, "forward shading")                                                      \
     X(SRGB, "the sRGB encoder")                                                        \
     X(OCCLUSION, "that what is hidden is left out")                                    \
+    X(ALPHA, "materials that are masked or blended")                                   \
+    X(TRANSPARENT_OUTPUTS, "other outputs of the nearest surface, blended or not")      \
     X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
     X(BACKDROP, "an environment as the background")                                    \
     X(HUGE, "more samples than tiles are kept for")
@@ -51,6 +53,9 @@
     X(BASE_COLOR, "shading needs the surface's own colour")                              \
     X(FACES, "faces are drawn, not only counted")                                        \
     X(SORTS, "records are sorted before they are binned, and the last one shows")        \
+    X(BLENDS, "blended fragments are laid over what is behind them")                     \
+    X(SOLID, "blended faces show wherever their alpha isn't 0, as masked ones do")         \
+    X(FRONT, "outputs are those of the nearest fragment, where there is one")            \
     X(AT_ONCE, "each record is shaded at once, where it is the nearest so far")          \
     X(SLOTS, "a tile draws record after record; its samples keep slots instead of IDs")  \
     X(DEPTHS, "the depth of every sample is needed, not only the ID")                    \

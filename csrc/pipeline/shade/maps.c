@@ -34,7 +34,7 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
     const e3d_material *m = bucket->material;
     int lit = m->is_physical && is_lit(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_ASKED_MATERIALS);
     switch (slot) {
-    case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR);
+    case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR) || m->alpha_mode != E3D_ALPHA_OPAQUE;
     case E3D_SLOT_NORMAL: return e3d_plans(pass, E3D_PLAN_NORMAL);
     case E3D_SLOT_METALLIC_ROUGHNESS:
     case E3D_SLOT_EMISSIVE: return lit || listed;
@@ -104,17 +104,25 @@ static void find_tangent_place(const e3d_bucket *bucket, e3d_maps *out)
         out->tangent_place = find_place(out, slot, slot->texture ? e3d_texture_get_view(slot->texture) : NULL);
 }
 
-void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_maps *out)
+/* Whether the fourth channel of a slot's texture is read. */
+static int has_alpha(const e3d_material *m, e3d_texture_slot slot)
+{
+    return slot == E3D_SLOT_SPECULAR || slot == E3D_SLOT_SHEEN_ROUGHNESS || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
+}
+
+void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_maps *out)
 {
     const e3d_material *m = bucket->material;
+    int all = wanted & E3D_WANT_MAPS;
     out->place_count = out->count = 0;
     out->tangent_place = -1;
 #define FIND(slot, name) \
     out->of_slot[slot] = -1; \
-    if (is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
-        out->of_slot[slot] = find_map(out, &m->name, slot == E3D_SLOT_SPECULAR || slot == E3D_SLOT_SHEEN_ROUGHNESS);
+    if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
+        out->of_slot[slot] = find_map(out, &m->name, has_alpha(m, slot));
     E3D_EACH_TEXTURE_SLOT(FIND)
-    if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 || pass->targets->tangent)
+    if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
+        (all && pass->targets->tangent))
         find_tangent_place(bucket, out);
 }
 
@@ -166,6 +174,11 @@ static e3d_normal_map normals_of(const e3d_map_memory *memory, e3d_texture_slot 
     return (e3d_normal_map){memory->batch.texel[map], e3d_texture_unit(memory->maps.maps[map].view), scale};
 }
 
+e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_map_memory *maps)
+{
+    return varying_of(maps, E3D_SLOT_TEXTURE, 3, bucket->material->alpha);
+}
+
 static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, const e3d_surfaces *surfaces, const e3d_map_memory *maps,
                       e3d_batch *batch)
 {
@@ -191,7 +204,7 @@ static void find_listed(const e3d_kernels *kernels, const e3d_bucket *bucket, in
     }
 }
 
-void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory)
 {
     const e3d_kernels *kernels = pass->kernels;
     const e3d_material *m = bucket->material;
@@ -200,6 +213,8 @@ void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_
     if (maps->maps.tangent_place < 0)
         memset(maps->batch.tangent, 0, sizeof maps->batch.tangent);
     kernels->maps(batch, &memory->surfaces, &maps->maps, &maps->surfaces, &maps->batch);
+    if (!(wanted & E3D_WANT_MAPS))
+        return;
     if (e3d_plans(pass, E3D_PLAN_NORMAL)) {
         e3d_normal_map surface = normals_of(maps, E3D_SLOT_NORMAL, m->normal_scale);
         e3d_normal_map coat = normals_of(maps, E3D_SLOT_CLEARCOAT_NORMAL, m->physical.clearcoat_normal_scale);

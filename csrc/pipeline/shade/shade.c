@@ -11,6 +11,7 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/maps.h"
+#include "pipeline/shade/alpha.h"
 #include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
@@ -139,11 +140,11 @@ static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_
 /* ---- batches ---- */
 
 /* What the batches of a bucket need of their surfaces: identities need nothing. */
-static int wanted_of(const e3d_prepared *pass, const e3d_bucket *bucket)
+static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
     int wanted = e3d_plan_inputs(pass->plan), colored = e3d_plans(pass, E3D_PLAN_BASE_COLOR);
     if (bucket->mapped)
-        wanted |= E3D_WANT_WEIGHTS;
+        wanted |= E3D_WANT_WEIGHTS | E3D_WANT_MAPS;
     else if (bucket->textured && colored) {
         wanted |= E3D_WANT_UV;
         if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
@@ -154,6 +155,13 @@ static int wanted_of(const e3d_prepared *pass, const e3d_bucket *bucket)
     if (wanted || (colored && bucket->by_instance))
         wanted |= E3D_WANT_SURFACE;
     return bucket->flat ? wanted | E3D_WANT_FLAT : wanted;
+}
+
+static int wanted_of(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
+{
+    if (!out->alpha || out->alpha->use == E3D_ALPHA_OUTPUTS)
+        return wanted_to_show(pass, bucket);
+    return e3d_alpha_wanted(bucket) | (out->alpha->use == E3D_ALPHA_TEST ? 0 : wanted_to_show(pass, bucket));
 }
 
 /* Whether samples go straight to where colours are kept. */
@@ -177,13 +185,40 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = e3d_plans(pass, E3D_PLAN_ENCODES_SRGB),
-        .samples = pass->frame->samples_axis > 1 ? &out->pixels->samples : NULL,
+        .samples = out->pixels->sampled ? &out->pixels->samples : NULL,
     };
     pass->kernels->paint(&out->memory->batch, &out->memory->surfaces, &paint, out->pixels->rgba);
 }
 
+/* A batch whose samples do not simply show. */
+static void shade_alpha(const e3d_shade_in *in, const e3d_bucket *bucket, int wanted, const e3d_shade_out *out)
+{
+    const e3d_prepared *pass = in->pass;
+    e3d_shade_memory *memory = out->memory;
+    e3d_alpha_use use = out->alpha->use;
+    if (wanted & E3D_WANT_SURFACE)
+        pass->kernels->interpolate(&memory->batch, &memory->surfaces, wanted);
+    if (bucket->mapped)
+        e3d_find_map_batch(pass, bucket, wanted, memory);
+    else if (use != E3D_ALPHA_TEST && e3d_plans(pass, E3D_PLAN_BASE_COLOR))
+        find_albedo(pass->kernels, bucket, memory);
+    if (use == E3D_ALPHA_OUTPUTS) {
+        e3d_outputs_batch(in->store, bucket, memory, out->pixels);
+        return;
+    }
+    if (use != E3D_ALPHA_TEST) {
+        memory->shaded += memory->batch.count;
+        find_colors(pass, bucket, memory);
+    }
+    e3d_alpha_batch(pass, bucket, out);
+}
+
 static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wanted, const e3d_shade_out *out)
 {
+    if (out->alpha) {
+        shade_alpha(in, bucket, wanted, out);
+        return;
+    }
     const e3d_prepared *pass = in->pass;
     e3d_batch *batch = &out->memory->batch;
     out->memory->shaded += batch->count;
@@ -195,7 +230,7 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     if (wanted & E3D_WANT_SURFACE)
         pass->kernels->interpolate(batch, &out->memory->surfaces, wanted);
     if (bucket->mapped)
-        e3d_find_map_batch(pass, bucket, out->memory);
+        e3d_find_map_batch(pass, bucket, wanted, out->memory);
     else if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_albedo(pass->kernels, bucket, out->memory);
     if (e3d_plans(pass, E3D_PLAN_OUTPUTS))
@@ -265,7 +300,7 @@ static void shade_pieces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
 
 static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d_bucket *bucket, const e3d_shade_out *out)
 {
-    int wanted = wanted_of(in->pass, bucket);
+    int wanted = wanted_of(in->pass, bucket, out);
     for (int32_t first = bucket->first, end; first >= 0; first = end) {
         end = e3d_add_surfaces(in, bucket, first, wanted, out->memory);
         if (wanted & E3D_WANT_SURFACE)

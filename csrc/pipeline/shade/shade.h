@@ -45,11 +45,28 @@ typedef struct e3d_shade_memory {
     int64_t shaded;                     /* samples, of all tiles */
 } e3d_shade_memory;
 
+/* What is done with the samples of a list that are not to be stored as they are: a sample may be in it several times. */
+typedef enum e3d_alpha_use {
+    E3D_ALPHA_TEST = 0, /* their alphas are found */
+    E3D_ALPHA_KEEP,     /* their alphas and colours are found */
+    E3D_ALPHA_LAY,      /* they are laid over the tile's samples: each is in the list once */
+    E3D_ALPHA_OUTPUTS   /* all but their colours is stored */
+} e3d_alpha_use;
+
+/* How, and where to: by the places of the list. */
+typedef struct e3d_alpha_shading {
+    e3d_alpha_use use;
+    float *alpha;       /* E3D_ALPHA_TEST */
+    float (*color)[4];  /* E3D_ALPHA_KEEP: clamped colours, with alpha; -alpha of a face that a wireframe doesn't show */
+    int32_t piece, at;  /* the piece of the last sample, and the place behind it */
+} e3d_alpha_shading;
+
 /* Its own memory, a tile's pixels, and the tiles that are cleared meanwhile. */
 typedef struct e3d_shade_out {
     e3d_shade_memory *memory;
     e3d_store_memory *pixels;
     e3d_blank_state *blank;
+    e3d_alpha_shading *alpha; /* or NULL: what is shaded shows */
 } e3d_shade_out;
 
 /* Finds the constants of a pass. */

@@ -315,6 +315,22 @@ static void add_colors(const float unorm8[256], const e3d_visible_primitive *pie
     }
 }
 
+/* R80, of 8 bits or as they are. */
+static float alpha_value(const uint8_t *u8, const float *f32, size_t index)
+{
+    return f32 ? f32[4 * index + 3] : (float)(u8[4 * index + 3] * 257) * E3D_UNORM16;
+}
+
+static void add_alphas(const e3d_visible_primitive *piece, const e3d_bucket *bucket, int count, e3d_surfaces *s, int32_t n)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const e3d_draw *draw = piece->draw->draw;
+    for (int v = 0; v < 3 && bucket->by_vertex; v++)
+        s->alpha[v][n] = v < count ? alpha_value(mesh->colors_u8, mesh->colors_f32, (size_t)piece->vertex[v]) : 0.0f;
+    if (bucket->by_instance)
+        s->instance_alpha[n] = alpha_value(draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance);
+}
+
 static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, int32_t n)
 {
     for (int k = 0; k < 3; k++) {
@@ -348,6 +364,8 @@ static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *pie
         add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
     if (e3d_plans(in->pass, E3D_PLAN_BASE_COLOR))
         add_colors(in->unorm8, piece, bucket, vertex, count, s, n);
+    if (wanted & E3D_WANT_ALPHA)
+        add_alphas(piece, bucket, count, s, n);
 }
 
 /* Ahead of their use: vertices are anywhere in memory. Only of a piece of this draw, whose face was asked for when it was found. */
@@ -387,7 +405,7 @@ int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
     if (wanted & E3D_WANT_LEVEL)
         set_texels(bucket, s);
     if (bucket->mapped)
-        e3d_find_maps(in->pass, bucket, &memory->maps.maps);
+        e3d_find_maps(in->pass, bucket, wanted, &memory->maps.maps);
     for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
         s->piece[s->count] = p;
         if (!(wanted & E3D_WANT_SURFACE)) {

@@ -50,7 +50,7 @@ void e3d_backdrop_fill(const e3d_store *store, e3d_store_memory *memory)
     colors row;
     for (int y = 0; y < memory->tile.height; y += axis) {
         find_colors(store, &memory->tile, 0, y, E3D_TILE / axis, &row);
-        if (axis > 1)
+        if (memory->sampled)
             fill_samples(&row, axis, y, &memory->samples);
         else
             encode(store, &row, E3D_TILE, memory->rgba + y * E3D_TILE);
@@ -76,10 +76,10 @@ void e3d_backdrop_batch(const e3d_store *store, const e3d_batch *batch, e3d_stor
         length = run_length(batch, i);
         int count = (x + length - 1) / axis - first + 1;
         find_colors(store, &memory->tile, x, at / E3D_TILE, count, &row);
-        if (axis == 1)
+        if (!memory->sampled)
             encode(store, &row, count, rgba);
         for (int k = 0; k < length; k++) {
-            if (axis == 1)
+            if (!memory->sampled)
                 memory->rgba[at + k] = rgba[k];
             else
                 put_sample(&row, (x + k) / axis - first, at + k, &memory->samples);

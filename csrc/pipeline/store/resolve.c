@@ -69,7 +69,7 @@ void e3d_resolve_begin(const e3d_store *store, e3d_store_memory *memory)
         e3d_backdrop_fill(store, memory);
         return;
     }
-    if (store->pass->frame->samples_axis > 1) {
+    if (memory->sampled) {
         fill_samples(store, &memory->samples);
         return;
     }
@@ -85,9 +85,9 @@ void e3d_resolve_again(const e3d_store *store, const e3d_tile *tile, e3d_store_m
 }
 
 /* A sample's colour, clamped, and whether it counts; or the pixel that it is. */
-static void set_sample(const e3d_store *store, e3d_store_memory *memory, int at, const float sample[4], uint32_t rgba)
+static void set_sample(e3d_store_memory *memory, int at, const float sample[4], uint32_t rgba)
 {
-    if (store->pass->frame->samples_axis == 1) {
+    if (!memory->sampled) {
         memory->rgba[at] = rgba;
         return;
     }
@@ -103,19 +103,19 @@ void e3d_resolve_hidden(const e3d_store *store, const e3d_batch *batch, e3d_stor
         return;
     }
     for (int i = 0; i < batch->count; i++)
-        set_sample(store, memory, batch->sample[i], store->background.sample, store->background.rgba);
+        set_sample(memory, batch->sample[i], store->background.sample, store->background.rgba);
 }
 
 void e3d_resolve_batch(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory)
 {
     const e3d_prepared *pass = store->pass;
-    if (pass->frame->samples_axis == 1)
+    if (!memory->sampled)
         pass->kernels->put(batch, e3d_plans(pass, E3D_PLAN_ENCODES_SRGB), memory->rgba);
     else
         pass->kernels->keep(batch, &memory->samples);
 }
 
-void e3d_resolve_overdraw(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory)
+void e3d_resolve_overdraw(const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory)
 {
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++) {
@@ -124,7 +124,7 @@ void e3d_resolve_overdraw(const e3d_store *store, const int32_t *counts, const e
                 continue;
             const uint8_t *c = E3D_OVERDRAW_RAMP[count < 15 ? count : 15];
             const float sample[4] = {c[0] * E3D_UNORM8, c[1] * E3D_UNORM8, c[2] * E3D_UNORM8, 1.0f};
-            set_sample(store, memory, at, sample,
+            set_sample(memory, at, sample,
                        c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | 0xFF000000u);
         }
 }
@@ -134,10 +134,10 @@ void e3d_resolve_wire(const e3d_store *store, const int32_t *counts, const e3d_t
     for (int y = 0; y < tile->height; y++)
         for (int x = 0; x < tile->width; x++)
             if (counts[y * E3D_TILE + x])
-                set_sample(store, memory, y * E3D_TILE + x, store->line.sample, store->line.rgba);
+                set_sample(memory, y * E3D_TILE + x, store->line.sample, store->line.rgba);
 }
 
-/* The pixels of several samples each, row by row, to where pixels of one sample are. */
+/* The pixels of one sample or several each, row by row, to where pixels of one sample are. */
 static void average(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory)
 {
     const e3d_prepared *pass = store->pass;
@@ -153,7 +153,7 @@ void e3d_resolve(const e3d_store *store, const e3d_visible_tile *visible, const 
     e3d_outputs_end(store, visible, tile, memory);
     if (!pass->targets->color)
         return;
-    if (pass->frame->samples_axis > 1)
+    if (memory->sampled)
         average(store, tile, memory);
     e3d_write_tile(pass, tile, pass->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
 }

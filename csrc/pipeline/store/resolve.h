@@ -20,7 +20,7 @@ void e3d_resolve_batch(const e3d_store *store, const e3d_batch *batch, e3d_store
 /* The batch's samples show the background again: forward shading may have drawn there before. */
 void e3d_resolve_hidden(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory);
 /* `counts`: of faces, or of edges, at each sample. */
-void e3d_resolve_overdraw(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory);
+void e3d_resolve_overdraw(const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory);
 void e3d_resolve_wire(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory);
 /* The tile's pixels, and what `visible` tells of depths, go to the targets. */
 void e3d_resolve(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory);

@@ -43,7 +43,8 @@ typedef struct e3d_store {
 typedef struct e3d_store_memory {
     e3d_tile tile;                             /* that is drawn */
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
-    e3d_samples samples;                       /* of several */
+    e3d_samples samples;                       /* of several, or with what is laid over them */
+    int sampled;                               /* whether the tile's colours go there */
     e3d_array words;                           /* int32_t or float: one output beside colour after the other */
 } e3d_store_memory;
 

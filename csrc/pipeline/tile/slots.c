@@ -18,6 +18,8 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/store/resolve.h"
+#include "pipeline/tile/alpha.h"
+#include "pipeline/tile/piece.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/tile.h"
 
@@ -31,32 +33,6 @@ void e3d_slots_free(e3d_slots_state *slots)
 {
     e3d_array_free(&slots->ids);
     e3d_array_free(&slots->orders);
-}
-
-/* ---- a record in a tile ---- */
-
-/* 0 if an edge rejects the whole tile. */
-static int prepare_piece(const e3d_viewport *viewport, const e3d_record *record, const e3d_tile *tile, uint32_t slot,
-                         e3d_piece *piece)
-{
-    for (int k = 0; k < 3; k++)
-        if (!e3d_piece_edge(record, k, tile->x, tile->y, piece))
-            return 0;
-    e3d_box box = e3d_sample_box(record->x, record->y, viewport);
-    piece->base_x = box.x0 - tile->x;
-    piece->base_y = box.y0 - tile->y;
-    piece->x0 = e3d_in_tile(box.x0 - tile->x);
-    piece->y0 = e3d_in_tile(box.y0 - tile->y);
-    piece->x1 = e3d_in_tile(box.x1 - tile->x);
-    piece->y1 = e3d_in_tile(box.y1 - tile->y);
-    piece->z0 = record->z0;
-    piece->gx = record->gx;
-    piece->gy = record->gy;
-    piece->zmin = record->zmin;
-    piece->zmax = record->zmax;
-    piece->slot = slot;
-    piece->order = record->order;
-    return 1;
 }
 
 /* ---- what is done with each record ---- */
@@ -86,7 +62,7 @@ static int visit_block(const e3d_tile_job *job, int which, const e3d_bin_block *
     for (uint32_t i = 0; i < block->count; i++) {
         const e3d_record *record = e3d_record_at(&job->in->bins->tables[which], block->id[i]);
         e3d_piece piece;
-        if (!prepare_piece(&job->in->pass->view->viewport, record, &job->tile, (uint32_t)slots->ids.count, &piece))
+        if (!e3d_piece_in_tile(&job->in->pass->view->viewport, record, &job->tile, (uint32_t)slots->ids.count, &piece))
             continue;
         if (!add_slot(slots, block->id[i], record->order) || !action(job, &piece))
             return 0;
@@ -232,9 +208,9 @@ int e3d_slots_mark(const e3d_tile_job *job)
         find_edge_limits(job); /* while the slots are the scene's */
     if (counts) {
         clear_marks(marks);
-        if (!visit_bins(job, E3D_SET_SCENE, act_count))
+        if (!visit_bins(job, E3D_SET_SCENE, act_count) || !e3d_alpha_count(job))
             return 0;
-        e3d_resolve_overdraw(job->in->shade->store, marks->count, &job->tile, &job->memory->pixels);
+        e3d_resolve_overdraw(marks->count, &job->tile, &job->memory->pixels);
     }
     if (edges) {
         clear_marks(marks);

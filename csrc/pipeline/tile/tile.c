@@ -20,6 +20,7 @@
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/alpha.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/spans.h"
 #include "pipeline/tile/tile.h"
@@ -53,6 +54,18 @@ static int shade_runs(const e3d_tile_job *job, int32_t count)
     return e3d_shade_runs(job->in->shade, &job->tile, count, &job->shades);
 }
 
+/* What a tile's records with alpha need: depths and IDs of all samples, and colours to lay others over. */
+static int has_alpha(const e3d_tile_job *job) { return job->masked || job->blended; }
+
+/* Slots become IDs, before anything else shows: samples of records with alpha keep these. */
+static void name_samples(const e3d_tile_job *job)
+{
+    int32_t *id = job->visible->id;
+    for (int i = 0; i < E3D_TILE_SAMPLES; i++)
+        if (id[i] >= 0)
+            id[i] = ((const int32_t *)job->memory->slots.ids.data)[id[i]];
+}
+
 /* Piece after piece, each with a slot of its own: forward shading, and where the last in order wins. */
 static int draw_pieces(const e3d_tile_job *job)
 {
@@ -61,14 +74,21 @@ static int draw_pieces(const e3d_tile_job *job)
     begin(job, 0);
     if (!e3d_slots_draw(job))
         return 0;
+    if (has_alpha(job))
+        name_samples(job);
+    if (!e3d_alpha_cut(job))
+        return 0;
     e3d_lap(memory, &memory->ns_raster);
     if (e3d_plans(job->in->pass, E3D_PLAN_SHADES) && !forward) {
         int gaps;
         int32_t count = find_runs(job, &gaps);
-        e3d_slots_to_ids(&memory->slots, memory->shade.runs.rows, count);
+        if (!has_alpha(job))
+            e3d_slots_to_ids(&memory->slots, memory->shade.runs.rows, count);
         if (!shade_runs(job, count))
             return 0;
     }
+    if (!e3d_alpha_blend(job))
+        return 0;
     e3d_lap(memory, &memory->ns_shade);
     return 1;
 }
@@ -101,7 +121,8 @@ enum { FEW_PIECES = 64, MANY_RECORDS = 768, MOSTLY = 4 }; /* in a tile */
 /* Whether samples are found where pieces lie: the bins must hold all of them, and few records be wide or hidden. */
 static int shows_pieces(const e3d_tile_job *job)
 {
-    if (!e3d_plans(job->in->pass, E3D_PLAN_LISTS) || job->state == E3D_TILE_KEPT || job->state == E3D_TILE_DRAWN)
+    if (!e3d_plans(job->in->pass, E3D_PLAN_LISTS) || job->state == E3D_TILE_KEPT || job->state == E3D_TILE_DRAWN ||
+        has_alpha(job))
         return 0;
     e3d_entries in = e3d_count_entries(job->in->bins, job->number);
     uint32_t most = job->out->kept ? in.fragments / MOSTLY : MANY_RECORDS; /* kept: where things hide each other */
@@ -159,21 +180,24 @@ static void raster_visible(const e3d_tile_job *job)
     e3d_visible_draw(kernels, bins, job->number, job->state == E3D_TILE_DRAWN, job->visible);
     if (job->in->finishes)
         e3d_note_depths(kernels, job->visible, &job->out->depths[job->number]);
-    if (e3d_plans(job->in->pass, E3D_PLAN_DEPTHS))
+    if (e3d_plans(job->in->pass, E3D_PLAN_DEPTHS) || has_alpha(job))
         kernels->raster_settle(job->visible, &bins->tables[E3D_SET_SCENE], 1);
 }
 
 static int draw_visible(const e3d_tile_job *job)
 {
     e3d_tile_memory *memory = job->memory;
-    int spans = shows_spans(job), shaded = 1;
+    int spans = !has_alpha(job) && shows_spans(job), shaded = 1;
     if (!spans)
         raster_visible(job);
+    if (!e3d_alpha_cut(job))
+        return 0;
     e3d_lap(memory, &memory->ns_raster);
     if (!e3d_plans(job->in->pass, E3D_PLAN_SHADES))
         begin(job, 0);
     else
         shaded = spans ? shade_spans(job) : shade_visible(job);
+    shaded = shaded && e3d_alpha_blend(job);
     e3d_lap(memory, &memory->ns_shade);
     return shaded;
 }
@@ -184,6 +208,7 @@ static int draw_job(const e3d_tile_job *job)
     int drawn = e3d_plans(job->in->pass, E3D_PLAN_SLOTS) ? draw_pieces(job) : draw_visible(job);
     if (!drawn || !e3d_slots_mark(job))
         return 0;
+    e3d_alpha_front(job);
     e3d_resolve(job->in->shade->store, job->visible, &job->tile, &memory->pixels);
     e3d_lap(memory, &memory->ns_resolve);
     return 1;
@@ -198,6 +223,7 @@ static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory
     const e3d_tile_state state = e3d_tile_state_of(progress);
     if (state != E3D_TILE_KEPT && !e3d_has_bins(in->bins, number))
         return 1; /* it is cleared, or drawn as it should be */
+    const int blended = e3d_has_alpha(in->bins, E3D_ALPHA_BLENDED, number);
     const e3d_tile_job job = {.in = in,
                               .out = out,
                               .memory = memory,
@@ -205,7 +231,10 @@ static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory
                               .visible = state == E3D_TILE_KEPT ? &out->kept[number] : &memory->visible,
                               .tile = e3d_tile_at(in->pass->view, number),
                               .number = number,
-                              .state = state};
+                              .state = state,
+                              .masked = e3d_has_alpha(in->bins, E3D_ALPHA_MASKED, number),
+                              .blended = blended};
+    memory->pixels.sampled = in->pass->frame->samples_axis > 1 || blended;
     int64_t before = memory->shade.shaded;
     memory->pixels.tile = job.tile;
     if (!draw_job(&job))

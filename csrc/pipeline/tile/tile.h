@@ -17,6 +17,7 @@
 #include "pipeline/store/queue.h"
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/alpha.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/spans.h"
 
@@ -28,6 +29,7 @@ typedef struct e3d_tile_memory {
     e3d_shade_memory shade;
     e3d_spans_memory spans;
     e3d_slots_state slots;
+    e3d_alpha_memory alpha;
     e3d_blank_state blank;
     int64_t ns_raster, ns_shade, ns_resolve; /* of all tiles */
     int64_t lap;                             /* when the last stage of a tile ended (e3d_lap) */
@@ -73,6 +75,7 @@ typedef struct e3d_tile_job {
     e3d_tile tile;
     int64_t number;
     e3d_tile_state state; /* before this */
+    int masked, blended;  /* whether it has such records */
 } e3d_tile_job;
 
 /* Draws all tiles that something is in, and clears the others, until memory is out or the poll says stop. */

@@ -1,0 +1,31 @@
+/* Which records have alpha: those of materials that are masked or blended. */
+#ifndef E3D_ALPHA_H
+#define E3D_ALPHA_H
+
+#include <stdint.h>
+
+#include "e3d.h"
+#include "pipeline/geometry/records.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/pass/prepared.h"
+
+/* The list that records of a material go to, or E3D_ALPHA_NONE, or E3D_ALPHA_UNSEEN (R82). */
+static inline int e3d_alpha_kind(const e3d_prepared *pass, const e3d_material *material)
+{
+    if (material->alpha_mode == E3D_ALPHA_OPAQUE)
+        return E3D_ALPHA_NONE;
+    if (material->alpha_mode == E3D_ALPHA_MASK || e3d_plans(pass, E3D_PLAN_SOLID))
+        return E3D_ALPHA_MASKED;
+    return e3d_plans(pass, E3D_PLAN_BLENDS) ? E3D_ALPHA_BLENDED : E3D_ALPHA_UNSEEN;
+}
+
+/* The same of a primitive of a draw, by its number in its instance. */
+static inline int e3d_alpha_kind_of(const e3d_prepared *pass, const e3d_draw_state *draw, int32_t primitive)
+{
+    const e3d_mesh_desc *mesh = &draw->mesh->desc;
+    int32_t id = mesh->material_ids && primitive < mesh->faces_count ? mesh->material_ids[primitive] : 0;
+    return draw->any_alpha ? e3d_alpha_kind(pass, &pass->frame->materials[draw->draw->material_base + id]) : E3D_ALPHA_NONE;
+}
+
+#endif

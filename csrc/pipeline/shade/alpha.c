@@ -1,0 +1,83 @@
+/* shade: the alphas of samples (R80), which are tested, kept with their colours to be sorted, or laid over the tile at once (R84). */
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "kernels/types/shading.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/shade/alpha.h"
+#include "pipeline/shade/maps.h"
+#include "pipeline/shade/shade.h"
+#include "pipeline/shade/surface.h"
+
+float e3d_alpha_cutoff(const e3d_material *material)
+{
+    return material->alpha_mode == E3D_ALPHA_MASK ? material->alpha_cutoff : E3D_LEAST_ALPHA;
+}
+
+int e3d_alpha_wanted(const e3d_bucket *bucket)
+{
+    int wanted = bucket->by_vertex || bucket->by_instance ? E3D_WANT_ALPHA | E3D_WANT_SURFACE : 0;
+    if (bucket->by_vertex)
+        wanted |= E3D_WANT_WEIGHTS;
+    if (bucket->mapped)
+        return wanted | E3D_WANT_WEIGHTS | E3D_WANT_SURFACE;
+    if (bucket->textured) {
+        wanted |= E3D_WANT_UV | E3D_WANT_SURFACE;
+        if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
+            wanted |= E3D_WANT_LEVEL;
+    }
+    return wanted;
+}
+
+/* The place in the list of the batch's next sample, which is of that piece: those of a piece follow each other. */
+static int32_t next_place(const e3d_visible_primitive *pieces, int32_t piece, e3d_alpha_shading *alpha)
+{
+    if (piece != alpha->piece) {
+        alpha->piece = piece;
+        alpha->at = pieces[piece].first;
+    }
+    return alpha->at++;
+}
+
+static float clamped(float v)
+{
+    v = v > 0.0f ? v : 0.0f;
+    return v < 1.0f ? v : 1.0f;
+}
+
+static void test(e3d_shade_memory *memory, e3d_alpha_shading *alpha)
+{
+    const e3d_batch *batch = &memory->batch;
+    for (int i = 0; i < batch->count; i++) {
+        int32_t piece = memory->surfaces.piece[batch->surface[i]];
+        alpha->alpha[next_place(memory->pieces.data, piece, alpha)] = batch->alpha[i];
+    }
+}
+
+static void keep(e3d_shade_memory *memory, float sign, e3d_alpha_shading *alpha)
+{
+    const e3d_batch *batch = &memory->batch;
+    for (int i = 0; i < batch->count; i++) {
+        int32_t piece = memory->surfaces.piece[batch->surface[i]];
+        float *color = alpha->color[next_place(memory->pieces.data, piece, alpha)];
+        for (int k = 0; k < 3; k++)
+            color[k] = clamped(batch->color[k][i]);
+        color[3] = sign * batch->alpha[i];
+    }
+}
+
+void e3d_alpha_batch(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
+{
+    const e3d_material *m = bucket->material;
+    e3d_batch *batch = &out->memory->batch;
+    int hidden = bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY;
+    const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &out->memory->maps) : (e3d_varying){NULL, m->alpha};
+    const e3d_texture_view *texture = bucket->textured && !bucket->mapped ? e3d_texture_get_view(m->texture.texture) : NULL;
+    pass->kernels->alpha(batch, &out->memory->surfaces, texture, &base, bucket->by_vertex, bucket->by_instance);
+    if (out->alpha->use == E3D_ALPHA_TEST)
+        test(out->memory, out->alpha);
+    else if (out->alpha->use == E3D_ALPHA_KEEP)
+        keep(out->memory, hidden ? -1.0f : 1.0f, out->alpha);
+    else if (!hidden)
+        pass->kernels->lay(batch, &out->pixels->samples);
+}

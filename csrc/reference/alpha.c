@@ -1,0 +1,125 @@
+/* Alpha: what is cut out, and what is laid over what is behind it.
+ *
+ * In:  pieces whose materials are masked or blended, and the samples that they cover.
+ * Out: whether they show there; of blended ones, fragments sorted by sample, and their colours laid over the sample's.
+ * Rules: R81 (coverage), R82 (what is kept), R83 (order), R84 (composition). The alpha of a surface is R80, in surface.c.
+ */
+#include <stdlib.h>
+
+#include "reference/arithmetic.h"
+#include "reference/stages.h"
+
+static e3d_alpha_mode alpha_mode_of(const ref_piece *piece)
+{
+    const e3d_material *material = piece->primitive.material;
+    return material ? material->alpha_mode : E3D_ALPHA_OPAQUE; /* a wireframe's edge has none */
+}
+
+int ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y)
+{
+    e3d_alpha_mode mode = alpha_mode_of(piece);
+    if (mode == E3D_ALPHA_OPAQUE)
+        return 1;
+    ref_surface surface;
+    ref_surface_at(scene, piece, x, y, &surface);
+    return surface.alpha >= (mode == E3D_ALPHA_MASK ? piece->primitive.material->alpha_cutoff : E3D_LEAST_ALPHA);
+}
+
+int ref_is_blended(const e3d_frame *frame, const ref_piece *piece)
+{
+    return alpha_mode_of(piece) == E3D_ALPHA_BLEND && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
+}
+
+e3d_status ref_add_fragment(ref_band *band, size_t sample, float depth, int64_t piece)
+{
+    if (band->fragment_count == band->fragment_capacity) {
+        int64_t capacity = band->fragment_capacity ? 2 * band->fragment_capacity : 1024;
+        ref_fragment *fragments = realloc(band->fragments, (size_t)capacity * sizeof *fragments);
+        if (!fragments)
+            return E3D_OUT_OF_MEMORY;
+        band->fragments = fragments;
+        band->fragment_capacity = capacity;
+    }
+    band->fragments[band->fragment_count++] = (ref_fragment){sample, depth, piece};
+    return E3D_OK;
+}
+
+/* Pieces are numbered in order, or, where the last one shows, in the order of drawing. */
+static int is_in_front(const ref_scene *scene, const ref_band *band, const ref_fragment *fragment)
+{
+    int64_t kept = band->piece[fragment->sample];
+    float depth = band->depth[fragment->sample];
+    if (kept < 0)
+        return 1;
+    if (scene->frame->hidden != E3D_HIDDEN_ZBUFFER)
+        return fragment->piece > kept;
+    return fragment->depth < depth || (fragment->depth == depth && fragment->piece < kept);
+}
+
+/* Of one sample, the later piece first: drawing order, turned round. */
+static int later_first(const void *left, const void *right)
+{
+    const ref_fragment *a = left, *b = right;
+    if (a->sample != b->sample)
+        return a->sample < b->sample ? -1 : 1;
+    return a->piece > b->piece ? -1 : 1;
+}
+
+static int earlier_first(const void *left, const void *right)
+{
+    const ref_fragment *a = left, *b = right;
+    if (a->sample != b->sample)
+        return a->sample < b->sample ? -1 : 1;
+    return a->piece < b->piece ? -1 : 1;
+}
+
+static int farther_first(const void *left, const void *right)
+{
+    const ref_fragment *a = left, *b = right;
+    if (a->sample == b->sample && a->depth != b->depth)
+        return a->depth > b->depth ? -1 : 1;
+    return later_first(left, right);
+}
+
+/* Where the fragments of each sample start. */
+static void index_fragments(ref_band *band)
+{
+    size_t samples = (size_t)band->rows * (size_t)band->width;
+    int64_t at = 0;
+    for (size_t sample = 0; sample <= samples; sample++) {
+        while (at < band->fragment_count && band->fragments[at].sample < sample)
+            at++;
+        band->first_fragment[sample] = at;
+    }
+}
+
+void ref_sort_fragments(const ref_scene *scene, ref_band *band)
+{
+    int64_t left = 0;
+    for (int64_t i = 0; i < band->fragment_count; i++)
+        if (is_in_front(scene, band, &band->fragments[i]))
+            band->fragments[left++] = band->fragments[i];
+    band->fragment_count = left;
+    if (left > 1)
+        qsort(band->fragments, (size_t)left, sizeof *band->fragments,
+              scene->frame->hidden == E3D_HIDDEN_ZBUFFER ? farther_first : earlier_first);
+    index_fragments(band);
+}
+
+void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float color[3], float *alpha)
+{
+    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++) {
+        const ref_piece *piece = &scene->pieces.items[band->fragments[i].piece];
+        ref_surface surface;
+        float shaded[3];
+        if (scene->frame->wireframe == E3D_WIRE_ONLY && piece->primitive.kind == REF_FACE)
+            continue;
+        ref_surface_at(scene, piece, x, y, &surface);
+        ref_shade(scene->frame, &surface, shaded);
+        for (int c = 0; c < 3; c++)
+            color[c] = ref_clamp(shaded[c], 0.0f, 1.0f) * surface.alpha + color[c] * (1.0f - surface.alpha);
+        *alpha = *alpha + surface.alpha * (1.0f - *alpha);
+        scene->stats.pixels_shaded++;
+    }
+}

@@ -27,6 +27,14 @@ from .walking import GroundController, controller
 SAMPLES = get_args(Samples)
 STATISTICS = (None, "short", "long")
 LINE_WIDTHS = (1.0, 16.0)
+#: What each way of culling leaves out.
+LEFT_OUT = {
+    "all": "what is outside the view, faces away or is hidden is left out",
+    "tree": "nodes outside the view are left out, found by a tree of boxes",
+    "frustum": "nodes outside the view are left out, their boxes tested one by one",
+    "none": "nothing is left out",
+    "always": "as all, but hidden things are looked for in every frame",
+}
 ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
 
@@ -214,7 +222,7 @@ def toggle_split(viewer, step: int) -> None:
 
 
 def cycle_debug(viewer, step: int) -> None:
-    """Next of what culling works with: nothing, boxes, the tree of boxes, the frustum from here."""
+    """Next of what culling works with: boxes, trees of them, the frustum from here, nothing."""
     drawing = following(viewer.view_renderer.debug, DEBUG_DRAWINGS, step)
     viewer.view_renderer.choose_debug(drawing, viewer.view)
     viewer.say(f"drawn besides: {drawing or 'nothing'}")
@@ -231,7 +239,7 @@ def cycle_culling(viewer, step: int) -> None:
     """Next of what is left out before it is drawn; the picture is the same."""
     appearance = viewer.view_renderer.appearance
     appearance.culling = following(appearance.culling, CULLINGS, step)
-    viewer.say(f"culling: {appearance.culling}")
+    viewer.say(f"culling {appearance.culling}: {LEFT_OUT[appearance.culling]}")
 
 
 def freeze_culling(viewer, step: int) -> None:

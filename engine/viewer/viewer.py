@@ -214,6 +214,7 @@ class Viewer:
             view_renderer.samples,
             view_renderer.stats,
             f"camera at {eye}",
+            view_renderer.appearance.culling,
         )
 
     def _update_title(self) -> None:

@@ -15,9 +15,10 @@ from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
 from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
 from .debug_lines import DEBUG_DRAWINGS
+from .file_dialog import FolderPanel, RecentPanel
 from .fps import FpsController
 from .ground import told
-from .panels import MaterialPanel, ObjectPanel, RecentPanel
+from .panels import MaterialPanel, ObjectPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
 from .theme import THEMES
@@ -27,6 +28,8 @@ from .walking import GroundController, controller
 SAMPLES = get_args(Samples)
 STATISTICS = (None, "short", "long")
 LINE_WIDTHS = (1.0, 16.0)
+#: How far a key turns the camera.
+ORBIT_STEP = math.radians(7.5)
 #: What each way of culling leaves out.
 LEFT_OUT = {
     "all": "what is outside the view, faces away or is hidden is left out",
@@ -153,6 +156,31 @@ def view_top(viewer, step: int) -> None:
 def view_isometric(viewer, step: int) -> None:
     """Look along the diagonal of a cube."""
     _look_along(viewer, QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
+
+
+def _orbit(viewer, right: int, up: int) -> None:
+    if viewer.walker is None:
+        viewer.orbit.turn(right * ORBIT_STEP, up * ORBIT_STEP)
+
+
+def orbit_left(viewer, step: int) -> None:
+    """Turn the camera to the left, round what it looks at."""
+    _orbit(viewer, -1, 0)
+
+
+def orbit_right(viewer, step: int) -> None:
+    """Turn the camera to the right."""
+    _orbit(viewer, 1, 0)
+
+
+def orbit_up(viewer, step: int) -> None:
+    """Turn the camera upwards."""
+    _orbit(viewer, 0, 1)
+
+
+def orbit_down(viewer, step: int) -> None:
+    """Turn the camera downwards."""
+    _orbit(viewer, 0, -1)
 
 
 def _turn_up(viewer, up: str) -> None:
@@ -282,9 +310,14 @@ def cycle_lists(viewer, step: int) -> None:
     viewer.panel = None if panel is None else panel(viewer)
 
 
-def toggle_recent_files(viewer, step: int) -> None:
-    """The files that were opened last, or no list."""
-    viewer.panel = None if isinstance(viewer.panel, RecentPanel) else RecentPanel(viewer)
+def _toggle_dialog(viewer, panel: type) -> None:
+    viewer.panel = None if isinstance(viewer.panel, panel) else panel(viewer)
+    viewer.held_positions.clear()
+
+
+def open_file(viewer, step: int) -> None:
+    """The dialog that opens a file, or none; with Shift the files that were opened last."""
+    _toggle_dialog(viewer, FolderPanel if step > 0 else RecentPanel)
 
 
 def next_file(viewer, step: int) -> None:
@@ -295,6 +328,11 @@ def next_file(viewer, step: int) -> None:
 def previous_file(viewer, step: int) -> None:
     """Show the model before in the folder."""
     viewer.opening.step(-1)
+
+
+def load_again(viewer, step: int) -> None:
+    """Show the file as it is now."""
+    viewer.opening.load_again()
 
 
 def toggle_metadata(viewer, step: int) -> None:

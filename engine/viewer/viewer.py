@@ -19,7 +19,7 @@ from . import actions as viewer_actions
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
-from .keymap import ORBIT_ARROWS, action_for
+from .keymap import REPEATED, action_for
 from .messages import Messages
 from .model_files import ModelFiles
 from .mouse import Mouse
@@ -36,7 +36,6 @@ IDLE_SECONDS = 0.25
 TITLE_SECONDS = 0.5
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
-ARROW_RADIANS = math.radians(7.5)
 
 
 class Viewer:
@@ -282,15 +281,12 @@ class Viewer:
 
     def _key_down(self, event) -> None:
         self.fast = event.shift
+        if self.panel is not None and self.panel.key(event):
+            return
         if self.walker is not None and self._walk_key(event):
             return
-        if event.position in ORBIT_ARROWS and self.walker is None and not event.control:
-            right, up = ORBIT_ARROWS[event.position]
-            self.orbit.turn(right * ARROW_RADIANS, up * ARROW_RADIANS)
-            self.changed = True
-            return
-        action = action_for(event.key, event.position, event.control)
-        if action is not None and not event.repeat:
+        action = action_for(event.key, event.position, event.control, event.shift)
+        if action is not None and (not event.repeat or action in REPEATED):
             getattr(viewer_actions, action)(self, -1 if event.shift else 1)
             self.changed = True
 
@@ -310,6 +306,10 @@ class Viewer:
             self._unfreeze_culling()
         if event.key.endswith("Shift"):
             self.fast = False
+
+    def _typed(self, event) -> None:
+        if self.panel is not None:
+            self.panel.type(event.text)
 
     def _redraw(self, event) -> None:
         self.changed = True
@@ -333,6 +333,7 @@ class Viewer:
 _HANDLERS = {
     events.KeyDown: Viewer._key_down,
     events.KeyUp: Viewer._key_up,
+    events.TextEntered: Viewer._typed,
     events.MouseButton: lambda viewer, event: viewer.mouse.button(event),
     events.MouseMotion: lambda viewer, event: viewer.mouse.motion(event),
     events.Wheel: lambda viewer, event: viewer.mouse.wheel(event),

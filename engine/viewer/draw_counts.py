@@ -31,13 +31,15 @@ def count_table(stats: dict) -> list[str]:
 
 def told_tests(stats: dict, culling: str) -> str:
     """Say by how many tests the nodes in view were found."""
+    tested = stats["boxes_tested"]
+    boxes = f"{tested:,} box{'' if tested == 1 else 'es'} tested"
     how = {
         "none": "nothing is left out: no box was tested",
-        "frustum": "{} boxes tested, one by one",
-        "tree": "{} boxes tested, by the tree",
+        "frustum": f"{boxes}, one by one",
+        "tree": f"{boxes}, by the tree",
     }
-    text = how.get(culling, how["tree"] + "; then parts of meshes, and what is hidden")
-    return f"culling {culling}: {text.format(format(stats['boxes_tested'], ','))}"
+    text = how.get(culling, f"{how['tree']}; then parts of meshes, and what is hidden")
+    return f"culling {culling}: {text}"
 
 
 def count_line(stats: dict) -> str:

@@ -68,7 +68,7 @@ CAPTIONS = {
     "edge functions: a colour for each edge; all three are positive inside": "fonctions d'arête : "
     "une couleur par arête ; à l'intérieur, toutes trois sont positives",
     "two triangles without the top-left rule: red pixels are drawn twice": "deux triangles sans la "
-    "règle haut-gauche : les pixels rouges sont dessinés deux fois",
+    "règle du bord haut-gauche : les pixels rouges sont dessinés deux fois",
     "with the rule: each pixel once, no holes": "avec la règle : chaque pixel une fois, aucun trou",
     "the first {} triangles of the file": "les {} premiers triangles du fichier",
     "the engine's mode 'random': only what is in front shows": "le mode 'random' du moteur : seul "
@@ -100,9 +100,9 @@ CAPTIONS = {
     "the nearest texel of each pixel": "le texel le plus proche pour chaque pixel",
     "times the light": "multiplié par la lumière",
     "{} at a time: {} steps, {} pixels in vain": "par {} : {} pas, {} pixels pour rien",
-    "the engine, one lane and one thread": "le moteur, une voie et un thread",
+    "the engine, one lane and one thread": "le moteur, une voie et un fil d'exécution",
     "the engine, all lanes and threads: {} pixels differ": "le moteur, toutes les voies et tous "
-    "les threads : {} pixels diffèrent",
+    "les fils d'exécution : {} pixels diffèrent",
     "{} multiplications: {} pixels differ from the first": "{} multiplications : {} pixels "
     "diffèrent de la première image",
     "{} vertices: each bit is a coordinate": "{} sommets : chaque bit est une coordonnée",
@@ -155,11 +155,11 @@ CAPTIONS = {
     "chunks of {} x {} by the corners: {} of {}, {} triangles; {} pixels lost": "blocs de "
     "{} x {}, d'après les coins : {} sur {}, {} triangles ; {} pixels perdus",
     "chunks of {} x {} by the p-vertex: {} of {}, {} triangles; {} pixels lost": "blocs de "
-    "{} x {}, d'après le p-vertex : {} sur {}, {} triangles ; {} pixels perdus",
+    "{} x {}, d'après le p-sommet : {} sur {}, {} triangles ; {} pixels perdus",
     "the engine, too, finds {} of {} chunks in the frustum": "le moteur aussi trouve {} blocs sur "
     "{} dans la pyramide de vue",
-    "{} balls in an octree, from above": "{} balles dans un octree, vues de dessus",
-    "time {}: {} seen by {} tests, the same as by {}; {} changes of cell": "instant {} : {} balles "
+    "{} balls in an octree, from above": "{} boules dans un octree, vues de dessus",
+    "time {}: {} seen by {} tests, the same as by {}; {} changes of cell": "instant {} : {} boules "
     "vues en {} tests, les mêmes qu'en {} ; {} changements de cellule",
     "day {}: {} products of matrices; the engine's poses agree": "jour {} : {} produits de "
     "matrices ; les poses du moteur sont les mêmes",

@@ -312,6 +312,7 @@ class Viewer:
             self.panel.type(event.text)
 
     def _redraw(self, event) -> None:
+        self.view_renderer.screen_scale = self.window.scale  # it may be on another screen now
         self.changed = True
 
     def _unfreeze_culling(self) -> None:

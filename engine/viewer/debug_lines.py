@@ -19,8 +19,8 @@ BOX = (90, 220, 255, 255)
 FRUSTUM = (255, 220, 60, 255)
 #: Boxes of branches: by their level in the tree, from the leaves up, over and over.
 LEVELS = ((255, 120, 90, 255), (255, 190, 80, 255), (170, 230, 90, 255), (200, 140, 255, 255))
-#: More boxes than these would be a blot.
-MOST_BOXES = 20_000
+#: More boxes than these would be a blot, and more that lie inside each other.
+MOST_BOXES, MOST_IN_TREES = 20_000, 4_000
 #: Nearer than this share of the farthest corner a line is cut: it goes behind the camera.
 NEAREST = 1e-4
 #: The edges of a box, by the bits of its corners.
@@ -53,7 +53,7 @@ def tree_lines(scene: Scene) -> list[Lines]:
         if isinstance(node.object, InstancedMesh) and len(node.object) >= MANY and node.shown:
             levels = node.object._tree()[0].boxes_by_level()
             trees.append(([_corners(level) for level in levels], node.world_pose))
-    lines, room = [], MOST_BOXES
+    lines, room = [], MOST_IN_TREES
     for levels, pose in trees:
         for number, boxes in reversed(list(enumerate(levels))):
             room -= len(boxes)

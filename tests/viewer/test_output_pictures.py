@@ -150,7 +150,7 @@ def test_the_tree_of_many_instances_turns_with_their_node(monkeypatch):
     for line in lines:
         low, high = line.segments.min(axis=(0, 1)), line.segments.max(axis=(0, 1))
         assert (low > scene.bounds[0] - 1e-3).all() and (high < scene.bounds[1] + 1e-3).all()
-    monkeypatch.setattr("engine3d.viewer.debug_lines.MOST_BOXES", 200)
+    monkeypatch.setattr("engine3d.viewer.debug_lines.MOST_IN_TREES", 200)
     assert [len(line.segments) // 12 for line in tree_lines(scene)] == counts[2:]
 
 

@@ -81,9 +81,9 @@ class DrawList:
         normals: str,
         headlight,
         frustum: np.ndarray | None,
-        flat: bool,
         marks: float,
         batching: bool,
+        flat: bool = False,
     ) -> None:
         """Make the native list draw ``scene``.
 
@@ -98,12 +98,12 @@ class DrawList:
             Colour and direction towards the light, for a scene that has no light.
         frustum : (4, 4) float64 or None
             clip_from_world of a camera: nodes outside of what it shows are left out.
-        flat : bool
-            They are found one by one, without the trees of boxes.
         marks : float
             How far lines and points may reach beyond where they are, as a share of half the image.
         batching : bool
             Nodes of one mesh are drawn as one.
+        flat : bool
+            What is outside of the frustum is found box by box, without the trees of boxes.
         """
         scene._update(self._threads)
         if self._needs != needs or self._normals != normals or not self._lists(scene):

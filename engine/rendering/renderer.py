@@ -336,9 +336,9 @@ class Renderer(Closed):
                 options.normals,
                 headlight,
                 None if options.culling == "none" else frustum,
-                options.culling == "frustum",
                 frame_options.mark_size / min(self._width, self._height),
                 options.batching,
+                options.culling == "frustum",
             )
             near, far = 0.0, 1.0
             if options.mode == "depth":

@@ -76,7 +76,7 @@ def measure(side, rounds):
         scene.raycast_many(origins, middle + 0.01 - origins)
 
     def select(view):
-        return lambda number: scene._arrays.select(view, 1.0, bits)
+        return lambda number: scene._arrays.select(view, 1.0, False, bits)
 
     renderer = e3d.Renderer(64, 36)
 

@@ -30,8 +30,9 @@ TriangleAlgorithm = Literal["edge", "scanline"]
 
 _TAB_COLUMNS = 4
 _MAX_TEXT_SCALE = 4096
-# The codes of the font's characters, and of the hollow box that stands for all others.
-_FONT_CODES = frozenset(range(32, 127)) | {ord("\n")}
+# The font's codes of characters, and that of the hollow box which stands for all others.
+_FONT_CODES = {code: code for code in (ord("\n"), *range(32, 127))}
+_FONT_CODES |= {ord(letter): code for code, letter in enumerate("àâçèéêëîïôùûœÀÇÉ", 128)}
 _REPLACEMENT_CODE = 127
 
 
@@ -315,8 +316,8 @@ class Canvas:
         x, y : float
             The top left corner of the first cell, in pixels.
         string : str
-            ASCII is drawn, ``\\n`` starts a new line, a tab goes to the next multiple of four
-            columns, and everything else shows as a hollow box.
+            ASCII and the letters àâçèéêëîïôùûœÀÇÉ are drawn, ``\\n`` starts a new line, a tab goes
+            to the next multiple of four columns, and everything else shows as a hollow box.
         color : (r, g, b) or (r, g, b, a)
             Integers 0 to 255.
         scale : int, optional
@@ -444,6 +445,7 @@ def _codes(string: str) -> bytes:
     characters = string.expandtabs(_TAB_COLUMNS).encode("utf-32-le", "surrogatepass")
     codes = np.frombuffer(characters, "<u4")
     if codes.size and (codes.max() > 126 or codes.min() < 32):
-        known = np.isin(codes, tuple(_FONT_CODES))
-        codes = np.where(known, codes, _REPLACEMENT_CODE)
+        unique, places = np.unique(codes, return_inverse=True)
+        known = [_FONT_CODES.get(code, _REPLACEMENT_CODE) for code in unique.tolist()]
+        codes = np.array(known)[places]
     return codes.astype(np.uint8).tobytes()

@@ -1,7 +1,8 @@
-/* The built-in font: ASCII 32 ... 126 in cells of 8 x 14 pixels, drawn for this project.
+/* The built-in font: ASCII 32 ... 126 and the letters of French in cells of 8 x 14 pixels, drawn for this project.
  *
  * In:  a character code and a row of its cell.
- * Out: the eight pixels of that row. Codes that the font lacks show the last glyph, a hollow box.
+ * Out: the eight pixels of that row. Codes that the font lacks show the glyph of 127, a hollow box. From 128 on
+ *      come the letters that ASCII lacks, in the order of the sheet.
  *
  * The sheet is its own source: a band holds eight glyphs side by side, in the order of their codes, a
  * blank between them. Stems are two pixels wide and the body of a glyph is six, so that one pixel of
@@ -12,8 +13,9 @@
 
 #define FIRST_CODE 32
 #define REPLACEMENT_CODE 127
+#define LAST_CODE 143
 #define GLYPHS_PER_BAND 8
-#define BAND_COUNT ((REPLACEMENT_CODE + 1 - FIRST_CODE) / GLYPHS_PER_BAND)
+#define BAND_COUNT ((LAST_CODE + 1 - FIRST_CODE) / GLYPHS_PER_BAND)
 #define CELL_PITCH (E3D_FONT_WIDTH + 1) /* with the blank between two glyphs */
 
 static const char sheet[BAND_COUNT][E3D_FONT_HEIGHT][GLYPHS_PER_BAND * CELL_PITCH] = {
@@ -209,11 +211,43 @@ static const char sheet[BAND_COUNT][E3D_FONT_HEIGHT][GLYPHS_PER_BAND * CELL_PITC
         "........ ....##.. ........ ....###. ...##... .###.... ........ ........",
         "........ .####... ........ ........ ........ ........ ........ ........",
     },
+    { /* a grave  a circ.  c cedill e grave  e acute  e circ.  e diaer. i circ. */
+        "........ ........ ........ ........ ........ ........ ........ ........",
+        "........ ........ ........ ........ ........ ........ ........ ........",
+        "..##.... ...##... ........ ..##.... ....##.. ...##... ........ ...##...",
+        "...##... .##..##. ........ ...##... ...##... .##..##. .##..##. .##..##.",
+        "........ ........ ........ ........ ........ ........ ........ ........",
+        "..####.. ..####.. ..####.. ..####.. ..####.. ..####.. ..####.. ..###...",
+        ".....##. .....##. .##..##. .##..##. .##..##. .##..##. .##..##. ...##...",
+        "..#####. ..#####. .##..... .######. .######. .######. .######. ...##...",
+        ".##..##. .##..##. .##..... .##..... .##..... .##..... .##..... ...##...",
+        ".##..##. .##..##. .##..##. .##..##. .##..##. .##..##. .##..##. ...##...",
+        "..#####. ..#####. ..####.. ..####.. ..####.. ..####.. ..####.. ..####..",
+        "........ ........ ...##... ........ ........ ........ ........ ........",
+        "........ ........ ..##.... ........ ........ ........ ........ ........",
+        "........ ........ ........ ........ ........ ........ ........ ........",
+    },
+    { /* i diaer. o circ.  u grave  u circ.  oe       A grave  C cedill E acute */
+        "........ ........ ........ ........ ........ ..##.... ........ ....##..",
+        "........ ........ ........ ........ ........ ...##... ........ ...##...",
+        "........ ...##... ..##.... ...##... ........ ...##... ..####.. .######.",
+        ".##..##. .##..##. ...##... .##..##. ........ ..####.. .##..##. .##.....",
+        "........ ........ ........ ........ ........ .##..##. .##..... .##.....",
+        "..###... ..####.. .##..##. .##..##. .##.##.. .##..##. .##..... .##.....",
+        "...##... .##..##. .##..##. .##..##. ##.##.#. .##..##. .##..... .#####..",
+        "...##... .##..##. .##..##. .##..##. ##.####. .######. .##..... .##.....",
+        "...##... .##..##. .##..##. .##..##. ##.##... .##..##. .##..... .##.....",
+        "...##... .##..##. .##..##. .##..##. ##.##.#. .##..##. .##..##. .##.....",
+        "..####.. ..####.. ..#####. ..#####. .##.##.. .##..##. ..####.. .######.",
+        "........ ........ ........ ........ ........ ........ ...##... ........",
+        "........ ........ ........ ........ ........ ........ ..##.... ........",
+        "........ ........ ........ ........ ........ ........ ........ ........",
+    },
 };
 
 const char *e3d_font_row(uint8_t code, int32_t row)
 {
-    if (code < FIRST_CODE || code > REPLACEMENT_CODE) {
+    if (code < FIRST_CODE || code > LAST_CODE) {
         code = REPLACEMENT_CODE;
     }
     const int32_t glyph = code - FIRST_CODE;

@@ -1,6 +1,6 @@
 /* Text in the built-in bitmap font.
  *
- * In:  ASCII codes, a position, an integer scale.
+ * In:  codes of the font, a position, an integer scale.
  * Out: the font's pixels as squares of scale x scale pixels, those that touch in a row drawn as one box;
  *      no pixel is drawn twice, so that translucent text is even.
  */

@@ -129,7 +129,7 @@ static e3d_status draw_scene(const void *data, e3d_backend backend, int32_t thre
                              const e3d_targets *targets)
 {
     /* Each number of threads leaves out something else; the most draw a second time, with what they remember. */
-    static const e3d_culling CULLING[] = {E3D_CULLING_ALWAYS, E3D_CULLING_FRUSTUM, E3D_CULLING_NONE};
+    static const e3d_culling CULLING[] = {E3D_CULLING_ALWAYS, E3D_CULLING_ALL, E3D_CULLING_NONE};
     e3d_frame frame = ((const scene *)data)->frame;
     frame.culling = CULLING[threads <= 3 ? threads - 1 : 0];
     e3d_renderer *renderer = NULL;

@@ -181,15 +181,18 @@ static void claim_draws(const world *w)
 static void select_and_draw(world *w, input *in)
 {
     e3d_graph *g = &w->graph;
-    uint64_t bits[1] = {0}, fresh_bits[1] = {0};
+    uint64_t bits[1] = {0}, fresh_bits[1] = {0}, flat_bits[1] = {0};
     e3d_view_volume view = {.widen = 1.0 + take_below(in, 3) * 0.5};
     take_matrix(in, view.clip_from_world, 16);
     need_trees(w);
-    e3d_tree_select(w->tree, g->bounds, view.clip_from_world, view.widen, bits);
+    e3d_tree_select(w->tree, g->bounds, &view, bits);
     e3d_tree *fresh = tree_of(g->bounds, g->count);
-    e3d_tree_select(fresh, g->bounds, view.clip_from_world, view.widen, fresh_bits);
+    e3d_tree_select(fresh, g->bounds, &view, fresh_bits);
+    view.flat = 1;
+    CLAIM(e3d_tree_select(fresh, g->bounds, &view, flat_bits) <= g->count);
+    view.flat = take_below(in, 2);
     e3d_tree_destroy(fresh);
-    CLAIM(bits[0] == fresh_bits[0] && bits[0] >> g->count == 0);
+    CLAIM(bits[0] == fresh_bits[0] && bits[0] == flat_bits[0] && bits[0] >> g->count == 0);
     const e3d_node_rows rows = {g->count, g->flags, g->object, g->id, g->world, NULL};
     CLAIM(e3d_graph_draws(&w->list, &rows, take_below(in, 2) ? bits : NULL, take_below(in, 2) ? &view : NULL,
                           w->placed, OBJECTS, take_below(in, 2)));

@@ -81,7 +81,7 @@ void e3d_canvas_triangles(const e3d_canvas *canvas, const double *xyxyxy, size_t
                           e3d_triangle_algorithm algorithm);
 
 /* Text in the built-in font, with the top left corner of its first cell in the pixel that holds
- * (x, y). `codes` are ASCII; 10 starts a new line; what the font lacks shows as a hollow box. Each
+ * (x, y). `codes` are ASCII, and those of font.c beyond it; 10 starts a new line; what the font lacks shows as a hollow box. Each
  * pixel of the font is a square of scale x scale pixels (scale >= 1). */
 void e3d_canvas_text(const e3d_canvas *canvas, double x, double y, const uint8_t *codes,
                      size_t length, int32_t scale, e3d_rgba color);

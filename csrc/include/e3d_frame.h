@@ -40,10 +40,13 @@ typedef enum e3d_shading { E3D_EACH_SHADING(E3D_ENUMERATOR) } e3d_shading;
 #define E3D_EACH_NORMALS(X) X(E3D_NORMALS_AUTO, auto) X(E3D_NORMALS_SMOOTH, smooth) X(E3D_NORMALS_FLAT, flat)
 typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
 
-/* What is left out before it is drawn; the picture is the same. ALL: what is outside the frustum, or behind what is drawn
- * already. ALWAYS: as ALL, and what is drawn already is tried against even where that cannot pay. */
+/* What is left out before it is drawn; the picture is the same. ALL: what is outside the frustum, faces away or is behind
+ * what is drawn already. ALWAYS: as ALL, and what is drawn already is tried against even where that cannot pay. NONE:
+ * nothing. TREE, FRUSTUM: nothing either, as the caller has left out the nodes outside the frustum (e3d_tree_select: by
+ * the tree's branches, or flat). */
 #define E3D_EACH_CULLING(X) \
     X(E3D_CULLING_ALL, all) \
+    X(E3D_CULLING_TREE, tree) \
     X(E3D_CULLING_FRUSTUM, frustum) \
     X(E3D_CULLING_NONE, none) \
     X(E3D_CULLING_ALWAYS, always)

@@ -118,10 +118,21 @@ void e3d_tree_destroy(e3d_tree *tree);
 int e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count, int threads);
 /* Says which rows are other boxes now; new rows may have come. Builds again where that is better; as above. */
 int e3d_tree_refit(e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves, int threads);
-/* Sets the bits of the items that may show, by the planes of the clip volume; the planes of the sides stand off by
- * the factor widen (1: none), for what is drawn wider than it is. */
-void e3d_tree_select(const e3d_tree *tree, const double *boxes, const double clip_from_world[16],
-                     double widen, uint64_t *bits);
+
+typedef struct e3d_view_volume {
+    double clip_from_world[16];
+    double widen; /* by which the planes of the sides stand off (1: none), for what is drawn wider than it is */
+    int flat;     /* the boxes of all items are tested one by one, those of the tree's branches never */
+} e3d_view_volume;
+
+/* Sets the bits of the items that may show, by the planes of the clip volume. They are the same if the volume is flat.
+ * Returns how many boxes were tested: those of items and of branches. */
+int64_t e3d_tree_select(const e3d_tree *tree, const double *boxes, const e3d_view_volume *view, uint64_t *bits);
+
+/* How many levels a tree has: level 0 holds the boxes of items, each other one a box around up to four of the level below. */
+int e3d_tree_levels(const e3d_tree *tree);
+/* Writes the boxes of a level, (boxes, 6): lowest x y z, highest x y z; NULL: none. Returns how many there are. */
+int32_t e3d_tree_level_boxes(const e3d_tree *tree, int level, float *boxes);
 
 /* Sets the bits of the items whose boxes meet a box; touching counts. */
 void e3d_tree_overlaps(const e3d_tree *tree, const double low[3], const double high[3], uint64_t *bits);
@@ -145,11 +156,6 @@ typedef struct e3d_node_rows {
     const int32_t *anchor; /* as in e3d_graph */
 } e3d_node_rows;
 
-typedef struct e3d_view_volume {
-    double clip_from_world[16];
-    double widen; /* as for e3d_tree_select */
-} e3d_view_volume;
-
 /* The nodes of one object. */
 typedef struct e3d_batch {
     int32_t nodes;      /* that are drawn */
@@ -171,6 +177,7 @@ typedef struct e3d_draw_list {
     int32_t batch_room;
     uint64_t *bits;   /* scratch */
     int32_t words;
+    int64_t boxes_tested; /* of instances, and of the branches of their trees */
 } e3d_draw_list;
 
 void e3d_draw_list_free(e3d_draw_list *list);

@@ -75,10 +75,18 @@ cdef extern from "e3d_scene.h" nogil:
         e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves,
         int threads,
     )
-    void e3d_tree_select(
-        const e3d_tree *tree, const double *boxes, const double *clip_from_world, double widen,
-        uint64_t *bits,
+
+    ctypedef struct e3d_view_volume:
+        double clip_from_world[16]
+        double widen
+        bint flat
+
+    int64_t e3d_tree_select(
+        const e3d_tree *tree, const double *boxes, const e3d_view_volume *view, uint64_t *bits
     )
+
+    int e3d_tree_levels(const e3d_tree *tree)
+    int32_t e3d_tree_level_boxes(const e3d_tree *tree, int level, float *boxes)
 
     void e3d_tree_overlaps(
         const e3d_tree *tree, const double *low, const double *high, uint64_t *bits
@@ -131,16 +139,13 @@ cdef extern from "e3d_scene.h" nogil:
         const double *world
         const int32_t *anchor
 
-    ctypedef struct e3d_view_volume:
-        double clip_from_world[16]
-        double widen
-
     ctypedef struct e3d_draw_list:
         e3d_draw *draws
         int32_t count
         int32_t *order
         int32_t order_count
         int32_t nodes
+        int64_t boxes_tested
 
     ctypedef struct e3d_totals:
         int64_t clusters

@@ -102,7 +102,7 @@ static int append_runs(e3d_draw_list *list, const e3d_draw *whole)
 static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, const e3d_placed *object,
                             const double world[16])
 {
-    double clip_from_node[16];
+    e3d_view_volume from_node = *view;
     int32_t words = (object->draw.instances + 63) / 64;
     if (words > list->words) {
         uint64_t *bits = realloc(list->bits, (size_t)words * sizeof *bits);
@@ -116,11 +116,11 @@ static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, co
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++) {
             const double *m = view->clip_from_world + 4 * r;
-            clip_from_node[4 * r + c] =
+            from_node.clip_from_world[4 * r + c] =
                 ((m[0] * world[c] + m[1] * world[4 + c]) + m[2] * world[8 + c]) + m[3] * world[12 + c];
         }
     e3d_fpenv_leave(saved);
-    e3d_tree_select(object->instances, NULL, clip_from_node, view->widen, list->bits);
+    list->boxes_tested += e3d_tree_select(object->instances, NULL, &from_node, list->bits);
     return 1;
 }
 
@@ -236,6 +236,7 @@ int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64
                     const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int batch)
 {
     list->count = list->order_count = list->nodes = 0;
+    list->boxes_tested = 0;
     if (!reserve_all(list, rows->count, object_count))
         return 0;
     for (int32_t i = 0; i < object_count; i++)

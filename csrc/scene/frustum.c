@@ -1,4 +1,4 @@
-/* frustum: which boxes of a tree may show. Out: a bit per item.
+/* frustum: which boxes of a tree may show. Out: a bit per item, and how many boxes were tested.
  *
  * Method: planes by Gribb and Hartmann (2001), the positive vertex of each box, four boxes at a time; a plane
  * that a box lies wholly inside of is not asked again below it. The arithmetic is f32. Its slack, measured
@@ -13,6 +13,7 @@
 #include "scene/tree.h"
 
 #define SLACK 4e-6
+enum { ALL_PLANES = 63 };
 
 typedef struct plane {
     e3d_v4 p[4];
@@ -83,15 +84,17 @@ static void select_run(const e3d_tree *t, int32_t block, int level, uint64_t *bi
     }
 }
 
-static void visit_leaf(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits)
+/* Return how many boxes they test. */
+static int visit_leaf(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits)
 {
     const e3d_block *b = e3d_tree_level(t, 0) + at.block;
     const int32_t *items = (const int32_t *)t->items.data + 4 * (size_t)at.block;
-    int there = lanes_of(b->low[0] <= b->high[0]);
+    int there = lanes_of(b->low[0] <= b->high[0]), tested = __builtin_popcount((unsigned)there);
     for (int left = at.planes; left; left &= left - 1)
         there &= ~outside(&planes[__builtin_ctz(left)], b);
     for (; there; there &= there - 1)
         select_item(items[__builtin_ctz(there)], bits);
+    return tested;
 }
 
 /* Prefetches the blocks below one, which lie side by side; the last may not be there, which does no harm. */
@@ -103,12 +106,11 @@ static void fetch_below(const e3d_tree *t, entry at)
         __builtin_prefetch((const void *)(first + line));
 }
 
-static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits, entry *stack,
-                  int *top)
+static int visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *bits, entry *stack, int *top)
 {
     const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
     fetch_below(t, at);
-    int out = ~lanes_of(b->low[0] <= b->high[0]), within[4] = {0};
+    int there = lanes_of(b->low[0] <= b->high[0]), out = ~there, within[4] = {0};
     for (int i = 0; i < 6; i++)
         if (at.planes >> i & 1) {
             int whole = inside(&planes[i], b);
@@ -125,11 +127,13 @@ static void visit(const e3d_tree *t, const plane planes[6], entry at, uint64_t *
         else
             stack[(*top)++] = (entry){4 * at.block + lane, at.level - 1, left};
     }
+    return __builtin_popcount((unsigned)there);
 }
 
-static void select_loose(const e3d_tree *t, const plane planes[6], const double *boxes, uint64_t *bits)
+static int select_loose(const e3d_tree *t, const plane planes[6], const double *boxes, uint64_t *bits)
 {
     const int32_t *loose = t->loose.data;
+    int tested = 0;
     for (size_t i = 0; i < t->loose.count; i++) {
         e3d_block b;
         int out = 0;
@@ -137,28 +141,47 @@ static void select_loose(const e3d_tree *t, const plane planes[6], const double 
             e3d_block_set(&b, lane, boxes + E3D_BOX * (size_t)loose[i]);
         for (int k = 0; k < 6; k++)
             out |= outside(&planes[k], &b);
-        if (!(out & 1) && b.low[0][0] <= b.high[0][0])
+        int there = b.low[0][0] <= b.high[0][0];
+        if (!(out & 1) && there)
             select_item(loose[i], bits);
+        tested += there;
     }
+    return tested;
 }
 
-void e3d_tree_select(const e3d_tree *t, const double *boxes, const double clip_from_world[16], double widen,
-                     uint64_t *bits)
+/* The walk down the tree; what is outside or wholly inside ends a branch. */
+static int64_t select_by_branches(const e3d_tree *t, const plane planes[6], uint64_t *bits)
 {
-    e3d_fpenv saved = e3d_fpenv_enter();
-    plane planes[6];
     entry stack[E3D_TREE_STACK];
+    int64_t tested = 0;
     int top = 0;
-    set_planes(planes, clip_from_world, widen);
     if (t->levels)
-        stack[top++] = (entry){0, t->levels - 1, 63};
+        stack[top++] = (entry){0, t->levels - 1, ALL_PLANES};
     while (top) {
         entry at = stack[--top];
         if (at.level == 0)
-            visit_leaf(t, planes, at, bits);
+            tested += visit_leaf(t, planes, at, bits);
         else
-            visit(t, planes, at, bits, stack, &top);
+            tested += visit(t, planes, at, bits, stack, &top);
     }
-    select_loose(t, planes, boxes, bits);
+    return tested;
+}
+
+static int64_t select_one_by_one(const e3d_tree *t, const plane planes[6], uint64_t *bits)
+{
+    int64_t tested = 0;
+    for (int32_t b = 0; t->levels && b < t->blocks_in[0]; b++)
+        tested += visit_leaf(t, planes, (entry){b, 0, ALL_PLANES}, bits);
+    return tested;
+}
+
+int64_t e3d_tree_select(const e3d_tree *t, const double *boxes, const e3d_view_volume *view, uint64_t *bits)
+{
+    e3d_fpenv saved = e3d_fpenv_enter();
+    plane planes[6];
+    set_planes(planes, view->clip_from_world, view->widen);
+    int64_t tested = view->flat ? select_one_by_one(t, planes, bits) : select_by_branches(t, planes, bits);
+    tested += select_loose(t, planes, boxes, bits);
     e3d_fpenv_leave(saved);
+    return tested;
 }

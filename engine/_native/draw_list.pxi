@@ -39,6 +39,7 @@ cdef class NativeDrawList:
     cdef int object_capacity, material_capacity, light_capacity
     cdef dict borrowed, trees  # by the number of the object
     cdef dict textures  # by that of the material
+    cdef public int64_t node_boxes_tested  # for the selection that `place` was given last
 
     def __cinit__(self):
         self.borrowed, self.trees = {}, {}
@@ -107,13 +108,14 @@ cdef class NativeDrawList:
         const uint64_t[::1] selection,
         const double[:, ::1] clip_from_world,
         double widen,
+        bint flat,
         bint batch,
         bint moved,
     ):
         """Draw the objects of the first nodes: those that show, or of these those whose bit is set.
 
-        With a matrix, instances outside of what it shows are left out as well. With ``batch``,
-        nodes of the same object are one draw. ``moved`` tells that something else is in the scene,
+        With a matrix, instances outside of what it shows are left out as well; ``flat`` tests their
+        boxes one by one. With ``batch``, nodes of the same object are one draw. ``moved`` tells that something else is in the scene,
         or elsewhere, since the last time.
         """
         cdef e3d_node_rows rows
@@ -134,7 +136,7 @@ cdef class NativeDrawList:
         if clip_from_world is not None:
             require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
             memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
-            volume.widen = widen
+            volume.widen, volume.flat = widen, flat
             view = &volume
         if moved:
             self.totals = e3d_graph_totals(&rows, self.objects, self.object_count)

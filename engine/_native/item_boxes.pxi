@@ -1,4 +1,4 @@
-# Part of scene_graph.pyx: the boxes of triangles and of instances, as arrays of rows.
+# Part of scene_graph.pyx: the boxes of triangles, of instances and of trees, as arrays of rows.
 
 def move_boxes(table, room):
     """Copy ``table.boxes`` to the first rows of an array that takes their place, as one step."""
@@ -39,3 +39,18 @@ def union(const double[:, ::1] boxes not None, double[::1] out not None):
     if boxes.shape[1] != E3D_BOX or out.shape[0] != E3D_OBJECT_BOX:
         raise InvalidArgumentError("boxes must be (N, BOX), and the box around them as told")
     return e3d_boxes_union(&boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0], &out[0])
+
+
+cdef list boxes_by_level(const e3d_tree *tree):
+    """Return what a tree holds: for each level, from the items up, boxes (N, 6) float32."""
+    cdef list levels = []
+    cdef float[:, ::1] rows
+    cdef int32_t count
+    for level in range(e3d_tree_levels(tree)):
+        count = e3d_tree_level_boxes(tree, level, NULL)
+        boxes = np.empty((count, 6), np.float32)
+        rows = boxes
+        if count:
+            e3d_tree_level_boxes(tree, level, &rows[0, 0])
+        levels.append(boxes)
+    return levels

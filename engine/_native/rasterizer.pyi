@@ -104,6 +104,7 @@ class NativeDrawList:
     object_count: int
     material_count: int
     light_count: int
+    node_boxes_tested: int
     def __init__(self) -> None: ...
     def clear(self) -> None: ...
     def clear_lights(self) -> None: ...
@@ -120,6 +121,7 @@ class NativeDrawList:
         selection: npt.NDArray[np.uint64] | None,
         clip_from_world: _Doubles | None,
         widen: float,
+        flat: bool,
         batch: bool,
         moved: bool,
     ) -> None: ...

@@ -230,7 +230,7 @@ cdef class NativeStats:
 
     cdef e3d_stats stats
     cdef e3d_totals totals
-    cdef int64_t draws_unbatched, nodes_in_frustum
+    cdef int64_t draws_unbatched, nodes_in_frustum, boxes_tested
     cdef int materials, lights
 
     def as_dict(self):
@@ -242,6 +242,7 @@ cdef class NativeStats:
             "materials": self.materials,
             "lights": self.lights,
             "instances": stats.instances,
+            "boxes_tested": self.boxes_tested,
             "nodes_in_frustum": self.nodes_in_frustum,
             "nodes_unoccluded": stats.nodes_unoccluded,
             "nodes_drawn": stats.nodes_drawn,
@@ -381,6 +382,7 @@ cdef class NativeRenderer:
         check(status)
         drawn.totals = draw_list.totals
         drawn.draws_unbatched = draw_list.placed.order_count
+        drawn.boxes_tested = draw_list.node_boxes_tested + draw_list.placed.boxes_tested
         drawn.nodes_in_frustum = draw_list.placed.nodes
         drawn.materials = draw_list.material_count
         drawn.lights = draw_list.light_count

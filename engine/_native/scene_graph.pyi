@@ -13,6 +13,7 @@ OBJECT_BOX: int
 class NativeTree:
     count: int
     def __init__(self, boxes: NDArray[np.float64]) -> None: ...
+    def boxes_by_level(self) -> list[NDArray[np.float32]]: ...
     def overlaps(
         self,
         low: NDArray[np.float64],
@@ -104,8 +105,13 @@ class NativeGraph:
     ) -> None: ...
     def set_object(self, slot: int, object: int) -> None: ...
     def select(
-        self, clip_from_world: NDArray[np.float64], widen: float, bits: NDArray[np.uint64]
-    ) -> None: ...
+        self,
+        clip_from_world: NDArray[np.float64],
+        widen: float,
+        flat: bool,
+        bits: NDArray[np.uint64],
+    ) -> int: ...
+    def boxes_by_level(self) -> list[NDArray[np.float32]]: ...
     def cast(
         self,
         shapes: NativeShapes,

@@ -19,6 +19,8 @@ from e3d cimport (
 )
 from e3d_scene cimport *
 
+import numpy as np
+
 from ..errors import InvalidArgumentError, OutOfMemoryError
 
 ALIVE = E3D_NODE_ALIVE
@@ -387,17 +389,30 @@ cdef class NativeGraph:
             self.require_memory(e3d_tree_build(self.tree, self.graph.bounds, self.graph.count, 1))
         return 0
 
-    def select(self, const double[:, ::1] clip_from_world not None, double widen,
+    def select(self, const double[:, ::1] clip_from_world not None, double widen, bint flat,
                uint64_t[::1] bits not None):
-        """Set the bits of the slots that may show, as of the last update, and clear the others."""
+        """Set the bits of the slots that may show, as of the last update, and clear the others.
+
+        Returns how many boxes were tested: those of nodes and, unless ``flat``, of the tree's
+        branches.
+        """
+        cdef e3d_view_volume view
         if clip_from_world.shape[0] != 4 or clip_from_world.shape[1] != 4:
             raise InvalidArgumentError("a matrix is 4x4")
         if 64 * bits.shape[0] < self.graph.count:
             raise InvalidArgumentError("a selection has a bit a slot")
         self.need_tree()
-        if bits.shape[0]:
-            memset(&bits[0], 0, bits.shape[0] * sizeof(uint64_t))
-            e3d_tree_select(self.tree, self.graph.bounds, &clip_from_world[0, 0], widen, &bits[0])
+        if bits.shape[0] == 0:
+            return 0
+        memset(&bits[0], 0, bits.shape[0] * sizeof(uint64_t))
+        memcpy(view.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+        view.widen, view.flat = widen, flat
+        return e3d_tree_select(self.tree, self.graph.bounds, &view, &bits[0])
+
+    def boxes_by_level(self):
+        """Return what the tree holds, as of the last update: see the function of this name."""
+        self.need_tree()
+        return boxes_by_level(self.tree)
 
     def cast(
         self,

@@ -19,6 +19,10 @@ cdef class NativeTree:
     def __dealloc__(self):
         e3d_tree_destroy(self.tree)
 
+    def boxes_by_level(self):
+        """Return what the tree holds: see the function of this name."""
+        return boxes_by_level(self.tree)
+
     def overlaps(
         self,
         const double[::1] low not None,

@@ -258,8 +258,10 @@ def add_appearance(parser) -> None:
     group.add_argument(
         "--culling",
         choices=get_args(Culling),
-        help="what is left out before it is drawn: what is outside of the view and what is hidden "
-        "(all, the default), what is outside, or nothing; the picture is the same",
+        help="what is left out before it is drawn: what is outside of the view, faces away or is "
+        "hidden (all, the default; always: tried in every frame), only nodes outside of the view, "
+        "found by a tree of boxes (tree) or by testing each box (frustum), or nothing (none); the "
+        "picture is the same",
     )
     group.add_argument(
         "--hidden-surfaces",

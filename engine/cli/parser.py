@@ -14,6 +14,7 @@ from .suggestions import Parser
 from .usage import UsageError
 
 MODEL_FORMATS = ("obj", "ply", "stl")
+LANGUAGES = ("en", "fr")
 
 
 def parse(arguments: list[str]) -> argparse.Namespace:
@@ -216,6 +217,11 @@ def _add_learn(commands) -> None:
     )
     command.add_argument("--list", action="store_true", help="list the lessons")
     command.add_argument("--path", action="store_true", help="print where the program is")
+    command.add_argument(
+        "--language",
+        choices=LANGUAGES,
+        help="of titles and captions (default: French where the locale is, else English)",
+    )
     command.add_argument(
         "-o",
         "--output",

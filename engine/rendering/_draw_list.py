@@ -18,14 +18,13 @@ from ..geometry.mesh import Mesh
 from ..materials.material import Material, placed_textures_of
 from ..materials.textures import Texture
 from ..motion.posed_mesh import PosedMesh
-from ..scene.instances import InstancedMesh
+from ..scene.instances import MANY, InstancedMesh
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
 from ._light_list import LightList
 from ._native_handles import MeshNeeds, native_mesh
 from ._native_materials import set_material
 
-_MANY = 1024  # instances that are worth a tree of their boxes
 _SETTLED = 3  # frames in which they did not change
 
 
@@ -70,7 +69,7 @@ class DrawList:
         self._trees, self._frames = False, 0
         self._placed: tuple | None = None
         self._frustum: np.ndarray | None = None
-        self._how = 1.0, True
+        self._how = 1.0, False, True
         self._selected: bytes | None = None
         self._posed: tuple | None = None  # what poses the scene's meshes, and its moment
         self._lights = LightList(self.native, color_space)
@@ -85,6 +84,7 @@ class DrawList:
         frustum: np.ndarray | None,
         marks: float,
         batching: bool,
+        flat: bool = False,
     ) -> None:
         """Make the native list draw ``scene``.
 
@@ -103,6 +103,8 @@ class DrawList:
             How far lines and points may reach beyond where they are, as a share of half the image.
         batching : bool
             Nodes of one mesh are drawn as one.
+        flat : bool
+            What is outside of the frustum is found box by box, without the trees of boxes.
         """
         scene._update(self._threads)
         if self._needs != needs or self._normals != normals or not self._lists(scene):
@@ -111,7 +113,7 @@ class DrawList:
         if self._many and not self._trees:
             self._settle()
         widen = 1.0 + marks if self._marks or needs.edges else 1.0
-        self._place(scene._arrays, frustum, widen, batching)
+        self._place(scene._arrays, frustum, (widen, flat, batching))
         self._lights.update(scene, headlight)
 
     def _follow_poses(self, scene: Scene) -> None:
@@ -245,7 +247,7 @@ class DrawList:
             self._set_instances(number, obj)
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
-        if len(obj) >= _MANY:
+        if len(obj) >= MANY:
             self._many[number] = obj
         colors = obj.colors
         eight_bit = colors is not None and colors.dtype == np.uint8
@@ -284,21 +286,22 @@ class DrawList:
         return base
 
     def _place(
-        self, arrays: NodeArrays, frustum: np.ndarray | None, widen: float, batching: bool
+        self, arrays: NodeArrays, frustum: np.ndarray | None, how: tuple[float, bool, bool]
     ) -> None:
-        """List the draws of what may show, where it is now."""
+        """List the draws of what may show, where it is now; how: widen, flat and batching."""
         placed = arrays, arrays.updated  # what is assigned after the update shows in the next frame
         moved = self._placed != placed
-        how = widen, batching
+        widen, flat, batching = how
         if not moved and self._frustum is frustum and self._how == how:
             return
         self._placed = None  # for if anything below raises
-        selection = None
+        selection, tested = None, 0
         if frustum is not None:
             selection = np.empty((arrays.count + 63) // 64, np.uint64)
-            arrays.select(frustum, widen, selection)
+            tested = arrays.select(frustum, widen, flat, selection)
+        self.native.node_boxes_tested = tested
         selected = None if selection is None else selection.tobytes()
-        same = selected is not None and selected == self._selected and batching == self._how[1]
+        same = selected is not None and selected == self._selected and batching == self._how[2]
         if moved or self._trees or not same:
             columns = arrays.columns
             self.native.place(
@@ -311,6 +314,7 @@ class DrawList:
                 selection,
                 frustum,
                 widen,
+                flat,
                 batching,
                 moved,
             )

@@ -108,7 +108,9 @@ class Frame:
         number of threads and tiles, and the backend. ``plan`` names the ways that the tiles took
         (docs/plan.md has them all; none with the backend ``scalar``). ``nodes``, ``clusters`` and
         ``triangles`` are all that the scene holds; with ``_in_frustum``, ``_unoccluded`` and
-        ``_drawn`` behind them, what is left after each stage of culling.
+        ``_drawn`` behind them, what is left after each stage of culling. ``boxes_tested`` is how
+        many boxes it took to find the nodes and instances in the frustum, when the view or the
+        scene last changed: their own, and those of the branches of trees.
     """
 
     color: _Output[np.uint8] = _Output(

@@ -263,11 +263,13 @@ class Renderer(Closed):
             Colour of the wireframe.
         hidden_lines : bool
             With ``wireframe="only"``: show the edges that faces hide as well.
-        culling : {"all", "frustum", "none", "always"}
-            What is left out before it is drawn. ``"all"``: what is outside the view frustum, and
-            what is hidden by what is drawn already, tested where that may pay; ``"always"`` tests
-            it in every frame. ``"frustum"``: only what is outside the frustum. ``"none"``: nothing.
-            The picture is the same.
+        culling : {"all", "tree", "frustum", "none", "always"}
+            What is left out before it is drawn. ``"all"``: nodes and parts of meshes outside of the
+            view frustum, or that face away, and what is hidden by what is drawn already, tested
+            where that may pay; ``"always"`` tests it in every frame. ``"tree"``: only nodes (and
+            instances) outside of the frustum, found by the scene's tree of boxes. ``"frustum"``:
+            the same ones, found by testing their boxes one by one. ``"none"``: nothing.
+            The picture is the same; ``frame.stats["boxes_tested"]`` counts the tests.
         culling_camera : Node or (Camera, pose), optional
             Cull as seen from this camera, but draw as seen from ``camera``, to look at what culling
             leaves out.
@@ -342,6 +344,7 @@ class Renderer(Closed):
                 None if options.culling == "none" else frustum,
                 frame_options.mark_size / min(self._width, self._height),
                 options.batching,
+                options.culling == "frustum",
             )
             near, far = 0.0, 1.0
             if options.mode == "depth":

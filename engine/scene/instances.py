@@ -20,6 +20,9 @@ from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import eight_bit_or_float, float32_of
 
+#: So many instances are worth a tree of their boxes when a picture is drawn.
+MANY = 1024
+
 
 def _check_mesh(value: Mesh, what: str) -> Mesh:
     if not isinstance(value, Mesh):

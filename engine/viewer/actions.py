@@ -16,9 +16,10 @@ from ..files.animation_files import numbered_path
 from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
 from .clips import play_clips
 from .debug_lines import DEBUG_DRAWINGS
+from .file_dialog import FolderPanel, RecentPanel
 from .fps import FpsController
 from .ground import told
-from .panels import MaterialPanel, ObjectPanel, RecentPanel
+from .panels import MaterialPanel, ObjectPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
 from .theme import THEMES
@@ -28,6 +29,16 @@ from .walking import GroundController, controller
 SAMPLES = get_args(Samples)
 STATISTICS = (None, "short", "long")
 LINE_WIDTHS = (1.0, 16.0)
+#: How far a key turns the camera.
+ORBIT_STEP = math.radians(7.5)
+#: What each way of culling leaves out.
+LEFT_OUT = {
+    "all": "what is outside the view, faces away or is hidden is left out",
+    "tree": "nodes outside the view are left out, found by a tree of boxes",
+    "frustum": "nodes outside the view are left out, their boxes tested one by one",
+    "none": "nothing is left out",
+    "always": "as all, but hidden things are looked for in every frame",
+}
 ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
 
@@ -148,6 +159,31 @@ def view_isometric(viewer, step: int) -> None:
     _look_along(viewer, QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
 
 
+def _orbit(viewer, right: int, up: int) -> None:
+    if viewer.walker is None:
+        viewer.orbit.turn(right * ORBIT_STEP, up * ORBIT_STEP)
+
+
+def orbit_left(viewer, step: int) -> None:
+    """Turn the camera to the left, round what it looks at."""
+    _orbit(viewer, -1, 0)
+
+
+def orbit_right(viewer, step: int) -> None:
+    """Turn the camera to the right."""
+    _orbit(viewer, 1, 0)
+
+
+def orbit_up(viewer, step: int) -> None:
+    """Turn the camera upwards."""
+    _orbit(viewer, 0, 1)
+
+
+def orbit_down(viewer, step: int) -> None:
+    """Turn the camera downwards."""
+    _orbit(viewer, 0, -1)
+
+
 def _turn_up(viewer, up: str) -> None:
     if viewer.walker is not None:
         toggle_walking(viewer)
@@ -215,7 +251,7 @@ def toggle_split(viewer, step: int) -> None:
 
 
 def cycle_debug(viewer, step: int) -> None:
-    """Next of what culling works with: nothing, boxes, the tree of boxes, the frustum from here."""
+    """Next of what culling works with: boxes, trees of them, the frustum from here, nothing."""
     drawing = following(viewer.view_renderer.debug, DEBUG_DRAWINGS, step)
     viewer.view_renderer.choose_debug(drawing, viewer.view)
     viewer.say(f"drawn besides: {drawing or 'nothing'}")
@@ -232,7 +268,7 @@ def cycle_culling(viewer, step: int) -> None:
     """Next of what is left out before it is drawn; the picture is the same."""
     appearance = viewer.view_renderer.appearance
     appearance.culling = following(appearance.culling, CULLINGS, step)
-    viewer.say(f"culling: {appearance.culling}")
+    viewer.say(f"culling {appearance.culling}: {LEFT_OUT[appearance.culling]}")
 
 
 def freeze_culling(viewer, step: int) -> None:
@@ -295,9 +331,14 @@ def cycle_lists(viewer, step: int) -> None:
     viewer.panel = None if panel is None else panel(viewer)
 
 
-def toggle_recent_files(viewer, step: int) -> None:
-    """The files that were opened last, or no list."""
-    viewer.panel = None if isinstance(viewer.panel, RecentPanel) else RecentPanel(viewer)
+def _toggle_dialog(viewer, panel: type) -> None:
+    viewer.panel = None if isinstance(viewer.panel, panel) else panel(viewer)
+    viewer.held_positions.clear()
+
+
+def open_file(viewer, step: int) -> None:
+    """The dialog that opens a file, or none; with Shift the files that were opened last."""
+    _toggle_dialog(viewer, FolderPanel if step > 0 else RecentPanel)
 
 
 def next_file(viewer, step: int) -> None:
@@ -308,6 +349,11 @@ def next_file(viewer, step: int) -> None:
 def previous_file(viewer, step: int) -> None:
     """Show the model before in the folder."""
     viewer.opening.step(-1)
+
+
+def load_again(viewer, step: int) -> None:
+    """Show the file as it is now."""
+    viewer.opening.load_again()
 
 
 def toggle_metadata(viewer, step: int) -> None:

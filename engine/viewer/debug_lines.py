@@ -11,15 +11,16 @@ import numpy as np
 
 from .. import linalg
 from ..rendering.frame import Frame
+from ..scene.instances import MANY, InstancedMesh
 from ..scene.scene import Scene
 
 DEBUG_DRAWINGS = (None, "boxes", "tree of boxes", "frustum")
 BOX = (90, 220, 255, 255)
 FRUSTUM = (255, 220, 60, 255)
-#: Boxes of groups: by their depth in the tree, over and over.
+#: Boxes of branches: by their level in the tree, from the leaves up, over and over.
 LEVELS = ((255, 120, 90, 255), (255, 190, 80, 255), (170, 230, 90, 255), (200, 140, 255, 255))
-#: More boxes than these would be a blot.
-MOST_BOXES = 20_000
+#: More boxes than these would be a blot, and more that lie inside each other.
+MOST_BOXES, MOST_IN_TREES = 20_000, 4_000
 #: Nearer than this share of the farthest corner a line is cut: it goes behind the camera.
 NEAREST = 1e-4
 #: The edges of a box, by the bits of its corners.
@@ -40,24 +41,33 @@ def box_lines(scene: Scene, besides=()) -> list[Lines]:
     return [Lines(_edges(np.array(boxes)), BOX)] if boxes else []
 
 
-def tree_lines(scene: Scene, besides=()) -> list[Lines]:
-    """Return the boxes round each branch of the scene's tree, and round all, by their depth."""
-    around: dict = {}
+def tree_lines(scene: Scene) -> list[Lines]:
+    """Return the boxes that culling has in its trees, leaves and branches, by their level.
+
+    There is a tree of the scene's nodes, and one of the instances of each node that has many. Of
+    more boxes than would show, those of the lowest levels are left out.
+    """
+    scene._update()
+    trees = [([_corners(level) for level in scene._arrays.boxes_by_level()], np.eye(4))]
     for node in scene.nodes:
-        box = node.bounds if node not in besides else None
-        above = node
-        while box is not None and above is not None:
-            above = above.parent
-            known = around.get(above)
-            around[above] = box if known is None else _union(known, box)
-    levels: dict[int, list] = {}
-    for group, box in list(around.items())[:MOST_BOXES]:
-        levels.setdefault(_depth(group), []).append(box)
-    lines = [
-        Lines(_edges(np.array(boxes)), LEVELS[level % len(LEVELS)])
-        for level, boxes in sorted(levels.items(), reverse=True)
-    ]
-    return box_lines(scene, besides) + lines
+        if isinstance(node.object, InstancedMesh) and len(node.object) >= MANY and node.shown:
+            levels = node.object._tree()[0].boxes_by_level()
+            trees.append(([_corners(level) for level in levels], node.world_pose))
+    lines, room = [], MOST_IN_TREES
+    for levels, pose in trees:
+        for number, boxes in reversed(list(enumerate(levels))):
+            room -= len(boxes)
+            if room < 0:
+                break
+            color = LEVELS[(number - 1) % len(LEVELS)] if number else BOX
+            edges = linalg.transform_points(pose, _edges(boxes).reshape(-1, 3))
+            lines.append(Lines(edges.reshape(-1, 2, 3), color))
+    return lines[::-1]
+
+
+def _corners(rows: np.ndarray) -> np.ndarray:
+    """Return the finite ones of boxes (N, 6) as corners (N, 2, 3) float64."""
+    return rows[np.isfinite(rows).all(axis=1)].reshape(-1, 2, 3).astype(np.float64)
 
 
 def frustum_lines(camera, pose: np.ndarray, size: tuple[int, int]) -> list[Lines]:
@@ -101,15 +111,3 @@ def _edges(boxes: np.ndarray) -> np.ndarray:
     picks = np.array([[k >> axis & 1 for axis in range(3)] for k in range(8)])
     corners = boxes[:, picks, np.arange(3)]
     return corners[:, _EDGES].reshape(-1, 2, 3)
-
-
-def _union(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.stack([np.minimum(a[0], b[0]), np.maximum(a[1], b[1])])
-
-
-def _depth(node) -> int:
-    """How many nodes are above one; 0 for what is above all of them."""
-    depth = 0
-    while node is not None:
-        node, depth = node.parent, depth + 1
-    return depth

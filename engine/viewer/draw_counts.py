@@ -1,6 +1,6 @@
 """How much of a scene a frame had to draw: nodes, clusters and triangles, stage by stage.
 
-In: `Frame.stats`. Out: a table for the overlay, a line for the log.
+In: `Frame.stats`. Out: a table and a sentence for the overlay, a line for the log.
 """
 
 from __future__ import annotations
@@ -29,11 +29,25 @@ def count_table(stats: dict) -> list[str]:
     return rows
 
 
+def told_tests(stats: dict, culling: str) -> str:
+    """Say by how many tests the nodes in view were found."""
+    tested = stats["boxes_tested"]
+    boxes = f"{tested:,} box{'' if tested == 1 else 'es'} tested"
+    how = {
+        "none": "nothing is left out: no box was tested",
+        "frustum": f"{boxes}, one by one",
+        "tree": f"{boxes}, by the tree",
+    }
+    text = how.get(culling, f"{how['tree']}; then parts of meshes, and what is hidden")
+    return f"culling {culling}: {text}"
+
+
 def count_line(stats: dict) -> str:
-    """Return the same in one line, with materials and lights."""
+    """Return the same in one line, with tests, materials and lights."""
     parts = []
     for what in COUNTED:
         stages = (f"{stats[what + ending]} {stage}" for stage, ending in STAGES.items())
         parts.append(f"{what} {', '.join(stages)}")
+    parts.append(f"boxes tested {stats['boxes_tested']}")
     parts += [f"{what} {stats[what]}" for what in ("materials", "lights")]
     return "; ".join(parts)

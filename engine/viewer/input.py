@@ -27,6 +27,8 @@ from ..events import (
 
 #: Where in the picture a point of the window is.
 Place = Callable[[int, int], tuple[int, int]]
+#: How many pixels a distance in the window is.
+Stretch = Callable[[int], int]
 
 
 class Translator:
@@ -40,10 +42,13 @@ class Translator:
     ----------
     place : callable, optional
         Returns where in the picture a point of the window is.
+    stretch : callable, optional
+        Returns how many pixels a distance in the window is.
     """
 
-    def __init__(self, place: Place | None = None) -> None:
+    def __init__(self, place: Place | None = None, stretch: Stretch | None = None) -> None:
         self._place = place or (lambda x, y: (x, y))
+        self._stretch = stretch or (lambda distance: distance)
         self._modifiers = 0
         self._dropped: list[str] = []
 
@@ -59,7 +64,15 @@ class Translator:
         if event.type == sdl2.SDL_DROPCOMPLETE:
             paths, self._dropped = tuple(self._dropped), []
             return FilesDropped(paths) if paths else None
+        if event.type == sdl2.SDL_MOUSEMOTION:
+            return self._motion(sdl2, event.motion)
         return _translated(sdl2, event, self._modifiers, self._place)
+
+    def _motion(self, sdl2, motion) -> MouseMotion:
+        dx, dy = motion.xrel, motion.yrel
+        if not sdl2.SDL_GetRelativeMouseMode():  # a captured mouse counts steps of its own
+            dx, dy = self._stretch(dx), self._stretch(dy)
+        return MouseMotion(dx, dy, *self._place(motion.x, motion.y))
 
 
 def window_number(sdl2, event) -> int:
@@ -81,9 +94,6 @@ def _translated(sdl2, event, modifiers: int, place: Place):
         return TextEntered(event.text.text.decode("utf-8", "replace"))
     if kind in (sdl2.SDL_MOUSEBUTTONDOWN, sdl2.SDL_MOUSEBUTTONUP):
         return _button(sdl2, event.button, kind == sdl2.SDL_MOUSEBUTTONDOWN, modifiers, place)
-    if kind == sdl2.SDL_MOUSEMOTION:
-        motion = event.motion
-        return MouseMotion(motion.xrel, motion.yrel, *place(motion.x, motion.y))
     if kind == sdl2.SDL_MOUSEWHEEL:
         wheel = event.wheel
         flipped = wheel.direction == sdl2.SDL_MOUSEWHEEL_FLIPPED

@@ -41,6 +41,10 @@ SECTIONS = {
         Binding(("7",), "view_top", "top"),
         Binding(("9",), "view_isometric", "isometric"),
         Binding(("5",), "toggle_orthographic", "orthographic or perspective"),
+        Binding(("4", "Shift+Left"), "orbit_left", "turn left"),
+        Binding(("6", "Shift+Right"), "orbit_right", "turn right"),
+        Binding(("8", "Shift+Up"), "orbit_up", "turn up"),
+        Binding(("2", "Shift+Down"), "orbit_down", "turn down"),
         Binding(("Ctrl+Y",), "turn_y_up", "+Y is up (Shift: -Y)"),
         Binding(("Ctrl+Z",), "turn_z_up", "+Z is up (Shift: -Z)"),
         Binding(("R", "Return", "Enter"), "reset_view", "reset"),
@@ -61,9 +65,10 @@ SECTIONS = {
         Binding(("K",), "cycle_theme", "dark or light"),
     ),
     "Files": (
-        Binding(("Ctrl+O",), "toggle_recent_files", "files opened before"),
-        Binding(("PageDown", "Ctrl+Right"), "next_file", "next model of the folder"),
-        Binding(("PageUp", "Ctrl+Left"), "previous_file", "the one before"),
+        Binding(("Ctrl+O",), "open_file", "open (Shift: opened before)"),
+        Binding(("Right", "PageDown"), "next_file", "next model of the folder"),
+        Binding(("Left", "PageUp"), "previous_file", "the one before"),
+        Binding(("Up",), "load_again", "load the model again"),
     ),
     "Window": (
         Binding(("F11",), "toggle_fullscreen", "full screen"),
@@ -84,13 +89,15 @@ GESTURES = (
     ("Shift+right", "turn the light"),
     ("drop", "open files"),
 )
-#: Arrow keys in orbit mode: radians of azimuth and elevation.
-ORBIT_ARROWS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
+#: What goes on while its key is held down.
+REPEATED = ("orbit_left", "orbit_right", "orbit_up", "orbit_down")
 
 _ACTIONS = {key: binding.action for binding in BINDINGS for key in binding.keys}
 
 
-def action_for(key: str, position: str = "", control: bool = False) -> str | None:
+def action_for(
+    key: str, position: str = "", control: bool = False, shift: bool = False
+) -> str | None:
     """Return the action bound to a key, or None.
 
     Parameters
@@ -101,9 +108,13 @@ def action_for(key: str, position: str = "", control: bool = False) -> str | Non
         What the key would type on a US keyboard; asked only for digits.
     control : bool
         Whether Ctrl is held: only keys named with ``"Ctrl+"`` answer then.
+    shift : bool
+        Whether Shift is held: keys named with ``"Shift+"`` answer before those without.
     """
     if control:
         return _ACTIONS.get(f"Ctrl+{key}")
+    if shift and f"Shift+{key}" in _ACTIONS:
+        return _ACTIONS[f"Shift+{key}"]
     action = _ACTIONS.get(key.removeprefix("Keypad "))
     if action is None and position.isdigit():
         action = _ACTIONS.get(position)

@@ -42,9 +42,18 @@ class LessonWindow:
     lessons : sequence of Lesson
     number : int
         Index of the lesson to begin with.
+    step_title : str
+        What the title bar says of a step; {} stands for its number.
     """
 
-    def __init__(self, window: Window, lessons: Sequence[Lesson], number: int = 0):
+    def __init__(
+        self,
+        window: Window,
+        lessons: Sequence[Lesson],
+        number: int = 0,
+        step_title: str = "step {} - arrows: steps, N P: lessons",
+    ):
+        self._step_title = step_title
         self._window = window
         self._lessons = lessons
         self._open(number)
@@ -102,7 +111,7 @@ class LessonWindow:
     def _show(self) -> None:
         self._window.present(enlarged(self._steps[self._step], self._window.size))
         title = self._lessons[self._number].title
-        self._window.title = f"{title} - step {self._step + 1} - arrows: steps, N P: lessons"
+        self._window.title = f"{title} - {self._step_title.format(self._step + 1)}"
 
 
 def enlarged(picture: np.ndarray, size: tuple[int, int]) -> np.ndarray:

@@ -15,6 +15,9 @@ from .open_models import open_models
 from .viewed_scene import ViewedScene
 from .watch import FileWatch
 
+#: Names of model files end so, in lower case.
+MODEL_EXTENSIONS = tuple(end for kind in formats("mesh") for end in kind.extensions)
+
 
 class ModelFiles:
     """The files that are shown.
@@ -61,17 +64,21 @@ class ModelFiles:
         self._follow(paths)
         return viewed
 
+    def first(self) -> str | None:
+        """Return the absolute path of the first of the files that is there, or None."""
+        here = next((path for path in self.paths if os.path.isfile(path)), None)
+        return None if here is None else os.path.abspath(os.fsdecode(here))
+
     def beside(self, step: int) -> str | None:
         """Return the path of the next model in the folder, or of one before, or None.
 
         Called again, it goes on from there, even if that file could not be opened.
         """
-        here = self._tried or next((path for path in self.paths if os.path.isfile(path)), None)
+        here = self._tried or self.first()
         if here is None:
             return None
         folder, name = os.path.split(os.path.abspath(here))
-        extensions = tuple(end for kind in formats("mesh") for end in kind.extensions)
-        names = {entry for entry in os.listdir(folder) if entry.lower().endswith(extensions)}
+        names = {entry for entry in os.listdir(folder) if entry.lower().endswith(MODEL_EXTENSIONS)}
         names = sorted(names | {name}, key=lambda entry: (entry.lower(), entry))
         if len(names) == 1:
             return None

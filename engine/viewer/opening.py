@@ -66,9 +66,16 @@ class Opening:
         """Show the next model of the folder, or one before; after the last comes the first."""
         path = self.files.beside(step)
         if path is None:
-            self._viewer.say("there is no other model in the folder")
+            self._viewer.say("there is no other model in the folder; Shift+arrows turn this one")
         else:
             self.open([path], keep_appearance=True)
+
+    def load_again(self) -> None:
+        """Show the files as they are now."""
+        if self.files.paths:
+            self._reload()
+        else:
+            self._viewer.say("there is no file to load again")
 
     def look_for_changes(self) -> None:
         """Show the files as they are now, if they are watched and were written."""

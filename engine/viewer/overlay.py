@@ -10,7 +10,7 @@ import textwrap
 from itertools import zip_longest
 
 from ..canvas import text_size
-from .draw_counts import count_names, count_table
+from .draw_counts import count_names, count_table, told_tests
 from .frame_times import FrameTimes
 from .theme import DARK, Theme
 from .viewpoint import Viewpoint
@@ -107,7 +107,9 @@ def short_statistics(times: FrameTimes, stats: dict) -> str:
     return ", ".join(parts)
 
 
-def statistics_lines(seconds: float, size, samples: int, stats: dict, place: str = "") -> list[str]:
+def statistics_lines(
+    seconds: float, size, samples: int, stats: dict, place: str = "", culling: str = "all"
+) -> list[str]:
     """Return the statistics of the last frame, line by line; they fit 640 x 480 pixels.
 
     Parameters
@@ -122,6 +124,8 @@ def statistics_lines(seconds: float, size, samples: int, stats: dict, place: str
         `Frame.stats`: counters and milliseconds of each stage.
     place : str
         Where the camera is.
+    culling : str
+        What was left out before it was drawn.
     """
     rate = 1.0 / seconds if seconds > 0.0 else 0.0
     lines = [
@@ -132,7 +136,8 @@ def statistics_lines(seconds: float, size, samples: int, stats: dict, place: str
         lines[1] += f"; {place}"
     tabled = count_names()
     if tabled <= stats.keys():
-        lines += count_table(stats)
+        lines += [*count_table(stats), told_tests(stats, culling)]
+        tabled.add("boxes_tested")
     else:
         tabled = set()
     entries = []

@@ -1,23 +1,23 @@
-"""Lists over the picture that the mouse works on: objects, materials, files opened before.
+"""Lists over the picture that the mouse works on: objects and materials.
 
-In: a viewer, clicks on rows, the wheel over them. Out: the rows, drawn in the top right corner.
+In: a viewer, clicks on rows, the wheel over them. Out: the rows, drawn in a corner.
 """
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..canvas import text_size
-from .overlay import LINE_GAP, MARGIN, PADDING
-from .recent_files import recent_files
+from .overlay import LINE_GAP, MARGIN, PADDING, place
 from .theme import Theme
 
 if TYPE_CHECKING:
     from .viewer import Viewer
 
-#: A panel is not wider than so many characters.
+#: A list is not wider than so many characters.
 MOST_COLUMNS = 44
+#: Of the bar behind the chosen row.
+BAR_ALPHA = 90
 HIDDEN, SHOWN = "[ ]", "[x]"
 
 
@@ -39,9 +39,15 @@ class Panel:
 
     title = ""
     hint = ""
+    corner = "top right"
+    least_columns, most_columns, least_rows = 1, MOST_COLUMNS, 0
+    #: The number of the row that the keys have come to, if they choose rows.
+    chosen: int | None = None
 
     def __init__(self, viewer: Viewer):
         self.viewer = viewer
+        self._heads = 1
+        self._follows = True
         self._first = 0
         self._fit = 1
         self._box = (0, 0, 0, 0)
@@ -55,30 +61,45 @@ class Panel:
         """Obey a click on a row; ``alone`` is the other button, or Shift."""
         raise NotImplementedError
 
+    def heads(self, left_out: int) -> list[str]:
+        """Return the lines above the rows, of which some may not fit."""
+        return [self.title + (f"  ({len(self.rows())}, wheel: more)" if left_out else "")]
+
     def draw(self, canvas, scale: int, theme: Theme) -> None:
         """Draw the rows that fit, from the first that shows."""
         cell_width, cell_height = text_size("M", scale)
         self._row_height = cell_height + LINE_GAP * scale
-        rows = self.rows()
-        room = (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height - 2
-        self._fit = max(1, min(room, len(rows)))
-        self._first = max(0, min(self._first, len(rows) - self._fit))
-        seen = rows[self._first : self._first + self._fit]
-        more = len(rows) - len(seen)
-        head = self.title + (f"  ({len(rows)}, wheel: more)" if more else "")
-        lines = [head, *(f"{row.text}  {row.detail}" for row in seen), self.hint]
-        columns = min(MOST_COLUMNS, max(map(len, lines)))
-        columns = max(1, min(columns, (canvas.width - 2 * MARGIN - 2 * PADDING) // cell_width))
+        seen, heads, blank = self._fitting_rows(canvas)
+        room = max(1, (canvas.width - 2 * MARGIN - 2 * PADDING) // cell_width)
+        lines = [*heads, *(f"{row.text}  {row.detail}" for row in seen), self.hint]
+        columns = min(self.most_columns, max(self.least_columns, *map(len, lines)), room)
         width = columns * cell_width + 2 * PADDING
-        height = len(lines) * self._row_height + 2 * PADDING
-        left, top = canvas.width - width - MARGIN, MARGIN
+        height = (len(lines) + blank) * self._row_height + 2 * PADDING
+        left, top = place(canvas, width, height, self.corner)
         self._box = left, top, width, height
         canvas.rectangle(left, top, width, height, theme.block)
-        colors = [theme.title, *[theme.text] * len(seen), theme.key]
-        texts = [head, *(_fitted(row, columns) for row in seen), self.hint]
+        if self.chosen is not None and 0 <= self.chosen - self._first < len(seen):
+            y = top + PADDING + (len(heads) + self.chosen - self._first) * self._row_height
+            bar = (*theme.title[:3], BAR_ALPHA)
+            canvas.rectangle(left, y - LINE_GAP * scale // 2, width, self._row_height, bar)
+        rows = [_fitted(row, columns) for row in seen] + [""] * blank
+        colors = [theme.title] * len(heads) + [theme.text] * len(rows) + [theme.key]
+        texts = [*heads, *rows, self.hint]
         for number, (text, color) in enumerate(zip(texts, colors, strict=True)):
             y = top + PADDING + number * self._row_height
             canvas.text(left + PADDING, y, text[:columns], color, scale=scale)
+
+    def _fitting_rows(self, canvas) -> tuple[list[Row], list[str], int]:
+        """Return the rows that fit, the lines above them, and how many blank ones come below."""
+        rows, room = self.rows(), (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height
+        self._heads = len(self.heads(0))
+        self._fit = max(1, min(room - self._heads - 1, len(rows)))
+        if self.chosen is not None and self._follows:
+            self._first = min(max(self._first, self.chosen - self._fit + 1), self.chosen)
+        self._first = max(0, min(self._first, len(rows) - self._fit))
+        seen = rows[self._first : self._first + self._fit]
+        blank = max(0, min(self.least_rows, room - self._heads - 1) - len(seen))
+        return seen, self.heads(len(rows) - len(seen)), blank
 
     def covers(self, x: int, y: int) -> bool:
         """Return whether a pixel is the panel's."""
@@ -87,7 +108,7 @@ class Panel:
 
     def click(self, x: int, y: int, alone: bool) -> None:
         """Obey a click at a pixel."""
-        line = (y - self._box[1] - PADDING) // self._row_height - 1
+        line = (y - self._box[1] - PADDING) // self._row_height - self._heads
         if 0 <= line < self._fit and self._first + line < len(self.rows()):
             self.press(self._first + line, alone)
             self.viewer.changed = True
@@ -95,6 +116,22 @@ class Panel:
     def scroll(self, steps: float) -> None:
         """Obey the wheel."""
         self._first = max(0, self._first - round(steps))
+        self._follows = False
+        self.viewer.changed = True
+
+    def key(self, event) -> bool:
+        """Obey a key that went down; return whether it was the panel's."""
+        if event.key != "Escape":
+            return False
+        self.close()
+        return True
+
+    def type(self, text: str) -> None:
+        """Obey text that was typed."""
+
+    def close(self) -> None:
+        """Show no panel any more."""
+        self.viewer.panel = None
         self.viewer.changed = True
 
 
@@ -122,24 +159,6 @@ class MaterialPanel(Panel):
 
     def press(self, number: int, alone: bool) -> None:
         self.viewer.visibility.toggle_material(number, alone)
-
-
-class RecentPanel(Panel):
-    """The files that were opened last."""
-
-    title = "Opened before"
-    hint = "click: open"
-
-    def __init__(self, viewer: Viewer):
-        super().__init__(viewer)
-        self._paths = recent_files()
-
-    def rows(self) -> list[Row]:
-        return [Row(os.path.basename(path), os.path.dirname(path)) for path in self._paths]
-
-    def press(self, number: int, alone: bool) -> None:
-        self.viewer.panel = None
-        self.viewer.opening.open([self._paths[number]])
 
 
 def _row(entry) -> Row:

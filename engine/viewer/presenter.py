@@ -32,6 +32,7 @@ class Presenter:
 
     def __init__(self, sdl, window, vsync: bool):
         self._sdl = sdl
+        self._window = window
         self._texture = None
         self._picture = (0, 0)
         self._order = ""
@@ -69,6 +70,19 @@ class Presenter:
         self._sdl.SDL_GetRendererOutputSize(self._renderer, width, height)
         return max(width.value, 1), max(height.value, 1)
 
+    @property
+    def density(self) -> float:
+        """How many pixels the drawable area has for one unit of the window's size."""
+        import ctypes
+
+        width, height = ctypes.c_int(), ctypes.c_int()
+        self._sdl.SDL_GetWindowSize(self._window, width, height)
+        return max(self.size[0] / max(width.value, 1), 1.0)
+
+    def pixels_of(self, distance: int) -> int:
+        """Return a distance in units of the window as pixels of the drawable area."""
+        return round(distance * self.density)
+
     def present(self, pixels: np.ndarray, order: str) -> None:
         """Show pixels whose bytes come in the order ``"rgba"`` or ``"bgra"``."""
         height, width = pixels.shape[:2]
@@ -99,6 +113,7 @@ class Presenter:
 
     def place(self, x: int, y: int) -> tuple[int, int]:
         """Return where in the picture a point of the window is, in pixels; maybe beside it."""
+        x, y = int(x * self.density), int(y * self.density)
         left, top, width, height = self._room()
         across, down = self._picture if self._texture else (width, height)
         return (x - left) * across // width, (y - top) * down // height

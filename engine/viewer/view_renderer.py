@@ -333,10 +333,11 @@ class ViewRenderer:
         self._debug_camera = self._camera(view), view.pose()
 
     def _debug_lines(self) -> list[Lines]:
-        scene, besides = self.viewed.scene, () if self._grid is None else (self._grid,)
         if self.debug == "frustum":
             return frustum_lines(*(self._culling_camera or self._debug_camera), self.size)
-        return (box_lines if self.debug == "boxes" else tree_lines)(scene, besides)
+        if self.debug == "boxes":
+            return box_lines(self.viewed.scene, () if self._grid is None else (self._grid,))
+        return tree_lines(self.viewed.scene)
 
     def _draw_overlays(self, canvas, view: Viewpoint) -> None:
         from .overlay import draw_axes, draw_block

@@ -20,7 +20,7 @@ from .animation_bar import draw_bar
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
-from .keymap import ORBIT_ARROWS, action_for
+from .keymap import REPEATED, action_for
 from .messages import Messages
 from .model_files import ModelFiles
 from .mouse import Mouse
@@ -37,7 +37,6 @@ IDLE_SECONDS = 0.25
 TITLE_SECONDS = 0.5
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
-ARROW_RADIANS = math.radians(7.5)
 
 
 class Viewer:
@@ -218,6 +217,7 @@ class Viewer:
             view_renderer.samples,
             view_renderer.stats,
             f"camera at {eye}",
+            view_renderer.appearance.culling,
         )
 
     def _update_title(self) -> None:
@@ -285,15 +285,12 @@ class Viewer:
 
     def _key_down(self, event) -> None:
         self.fast = event.shift
+        if self.panel is not None and self.panel.key(event):
+            return
         if self.walker is not None and self._walk_key(event):
             return
-        if event.position in ORBIT_ARROWS and self.walker is None and not event.control:
-            right, up = ORBIT_ARROWS[event.position]
-            self.orbit.turn(right * ARROW_RADIANS, up * ARROW_RADIANS)
-            self.changed = True
-            return
-        action = action_for(event.key, event.position, event.control)
-        if action is not None and not event.repeat:
+        action = action_for(event.key, event.position, event.control, event.shift)
+        if action is not None and (not event.repeat or action in REPEATED):
             getattr(viewer_actions, action)(self, -1 if event.shift else 1)
             self.changed = True
 
@@ -314,7 +311,12 @@ class Viewer:
         if event.key.endswith("Shift"):
             self.fast = False
 
+    def _typed(self, event) -> None:
+        if self.panel is not None:
+            self.panel.type(event.text)
+
     def _redraw(self, event) -> None:
+        self.view_renderer.screen_scale = self.window.scale  # it may be on another screen now
         self.changed = True
 
     def _unfreeze_culling(self) -> None:
@@ -336,6 +338,7 @@ class Viewer:
 _HANDLERS = {
     events.KeyDown: Viewer._key_down,
     events.KeyUp: Viewer._key_up,
+    events.TextEntered: Viewer._typed,
     events.MouseButton: lambda viewer, event: viewer.mouse.button(event),
     events.MouseMotion: lambda viewer, event: viewer.mouse.motion(event),
     events.Wheel: lambda viewer, event: viewer.mouse.wheel(event),

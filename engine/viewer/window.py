@@ -59,7 +59,8 @@ class Window:
     Parameters
     ----------
     width, height : int
-        Size of the drawable area in pixels, at first: the user may resize it.
+        Size of the drawable area in pixels, at first: the user may resize it. Where the screen
+        counts larger units than pixels (Wayland, macOS), in these: `size` then tells more pixels.
     title : str
         Text of the title bar.
     wait : bool
@@ -113,7 +114,7 @@ class Window:
     def _open(self, size: tuple[int, int], vsync: bool) -> None:
         sdl = self._sdl
         middle = sdl.SDL_WINDOWPOS_CENTERED
-        flags = sdl.SDL_WINDOW_RESIZABLE | sdl.SDL_WINDOW_SHOWN
+        flags = sdl.SDL_WINDOW_RESIZABLE | sdl.SDL_WINDOW_SHOWN | sdl.SDL_WINDOW_ALLOW_HIGHDPI
         title = self._title.encode("utf-8", "replace")
         self._window = sdl.SDL_CreateWindow(title, middle, middle, *size, flags)
         if not self._window:
@@ -123,7 +124,7 @@ class Window:
         sdl.SDL_EventState(sdl.SDL_DROPFILE, sdl.SDL_ENABLE)
         set_icon(sdl, self._window)
         self._presenter = Presenter(sdl, self._window, vsync)
-        self._translator = Translator(self._presenter.place)
+        self._translator = Translator(self._presenter.place, self._presenter.pixels_of)
 
     # Pictures
 
@@ -289,8 +290,8 @@ class Window:
     @property
     def scale(self) -> int:
         """How many times finer than usual the window's screen is; 1 where it is unknown."""
-        self._opened()
-        return screen_scale(self._sdl, self._window)
+        density = self._opened().density
+        return max(screen_scale(self._sdl, self._window), int(density + 0.5))
 
     @property
     def minimised(self) -> bool:

@@ -1,6 +1,7 @@
 """Text of the canvas: the font's sheet, scale, lines, clipping, backgrounds."""
 
 import re
+import unicodedata
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from engine3d.errors import InvalidArgumentError
 
 WHITE = (255, 255, 255)
 PRINTABLE = "".join(chr(code) for code in range(32, 127))
+FRENCH = "àâçèéêëîïôùûœÀÇÉ"
 SHEET = Path(__file__).parents[2] / "csrc" / "canvas" / "font.c"
 
 
@@ -22,7 +24,7 @@ def drawn(string, width=None, height=None, at=(0, 0), **style):
 
 
 def sheet_glyphs():
-    """The glyphs of the sheet in font.c, in the order of their codes: (96, 14, 8) of bool."""
+    """The glyphs of the sheet in font.c, in the order of their codes: (112, 14, 8) of bool."""
     rows = re.findall(r'^ {8}"([#. ]+)",$', SHEET.read_text("utf-8"), re.MULTILINE)
     bands = np.array([list(row + " ") for row in rows]).reshape(-1, 14, 8, 9)
     return (bands.transpose(0, 2, 1, 3) == "#").reshape(-1, 14, 9)[..., :8]
@@ -30,15 +32,26 @@ def sheet_glyphs():
 
 def test_every_glyph_is_the_sheet_s():
     glyphs = sheet_glyphs()
-    assert glyphs.shape == (96, 14, 8)
+    assert glyphs.shape == (112, 14, 8)
     for code, glyph in zip(range(32, 127), glyphs, strict=False):
         assert np.array_equal(drawn(chr(code)), glyph), chr(code)
+    for letter, glyph in zip(FRENCH, glyphs[96:], strict=True):
+        assert np.array_equal(drawn(letter), glyph), letter
+
+
+@pytest.mark.parametrize("letter", FRENCH.replace("œ", ""))
+def test_a_letter_with_an_accent_is_the_letter_and_a_mark_apart_from_it(letter):
+    plain = drawn(unicodedata.normalize("NFD", letter)[0])
+    accented = drawn(letter)
+    body = slice(2, 11) if letter.isupper() else slice(5, 11)
+    assert np.array_equal(accented[body], plain[body])
+    assert (accented != plain).any() and not accented[:, 7].any()
 
 
 def test_glyphs_differ_and_only_space_is_empty():
-    glyphs = [drawn(character) for character in PRINTABLE + "\u00e9"]
-    assert len({glyph.tobytes() for glyph in glyphs}) == 96
-    assert [glyph.any() for glyph in glyphs] == [False] + [True] * 95
+    glyphs = [drawn(character) for character in PRINTABLE + FRENCH + "\u00bf"]
+    assert len({glyph.tobytes() for glyph in glyphs}) == 112
+    assert [glyph.any() for glyph in glyphs] == [False] + [True] * 111
 
 
 def test_glyphs_stand_on_one_line_apart_from_each_other():
@@ -51,7 +64,7 @@ def test_glyphs_stand_on_one_line_apart_from_each_other():
 
 
 @pytest.mark.parametrize(
-    "other", ["\u00e9", "\u2713", "\U0001f600", "\x00", "\x7f", "\r", "\udc80"]
+    "other", ["\u00f1", "\x80", "\x8f", "\u2713", "\U0001f600", "\x00", "\x7f", "\r", "\udc80"]
 )
 def test_other_characters_show_one_hollow_box(other):
     assert np.array_equal(drawn(other), sheet_glyphs()[95])

@@ -160,7 +160,7 @@ def test_verbose_tells_what_was_loaded_and_drawn(model, capsys):
     out, err = capsys.readouterr()
     assert out == ""
     assert "square.obj" in err and "48x32" in err and "triangles" in err
-    counted = "triangles 2 total, 2 in frustum, 2 unoccluded, 2 drawn; materials 1; "
+    counted = "2 in frustum, 2 unoccluded, 2 drawn; boxes tested 1; materials 1; "
     assert sum(counted in line for line in err.splitlines()) == 1
 
 

@@ -5,7 +5,9 @@ import pytest
 from cli.conftest import SMALL, pixels
 from PIL import Image
 
+import engine3d as e3d
 from engine3d.cli import main
+from engine3d.demos.crowds import parcels
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 
@@ -74,3 +76,18 @@ def test_a_walk_without_a_screen(tmp_path):
     assert main([*command, *SMALL, "--frames", "1", "-o", "first.png"]) == 0
     assert main([*command[:-3], "--headless", *SMALL, "--frames", "1", "-o", "above.png"]) == 0
     assert not np.array_equal(pixels(tmp_path / "first.png"), pixels(tmp_path / "above.png"))
+
+
+def test_parcels_are_drawn_block_by_block():
+    viewed = parcels()
+    frame = e3d.render(viewed.scene, size=(64, 48), mode="unlit")
+    assert frame.stats["draws"] == frame.stats["nodes_in_frustum"] == 25
+    blocks = [node.object for node in viewed.scene.nodes if node.object is not None]
+    meshes = [mesh for mesh in blocks if isinstance(mesh, e3d.Mesh)]
+    assert len(meshes) == 25
+    assert len({material for mesh in meshes for material in mesh.materials}) == 3
+    land = np.concatenate([mesh.positions[mesh.faces[mesh.material_ids == 0]] for mesh in meshes])
+    assert len(land) == 2 * 1600  # two triangles a parcel
+    assert len(np.unique(land.reshape(1600, -1).round(3), axis=0)) == 1600
+    low, high = viewed.scene.bounds
+    assert high[0] - low[0] > 470 and high[2] - low[2] > 470

@@ -104,7 +104,7 @@ def test_nodes_are_left_out_one_by_one():
     for place in random.uniform(-40, 40, (3000, 3)):
         scene.add(mesh, translation=place, static=True)
     with e3d.Renderer(96, 64) as renderer:
-        for culling in ("all", "frustum", "always"):
+        for culling in ("all", "tree", "frustum", "always"):
             on, off = pictures(scene, renderer, culling=culling)
             assert_same(on, off)
             assert on.stats["nodes_in_frustum"] == off.stats["nodes_in_frustum"] < 1000

@@ -41,8 +41,9 @@ def outside(places, side, camera, pose):
     return (-planes.max(axis=2)).max(axis=0)
 
 
+@pytest.mark.parametrize("culling", ["frustum", "tree"])
 @pytest.mark.parametrize("backend", e3d.backends())
-def test_in_frustum(backend):
+def test_in_frustum(backend, culling):
     random = np.random.default_rng(1)
     places = random.uniform(-30, 30, (900, 3))
     scene = boxes(places)
@@ -53,7 +54,7 @@ def test_in_frustum(backend):
             beyond = outside(places, 1.0, camera, pose)
             assert np.abs(beyond).min() > 1e-4  # else it may be either
             inside = int((beyond < 0).sum())
-            stats = renderer.render(scene, (camera, pose), culling="frustum").stats
+            stats = renderer.render(scene, (camera, pose), culling=culling).stats
             found = counts(stats)
             assert found[:, 0].tolist() == [900, 900, 900 * 12]
             assert found[:, 1].tolist() == [inside, inside, 12 * inside]
@@ -129,7 +130,7 @@ def random_scene(random):
     return scene
 
 
-@pytest.mark.parametrize("culling", ["all", "frustum", "none", "always"])
+@pytest.mark.parametrize("culling", ["all", "tree", "frustum", "none", "always"])
 def test_no_stage_has_more_than_the_one_before(culling):
     random = np.random.default_rng(3)
     scene = random_scene(random)
@@ -185,7 +186,7 @@ def test_in_frustum_does_not_depend_on_what_is_hidden(threads):
     with e3d.Renderer(*SIZE, threads=threads) as renderer:
         for k in range(6):
             view = camera, e3d.look_at((0.1 * k, 0, 0), (0, 0, -10))
-            expected = counts(renderer.render(scene, view, culling="frustum").stats)[:, 1]
+            expected = counts(renderer.render(scene, view, culling_camera=view).stats)[:, 1]
             for options in ({"culling": "always"}, {}, {"culling_camera": view}):
                 for _ in range(5):
                     found = counts(renderer.render(scene, view, **options).stats)

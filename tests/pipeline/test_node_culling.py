@@ -50,10 +50,12 @@ def distances_beyond(boxes, clip_from_world):
     return most, scale
 
 
-def selected(arrays, clip_from_world):
+def selected(arrays, clip_from_world, flat):
+    """Which slots may show, and how many boxes were tested."""
     bits = np.zeros((arrays.count + 63) // 64, np.uint64)
-    arrays.select(clip_from_world, 1.0, bits)
-    return np.unpackbits(bits.view(np.uint8), bitorder="little")[: arrays.count].astype(bool)
+    tested = arrays.select(clip_from_world, 1.0, flat, bits)
+    bits = np.unpackbits(bits.view(np.uint8), bitorder="little")[: arrays.count]
+    return bits.astype(bool), tested
 
 
 def check(scene, random, count=12):
@@ -64,7 +66,11 @@ def check(scene, random, count=12):
     some = 0
     for clip_from_world in cameras(random, count):
         there = boxes[:, 0] <= boxes[:, 3]
-        found = selected(arrays, clip_from_world)
+        found, tested = selected(arrays, clip_from_world, flat=False)
+        one_by_one, boxes_there = selected(arrays, clip_from_world, flat=True)
+        assert np.array_equal(found, one_by_one)
+        assert boxes_there == there.sum()  # each once; a tree has a third as many branches
+        assert tested <= 1.5 * boxes_there + 16
         beyond, scale = distances_beyond(np.where(there[:, np.newaxis], boxes, 0), clip_from_world)
         assert not (there & (beyond <= 0) & ~found).any()
         assert not (found & (~there | (beyond > 1e-5 * scale))).any()
@@ -155,14 +161,14 @@ def test_pictures_are_those_without_culling(options, perspective):
         camera = e3d.OrthographicCamera(1.0, znear=-1.0, zfar=1.0), np.eye(4)
     outputs = ("color", "object_id", "triangle_id", "ndc_depth")
     pictures, draws = [], []
-    for culling in ("frustum", "none"):
+    for culling in ("tree", "frustum", "none"):
         with e3d.Renderer(90, 70) as renderer:
             frame = renderer.render(scene, camera, outputs=outputs, culling=culling, **options)
         pictures.append([getattr(frame, name).tobytes() for name in outputs])
         draws.append(frame.stats["nodes_in_frustum"])
         assert frame.stats["nodes"] == len(scene.nodes)
-    assert pictures[0] == pictures[1]
-    assert draws[0] < draws[1] == len(scene.nodes)
+    assert pictures[0] == pictures[1] == pictures[2]
+    assert draws[0] == draws[1] < draws[2] == len(scene.nodes)
 
 
 def test_nodes_beyond_all_numbers_are_drawn_or_not_but_lose_no_others():
@@ -209,16 +215,44 @@ def test_instances_that_do_not_show_are_left_out(kind, backend):
         for k in range(8):
             eye = (3 * math.sin(k), 1, 3 * math.cos(k))
             camera = e3d.PerspectiveCamera(0.7, znear=0.1, zfar=4), e3d.look_at(eye, (0, k, 0))
-            pictures, drawn = [], []
-            for culling in ("frustum", "none"):
+            pictures, drawn, tested = [], [], []
+            for culling in ("tree", "frustum", "none"):
                 frame = renderer.render(
                     scene, camera, outputs=outputs, culling=culling, line_width=9, point_size=12
                 )
                 pictures.append([getattr(frame, name).tobytes() for name in outputs])
                 drawn.append(frame.stats["instances"])
-            assert pictures[0] == pictures[1]
+                tested.append(frame.stats["boxes_tested"])
+            assert pictures[0] == pictures[1] == pictures[2]
             assert frame.instance_id.max() > 0
             if k == 4:  # what changes is looked at anew
                 instances.poses = instances.poses[::-1]
-        assert drawn[0] < 1500
-        assert drawn[1] == 3002
+        assert drawn[0] == drawn[1] < 1500
+        assert drawn[2] == 3002
+        assert tested[0] < 1500
+        assert tested[1] == 3 + 2999  # nodes and instances, but for the one that is nowhere
+        assert tested[2] == 0
+
+
+def test_boxes_tested_tell_the_tree_from_testing_one_by_one():
+    """Of ten thousand nodes in a row, of which a camera sees a few; lights have no boxes."""
+    scene = e3d.Scene()
+    mesh = e3d.box(0.5)
+    nodes = [scene.add(mesh, translation=(x, 0, 0)) for x in range(10_000)]
+    scene.add(e3d.PointLight(), translation=(0, 3, 0))
+    view = e3d.PerspectiveCamera(0.5, znear=0.1, zfar=20), e3d.look_at((7000, 0, 9), (7000, 0, 0))
+    counts = {}
+    with e3d.Renderer(60, 40) as renderer:
+        for culling in ("none", "frustum", "tree", "all"):
+            counts[culling] = renderer.render(scene, view, culling=culling).stats
+            again = renderer.render(scene, view, culling=culling).stats  # where nothing changed
+            assert again["boxes_tested"] == counts[culling]["boxes_tested"]
+        nodes[0].visible = False
+        assert renderer.render(scene, view, culling="frustum").stats["boxes_tested"] == 9_999
+    assert counts["none"]["boxes_tested"] == 0
+    assert counts["frustum"]["boxes_tested"] == 10_000
+    assert counts["tree"]["boxes_tested"] == counts["all"]["boxes_tested"] < 100
+    assert counts["none"]["nodes_in_frustum"] == 10_000
+    for culling in ("frustum", "tree", "all"):
+        assert 3 < counts[culling]["nodes_in_frustum"] < 20
+        assert counts[culling]["nodes_in_frustum"] == counts["tree"]["nodes_in_frustum"]

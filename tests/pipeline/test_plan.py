@@ -96,7 +96,7 @@ def test_outputs_lead_to_the_plan_of_the_rules(renderer, output):
         check(renderer, scene, set(), outputs=outputs, wireframe=wireframe, hidden_lines=True)
 
 
-@pytest.mark.parametrize("culling", ["all", "always", "frustum", "none"])
+@pytest.mark.parametrize("culling", ["all", "always", "tree", "frustum", "none"])
 def test_culling_leads_to_the_plan_of_the_rules(renderer, culling):
     check(renderer, scene_of(), set(), culling=culling)
 

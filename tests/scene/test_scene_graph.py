@@ -362,7 +362,7 @@ def test_threads_change_nothing(threads):
             scene._update(number)
             arrays = scene._arrays
             bits = np.empty((arrays.count + 63) // 64, np.uint64)
-            arrays.select(clip_from_world, 1.0, bits)
+            arrays.select(clip_from_world, 1.0, False, bits)
             names = ("world", "bounds", "flags", "world_version")
             rows.append([arrays.columns[name][: arrays.count] for name in names] + [bits])
         for one, many in zip(*rows, strict=True):

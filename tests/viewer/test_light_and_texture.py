@@ -132,12 +132,22 @@ def test_ways_of_culling_give_one_picture_and_their_own_counts():
     )
     viewer.view.look_from((0, 0, 6), (0, 0, 0))
     pictures, counts = [], {}
-    for _ in range(4):
+    tested, told = {}, {}
+    viewer.statistics = "long"
+    for _ in range(5):
         viewer.handle(events.KeyDown("Y", "Y"))
         viewer.messages.said = ""
         viewer.draw()
-        pictures.append(viewer.frame.color.copy())
-        counts[viewer.view_renderer.appearance.culling] = viewer.view_renderer.stats["nodes_drawn"]
+        view_renderer = viewer.view_renderer
+        pictures.append(view_renderer.draw(viewer.view).color.copy())
+        culling = view_renderer.appearance.culling
+        counts[culling] = view_renderer.stats["nodes_drawn"]
+        tested[culling] = view_renderer.stats["boxes_tested"]
+        told[culling] = next(line for line in viewer._statistics() if line.startswith("culling"))
     assert all((picture == pictures[0]).all() for picture in pictures)
-    assert set(counts) == {"all", "frustum", "none", "always"}
-    assert counts["none"] == 40 > counts["frustum"] >= counts["all"]
+    assert set(counts) == {"all", "tree", "frustum", "none", "always"}
+    assert counts["none"] == 40 > counts["frustum"] == counts["tree"] >= counts["all"]
+    assert tested["frustum"] == 40 > tested["tree"] == tested["all"] > tested["none"] == 0
+    assert told["frustum"] == "culling frustum: 40 boxes tested, one by one"
+    assert told["tree"] == f"culling tree: {tested['tree']} boxes tested, by the tree"
+    assert told["none"] == "culling none: nothing is left out: no box was tested"

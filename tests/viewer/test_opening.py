@@ -48,7 +48,7 @@ def title(viewer):
     ("forward", "back"),
     [
         (("PageDown", {}), ("PageUp", {})),
-        (("Right", {"control": True}), ("Left", {"control": True})),
+        (("Right", {}), ("Left", {})),
     ],
 )
 def test_keys_go_through_the_models_of_the_folder(viewer, forward, back):
@@ -73,6 +73,45 @@ def test_the_look_stays_from_file_to_file(viewer):
     press(viewer, "N")
     press(viewer, "PageDown")
     assert viewer.view_renderer.appearance.mode == "normal"
+
+
+def test_up_loads_the_file_again(viewer, tmp_path):
+    assert viewer.view_renderer.metadata()[-1].split() == ["triangles", "1"]
+    azimuth = viewer.view.azimuth = 1.0
+    (tmp_path / "b.obj").write_text(TRIANGLE + "f 3 2 1\n")
+    press(viewer, "Up")
+    assert viewer.view_renderer.metadata()[-1].split() == ["triangles", "2"]
+    assert viewer.view.azimuth == azimuth and "loaded b.obj again" in viewer.messages.said
+    (tmp_path / "b.obj").unlink()
+    press(viewer, "Up")
+    assert "b.obj" in viewer.messages.trouble and title(viewer) == "b.obj"
+    viewer.opening.files = ModelFiles()
+    press(viewer, "Up")
+    assert viewer.messages.said == "there is no file to load again"
+
+
+def test_a_held_arrow_key_goes_to_one_file_and_turns_on_with_shift(viewer):
+    press(viewer, "Right", repeat=True)
+    assert title(viewer) == "b.obj"
+    azimuths = [viewer.view.azimuth]
+    for key, modifiers in (("Right", {"shift": True}), ("6", {}), ("Keypad 6", {})):
+        for repeat in (False, True):
+            press(viewer, key, repeat=repeat, **modifiers)
+            azimuths.append(viewer.view.azimuth)
+    steps = [after - before for before, after in zip(azimuths, azimuths[1:], strict=False)]
+    assert steps == pytest.approx([steps[0]] * 6) and steps[0] > 0.1
+    for key, modifiers in (("Left", {"shift": True}), ("4", {}), ("Keypad 4", {})):
+        press(viewer, key, **modifiers)
+        press(viewer, key, **modifiers)
+    assert viewer.view.azimuth == pytest.approx(azimuths[0])
+    elevation = viewer.view.elevation
+    press(viewer, "Up", shift=True)
+    press(viewer, "8")
+    assert viewer.view.elevation > elevation + 0.2
+    press(viewer, "Down", shift=True)
+    press(viewer, "2")
+    assert viewer.view.elevation == pytest.approx(elevation)
+    assert title(viewer) == "b.obj"
 
 
 def test_alone_in_a_folder_or_without_a_file_nothing_happens(viewer, tmp_path):
@@ -102,10 +141,10 @@ def test_files_that_were_opened_are_remembered(viewer, tmp_path, state):
 
 def test_a_list_of_them_opens_one(viewer, tmp_path):
     remember([tmp_path / "c.obj"])
-    press(viewer, "O", control=True)
+    press(viewer, "O", control=True, shift=True)
     viewer.draw()
-    left, top, width, height = viewer.panel._box
-    x, y = left + width // 2, top + height // 2
+    left, top, width, _ = viewer.panel._box
+    x, y = left + width // 2, top + 8 + int(2.5 * viewer.panel._row_height)
     assert viewer.panel.covers(x, y)
     viewer.handle(events.MouseButton("left", True, x=x, y=y))
     assert title(viewer) == "c.obj" and viewer.panel is None

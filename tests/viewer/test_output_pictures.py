@@ -110,17 +110,48 @@ def test_boxes_are_drawn_round_what_shows(viewer):
         assert abs(drawn_at.max() - covered.max()) <= 2
 
 
-def test_the_tree_has_a_box_for_each_branch(viewer):
+def boxes_of(lines):
+    """The boxes that lines are the edges of, (N, 2, 3)."""
+    corners = lines.segments.reshape(-1, 24, 3)
+    return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
+
+
+def test_the_tree_is_that_of_culling_level_by_level(viewer):
     scene = viewer.view_renderer.viewed.scene
+    for x in range(40):
+        scene.add(e3d.box(), translation=(3 * x, 0, 0))
     lines = tree_lines(scene)
-    assert [line.color for line in lines] == [BOX, LEVELS[1], LEVELS[0]]
-    assert [len(line.segments) for line in lines] == [24, 12, 12]
-    for line in lines[1:]:
-        np.testing.assert_allclose(line.segments.reshape(-1, 3).min(axis=0), scene.bounds[0])
-        np.testing.assert_allclose(line.segments.reshape(-1, 3).max(axis=0), scene.bounds[1])
+    assert [line.color for line in lines] == [BOX, LEVELS[0], LEVELS[1]]
+    assert [len(boxes_of(line)) for line in lines] == [42, 11, 3]  # four below each
+    top = boxes_of(lines[-1])
+    around = np.stack([top[:, 0].min(axis=0), top[:, 1].max(axis=0)])
+    np.testing.assert_allclose(around, scene.bounds, rtol=1e-6)
+    for below, above in zip(lines[:-1], lines[1:], strict=True):
+        for number, (low, high) in enumerate(boxes_of(above)):
+            held = boxes_of(below)[4 * number : 4 * number + 4]
+            np.testing.assert_array_equal(low, held[:, 0].min(axis=0))
+            np.testing.assert_array_equal(high, held[:, 1].max(axis=0))
+    view = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 500), (0, 0, 0))
+    stats = e3d.render(scene, view, size=(8, 8), culling="frustum").stats
+    assert stats["boxes_tested"] == len(boxes_of(lines[0]))
     for _ in range(2):
         viewer.handle(events.KeyDown("D", "D"))
     assert colored(viewer, LEVELS[0]).any()
+
+
+def test_the_tree_of_many_instances_turns_with_their_node(monkeypatch):
+    scene = e3d.Scene()
+    random = np.random.default_rng(1)
+    poses = np.c_[random.uniform(-5, 5, (1500, 3)), np.full(1500, 0.1)]
+    scene.add(e3d.InstancedMesh(e3d.box(), poses), translation=(100, 0, 0), rotation=(0, 0, 1, 1))
+    lines = tree_lines(scene)
+    counts = [len(line.segments) // 12 for line in lines]
+    assert counts == [1500, 375, 94, 24, 6, 2, 1]  # the instances' six levels, the only node
+    for line in lines:
+        low, high = line.segments.min(axis=(0, 1)), line.segments.max(axis=(0, 1))
+        assert (low > scene.bounds[0] - 1e-3).all() and (high < scene.bounds[1] + 1e-3).all()
+    monkeypatch.setattr("engine3d.viewer.debug_lines.MOST_IN_TREES", 200)
+    assert [len(line.segments) // 12 for line in tree_lines(scene)] == counts[2:]
 
 
 @pytest.mark.parametrize("orthographic", [False, True])

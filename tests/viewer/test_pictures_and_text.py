@@ -221,7 +221,8 @@ def test_the_table_of_counts_is_that_of_the_frame():
         names = (what, f"{what}_in_frustum", f"{what}_unoccluded", f"{what}_drawn")
         assert table[what] == [f"{stats[name]:,}" for name in names]
     assert any(line.split()[:2] == ["draws", "3"] for line in lines[6:])
-    entries = {*frame.stats} - {*stats, "plan"} | {"draws"}
-    shown = "\n".join(lines[6:])
+    assert lines[6].startswith("culling all: 0 boxes tested, by the tree; then ")
+    entries = {*frame.stats} - {*stats, "plan", "boxes_tested"} | {"draws"}
+    shown = "\n".join(lines[7:])
     assert all(name.replace("_", " ") + " " in shown for name in entries)
     assert not any("in frustum" in line for line in lines[6:])

@@ -271,12 +271,28 @@ def test_clicks_select_and_keys_go_from_file_to_file(desktop):
     assert outline.sum() > 200 and covered(desktop.settle()) > covered(plain)
     desktop.do("click", "--repeat", "2", "--delay", "50", "1")
     desktop.settle()
-    desktop.press("ctrl+Right")
+    desktop.press("Right")
     assert title(desktop).startswith("dice.obj")
     desktop.press("Prior")
     assert title(desktop).startswith("cube.obj")
     light = desktop.press("k")
     assert (light == (228, 231, 236)).all(axis=2).sum() > 1000
+
+
+def test_typed_letters_choose_a_file_in_the_dialog(desktop):
+    """Keys and the texts that they type come as events of their own."""
+    (desktop.folder / "dice.obj").write_text(CUBE)
+    plain = desktop.without_message()
+    dialog = desktop.settle_after("ctrl+o")
+    assert (dialog != plain).any(axis=2).sum() > 10_000
+    desktop.do("type", "--delay", "50", "dic")
+    assert (desktop.settle() != dialog).any()
+    assert (desktop.settle_after("Escape") == plain).all()
+    desktop.press("ctrl+o")
+    desktop.do("type", "--delay", "50", "dic")
+    desktop.settle()
+    desktop.press("Return")
+    assert title(desktop).startswith("dice.obj")
 
 
 def test_a_small_window_shows_all_keys_and_what_is_wrong_with_the_file(screen, tmp_path):

@@ -424,7 +424,7 @@ def test_a_watched_file_that_is_broken_or_gone_is_told_until_it_is_whole(tmp_pat
 )
 def test_a_watched_model_that_leaves_the_view_is_framed(tmp_path, monkeypatch, low, high, framed):
     viewer, window, (path,) = watching(tmp_path, monkeypatch, "shape.obj")
-    viewer.handle(key("Right"))
+    viewer.handle(key("Right", shift=True))
     look(viewer)
     before = viewer.view.copy()
     path.write_text(TRIANGLE.format(low, high).replace(" 1 0\n", f" {high - low} 0\n"))

@@ -372,3 +372,61 @@ class X11:
 def test_a_screen_is_as_fine_as_the_user_told_other_programs(monkeypatch, driver, told, scale):
     monkeypatch.setenv("GDK_SCALE", told)
     assert screen_scale(X11(driver), None) == scale
+
+
+@pytest.fixture
+def fine_window(monkeypatch):
+    """A window whose drawable area is twice its size, as on a fine screen of Wayland or macOS."""
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    output_size = sdl2.SDL_GetRendererOutputSize
+
+    def twice(renderer, width, height):
+        output_size(renderer, width, height)
+        width.value, height.value = 2 * width.value, 2 * height.value
+
+    monkeypatch.setattr(sdl2, "SDL_GetRendererOutputSize", twice)
+    with Window(400, 300, "test", vsync=False) as window:
+        window.events()
+        yield window
+
+
+def test_on_a_fine_screen_pictures_have_all_pixels_and_the_mouse_counts_them(fine_window):
+    assert fine_window.size == (800, 600) and fine_window.scale == 2
+    fine_window.present(np.zeros((600, 800, 4), np.uint8))
+    push(sdl2.SDL_MOUSEMOTION, motion__x=100, motion__y=299, motion__xrel=3, motion__yrel=-2)
+    push(sdl2.SDL_MOUSEBUTTONDOWN, button__button=1, button__x=200, button__y=150)
+    push(sdl2.SDL_MOUSEWHEEL, wheel__y=1, wheel__mouseX=10, wheel__mouseY=20)
+    moved, pressed, turned = fine_window.events()
+    assert moved == events.MouseMotion(6, -4, 200, 598)
+    assert (pressed.x, pressed.y) == (400, 300)
+    assert (turned.x, turned.y) == (20, 40)
+    fine_window.present(np.zeros((300, 400, 4), np.uint8))  # a canvas that knows nothing of it
+    push(sdl2.SDL_MOUSEMOTION, motion__x=100, motion__y=200, motion__xrel=1, motion__yrel=1)
+    (moved,) = fine_window.events()
+    assert (moved.x, moved.y) == (100, 200)
+
+
+def test_a_captured_mouse_counts_its_own_steps(fine_window, monkeypatch):
+    monkeypatch.setattr(sdl2, "SDL_GetRelativeMouseMode", lambda: True)
+    push(sdl2.SDL_MOUSEMOTION, motion__x=1, motion__y=1, motion__xrel=3, motion__yrel=-2)
+    (moved,) = fine_window.events()
+    assert (moved.dx, moved.dy) == (3, -2)
+
+
+def test_texts_and_lists_are_twice_as_large_on_a_fine_screen(fine_window):
+    scene = e3d.Scene()
+    scene.add(e3d.box(), name="box")
+    view_renderer = ViewRenderer(ViewedScene(scene, "test"), Settings({}), (400, 300))
+    viewer = Viewer(view_renderer, fine_window)
+    viewer.handle(events.KeyDown("O", "O"))
+    viewer.draw()
+    assert viewer.frame.color.shape == (600, 800, 4)
+    assert view_renderer.text_scale(viewer.frame.canvas()) == 2
+    assert viewer.panel._row_height == 2 * (14 + 3)
+    push(sdl2.SDL_MOUSEBUTTONDOWN, button__button=1, button__x=200, button__y=150)
+    push(sdl2.SDL_MOUSEBUTTONUP, button__button=1, button__x=200, button__y=150)
+    viewer.run_once()
+    assert viewer.selected.node.name == "box"
+    view_renderer.screen_scale = 1
+    viewer.handle(events.Resized(400, 300))
+    assert view_renderer.screen_scale == 2

@@ -14,6 +14,7 @@
 #include "pipeline/cull/cull.h"
 #include "pipeline/pass/boxes.h"
 #include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 
 enum { GROUPS_A_TASK = 512 };
@@ -46,7 +47,7 @@ static void add_candidate(const e3d_prepared *pass, e3d_cull_state *state, const
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
         e3d_view_box(&pass->view->viewport, pass->frustum->instances[number].clip, box->lo, box->hi, &candidate.view);
-    if (bounded && pass->frame->culling != E3D_CULLING_NONE && (!box->any_finite || candidate.view.state == E3D_BOX_OUTSIDE)) {
+    if (bounded && e3d_culls_parts(pass->frame) && (!box->any_finite || candidate.view.state == E3D_BOX_OUTSIDE)) {
         count_outside(state, box);
         return;
     }

@@ -29,6 +29,7 @@
 #include "pipeline/geometry/setup.h"
 #include "pipeline/pass/boxes.h"
 #include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 
@@ -433,7 +434,7 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
     w->order = w->pass->draws->instances[w->number].order;
     if (!w->instance->ready)
         e3d_view_finish_instance(w->out->view, w->out->draws, w->number);
-    if (mesh->desc.components == 3 && w->pass->frame->culling != E3D_CULLING_NONE)
+    if (mesh->desc.components == 3 && e3d_culls_parts(w->pass->frame))
         shown = find_results(w, candidate, group, asked, results);
     int closely = w->in->round.tested && is_wide(&candidate->view.samples);
     unsigned left = !e3d_plans(w->pass, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;

@@ -88,8 +88,8 @@ static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
 {
     int64_t samples = (int64_t)f->width * f->height * f->samples_axis * f->samples_axis;
     return asked_outputs(targets) | asked_mode(f) | asked_wireframe(f) | asked_if(f->hidden == E3D_HIDDEN_ZBUFFER, E3D_ASKED_ZBUFFER) |
-           asked_if(has_mapped_normals(f), E3D_ASKED_MAPPED_NORMALS) | asked_if(f->shading == E3D_SHADING_FORWARD, E3D_ASKED_FORWARD) | asked_if(f->encode_srgb, E3D_ASKED_SRGB) |
-           asked_if(f->culling == E3D_CULLING_ALL || f->culling == E3D_CULLING_ALWAYS, E3D_ASKED_OCCLUSION) |
+           asked_if(has_mapped_normals(f), E3D_ASKED_MAPPED_NORMALS) | asked_if(f->shading == E3D_SHADING_FORWARD, E3D_ASKED_FORWARD) |
+           asked_if(f->encode_srgb, E3D_ASKED_SRGB) | asked_if(e3d_culls_parts(f), E3D_ASKED_OCCLUSION) |
            asked_if(has_alpha(f), E3D_ASKED_ALPHA) | asked_if(f->transparent_outputs, E3D_ASKED_TRANSPARENT_OUTPUTS) |
            asked_if(f->frozen_clip_from_world != NULL, E3D_ASKED_OTHER_FRUSTUM) |
            asked_if(f->backdrop.light.environment != NULL, E3D_ASKED_BACKDROP) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);

@@ -99,6 +99,12 @@ int e3d_plan_inputs(e3d_plan plan);
 const char *e3d_plan_name(e3d_plan_item item);
 const char *e3d_plan_text(e3d_plan_item item);
 
+/* Whether parts of meshes are left out: those outside the frustum, that face away, or that are hidden. */
+static inline int e3d_culls_parts(const e3d_frame *frame)
+{
+    return frame->culling == E3D_CULLING_ALL || frame->culling == E3D_CULLING_ALWAYS;
+}
+
 /* Whether a material's specular or emissive colour adds anything. */
 static inline int e3d_adds(const float color[3]) { return color[0] != 0.0f || color[1] != 0.0f || color[2] != 0.0f; }
 

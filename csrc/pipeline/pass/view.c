@@ -14,6 +14,7 @@
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/facing.h"
 #include "pipeline/pass/matrices.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/pass/view.h"
 
 static float guard_factor(double half)
@@ -112,8 +113,8 @@ static void find_instance(const instances_job *job, const e3d_draw_state *state,
     e3d_world_matrix(draw, (int32_t)(number - state->instance_base), world);
     e3d_clip_matrix(job->clip_from_world, world, out->clip);
     int one = mesh->group_count == 1; /* whose box is tried soon, by one thread */
-    int later = one && (frame->culling == E3D_CULLING_ALL || frame->culling == E3D_CULLING_ALWAYS); /* if it isn't hidden */
-    out->shows = mesh->desc.components == 4 || frame->culling == E3D_CULLING_NONE ||
+    int later = one && e3d_culls_parts(frame); /* if it isn't hidden */
+    out->shows = mesh->desc.components == 4 || !e3d_culls_parts(frame) ||
                  (mesh->any_finite && (one || e3d_box_state(out->clip, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
     out->ready = 0;
     if (state->units || (job->frustum->instances[number].shows && !later)) /* lines and points are wider than the box */

@@ -6,6 +6,7 @@ file. What is wrong is a `FileFormatError` that names its place.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ..errors import InvalidArgumentError
@@ -13,18 +14,21 @@ from ..loaders.documents import SceneRecord
 from ..loaders.json_values import JsonValue
 from ..loaders.scene_tree import mesh_of
 from ..spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
+from ._motion_records import MOTION_KEYS, fill_animator
 from .instances import InstancedMesh
 from .nodes import Node
 from .object_kinds import KINDS
 from .scene import Scene
 
 _NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
-_NODE_KEYS |= {"collider", "children"}
+_NODE_KEYS |= {"collider", "children", *MOTION_KEYS}
 
 
 def fill_scene(scene: Scene, record: SceneRecord) -> None:
     """Add the nodes of a record to an empty scene, and take over its background and light."""
-    for key, value in record.values.members().items():
+    values = record.values.members()
+    full_rate_distance = values.pop("full_rate_distance", None)
+    for key, value in values.items():
         if key not in ("background", "ambient", "light_clamp"):
             raise value.error("is no property of a scene")
         _try(value, lambda key=key, value=value: setattr(scene, key, value.value))
@@ -37,6 +41,11 @@ def fill_scene(scene: Scene, record: SceneRecord) -> None:
     for node, entry in zip(nodes, record.nodes, strict=True):
         if (collider := entry.get("collider")) is not None:
             _try(collider, lambda n=node, c=collider: setattr(n, "collider", _collider(record, c)))
+    if full_rate_distance is None:
+        fill_animator(scene, nodes, record.nodes, math.inf)
+    else:
+        rate = full_rate_distance.value
+        _try(full_rate_distance, lambda: fill_animator(scene, nodes, record.nodes, rate))
 
 
 def _try(place: JsonValue, do) -> Any:

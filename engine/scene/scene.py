@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from ..rendering.frame import Frame
     from ..spatial.colliders import ColliderHit
     from ..spatial.rays import RayHit, RayHits
+    from .animation import Animator
     from .nodes import SceneObject
 
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
@@ -60,6 +61,9 @@ class Scene(Closed):
         As above; assign at any time.
     warnings : list of str
         What was left out or replaced where the scene was made from a file.
+    animator : Animator or None
+        Moves the nodes as the scene's file says, and is written with the scene. Nothing happens by
+        itself: call its `Animator.seek` or `Animator.advance`. Can be assigned.
 
     Raises
     ------
@@ -88,6 +92,7 @@ class Scene(Closed):
         self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
         self._names: dict[str, Node] | None = None
         self._renames = 0  # how often a node got another name
+        self._animator: Animator | None = None
         self.warnings = []
         self.background = background
         self.ambient = ambient
@@ -122,6 +127,18 @@ class Scene(Closed):
         if not 0 <= low <= high:
             raise InvalidArgumentError(f"light_clamp must be 0 <= low <= high, not {value!r}")
         self._light_clamp = (low, high)
+
+    @property
+    def animator(self) -> Animator | None:
+        return self._animator
+
+    @animator.setter
+    def animator(self, value: Animator | None) -> None:
+        from .animation import Animator
+
+        if value is not None and not (isinstance(value, Animator) and value._scene is self):
+            raise InvalidArgumentError("animator must be an Animator of this scene, or None")
+        self._animator = value
 
     def add(
         self,

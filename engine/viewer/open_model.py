@@ -62,6 +62,7 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
+        update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
         path=path,
         details=document_lines(document),

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import os
 from collections.abc import Iterator
 from typing import Any
@@ -25,6 +26,7 @@ from ..loaders.json_values import ARRAY_TYPES
 from ..loaders.scene_file import FORMAT, LISTS, VERSION
 from ..materials.material import TEXTURE_SLOTS, Material
 from ..materials.textures import Texture
+from ..scene._motion_records import motion_entries
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.object_kinds import kind_of, parameters, plain, values_of
@@ -45,7 +47,7 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
         By custom it ends in ``.e3d.json``; `load_scene` tells it by its content. Meshes and
         textures that were loaded from files in its folder, or below it, are named by their
         relative paths; all others become a part of the file. What cannot be written is warned of
-        as `Engine3DWarning`.
+        as `Engine3DWarning`. How nodes move is written if it is that of ``scene.animator``.
 
     Raises
     ------
@@ -71,6 +73,10 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     values = {name: plain(getattr(scene, name)) for name in ("background", "ambient")}
     if scene.light_clamp is not None:
         values["light_clamp"] = plain(scene.light_clamp)
+    animator = scene.animator
+    if animator is not None and any(animator._motions):
+        if math.isfinite(animator._full_rate_distance):
+            values["full_rate_distance"] = animator._full_rate_distance
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
     return "".join(_lines(tree)).encode("ascii"), writing.told
 
@@ -111,6 +117,7 @@ class _Writing:
         nodes = scene.nodes
         numbers = {node: number for number, node in enumerate(nodes)}
         placements = Placements(scene, nodes)
+        motions = motion_entries(scene.animator)
         for row, node in enumerate(nodes):
             entry: dict[str, Any] = {"name": node.name} if node.name else {}
             if (number := self._object(node)) is not None:
@@ -122,6 +129,7 @@ class _Writing:
                 entry["static"] = True
             if node.collider is not None:
                 entry["collider"] = self._collider(node)
+            entry.update(motions.get(node, {}))
             if children := node.children:
                 entry["children"] = [numbers[child] for child in children]
             self.lists["nodes"].append(entry)

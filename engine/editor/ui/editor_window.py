@@ -163,10 +163,13 @@ class EditorWindow:
         """Lay a panel out; an error of it is told, since what isn't saved must not be lost."""
         state = imgui.internal.ErrorRecoveryState()
         imgui.internal.error_recovery_store_state(state)
+        alpha = imgui.get_style().alpha
         try:
             panel.draw()
         except Exception as error:
             imgui.internal.error_recovery_try_to_recover_state(state)
+            # ImGui takes an open `begin_disabled(False)` for another thing, and hides everything.
+            imgui.get_style().alpha = alpha
             text = "".join(traceback.format_exception(error))
             if text not in self._told:
                 self._told.add(text)

@@ -81,7 +81,8 @@ class FileDialog:
         if shown:
             self._draw_places()
             self._draw_lists()
-            self._draw_answer()
+            if self._title:  # no file was chosen by a double click
+                self._draw_answer()
             imgui.end_popup()
 
     def _draw_places(self) -> None:

@@ -1,7 +1,7 @@
 """How nodes move, as a scene's file tells it: spins and keyframes, node by node.
 
-In: an `Animator`, or the nodes of a file. Out: entries for the file, or an `Animator` that moves the
-same nodes the same way, to the bit. Numbers stand as they were given.
+In: an `Animator`, or the nodes of a file. Out: entries for the file, or an `Animator` that moves
+the same nodes the same way, to the bit. Numbers stand as they were given.
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ WRONG = [
     (changed("nodes", 1, "collider", {"kind": "cone"}), "collider.kind: 'cone' is not one of"),
     (changed("nodes", 1, "collider", {"kind": "sphere"}), "collider: .*radius"),
     (changed("nodes", 3, "collider", "mesh", 5), r"collider.mesh: objects\[5\] is no mesh"),
-    (changed("nodes", 1, "spins", [{"axis": [0, 1, 0]}]), r"nodes\[1\].spins\[0\]: 'period' is mis"),
+    (changed("nodes", 1, "spins", [{"axis": [0, 1, 0]}]), r"nodes\[1\].spins\[0\]: 'period' is"),
     (changed("nodes", 1, "spins", [{"axis": [0, 0, 0], "period": 1}]), r"spins\[0\]: .*an axis"),
     (changed("nodes", 1, "spins", [{"axis": [0, 1], "period": 1}]), "axis: .* is not 3 finite"),
     (changed("nodes", 1, "spins", [{"speed": 1}]), "speed: is no property of a motion"),

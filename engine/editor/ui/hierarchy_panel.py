@@ -12,6 +12,7 @@ from ..hierarchy import Row
 from ..node_commands import Reparent
 from ..value_commands import SetValues
 from .actions import ADDED, add, delete, duplicate, group
+from .layout import begin_panel
 from .workspace import Workspace
 
 _PAYLOAD = "node"
@@ -39,7 +40,7 @@ class HierarchyPanel:
 
     def draw(self) -> None:
         """Lay the panel out."""
-        shown, _ = imgui.begin("Hierarchy")
+        shown = begin_panel(self._workspace, "Hierarchy")
         if shown:
             self._draw_head()
             if imgui.begin_child("rows"):

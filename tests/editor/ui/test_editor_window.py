@@ -11,7 +11,8 @@ pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[edi
 
 from importlib.resources import files
 
-from engine3d.editor.ui.editor_window import SETTLING, EditorWindow, layout_path
+from engine3d.editor.ui.editor_window import SETTLING, EditorWindow
+from engine3d.editor.ui.layout import layout_path, save_layout
 from engine3d.editor.ui.properties_panel import _COLLIDERS, _KINDS
 
 SIZE = (1000, 640)
@@ -272,17 +273,15 @@ def test_files_that_are_dropped_are_added_and_a_bad_one_is_told(editor, tmp_path
     assert len(editor.workspace.scene.nodes) == count
 
 
-def test_a_scene_is_saved_and_opened_again(editor, tmp_path, monkeypatch):
+def test_a_scene_is_saved_and_opened_again(editor, tmp_path):
     asked, path = editor._files, tmp_path / "train.e3d.json"
     editor.workspace.document.selection.set([find(editor, "Cab")])
     press(editor, "Delete")
     names = [node.name for node in editor.workspace.scene.nodes]
     press(editor, "S", control=True)
     asked._dialog._go(str(tmp_path))
-    asked._dialog._name = "train"
-    settle(editor)
-    asked._dialog._finish()
-    settle(editor)
+    do(editor, *(events.TextEntered(letter) for letter in "train"))
+    press(editor, "Return")
     assert path.exists() and not editor.workspace.document.is_modified
     assert editor.window.title == "train.e3d.json - engine3d"
     press(editor, "N", control=True)
@@ -393,14 +392,14 @@ def test_an_error_of_a_panel_is_told_and_the_editor_goes_on(editor, monkeypatch)
 
 
 def test_places_of_panels_are_kept(editor):
-    editor._save_layout()
+    save_layout(editor.workspace)
     assert "[Docking]" in layout_path().read_text("utf-8")
 
 
 def test_a_layout_that_cannot_be_kept_does_no_harm(editor, monkeypatch, tmp_path):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "file"))
-    editor._save_layout()
+    save_layout(editor.workspace)
     assert not layout_path().exists()
 
 

@@ -77,15 +77,11 @@ def refresh_rate(sdl, window) -> int:
     return USUAL_REFRESH_RATE
 
 
-def usable_area() -> tuple[int, int] | None:
+def usable_area(sdl) -> tuple[int, int] | None:
     """Return how wide and high windows can be on the first screen; None where it is unknown."""
-    sdl = open_video()
-    try:
-        area = sdl.SDL_Rect()
-        known = sdl.SDL_GetDisplayUsableBounds(0, area) == 0 and area.w > 0 and area.h > 0
-        return (area.w, area.h) if known else None
-    finally:
-        close_video(sdl)
+    area = sdl.SDL_Rect()
+    known = sdl.SDL_GetDisplayUsableBounds(0, area) == 0 and area.w > 0 and area.h > 0
+    return (area.w, area.h) if known else None
 
 
 def screen_scale(sdl, window) -> int:

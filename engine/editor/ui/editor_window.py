@@ -16,7 +16,7 @@ from imgui_bundle import imgui, imguizmo
 from ... import events
 from ...canvas import Canvas
 from ...ui.imgui_painter import ImguiPainter
-from ...viewer.sdl import usable_area
+from ...viewer.sdl import close_video, open_video, usable_area
 from ...viewer.window import Window
 from .console_panel import ConsolePanel
 from .files import Files
@@ -66,9 +66,7 @@ class EditorWindow:
         self.workspace.guard = lambda: self._interrupts.stoppable(self._stops)
         if path:
             self.workspace.open(path)
-        room = usable_area()
-        size = size if room is None else tuple(map(min, size, room))
-        self.window = Window(*size, self._title(), wait=True)
+        self.window = self._opened_window(size)
         self._context = imgui.create_context()
         io = imgui.get_io()
         io.config_flags |= imgui.ConfigFlags_.docking_enable
@@ -100,6 +98,16 @@ class EditorWindow:
         self._last = time.monotonic()
         self.workspace.wants_usual_places = not load_layout(self.workspace)
         self._pictures_due = SETTLING
+
+    def _opened_window(self, size: tuple[int, int]) -> Window:
+        video = open_video()
+        try:
+            room = usable_area(video)
+            if room is not None:
+                size = min(size[0], room[0]), min(size[1], room[1])
+            return Window(*size, self._title(), wait=True)
+        finally:
+            close_video(video)  # which the window keeps open
 
     def run(self) -> int:
         """Show the editor until the user closes it, or a signal ends it.

@@ -21,7 +21,17 @@ pytestmark = [
 @pytest.fixture
 def screen():
     """Start a virtual screen; return its name, such as ``:5``."""
-    command = ["Xvfb", "-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
+    command = [
+        "Xvfb",
+        "-displayfd",
+        "1",
+        "-screen",
+        "0",
+        "1024x768x24",
+        "-nolisten",
+        "tcp",
+        "-noreset",
+    ]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as server:
         yield ":" + server.stdout.readline().decode().strip()
         server.terminate()

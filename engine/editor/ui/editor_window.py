@@ -21,7 +21,7 @@ from ...viewer.window import Window
 from .console_panel import ConsolePanel
 from .files import Files
 from .hierarchy_panel import HierarchyPanel
-from .imgui_input import ImguiInput
+from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
 from .layout import load_layout, place_panels, save_layout
 from .menus import draw_menus, entries, press_keys
@@ -94,7 +94,7 @@ class EditorWindow:
         self._entries = entries(self.workspace, self._files, hierarchy)
         self._pixels = np.zeros((1, 1, 4), np.uint8)
         self._told: set[str] = set()
-        self._late: list = []  # events that came while Python ran
+        self._late: list = []  # events that wait for the next picture, or came while Python ran
         self._last = time.monotonic()
         self.workspace.wants_usual_places = not load_layout(self.workspace)
         self._pictures_due = SETTLING
@@ -134,8 +134,10 @@ class EditorWindow:
 
     def turn(self, patience: float) -> None:
         """Wait for events, and draw a picture if one is due."""
-        happened, self._late = self._late, []
-        for event in [*happened, *self.window.events(0.0 if happened else patience)]:
+        waiting, self._late = self._late, []
+        waiting += self.window.events(0.0 if waiting else patience)
+        happened, self._late = of_one_picture(waiting)
+        for event in happened:
             self._take_safely(event)
         if self.workspace.lines_to_run:
             self._run_lines()
@@ -216,7 +218,8 @@ class EditorWindow:
         if self._files.is_waiting:
             time.sleep(WAITING_SECONDS)
         waits = self._resources.is_waiting or self._files.is_waiting
-        return waits or self._scene.is_flying or self.workspace.is_moving
+        moves = self._scene.is_flying or self.workspace.is_moving
+        return waits or moves or bool(self._late)
 
     def _title(self) -> str:
         return f"{self.workspace.document.title} - engine3d"

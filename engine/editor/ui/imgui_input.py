@@ -131,3 +131,19 @@ class ImguiInput:
         if shape != self._pointer:
             self._window.show_pointer(shape)
             self._pointer = shape
+
+
+def of_one_picture(happened: list) -> tuple[list, list]:
+    """Return the events that one picture may take in, and those that wait for the next one.
+
+    ImGui knows how Ctrl, Shift and Alt are at the end of what it takes in: one that is let go of
+    right after a key was pressed would not count for that key.
+    """
+    pressed = False
+    for number, event in enumerate(happened):
+        if isinstance(event, events.KeyDown | events.KeyUp):
+            modifies = event.position in _MODIFIERS
+            if modifies and pressed:
+                return happened[:number], happened[number:]
+            pressed |= not modifies and isinstance(event, events.KeyDown)
+    return happened, []

@@ -88,9 +88,13 @@ class ConsolePanel:
         chosen = flags.enter_returns_true | flags.callback_history | flags.callback_completion
         entered, line = imgui.input_text("##prompt", self._line, chosen, self._edit)
         self._line = line
+        if prompt.is_open and imgui.is_item_focused() and imgui.is_key_pressed(imgui.Key.escape):
+            prompt.reset()
+            self._workspace.console.write("message", "the lines of the prompt are given up")
         if entered:
             self._line, self._back = "", 0
             self._focuses = True
+            self._workspace.hold_keys()
             self._workspace.lines_to_run.append(line)
 
     def _edit(self, data) -> int:

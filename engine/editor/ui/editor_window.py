@@ -136,7 +136,9 @@ class EditorWindow:
         """Wait for events, and draw a picture if one is due."""
         waiting, self._late = self._late, []
         waiting += self.window.events(0.0 if waiting else patience)
-        happened, self._late = of_one_picture(waiting)
+        queue = self._context.input_events_queue
+        holds = self.workspace.pictures_to_focus > 0 or not queue.empty()
+        happened, self._late = of_one_picture(waiting, holds)
         for event in happened:
             self._take_safely(event)
         if self.workspace.lines_to_run:
@@ -154,18 +156,20 @@ class EditorWindow:
         self._started = time.monotonic()
         self._has_told = False
         self.workspace.run_lines()
+        self._last = time.monotonic()  # the key that was pressed was not held down meanwhile
 
     def _stops(self) -> bool:
         """Whether the user wants what runs to stop; what else happens meanwhile waits."""
         happened = self.window.events()
-        self._late += happened
+        self._late += [event for event in happened if not _is_stop_key(event)]
         if not self._has_told and time.monotonic() - self._started > PATIENCE:
             self._has_told = True
             canvas = Canvas(*self.window.size)
             canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
             canvas.text(16, 16, RUNNING, (255, 255, 255), scale=2, background=(150, 40, 40))
             self.window.present(canvas)
-        return any(_asks_to_stop(event) for event in happened)
+        closes = any(isinstance(event, events.CloseRequested) for event in happened)
+        return closes or any(map(_is_stop_key, happened))
 
     def _take_safely(self, event) -> None:
         try:
@@ -192,6 +196,7 @@ class EditorWindow:
         io.display_size = imgui.ImVec2(*size)
         io.delta_time, self._last = max(now - self._last, 1e-4), now
         self.workspace.animate(io.delta_time)
+        self.workspace.pictures_to_focus = max(self.workspace.pictures_to_focus - 1, 0)
         imgui.new_frame()
         begun = _recovery_state()
         try:
@@ -219,7 +224,7 @@ class EditorWindow:
             time.sleep(WAITING_SECONDS)
         waits = self._resources.is_waiting or self._files.is_waiting
         moves = self._scene.is_flying or self.workspace.is_moving
-        return waits or moves or bool(self._late)
+        return waits or moves or bool(self._late) or self.workspace.pictures_to_focus > 0
 
     def _title(self) -> str:
         return f"{self.workspace.document.title} - engine3d"
@@ -280,8 +285,8 @@ def _recovery_state() -> imgui.internal.ErrorRecoveryState:
     return state
 
 
-def _asks_to_stop(event) -> bool:
-    """Whether an event means that what runs is to stop."""
-    if isinstance(event, events.KeyDown):
-        return event.key == "Escape" or (event.control and event.key == "C")
-    return isinstance(event, events.CloseRequested)
+def _is_stop_key(event) -> bool:
+    """Whether an event is a key that stops what runs: Esc, or Ctrl+C."""
+    if not isinstance(event, events.KeyDown):
+        return False
+    return event.key == "Escape" or (event.control and event.key == "C")

@@ -34,6 +34,8 @@ from ..value_commands import SetValues
 
 #: The panels, by their titles.
 PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
+#: How many pictures it takes until a field has the focus that it was given.
+FOCUSING = 6
 #: How far one picture may move time on, in seconds, however long it took.
 LONGEST_STEP = 0.1
 #: Formats whose files say that +Z is up, as in the viewer.
@@ -68,6 +70,8 @@ class Workspace:
         Whether panels are to go where they are at first.
     lines_to_run : list of str
         Of Python, that were entered and did not run yet.
+    pictures_to_focus : int
+        As long as it is not 0, what is typed waits for a field to appear.
     guard : callable
         As in `Prompt`.
     aspect : float
@@ -91,6 +95,7 @@ class Workspace:
         self.closed: set[str] = set()
         self.wants_usual_places = False
         self.lines_to_run: list[str] = []
+        self.pictures_to_focus = 0
         self.guard: Callable[[], AbstractContextManager[Any]] = contextlib.nullcontext
         self.aspect = 16 / 9
         self.changes = 0
@@ -248,6 +253,10 @@ class Workspace:
         """Go to time 0."""
         if self.document.moves:
             self.document.animator.seek(0.0)
+
+    def hold_keys(self) -> None:
+        """Let what is typed wait until a field has the focus."""
+        self.pictures_to_focus = FOCUSING
 
     def next_drag(self) -> int:
         """Return what the commands of one movement of the mouse have in common."""

@@ -15,7 +15,6 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import Engine3DError
 from ..loaders import formats
 from ..loaders.loading import document_of, texture_of
 from ..loaders.sources import read_source, stem_and_extension
@@ -101,7 +100,7 @@ def _drawn(path: str, size: int) -> NDArray[np.uint8] | None:
     try:
         draw = _drawer(path)
         return None if draw is None else draw(path, size)
-    except (Engine3DError, OSError, MemoryError):
+    except Exception:  # whatever it is, the file has no picture, and the thread goes on
         return None
 
 

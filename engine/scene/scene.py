@@ -134,9 +134,9 @@ class Scene(Closed):
 
     @animator.setter
     def animator(self, value: Animator | None) -> None:
-        from .animation import Animator
-
-        if value is not None and not (isinstance(value, Animator) and value._scene is self):
+        # Only an Animator has motions; its module builds on this one.
+        fits = value is None or (hasattr(value, "_motions") and value._scene is self)
+        if not fits:
             raise InvalidArgumentError("animator must be an Animator of this scene, or None")
         self._animator = value
 

@@ -14,8 +14,8 @@ from ..loaders.documents import SceneRecord
 from ..loaders.json_values import JsonValue
 from ..loaders.scene_tree import mesh_of
 from ..spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
-from ._motion_records import MOTION_KEYS, fill_animator
 from .instances import InstancedMesh
+from .motion_records import MOTION_KEYS, fill_animator
 from .nodes import Node
 from .object_kinds import KINDS
 from .scene import Scene

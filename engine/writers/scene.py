@@ -26,8 +26,8 @@ from ..loaders.json_values import ARRAY_TYPES
 from ..loaders.scene_file import FORMAT, LISTS, VERSION
 from ..materials.material import TEXTURE_SLOTS, Material
 from ..materials.textures import Texture
-from ..scene._motion_records import motion_entries
 from ..scene.instances import InstancedMesh
+from ..scene.motion_records import motion_entries
 from ..scene.nodes import Node
 from ..scene.object_kinds import kind_of, parameters, plain, values_of
 from ..scene.placements import Placements

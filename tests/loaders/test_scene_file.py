@@ -216,3 +216,15 @@ def test_files_are_read_once_however_often_they_are_named(folder, monkeypatch):
     monkeypatch.setattr(scene_file, "_MAX_COPIES", 10)
     with pytest.warns(e3d.Engine3DWarning, match="more than 10 materials of repeated"):
         e3d.load_scene(folder / "case.json")
+
+
+def test_primitives_that_are_alike_share_arrays_but_no_materials(folder):
+    again = {"kind": "mesh", "primitive": "box", "arguments": {"size": 2}}
+    tree = changed("objects", 2, again)
+    tree["objects"] += [again, {**again, "arguments": {"size": 3}}]
+    count = len(tree["objects"])
+    tree["nodes"] = [{"object": number} for number in (2, count - 2, count - 1)]
+    one, other, larger = (node.object for node in load(folder, tree).nodes)
+    assert one is not other and one.positions is other.positions
+    assert one.materials[0] is not other.materials[0]
+    assert larger.positions.max() == 1.5

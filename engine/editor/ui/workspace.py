@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ... import linalg
 from ...choices import Mode
 from ...errors import Engine3DError
 from ...loaders import load_mesh, load_texture
@@ -20,7 +21,6 @@ from ...materials.material import Material
 from ...scene.nodes import Node
 from ...scene.scene import Scene
 from ...viewer.orbit import OrbitController
-from ...viewer.scene_bounds import bounding_sphere
 from ...viewer.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from ..autosave import Autosave, Recovery
 from ..console import Console
@@ -265,10 +265,15 @@ class Workspace:
 
     @property
     def bounds(self) -> Sphere:
-        """A sphere round all that is visible, found when something changed."""
+        """A sphere round the box of all that is visible, found when something changed.
+
+        The smallest sphere would take seconds of thousands of nodes, at every step of a drag.
+        """
         key = self.changes, self.scene._arrays.changes
         if self._bounds is None or self._bounds[0] != key:
-            self._bounds = key, bounding_sphere(self.scene)
+            low, high = self.scene.bounds
+            radius = float(linalg.length((high - low) * 0.5)) or 1.0
+            self._bounds = key, Sphere((low + high) * 0.5, radius)
         return self._bounds[1]
 
     def frame(self, nodes: tuple[Node, ...]) -> None:

@@ -521,6 +521,16 @@ def test_a_window_is_not_larger_than_the_screen(editor, monkeypatch):
         assert window.size == (500, 300)
 
 
+def test_the_bounds_hold_the_scene_without_a_look_at_each_node(editor, monkeypatch):
+    workspace = editor.workspace
+    workspace.document.animator.spin(find(editor, "Base"), period=5)
+    workspace.document.animator.seek(1.0)
+    with monkeypatch.context() as patched:  # which takes microseconds a node
+        patched.setattr(e3d.Node, "world_pose", property(lambda node: raise_from(AssertionError)))
+        center, radius = workspace.bounds
+    assert np.allclose(np.linalg.norm(workspace.scene.bounds - center, axis=1), radius)
+
+
 def test_places_of_panels_are_kept(editor):
     save_layout(editor.workspace)
     assert "[Docking]" in layout_path().read_text("utf-8")

@@ -20,5 +20,4 @@ def edit(args: argparse.Namespace) -> int:
         raise Engine3DError("the editor needs Dear ImGui: pip install 'engine3d[editor]'") from None
     size = {"size": args.resolution} if args.resolution else {}
     with EditorWindow(args.model or "", **size) as editor:
-        editor.run()
-    return 0
+        return editor.run()

@@ -39,7 +39,7 @@ def solar() -> ViewedScene:
     """Return the scene."""
     scene = Scene(BACKGROUND, ambient=(0.03, 0.03, 0.04))
     scene.add(_stars(), name="stars")
-    animator = Animator(scene)
+    animator = scene.animator = Animator(scene)
     sun = scene.add(_sun(), name="Sun")
     scene.add(PointLight(color=(1.0, 0.95, 0.86), intensity=EARTH_ORBIT**2), parent=sun)
     year = scene.add(name="year")

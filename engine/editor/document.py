@@ -17,6 +17,7 @@ from ..files.stamps import FileState
 from ..loaders import load_document
 from ..loaders.loading import document_of
 from ..loaders.sources import Source
+from ..scene.animation import Animator
 from ..scene.loading import scene_from_document
 from ..scene.scene import Scene
 from ..writers.scene import save_scene
@@ -51,7 +52,7 @@ class SceneDocument:
     console : Console
     prompt : Prompt
         With the names ``scene``, ``selection`` (a tuple of nodes), ``node`` (the active one),
-        ``document``, ``e3d`` and ``np``.
+        ``animator``, ``document``, ``e3d`` and ``np``.
     """
 
     def __init__(self, scene: Scene | None = None, *, console: Console | None = None) -> None:
@@ -134,6 +135,19 @@ class SceneDocument:
         document.history.mark_unsaved()
         console.write("action", f"Recover {copy.document or 'a scene without a name'}")
         return document
+
+    @property
+    def animator(self) -> Animator:
+        """What moves the scene's nodes; one that moves nothing yet where the scene had none."""
+        if self.scene.animator is None:
+            self.scene.animator = Animator(self.scene)
+        return self.scene.animator
+
+    @property
+    def moves(self) -> bool:
+        """Whether some nodes move by themselves."""
+        animator = self.scene.animator
+        return animator is not None and any(animator._motions)
 
     @property
     def title(self) -> str:
@@ -231,6 +245,7 @@ class SceneDocument:
             "scene": self.scene,
             "selection": selection.nodes,
             "node": selection.active,
+            "animator": self.animator,
             "document": self,
             "e3d": engine3d,
             "np": np,

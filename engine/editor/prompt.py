@@ -12,6 +12,7 @@ import contextlib
 import io
 import rlcompleter
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import Any
 
 from ..scene.scene import Scene
@@ -50,6 +51,8 @@ class Prompt:
     ----------
     lines : list of str
         What was entered, the latest last.
+    guard : callable
+        Returns a context in which lines run: one that stops them with `KeyboardInterrupt`, say.
     """
 
     def __init__(
@@ -63,6 +66,7 @@ class Prompt:
         self._interpreter = _Interpreter(console)
         self._block: list[str] = []
         self.lines: list[str] = []
+        self.guard: Callable[[], AbstractContextManager[Any]] = contextlib.nullcontext
 
     @property
     def is_open(self) -> bool:
@@ -76,9 +80,9 @@ class Prompt:
         self._console.write("input", ("... " if self._block else ">>> ") + line)
         self._block.append(line)
         source = "\n".join(self._block)
-        old = SceneState(self._scene)
         self._interpreter.locals.update(self._names())
-        is_open = self._interpreter.run(source)
+        old = SceneState(self._scene)
+        is_open = self._interpreter.run(source, self.guard)
         if not is_open:
             self._block.clear()
             new = SceneState(self._scene)
@@ -110,13 +114,15 @@ class _Interpreter(code.InteractiveInterpreter):
         super().__init__({"__name__": "__console__", "__doc__": None})
         self._console = console
 
-    def run(self, source: str) -> bool:
+    def run(self, source: str, guard: Callable[[], AbstractContextManager[Any]]) -> bool:
         """Run source; return whether it is only the beginning of something."""
-        output = io.StringIO()
+        output, is_open = io.StringIO(), False
         with (
             contextlib.redirect_stdout(output),
             contextlib.redirect_stderr(output),
             self._console.warnings_noted(),
+            contextlib.suppress(KeyboardInterrupt),  # that came when the code was over
+            guard(),
         ):
             is_open = self.runsource(source, "<console>")
         if text := output.getvalue():

@@ -1,8 +1,8 @@
 """Everything that a scene is, at one moment, and how to make it so again.
 
-In: a scene. Out: its state: tree, poses, names, switches, objects, colliders, and what the objects,
-their materials and textures hold. Arrays are not copied where nobody can write to them. It serves
-what changes a scene in ways that no command foresees, such as a line of Python.
+In: a scene. Out: its state: tree, poses, names, switches, objects, colliders, motion, and what the
+objects, their materials and textures hold. Arrays are not copied where nobody can write to them.
+It serves what changes a scene in ways that no command foresees, such as a line of Python.
 """
 
 from __future__ import annotations
@@ -51,6 +51,10 @@ class SceneState:
         self._scene = scene
         self.nodes = scene.nodes
         self._values = {name: kept(getattr(scene, name)) for name in _SCENE_VALUES}
+        animator = scene.animator
+        # One that moves nothing is as good as none.
+        self._animator = animator if animator is not None and any(animator._motions) else None
+        self._motions = None if self._animator is None else self._animator._motions
         self._placements = Placements(scene, self.nodes)
         slots = np.array([node._slot for node in self.nodes], np.int64)
         columns = scene._arrays.columns
@@ -65,6 +69,7 @@ class SceneState:
             isinstance(other, SceneState)
             and self.nodes == other.nodes
             and self._values == other._values
+            and (self._animator, self._motions) == (other._animator, other._motions)
             and self._placements.same(other._placements)
             and self._flags.tobytes() == other._flags.tobytes()
             and self._links == other._links
@@ -80,6 +85,7 @@ class SceneState:
         scene = self._scene
         for name, value in self._values.items():
             setattr(scene, name, kept(value))
+        self._put_motions()
         self._restore_nodes()
         self._link_nodes()
         stay = set(self.nodes)
@@ -93,6 +99,14 @@ class SceneState:
         ):
             node.visible, node.static = bool(flags & VISIBLE), bool(flags & STATIC)
             _hold(node, name, obj, collider)
+
+    def _put_motions(self) -> None:
+        scene = self._scene
+        if self._animator is not None:
+            scene.animator = self._animator
+            self._animator._motions = self._motions
+        elif scene.animator is not None:
+            scene.animator._motions = (), ()
 
     def _restore_nodes(self) -> None:
         for node in self.nodes:

@@ -22,7 +22,7 @@ from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
 
 MOST = 512
-_BACKGROUND = (43, 46, 53)
+BACKGROUND = (43, 46, 53)
 _CHECKERS = np.array([(90, 90, 90), (140, 140, 140)], np.uint8)
 _CHECKER = 8  # pixels
 
@@ -77,9 +77,9 @@ class Thumbnails:
 
     def _drawn(self, thing: Mesh | Material | Texture) -> NDArray[np.uint8]:
         if isinstance(thing, Texture):
-            return _shrunk(thing, self._size)
+            return shrunk(thing, self._size)
         mesh = thing if isinstance(thing, Mesh) else self._dressed_ball(thing)
-        scene = Scene(background=_BACKGROUND, ambient=(0.25, 0.25, 0.25))
+        scene = Scene(background=BACKGROUND, ambient=(0.25, 0.25, 0.25))
         scene.add(mesh)
         scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8))
         return self._renderer.render(scene).color.copy()
@@ -100,8 +100,8 @@ def _versions(thing: Mesh | Material | Texture) -> tuple:
     return (thing.version,)
 
 
-def _shrunk(texture: Texture, size: int) -> NDArray[np.uint8]:
-    """A texture whole, over a chequerboard where it is transparent."""
+def shrunk(texture: Texture, size: int) -> NDArray[np.uint8]:
+    """Return a picture of a texture, whole, over a chequerboard where it is transparent."""
     height, width = texture.pixels.shape[:2]
     longest = max(height, width)
     rows, columns = (max(1, side * size // longest) for side in (height, width))

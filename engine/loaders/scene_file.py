@@ -107,6 +107,7 @@ class _Reading:
         self._files = LinkedFiles(source.folder)
         self._images: dict[str, Texture] = {}
         self._meshes: dict[tuple, dict[Any, Mesh] | Exception] = {}
+        self._primitives: dict[tuple[str, str], Mesh] = {}
         self._given: dict[tuple, int] = {}  # how often each part was given out
         self._materials_of: dict[Mesh, list[Material]] = {}  # as they were read
         self._copies: dict[tuple[int, int], Material] = {}
@@ -264,10 +265,22 @@ class _Reading:
         self._vertices_left -= _vertices_of(arguments)
         if self._vertices_left < 0:
             raise entry.error("more vertices of primitives than such a file may ask for")
+        key = name.value, repr(arguments)
+        if key in self._primitives:  # made once: scenes hold thousands that are alike
+            return self._repeated(self._primitives[key])
         try:
-            return getattr(primitives, name.value)(**arguments)
+            mesh = getattr(primitives, name.value)(**arguments)
         except (InvalidArgumentError, TypeError) as error:
             raise entry.error(str(error)) from None
+        self._primitives[key], self._materials_of[mesh] = mesh, mesh.materials
+        return mesh
+
+    def _repeated(self, mesh: Mesh) -> Mesh:
+        """A primitive that is like another one, with arrays that both share."""
+        twin = copy.copy(mesh)
+        twin.materials = [copy.copy(material) for material in self._materials_of[mesh]]
+        twin._origin = mesh._origin
+        return twin
 
     def _mesh_of_file(self, entry: JsonValue) -> Mesh:
         """A mesh of a file, or an empty one that keeps its place, with a warning."""

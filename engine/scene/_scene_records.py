@@ -6,6 +6,7 @@ file. What is wrong is a `FileFormatError` that names its place.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ..environments.environment import Environment
@@ -15,6 +16,7 @@ from ..loaders.json_values import JsonValue
 from ..loaders.scene_tree import mesh_of
 from ..spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
 from .instances import InstancedMesh
+from .motion_records import MOTION_KEYS, fill_animator
 from .nodes import Node
 from .object_kinds import KINDS
 from .scene import Scene
@@ -22,12 +24,14 @@ from .scene import Scene
 _SCENE_KEYS = {"background", "ambient", "light_clamp", "environment", "environment_intensity"}
 _SCENE_KEYS |= {"environment_rotation", "background_blur", "exposure"}
 _NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
-_NODE_KEYS |= {"collider", "children"}
+_NODE_KEYS |= {"collider", "children", *MOTION_KEYS}
 
 
 def fill_scene(scene: Scene, record: SceneRecord) -> None:
     """Add the nodes of a record to an empty scene, and take over its background and light."""
-    for key, value in record.values.members().items():
+    values = record.values.members()
+    full_rate_distance = values.pop("full_rate_distance", None)
+    for key, value in values.items():
         if key not in _SCENE_KEYS:
             raise value.error("is no property of a scene")
         held: Any = value.value
@@ -45,6 +49,11 @@ def fill_scene(scene: Scene, record: SceneRecord) -> None:
     for node, entry in zip(nodes, record.nodes, strict=True):
         if (collider := entry.get("collider")) is not None:
             _try(collider, lambda n=node, c=collider: setattr(n, "collider", _collider(record, c)))
+    if full_rate_distance is None:
+        fill_animator(scene, nodes, record.nodes, math.inf)
+    else:
+        rate = full_rate_distance.value
+        _try(full_rate_distance, lambda: fill_animator(scene, nodes, record.nodes, rate))
 
 
 def _environment(record: SceneRecord, number: JsonValue) -> Environment | None:

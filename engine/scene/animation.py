@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from weakref import ref
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -58,9 +59,9 @@ class Animator(Closed):
         self._scene = scene
         self._full_rate_distance = real(full_rate_distance)
         self._updates = 0
-        self._spins: list[tuple] = []  # node, axis, turns a second, turns at 0, rotation at 0
+        self._spins: list[Spin] = []
         self._tracks: list[Track] = []
-        self._batch: _Spins | None = None
+        self._moving: _Moving | None = None
 
     def __reduce_ex__(self, protocol):
         raise TypeError("an Animator belongs to its Scene: it cannot be copied or pickled")
@@ -89,13 +90,9 @@ class Animator(Closed):
         ------
         InvalidArgumentError
         """
-        axis = vector3(axis, "axis")
-        if not axis.any() or abs(finite(period, "period")) < 1e-300:
-            raise InvalidArgumentError("a spin needs an axis and a period other than 0")
+        given = {"axis": axis, "period": period, "phase": phase}
         nodes = self._scene.select(nodes if isinstance(nodes, Iterable) else [nodes]).nodes
-        axis, phase = linalg.normalize(axis), finite(phase, "phase")
-        self._spins += [(node, axis, 1.0 / period, phase, node.rotation) for node in nodes]
-        self._batch = None
+        self._add([Spin(node, node.rotation, **given) for node in nodes], [])
 
     def track(
         self,
@@ -126,7 +123,13 @@ class Animator(Closed):
         InvalidArgumentError
         """
         self._scene.select([node])
-        self._tracks.append(Track(node, times, translations, rotations, scales, repeat))
+        self._add([], [Track(node, times, translations, rotations, scales, repeat)])
+
+    def _add(self, spins: list[Spin], tracks: list[Track]) -> None:
+        """Let what is described move as well."""
+        self._spins += spins
+        self._tracks += tracks
+        self._moving = None
 
     def seek(self, time: float) -> None:
         """Move all nodes to where they are at a time, in seconds."""
@@ -147,16 +150,27 @@ class Animator(Closed):
             self._updates += 1
             self._move(None if eye is None else vector3(eye, "eye"))
 
+    @property
+    def _motions(self) -> tuple[tuple[Spin, ...], tuple[Track, ...]]:
+        """All spins and keyframes, also those of nodes that are not in the scene just now."""
+        return tuple(self._spins), tuple(self._tracks)
+
+    @_motions.setter
+    def _motions(self, value: tuple[Iterable[Spin], Iterable[Track]]) -> None:
+        self._spins, self._tracks = map(list, value)
+        self._moving = None
+
     def _move(self, eye: np.ndarray | None) -> None:
-        scene = self._scene
-        if self._batch is None or self._batch.removals != scene._removals:
-            self._spins = [spin for spin in self._spins if spin[0]._scene is scene]
-            self._tracks = [track for track in self._tracks if track.node._scene is scene]
-            self._batch = _Spins(scene, self._spins)
-        self._batch.move(self.time, self._due(self._batch.rows, eye))
-        rows = np.array([track.node._slot for track in self._tracks], np.int32)
+        if self._moving is None or self._moving.removals != self._scene._removals:
+            # What only an animator remembers is gone for good.
+            self._spins = [spin for spin in self._spins if spin.node is not None]
+            self._tracks = [track for track in self._tracks if track.node is not None]
+            self._moving = _Moving(self._scene, self._spins, self._tracks)
+        moving = self._moving
+        moving.spins.move(self.time, self._due(moving.spins.rows, eye))
+        rows = np.array([track.node._slot for track in moving.tracks], np.int32)
         for number in self._due(rows, eye).tolist():
-            self._tracks[number].move(self.time)
+            moving.tracks[number].move(self.time)
 
     def _due(self, rows: np.ndarray, eye: np.ndarray | None) -> np.ndarray:
         """Which of the nodes in some slots move this time, by number."""
@@ -171,17 +185,65 @@ class Animator(Closed):
         return np.flatnonzero((self._updates + rows) % steps == 0)
 
 
+class _Described:
+    """How one node moves; the node may have gone.
+
+    A removed node may come back (`Scene.restore`), so its motion is kept as long as anybody keeps
+    the node.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = ref(node)
+
+    @property
+    def node(self) -> Node | None:
+        return self._node()
+
+
+class Spin(_Described):
+    """A constant rate of turning of one node.
+
+    Attributes
+    ----------
+    rotation : (4,) float64
+        At phase 0.
+    axis, period, phase
+        As they were given to `Animator.spin`.
+    """
+
+    def __init__(self, node: Node, rotation, axis, period, phase) -> None:
+        super().__init__(node)
+        self.axis, self.period = vector3(axis, "axis"), finite(period, "period")
+        if not self.axis.any() or abs(self.period) < 1e-300:
+            raise InvalidArgumentError("a spin needs an axis and a period other than 0")
+        self.phase, self.rotation = finite(phase, "phase"), rotation
+        self.direction, self.rate = linalg.normalize(self.axis), 1.0 / self.period
+
+
+class _Moving:
+    """What of all that is described moves nodes which are in the scene."""
+
+    def __init__(self, scene: Scene, spins: list[Spin], tracks: list[Track]) -> None:
+        self.removals = scene._removals  # grows also where a node comes back
+        self.spins = _Spins(scene, [spin for spin in spins if _is_in(scene, spin)])
+        self.tracks = [track for track in tracks if _is_in(scene, track)]
+
+
+def _is_in(scene: Scene, described: _Described) -> bool:
+    node = described.node
+    return node is not None and node._scene is scene
+
+
 class _Spins:
     """All spins of an animator as arrays."""
 
-    def __init__(self, scene, spins: list[tuple]) -> None:
-        self.removals = scene._removals
-        self.rows = np.array([spin[0]._slot for spin in spins], np.int32)
+    def __init__(self, scene: Scene, spins: list[Spin]) -> None:
+        self.rows = np.array([spin.node._slot for spin in spins], np.int32)
         self._arrays = scene._arrays
-        self._axes = np.array([spin[1] for spin in spins]).reshape(-1, 3)
-        self._rates = np.array([spin[2] for spin in spins])
-        self._phases = np.array([spin[3] for spin in spins])
-        self._first = np.array([spin[4] for spin in spins]).reshape(-1, 4)
+        self._axes = np.array([spin.direction for spin in spins]).reshape(-1, 3)
+        self._rates = np.array([spin.rate for spin in spins])
+        self._phases = np.array([spin.phase for spin in spins])
+        self._first = np.array([spin.rotation for spin in spins]).reshape(-1, 4)
 
     def move(self, time: float, due: np.ndarray) -> None:
         if len(due) == 0:
@@ -197,42 +259,43 @@ class _Spins:
         self._arrays.set_many_parts(self.rows[due], rotations, None)
 
 
-class Track:
-    """Keyframes of one node."""
+class Track(_Described):
+    """Keyframes of one node: arrays as they were given to `Animator.track`, or None."""
 
     def __init__(self, node: Node, times, translations, rotations, scales, repeat: bool) -> None:
-        self.node = node
-        self._times = _keys(times, "times", ())
-        if not len(self._times) or not (np.diff(self._times) > 0).all():
+        super().__init__(node)
+        self.times = _keys(times, "times", ())
+        if not len(self.times) or not (np.diff(self.times) > 0).all():
             raise InvalidArgumentError("times must increase")
-        count = len(self._times)
-        self._translations = _keys(translations, "translations", (3,), count)
-        self._rotations = _keys(rotations, "rotations", (4,), count)
-        self._scales = _keys(scales, "scales", (3,), count)
-        if self._rotations is not None:
+        count = len(self.times)
+        self.translations = _keys(translations, "translations", (3,), count)
+        self.rotations = _keys(rotations, "rotations", (4,), count)
+        self.scales = _keys(scales, "scales", (3,), count)
+        if self.rotations is not None:
             with np.errstate(over="ignore"):
-                squares = (self._rotations * self._rotations).sum(axis=1)
+                squares = (self.rotations * self.rotations).sum(axis=1)
             if not ((squares > 0.0) & (squares < math.inf)).all():
                 raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
-        self._repeat = bool(repeat)
+        self.repeat = bool(repeat)
 
     def move(self, time: float) -> None:
-        first, last = float(self._times[0]), float(self._times[-1])
-        if self._repeat and last > first:
+        first, last = float(self.times[0]), float(self.times[-1])
+        if self.repeat and last > first:
             turns = (time - first) / (last - first)
             turns = turns if math.isfinite(turns) else 0.0
             time = first + (turns - math.floor(turns)) * (last - first)
-        after = int(np.searchsorted(self._times, time, side="right"))
-        after = min(max(after, 1), len(self._times) - 1) if len(self._times) > 1 else 0
+        after = int(np.searchsorted(self.times, time, side="right"))
+        after = min(max(after, 1), len(self.times) - 1) if len(self.times) > 1 else 0
         before = max(after - 1, 0)
-        span = float(self._times[after] - self._times[before]) or 1.0
-        share = min(max((time - float(self._times[before])) / span, 0.0), 1.0)
-        if self._translations is not None:
-            self.node.translation = _between(self._translations, before, after, share)
-        if self._scales is not None:
-            self.node.scale = _between(self._scales, before, after, share)
-        if self._rotations is not None:
-            self.node.rotation = slerp(self._rotations[before], self._rotations[after], share)
+        span = float(self.times[after] - self.times[before]) or 1.0
+        share = min(max((time - float(self.times[before])) / span, 0.0), 1.0)
+        node = self.node
+        if self.translations is not None:
+            node.translation = _between(self.translations, before, after, share)
+        if self.scales is not None:
+            node.scale = _between(self.scales, before, after, share)
+        if self.rotations is not None:
+            node.rotation = slerp(self.rotations[before], self.rotations[after], share)
 
 
 def _between(values: np.ndarray, before: int, after: int, share: float) -> np.ndarray:

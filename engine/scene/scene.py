@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from ..rendering.frame import Frame
     from ..spatial.colliders import ColliderHit
     from ..spatial.rays import RayHit, RayHits
+    from .animation import Animator
     from .nodes import SceneObject
 
 MAX_EXPOSURE = 64
@@ -81,6 +82,9 @@ class Scene(Closed):
         Clips of a file, by name, for an `AnimationPlayer`.
     warnings : list of str
         What was left out or replaced where the scene was made from a file.
+    animator : Animator or None
+        Moves the nodes as the scene's file says, and is written with the scene. Nothing happens by
+        itself: call its `Animator.seek` or `Animator.advance`. Can be assigned.
 
     Raises
     ------
@@ -113,6 +117,7 @@ class Scene(Closed):
         self._renames = 0  # how often a node got another name
         self._posing: Posing | None = None  # made when a mesh is first bent
         self.animations = {}
+        self._animator: Animator | None = None
         self.warnings = []
         self.background = background
         self.ambient = ambient
@@ -207,6 +212,18 @@ class Scene(Closed):
                 f"exposure must be from {-MAX_EXPOSURE} to {MAX_EXPOSURE} stops, not {shown(value)}"
             )
         self._exposure = number
+
+    @property
+    def animator(self) -> Animator | None:
+        return self._animator
+
+    @animator.setter
+    def animator(self, value: Animator | None) -> None:
+        # Only an Animator has motions; its module builds on this one.
+        fits = value is None or (hasattr(value, "_motions") and value._scene is self)
+        if not fits:
+            raise InvalidArgumentError("animator must be an Animator of this scene, or None")
+        self._animator = value
 
     def add(
         self,

@@ -78,6 +78,7 @@ def open_model(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
+        update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
         path=path,
         details=document_lines(document),

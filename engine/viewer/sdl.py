@@ -77,6 +77,13 @@ def refresh_rate(sdl, window) -> int:
     return USUAL_REFRESH_RATE
 
 
+def usable_area(sdl) -> tuple[int, int] | None:
+    """Return how wide and high windows can be on the first screen; None where it is unknown."""
+    area = sdl.SDL_Rect()
+    known = sdl.SDL_GetDisplayUsableBounds(0, area) == 0 and area.w > 0 and area.h > 0
+    return (area.w, area.h) if known else None
+
+
 def screen_scale(sdl, window) -> int:
     """Return how many times finer than usual a window's screen is; 1 where it is unknown.
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import os
 from collections.abc import Iterator
 from typing import Any
@@ -28,6 +29,7 @@ from ..loaders.scene_file import FORMAT, LISTS, VERSION
 from ..materials.material import TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
 from ..scene.instances import InstancedMesh
+from ..scene.motion_records import motion_entries
 from ..scene.nodes import Node
 from ..scene.object_kinds import kind_of, parameters, plain, values_of
 from ..scene.placements import Placements
@@ -52,9 +54,10 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     path : str or path-like
         With ``.glb`` or ``.gltf`` it becomes glTF 2.0, all in one file; images keep the bytes that
         they came in. With any other extension it becomes JSON of engine3d: by custom it ends in
-        ``.e3d.json``, and `load_scene` tells it by its content; meshes, textures and environments that were
-        loaded from files in its folder, or below it, are named by their relative paths, and all
-        others become a part of the file. What cannot be written is warned of as `Engine3DWarning`.
+        ``.e3d.json``, and `load_scene` tells it by its content; meshes, textures and
+        environments that were loaded from files in its folder, or below it, are named by their
+        relative paths, and all others become a part of the file. What cannot be written is warned
+        of as `Engine3DWarning`. How nodes move is written if it is that of ``scene.animator``.
 
     Raises
     ------
@@ -82,6 +85,10 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     writing = _Writing(folder)
     writing.nodes(scene)
     values = writing.values(scene)
+    animator = scene.animator
+    if animator is not None and any(animator._motions):
+        if math.isfinite(animator._full_rate_distance):
+            values["full_rate_distance"] = animator._full_rate_distance
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
     return "".join(_lines(tree)).encode("ascii"), writing.told
 
@@ -122,6 +129,7 @@ class _Writing:
         nodes = scene.nodes
         numbers = {node: number for number, node in enumerate(nodes)}
         placements = Placements(scene, nodes)
+        motions = motion_entries(scene.animator)
         for row, node in enumerate(nodes):
             entry: dict[str, Any] = {"name": node.name} if node.name else {}
             if (number := self._object(node)) is not None:
@@ -133,6 +141,7 @@ class _Writing:
                 entry["static"] = True
             if node.collider is not None:
                 entry["collider"] = self._collider(node)
+            entry.update(motions.get(node, {}))
             if children := node.children:
                 entry["children"] = [numbers[child] for child in children]
             self.lists["nodes"].append(entry)

@@ -82,6 +82,14 @@ WRONG = [
     (changed("nodes", 1, "collider", {"kind": "cone"}), "collider.kind: 'cone' is not one of"),
     (changed("nodes", 1, "collider", {"kind": "sphere"}), "collider: .*radius"),
     (changed("nodes", 3, "collider", "mesh", 5), r"collider.mesh: objects\[5\] is no mesh"),
+    (changed("nodes", 1, "spins", [{"axis": [0, 1, 0]}]), r"nodes\[1\].spins\[0\]: 'period' is"),
+    (changed("nodes", 1, "spins", [{"axis": [0, 0, 0], "period": 1}]), r"spins\[0\]: .*an axis"),
+    (changed("nodes", 1, "spins", [{"axis": [0, 1], "period": 1}]), "axis: .* is not 3 finite"),
+    (changed("nodes", 1, "spins", [{"speed": 1}]), "speed: is no property of a motion"),
+    (changed("nodes", 1, "tracks", [{"times": [1, 1]}]), r"tracks\[0\]: times must increase"),
+    (changed("nodes", 1, "tracks", [{"times": [1], "scales": []}]), "scales"),
+    (changed("nodes", 1, "tracks", [{"times": [1], "repeat": 0}]), "repeat: 0 is not true or"),
+    (changed("scene", "full_rate_distance", "far"), "scene.full_rate_distance: "),
     (changed("scene", "fog", 1), "scene.fog: is no property of a scene"),
     (changed("scene", "ambient", "blue"), "scene.ambient: "),
     (changed("objects", 0, "kind", "cat"), r"objects\[0\].kind: 'cat' is not one of mesh"),
@@ -208,3 +216,15 @@ def test_files_are_read_once_however_often_they_are_named(folder, monkeypatch):
     monkeypatch.setattr(scene_file, "_MAX_COPIES", 10)
     with pytest.warns(e3d.Engine3DWarning, match="more than 10 materials of repeated"):
         e3d.load_scene(folder / "case.json")
+
+
+def test_primitives_that_are_alike_share_arrays_but_no_materials(folder):
+    again = {"kind": "mesh", "primitive": "box", "arguments": {"size": 2}}
+    tree = changed("objects", 2, again)
+    tree["objects"] += [again, {**again, "arguments": {"size": 3}}]
+    count = len(tree["objects"])
+    tree["nodes"] = [{"object": number} for number in (2, count - 2, count - 1)]
+    one, other, larger = (node.object for node in load(folder, tree).nodes)
+    assert one is not other and one.positions is other.positions
+    assert one.materials[0] is not other.materials[0]
+    assert larger.positions.max() == 1.5

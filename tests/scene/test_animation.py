@@ -1,5 +1,6 @@
 """Spins and keyframes as functions of time; pausing; what is far moves less often."""
 
+import gc
 import math
 
 import numpy as np
@@ -153,3 +154,28 @@ def test_what_is_no_scene_or_no_nodes(scene):
             animator.spin(nodes, period=1.0)
     with pytest.raises(e3d.InvalidArgumentError, match="iterable of Node"):
         scene.select(3)
+
+
+def test_a_node_that_comes_back_moves_again(scene):
+    node = scene.add()
+    animator = e3d.Animator(scene)
+    animator.spin(node, period=4.0)
+    animator.track(node, (0, 1), translations=[(0, 0, 0), (4, 0, 0)])
+    scene.remove(node)
+    animator.seek(0.25)
+    assert node.translation.tolist() == [0, 0, 0]
+    scene.restore(node)
+    animator.seek(0.5)
+    assert node.translation.tolist() == [2, 0, 0] and node.rotation[1] > 0.3
+
+
+def test_what_moved_nodes_that_nobody_has_is_forgotten(scene):
+    animator = e3d.Animator(scene)
+    for _ in range(3):
+        node = scene.add()
+        animator.spin(node, period=4.0)
+        scene.remove(node)
+    del node
+    gc.collect()
+    animator.seek(1.0)
+    assert animator._motions == ((), ())

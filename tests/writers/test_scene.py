@@ -121,6 +121,35 @@ def test_whatever_a_scene_holds_is_read_again(seed, tmp_path):
     checked(random_scene(np.random.default_rng(seed)), tmp_path / "a.e3d.json")
 
 
+def moving_scene():
+    scene = e3d.Scene()
+    node = scene.add(e3d.box(), name="top", rotation=(0.1, 0.2, 0.3, 0.9))
+    below = scene.add(e3d.box(), name="below", parent=node, translation=(0, 1, 0))
+    scene.add(e3d.DirectionalLight())
+    scene.animator = e3d.Animator(scene, full_rate_distance=12.5)
+    scene.animator.spin([node, below], period=3.7, axis=(0, 2, 0.3), phase=0.15)
+    times, places = (0.0, 0.3, 1.1), [(0, 0, 0), (0.1, 0.7, 0), (1, 0, 0)]
+    turns = [(0, 0, 0, 1), (0, 1, 0, 0.3), (0, 0, 3, 1)]
+    scene.animator.track(below, times, translations=places, rotations=turns, repeat=False)
+    scene.animator.track(node, times, scales=[(1, 1, 1), (2, 1, 1), (1, 1, 2)])
+    return scene
+
+
+def test_how_nodes_move_goes_with_the_scene(tmp_path):
+    scene = moving_scene()
+    scene.animator.seek(0.8)
+    again = checked(scene, tmp_path / "moving.e3d.json")
+    for time in (0.0, 0.8, 5.3, -2.1, 1e9):
+        scene.animator.seek(time)
+        again.animator.seek(time)
+        assert picture(again) == picture(scene)
+    assert e3d.load_scene(FILES["a.json"]).animator is None
+    again.animator = None
+    assert b"spins" not in written(again, tmp_path / "still.e3d.json")
+    with pytest.raises(e3d.InvalidArgumentError, match="of this scene"):
+        again.animator = scene.animator
+
+
 def test_what_is_shared_stays_shared(tmp_path):
     scene = e3d.Scene()
     mesh, lamp = e3d.Mesh(e3d.box().positions, e3d.box().faces), e3d.PointLight()

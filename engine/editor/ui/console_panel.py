@@ -8,6 +8,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from ..console import LEVELS
+from .layout import begin_panel
 from .workspace import Workspace
 
 _COLORS = {
@@ -39,7 +40,7 @@ class ConsolePanel:
 
     def draw(self) -> None:
         """Lay the panel out."""
-        shown, _ = imgui.begin("Console")
+        shown = begin_panel(self._workspace, "Console")
         if shown:
             self._draw_head()
             height = -imgui.get_frame_height_with_spacing()
@@ -87,10 +88,14 @@ class ConsolePanel:
         chosen = flags.enter_returns_true | flags.callback_history | flags.callback_completion
         entered, line = imgui.input_text("##prompt", self._line, chosen, self._edit)
         self._line = line
+        if prompt.is_open and imgui.is_item_focused() and imgui.is_key_pressed(imgui.Key.escape):
+            prompt.reset()
+            self._workspace.console.write("message", "the lines of the prompt are given up")
         if entered:
             self._line, self._back = "", 0
             self._focuses = True
-            self._workspace.run(line)
+            self._workspace.hold_keys()
+            self._workspace.lines_to_run.append(line)
 
     def _edit(self, data) -> int:
         """Put an earlier line, or what a name may go on as, in place of the text."""

@@ -8,21 +8,22 @@ from __future__ import annotations
 
 import time
 import traceback
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 from imgui_bundle import imgui, imguizmo
 
 from ... import events
-from ...errors import FileAccessError
-from ...files.atomic_write import atomic_write
+from ...canvas import Canvas
 from ...ui.imgui_painter import ImguiPainter
+from ...viewer.sdl import close_video, open_video, usable_area
 from ...viewer.window import Window
-from ..user_folders import state_folder
 from .console_panel import ConsolePanel
 from .files import Files
 from .hierarchy_panel import HierarchyPanel
-from .imgui_input import ImguiInput
+from .imgui_input import ImguiInput, of_one_picture
+from .interrupts import Interrupts
+from .layout import load_layout, place_panels, save_layout
 from .menus import draw_menus, entries, press_keys
 from .properties_panel import PropertiesPanel
 from .resources_panel import ResourcesPanel
@@ -31,15 +32,16 @@ from .style import choose_style
 from .workspace import Workspace
 
 WINDOW_SIZE = (1600, 900)
-#: How long the loop sleeps while nothing happens, and while a text cursor blinks.
-IDLE_SECONDS, BLINK_SECONDS = 10.0, 0.4
+#: How long the loop sleeps while nothing happens: a signal that ends the editor waits no longer,
+#: and while a text cursor blinks, a picture is drawn as often.
+IDLE_SECONDS = 0.4
+#: Seconds after which the window tells that Python runs.
+PATIENCE = 1.0
+RUNNING = "Python runs: Esc stops it"
+#: How long the loop sleeps while a picture of a file is being made.
+WAITING_SECONDS = 0.02
 #: How many pictures an event is worth: panels place what depends on each other one after another.
 SETTLING = 3
-
-
-def layout_path() -> Path:
-    """Return where the places of the panels are kept from one time to the next."""
-    return state_folder() / "editor.ini"
 
 
 class EditorWindow:
@@ -50,7 +52,8 @@ class EditorWindow:
     path : str, optional
         A file to edit.
     size : (int, int)
-        Of the window, in pixels.
+        Of the window, in pixels; not more than the screen has room for.
+
     Raises
     ------
     DisplayError
@@ -59,9 +62,11 @@ class EditorWindow:
 
     def __init__(self, path: str = "", *, size: tuple[int, int] = WINDOW_SIZE) -> None:
         self.workspace = Workspace()
+        self._interrupts = Interrupts(self.workspace.keep_copy)
+        self.workspace.guard = lambda: self._interrupts.stoppable(self._stops)
         if path:
             self.workspace.open(path)
-        self.window = Window(*size, self._title(), wait=True)
+        self.window = self._opened_window(size)
         self._context = imgui.create_context()
         io = imgui.get_io()
         io.config_flags |= imgui.ConfigFlags_.docking_enable
@@ -69,48 +74,108 @@ class EditorWindow:
         # What a panel that failed has left open is closed: see `_draw_panel`.
         io.config_error_recovery_enable_assert = False
         io.config_error_recovery_enable_debug_log = False
+        io.config_windows_move_from_title_bar_only = True
         io.set_ini_filename("")
         choose_style(self.window.scale)
         self._painter = ImguiPainter()
         self._input = ImguiInput(self.window)
         self._scene = ScenePanel(self.workspace, self._painter)
-        self._files = Files(self.workspace)
+        self._files = Files(self.workspace, self._painter)
         self._resources = ResourcesPanel(self.workspace, self._painter)
         hierarchy = HierarchyPanel(self.workspace)
-        self._panels = [
-            hierarchy,
-            self._scene,
-            PropertiesPanel(self.workspace, self._files),
-            self._resources,
-            ConsolePanel(self.workspace),
-        ]
+        self._panels = {
+            "Hierarchy": hierarchy,
+            "Scene": self._scene,
+            "Properties": PropertiesPanel(self.workspace, self._files),
+            "Resources": self._resources,
+            "Console": ConsolePanel(self.workspace),
+        }
         self._files.offer_recovery()
         self._entries = entries(self.workspace, self._files, hierarchy)
         self._pixels = np.zeros((1, 1, 4), np.uint8)
         self._told: set[str] = set()
+        self._late: list = []  # events that wait for the next picture, or came while Python ran
         self._last = time.monotonic()
-        self._has_layout = self._load_layout()
+        self.workspace.wants_usual_places = not load_layout(self.workspace)
         self._pictures_due = SETTLING
 
-    def run(self) -> None:
-        """Show the editor until the user closes it."""
-        while not self.workspace.wants_exit:
-            self.turn(0.0 if self._pictures_due else self._patience())
-        self.workspace.close()
-        self._save_layout()
+    def _opened_window(self, size: tuple[int, int]) -> Window:
+        video = open_video()
+        try:
+            room = usable_area(video)
+            if room is not None:
+                size = min(size[0], room[0]), min(size[1], room[1])
+            return Window(*size, self._title(), wait=True)
+        finally:
+            close_video(video)  # which the window keeps open
+
+    def run(self) -> int:
+        """Show the editor until the user closes it, or a signal ends it.
+
+        Returns
+        -------
+        status : int
+            The exit status: 0, or 128 and the number of the signal. What is not saved then is kept
+            for the next editor to offer.
+        """
+        with self._interrupts:
+            try:
+                while not (self.workspace.wants_exit or self._interrupts.number):
+                    self.turn(0.0 if self._pictures_due else IDLE_SECONDS)
+            except BaseException:
+                self.workspace.keep_copy()
+                raise
+            if self.workspace.wants_exit:
+                self.workspace.close()
+            else:
+                self.workspace.keep_copy()
+            save_layout(self.workspace)
+            return self._interrupts.status
 
     def turn(self, patience: float) -> None:
         """Wait for events, and draw a picture if one is due."""
-        for event in self.window.events(patience):
-            self._take(event)
+        waiting, self._late = self._late, []
+        waiting += self.window.events(0.0 if waiting else patience)
+        queue = self._context.input_events_queue
+        holds = self.workspace.pictures_to_focus > 0 or not queue.empty()
+        happened, self._late = of_one_picture(waiting, holds)
+        for event in happened:
+            self._take_safely(event)
+        if self.workspace.lines_to_run:
+            self._run_lines()
         self.workspace.tick()
-        if self.window.minimised or not (self._pictures_due or imgui.get_io().want_text_input):
+        blinks = imgui.get_io().want_text_input
+        if self.window.minimised or not (self._pictures_due or blinks):
             return
         self._pictures_due = max(self._pictures_due - 1, 0)
         self._draw()
 
-    def _patience(self) -> float:
-        return BLINK_SECONDS if imgui.get_io().want_text_input else IDLE_SECONDS
+    def _run_lines(self) -> None:
+        """Run what was entered in the console: here, where ImGui lays nothing out."""
+        self._pictures_due = SETTLING
+        self._started = time.monotonic()
+        self._has_told = False
+        self.workspace.run_lines()
+        self._last = time.monotonic()  # the key that was pressed was not held down meanwhile
+
+    def _stops(self) -> bool:
+        """Whether the user wants what runs to stop; what else happens meanwhile waits."""
+        happened = self.window.events()
+        self._late += [event for event in happened if not _is_stop_key(event)]
+        if not self._has_told and time.monotonic() - self._started > PATIENCE:
+            self._has_told = True
+            canvas = Canvas(*self.window.size)
+            canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
+            canvas.text(16, 16, RUNNING, (255, 255, 255), scale=2, background=(150, 40, 40))
+            self.window.present(canvas)
+        closes = any(isinstance(event, events.CloseRequested) for event in happened)
+        return closes or any(map(_is_stop_key, happened))
+
+    def _take_safely(self, event) -> None:
+        try:
+            self._take(event)
+        except Exception as error:
+            self._tell(error)
 
     def _take(self, event) -> None:
         self._pictures_due = SETTLING
@@ -130,14 +195,22 @@ class EditorWindow:
         now = time.monotonic()
         io.display_size = imgui.ImVec2(*size)
         io.delta_time, self._last = max(now - self._last, 1e-4), now
+        self.workspace.animate(io.delta_time)
+        self.workspace.pictures_to_focus = max(self.workspace.pictures_to_focus - 1, 0)
         imgui.new_frame()
-        imguizmo.im_guizmo.begin_frame()
-        self._lay_out()
-        imgui.render()
+        begun = _recovery_state()
+        try:
+            imguizmo.im_guizmo.begin_frame()
+            self._lay_out()
+            imgui.render()
+        except BaseException:  # such as Ctrl-C: no frame may stay open when Python ends
+            imgui.internal.error_recovery_try_to_recover_state(begun)
+            imgui.end_frame()
+            raise
         self._painter.draw(imgui.get_draw_data(), self._pixels)
         self._input.follow_pointer()
         self.window.present(self._pixels)
-        if self._resources.is_waiting or self._scene.is_flying:
+        if self._is_unfinished():
             self._pictures_due = max(self._pictures_due, 1)
         # ImGui takes no key or button both down and up in one picture: the rest waits for the next.
         if not self._context.input_events_queue.empty():
@@ -145,49 +218,50 @@ class EditorWindow:
         if self.window.title != self._title():
             self.window.title = self._title()
 
+    def _is_unfinished(self) -> bool:
+        """Whether the next picture shows something else, though nothing happens."""
+        if self._files.is_waiting:
+            time.sleep(WAITING_SECONDS)
+        waits = self._resources.is_waiting or self._files.is_waiting
+        moves = self._scene.is_flying or self.workspace.is_moving
+        return waits or moves or bool(self._late) or self.workspace.pictures_to_focus > 0
+
     def _title(self) -> str:
         return f"{self.workspace.document.title} - engine3d"
 
     def _lay_out(self) -> None:
-        draw_menus(self.workspace, self._entries)
+        workspace = self.workspace
+        self._guarded(lambda: draw_menus(workspace, self._entries))
         flags = imgui.DockNodeFlags_.passthru_central_node
         space = imgui.dock_space_over_viewport(flags=flags)
-        if not self._has_layout:
+        if workspace.wants_usual_places:
             place_panels(space, self.window.size)
-            self._has_layout = True
-        for panel in (*self._panels, self._files):
-            self._draw_panel(panel)
-        press_keys(self._entries)
+            workspace.wants_usual_places = False
+            workspace.closed.clear()
+        for name, panel in self._panels.items():
+            if name not in workspace.closed:
+                self._guarded(panel.draw)
+        self._guarded(self._files.draw)
+        self._guarded(lambda: press_keys(self._entries))
 
-    def _draw_panel(self, panel) -> None:
-        """Lay a panel out; an error of it is told, since what isn't saved must not be lost."""
-        state = imgui.internal.ErrorRecoveryState()
-        imgui.internal.error_recovery_store_state(state)
+    def _guarded(self, lay_out: Callable[[], object]) -> None:
+        """Lay something out; an error of it is told."""
+        state = _recovery_state()
+        alpha = imgui.get_style().alpha
         try:
-            panel.draw()
+            lay_out()
         except Exception as error:
             imgui.internal.error_recovery_try_to_recover_state(state)
-            text = "".join(traceback.format_exception(error))
-            if text not in self._told:
-                self._told.add(text)
-                self.workspace.console.write("error", text)
+            # ImGui takes an open `begin_disabled(False)` for another thing, and hides everything.
+            imgui.get_style().alpha = alpha
+            self._tell(error)
 
-    def _load_layout(self) -> bool:
-        try:
-            imgui.load_ini_settings_from_memory(layout_path().read_text("utf-8"))
-        except (OSError, UnicodeError):
-            return False
-        return True
-
-    def _save_layout(self) -> None:
-        """Keep the places of the panels; if that fails, they are the usual ones next time."""
-        path = layout_path()
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            with atomic_write(path) as file:
-                file.write(imgui.save_ini_settings_to_memory().encode())
-        except (OSError, FileAccessError):
-            return
+    def _tell(self, error: Exception) -> None:
+        """Tell of an error, once, and go on: what isn't saved must not be lost."""
+        text = "".join(traceback.format_exception(error))
+        if text not in self._told:
+            self._told.add(text)
+            self.workspace.console.write("error", text)
 
     def close(self) -> None:
         """Close the window; may be called twice."""
@@ -204,24 +278,15 @@ class EditorWindow:
         self.close()
 
 
-def place_panels(space: int, size: tuple[int, int]) -> None:
-    """Give the panels their usual places."""
-    builder = imgui.internal
-    builder.dock_builder_remove_node(space)
-    flags = builder.DockNodeFlagsPrivate_.dock_space | imgui.DockNodeFlags_.passthru_central_node
-    builder.dock_builder_add_node(space, flags)
-    builder.dock_builder_set_node_size(space, size)
-    split = builder.dock_builder_split_node_py
-    *_, left, rest = split(space, imgui.Dir.left, 0.2)
-    *_, right, rest = split(rest, imgui.Dir.right, 0.26)
-    *_, below, middle = split(rest, imgui.Dir.down, 0.28)
-    places = {
-        "Hierarchy": left,
-        "Scene": middle,
-        "Properties": right,
-        "Console": below,
-        "Resources": below,
-    }
-    for name, place in places.items():
-        builder.dock_builder_dock_window(name, place)
-    builder.dock_builder_finish(space)
+def _recovery_state() -> imgui.internal.ErrorRecoveryState:
+    """What ImGui has begun so far, to be closed down to if something fails."""
+    state = imgui.internal.ErrorRecoveryState()
+    imgui.internal.error_recovery_store_state(state)
+    return state
+
+
+def _is_stop_key(event) -> bool:
+    """Whether an event is a key that stops what runs: Esc, or Ctrl+C."""
+    if not isinstance(event, events.KeyDown):
+        return False
+    return event.key == "Escape" or (event.control and event.key == "C")

@@ -1,4 +1,4 @@
-"""A dialog that chooses a file: folders, kinds, a search, what was opened lately.
+"""A dialog that chooses a file: folders, kinds, a search, what was opened lately, a picture.
 
 In: what the file is for. Out: a path, given to whoever asked.
 """
@@ -11,10 +11,13 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
+from ...ui.imgui_painter import ImguiPainter
+from ..file_pictures import FilePictures
 from ..folder_listing import Item, Listing, list_folder
 from ..recent_files import RecentFiles
 
-_SIZE = 46, 30  # in heights of the font
+_SIZE = 62, 30  # in heights of the font
+PICTURE = 192
 
 
 class FileDialog:
@@ -23,12 +26,23 @@ class FileDialog:
     Parameters
     ----------
     recent : RecentFiles
+    painter : ImguiPainter
+        Shows pictures of files.
+
+    Attributes
+    ----------
+    is_waiting : bool
+        Whether the picture of a file is being made: the next frame is another one.
     """
 
-    def __init__(self, recent: RecentFiles) -> None:
-        self._recent = recent
+    def __init__(self, recent: RecentFiles, painter: ImguiPainter) -> None:
+        self._recent, self._painter = recent, painter
+        self._pictures = FilePictures(PICTURE)
+        self._picture, self._pixels = 0, None
+        self._hovered = ""
+        self.is_waiting = False
         self._title = ""
-        self._opens = False
+        self._opens = self._focuses = False
         self._is_new = False
         self._kinds: dict[str, tuple[str, ...]] = {}
         self._kind = ""
@@ -61,7 +75,7 @@ class FileDialog:
         self._title, self._kinds, self._answer = title, kinds, answer
         self._kind = next(iter(kinds))
         self._is_new, self._name = name is not None, name or ""
-        self._opens = True
+        self._opens, self._focuses = True, self._is_new
         self._go(self._folder)
 
     def _go(self, folder: str) -> None:
@@ -70,18 +84,23 @@ class FileDialog:
 
     def draw(self) -> None:
         """Lay the dialog out, if it is open."""
+        self.is_waiting = False
         if self._opens:
             imgui.open_popup(self._title)
             self._opens = False
         if not self._title:
             return
-        height = imgui.get_font_size()
-        imgui.set_next_window_size(tuple(height * side for side in _SIZE), imgui.Cond_.appearing)
-        shown, _ = imgui.begin_popup_modal(self._title, True)
+        height, room = imgui.get_font_size(), imgui.get_io().display_size
+        size = [min(height * side, most) for side, most in zip(_SIZE, room, strict=True)]
+        imgui.set_next_window_size(tuple(size), imgui.Cond_.appearing)
+        shown, is_open = imgui.begin_popup_modal(self._title, True)
+        if not is_open:
+            self._title = ""
         if shown:
             self._draw_places()
             self._draw_lists()
-            self._draw_answer()
+            if self._title:  # no file was chosen by a double click
+                self._draw_answer()
             imgui.end_popup()
 
     def _draw_places(self) -> None:
@@ -109,18 +128,43 @@ class FileDialog:
 
     def _draw_lists(self) -> None:
         below = -imgui.get_frame_height_with_spacing() * 1.5
-        if imgui.begin_child("recent", (imgui.get_font_size() * 12, below), _BORDERS):
+        wide = imgui.get_content_region_avail().x
+        self._hovered = ""
+        if imgui.begin_child("recent", (imgui.get_font_size() * 10, below), _BORDERS):
             imgui.text_disabled("Opened lately")
             for path in self._recent.paths():
                 if imgui.selectable(os.path.basename(path) + f"##{path}", False)[0]:
                     self._go(os.path.dirname(path))
                     self._name = os.path.basename(path)
                 imgui.set_item_tooltip(path)
+                if imgui.is_item_hovered():
+                    self._hovered = path
         imgui.end_child()
         imgui.same_line()
-        if imgui.begin_child("files", (0.0, below), _BORDERS):
+        side = PICTURE + 2 * imgui.get_style().window_padding.x
+        shows = wide > 4 * side
+        if imgui.begin_child("files", (-side * shows, below), _BORDERS):
             self._draw_table()
         imgui.end_child()
+        if shows:
+            imgui.same_line()
+            if imgui.begin_child("picture", (0.0, below), _BORDERS):
+                self._draw_picture()
+            imgui.end_child()
+
+    def _draw_picture(self) -> None:
+        """Lay out the picture of the file under the mouse, or else of the chosen one."""
+        path = self._hovered or os.path.join(self._folder, self._name)
+        pixels, self.is_waiting = self._pictures.get(path) if path else (None, False)
+        if pixels is None:
+            imgui.text_disabled("..." if self.is_waiting else "no picture")
+            return
+        if pixels is not self._pixels:
+            self._picture = self._picture or self._painter.add(pixels, opaque=True)
+            self._painter.replace(self._picture, pixels, opaque=True)
+            self._pixels = pixels
+        imgui.image(imgui.ImTextureRef(self._picture), (PICTURE, PICTURE))
+        imgui.text_wrapped(os.path.basename(path))
 
     def _draw_table(self) -> None:
         if self._listing.reason:
@@ -128,9 +172,10 @@ class FileDialog:
         items = self._listing.filtered(self._kinds[self._kind], self._search)
         if not imgui.begin_table("items", 3, imgui.TableFlags_.scroll_y):
             return
-        imgui.table_setup_column("Name", imgui.TableColumnFlags_.width_stretch, 3.0)
-        imgui.table_setup_column("Size", imgui.TableColumnFlags_.width_stretch, 1.0)
-        imgui.table_setup_column("Changed", imgui.TableColumnFlags_.width_stretch, 1.2)
+        fixed, height = imgui.TableColumnFlags_.width_fixed, imgui.get_font_size()
+        imgui.table_setup_column("Name", imgui.TableColumnFlags_.width_stretch)
+        imgui.table_setup_column("Size", fixed, 5 * height)
+        imgui.table_setup_column("Changed", fixed, 8.5 * height)
         imgui.table_headers_row()
         clipper = imgui.ListClipper()
         clipper.begin(len(items))
@@ -146,28 +191,39 @@ class FileDialog:
         chosen = flags.span_all_columns | flags.allow_double_click | flags.no_auto_close_popups
         label = f"{item.name}{'/' * item.is_folder}"
         clicked, _ = imgui.selectable(label, item.name == self._name, chosen)
+        if imgui.is_item_hovered() and not item.is_folder:
+            self._hovered = item.path
         imgui.table_next_column()
         imgui.text_unformatted("" if item.is_folder else f"{item.size:,}")
         imgui.table_next_column()
         imgui.text_unformatted(time.strftime("%Y-%m-%d %H:%M", time.localtime(item.modified)))
-        if clicked and item.is_folder:
-            self._go(item.path)
-        elif clicked:
+        if not clicked:
+            return
+        twice = imgui.is_mouse_double_clicked(0)
+        if not item.is_folder:
             self._name = item.name
-            if imgui.is_mouse_double_clicked(0):
+            if twice:
                 self._finish()
+        elif twice:
+            self._go(item.path)
+        elif not self._is_new:  # whose name stays
+            self._name = item.name
 
     def _draw_answer(self) -> None:
         imgui.set_next_item_width(-imgui.get_font_size() * 12)
-        flags = imgui.InputTextFlags_.enter_returns_true
+        if self._focuses:
+            imgui.set_keyboard_focus_here()
+            self._focuses = False
+        flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
         entered, self._name = imgui.input_text("##name", self._name, flags)
         path = os.path.join(self._folder, self._name)
         imgui.same_line()
-        imgui.begin_disabled(not self._name or not (self._is_new or os.path.isfile(path)))
+        imgui.begin_disabled(not self._name or not (self._is_new or os.path.exists(path)))
         pressed = imgui.button(self._title.split()[0])
         imgui.end_disabled()
-        if (entered and os.path.isdir(path)) and self._name:
+        if (pressed or entered) and self._name and os.path.isdir(path):
             self._go(path)
+            self._name = self._name if self._is_new else ""
         elif (pressed or entered) and self._name:
             self._finish()
         imgui.same_line()

@@ -14,6 +14,8 @@ from imgui_bundle import imgui
 from ...errors import printable
 from ...loaders import formats
 from ...materials.material import Material
+from ...scene.nodes import Node
+from ...ui.imgui_painter import ImguiPainter
 from ..autosave import Recovery, forget, left_behind
 from .file_dialog import FileDialog
 from .workspace import Workspace
@@ -33,14 +35,21 @@ class Files:
     Parameters
     ----------
     workspace : Workspace
+    painter : ImguiPainter
+        Shows pictures of files.
     """
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
         self._workspace = workspace
-        self._dialog = FileDialog(workspace.recent)
+        self._dialog = FileDialog(workspace.recent, painter)
         self._question = ""
         self._answers: dict[str, Callable[[], object]] = {}
         self._opens = False
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether a picture of a file is being made."""
+        return self._dialog.is_waiting
 
     # What the user asks for
 
@@ -66,6 +75,11 @@ class Files:
         self._dialog.ask(
             "Load an image", kinds, lambda path: self._workspace.load_texture(path, material, slot)
         )
+
+    def load_mesh(self, node: Node) -> None:
+        """Ask for a model, and let a node hold all of it as one mesh."""
+        kinds = {"Models": tuple(end for item in formats("mesh") for end in item.extensions)}
+        self._dialog.ask("Load a mesh", kinds, lambda path: self._workspace.load_mesh(path, node))
 
     def save(self, then: Callable[[], object] = lambda: None) -> None:
         """Save the scene, or ask where to; do something once it is saved."""

@@ -12,6 +12,7 @@ from ..hierarchy import Row
 from ..node_commands import Reparent
 from ..value_commands import SetValues
 from .actions import ADDED, add, delete, duplicate, group
+from .layout import begin_panel
 from .workspace import Workspace
 
 _PAYLOAD = "node"
@@ -36,10 +37,13 @@ class HierarchyPanel:
     def rename(self, node: Node) -> None:
         """Let the user type a new name."""
         self._renamed, self._name, self._focuses = node, node.name, True
+        self._workspace.hold_keys()
+        self._workspace.closed.discard("Hierarchy")
+        self._workspace.hierarchy.reveal(node)
 
     def draw(self) -> None:
         """Lay the panel out."""
-        shown, _ = imgui.begin("Hierarchy")
+        shown = begin_panel(self._workspace, "Hierarchy")
         if shown:
             self._draw_head()
             if imgui.begin_child("rows"):

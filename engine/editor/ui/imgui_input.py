@@ -131,3 +131,31 @@ class ImguiInput:
         if shape != self._pointer:
             self._window.show_pointer(shape)
             self._pointer = shape
+
+
+def of_one_picture(happened: list, holds: bool = False) -> tuple[list, list]:
+    """Return the events that one picture may take in, and those that wait for the next one.
+
+    ImGui knows how Ctrl, Shift and Alt are at the end of what it takes in: one that is let go of
+    right after a key was pressed would not count for that key. Keys with names, such as Return, may
+    give the focus to another field, to which what comes next belongs.
+
+    Parameters
+    ----------
+    happened : list
+    holds : bool
+        Whether what is typed waits.
+    """
+    pressed = False
+    for number, event in enumerate(happened):
+        if holds and isinstance(event, events.KeyDown | events.TextEntered):
+            return happened[:number], happened[number:]
+        if isinstance(event, events.KeyDown | events.KeyUp):
+            modifies = event.position in _MODIFIERS
+            if modifies and pressed:
+                return happened[:number], happened[number:]
+            if isinstance(event, events.KeyDown) and not modifies:
+                pressed = True
+                if len(event.key) > 1:
+                    return happened[: number + 1], happened[number + 1 :]
+    return happened, []

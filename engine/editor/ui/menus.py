@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 from . import actions
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
-from .workspace import Workspace
+from .workspace import PANELS, Workspace
 
 
 class Entry(NamedTuple):
@@ -63,6 +63,7 @@ def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> li
         Entry("Edit", "Select all", "Ctrl+A", lambda: actions.select_all(workspace)),
         Entry("View", "Frame the selection", "F", frame_selected),
         Entry("View", "Frame all", "Home", lambda: workspace.frame(())),
+        Entry("View", "Play or pause", "Space", workspace.play_or_pause),
         Entry("Tools", "Select", "Q", choose("select")),
         Entry("Tools", "Move", "W", choose("move")),
         Entry("Tools", "Turn", "E", choose("turn")),
@@ -83,7 +84,21 @@ def draw_menus(workspace: Workspace, listed: list[Entry]) -> None:
     if imgui.begin_menu("Add"):
         draw_add_menu(workspace)
         imgui.end_menu()
+    if imgui.begin_menu("Window"):
+        _draw_window_menu(workspace)
+        imgui.end_menu()
     imgui.end_main_menu_bar()
+
+
+def _draw_window_menu(workspace: Workspace) -> None:
+    """Lay out which panels are open."""
+    for name in PANELS:
+        changed, is_open = imgui.menu_item(name, "", name not in workspace.closed)
+        if changed:
+            (workspace.closed.discard if is_open else workspace.closed.add)(name)
+    imgui.separator()
+    if imgui.menu_item_simple("Usual places"):
+        workspace.wants_usual_places = True
 
 
 def press_keys(listed: list[Entry]) -> None:
@@ -93,6 +108,8 @@ def press_keys(listed: list[Entry]) -> None:
     if io.want_text_input or popup or imgui.is_mouse_down(1):
         return
     for entry in listed:
+        if entry.keys == "Space" and io.nav_visible:  # presses what the keys have chosen
+            continue
         *modifiers, key = entry.keys.split("+")
         held = io.key_ctrl == ("Ctrl" in modifiers) and io.key_shift == ("Shift" in modifiers)
         if held and not io.key_alt and imgui.is_key_pressed(getattr(imgui.Key, key.lower()), False):

@@ -17,11 +17,12 @@ from ...materials.display_colors import display_color
 from ...materials.material import TEXTURE_SLOTS, Material, textures_of
 from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...scene.instances import InstancedMesh
-from ...scene.lights import LIGHTS, DirectionalLight, Light, SpotLight
+from ...scene.lights import LIGHTS, DirectionalLight, Light, PointLight, SpotLight
 from ...scene.nodes import Node
 from ...spatial.colliders import BoxCollider, MeshCollider, SphereCollider
 from ..value_commands import SetValues
 from .files import Files
+from .layout import begin_panel
 from .workspace import Workspace
 
 _COLLIDERS = {
@@ -49,7 +50,7 @@ class PropertiesPanel:
 
     def draw(self) -> None:
         """Lay the panel out."""
-        shown, _ = imgui.begin("Properties")
+        shown = begin_panel(self._workspace, "Properties")
         if shown:
             imgui.push_item_width(-imgui.get_font_size() * 7)
             node = self._workspace.document.selection.active
@@ -109,7 +110,8 @@ class PropertiesPanel:
 
     def _draw_scene(self) -> None:
         scene = self._workspace.scene
-        imgui.text_disabled(f"{len(scene.nodes):,} nodes")
+        count = len(scene.nodes)
+        imgui.text_disabled(f"{count:,} node{'' if count == 1 else 's'}")
         if imgui.collapsing_header("Scene", imgui.TreeNodeFlags_.default_open):
             if isinstance(scene.background, tuple):
                 self._color(scene, "background", "Background")
@@ -135,6 +137,8 @@ class PropertiesPanel:
             self._draw_light(held)
         elif isinstance(held, Camera):
             self._draw_camera(node, held)
+        elif imgui.collapsing_header("Mesh", imgui.TreeNodeFlags_.default_open):
+            self._draw_shape(node, None)
 
     def _draw_transform(self, node: Node) -> None:
         step = max(self._workspace.bounds.radius / 200.0, 1e-4)
@@ -157,7 +161,7 @@ class PropertiesPanel:
             if isinstance(held, InstancedMesh):
                 imgui.label_text("Instances", f"{len(held.poses):,}")
             else:
-                self._choose("Shape", "mesh", mesh, lambda chosen: {"object": chosen}, [node])
+                self._draw_shape(node, mesh)
             imgui.label_text("Vertices", f"{len(mesh.positions):,}")
             imgui.label_text("Triangles", f"{len(mesh.faces):,}")
         for number, material in enumerate(mesh.materials):
@@ -168,6 +172,17 @@ class PropertiesPanel:
                 self._draw_material(material)
                 imgui.pop_id()
         self._draw_collider(node, mesh)
+
+    def _draw_shape(self, node: Node, mesh: Mesh | None) -> None:
+        """Lay out which mesh a node holds, from which file another one comes."""
+        self._choose("Shape", "mesh", mesh, lambda chosen: {"object": chosen}, [node])
+        if imgui.button("Load new ..."):
+            self._files.load_mesh(node)
+        if mesh is not None:
+            imgui.same_line()
+            if imgui.button("Remove"):
+                values = {"collider": None, "object": None}
+                self._workspace.do(SetValues([node], values, "Remove the mesh"))
 
     def _choose(self, label: str, kind: str, now, values, things) -> None:
         """Lay out a choice among the resources of a kind; ``values(chosen)`` are then assigned."""
@@ -218,8 +233,14 @@ class PropertiesPanel:
                     self._workspace.do(SetValues([node], {"collider": make(mesh)}))
             imgui.end_combo()
         if isinstance(node.collider, SphereCollider):
-            ball = node.collider
-            imgui.label_text("Radius", f"{ball.radius:g}")
+            self._draw_radius(node, node.collider)
+
+    def _draw_radius(self, node: Node, ball: SphereCollider) -> None:
+        speed = max(0.01 * ball.radius, 1e-6)
+        changed, radius = imgui.drag_float("Radius", ball.radius, speed, 1e-6, 1e9, "%.4g")
+        self._follow_drag()
+        if changed and radius > 0.0:
+            self._set([node], {"collider": SphereCollider(radius, ball.center)})
 
     def _draw_light(self, light: Light) -> None:
         if not imgui.collapsing_header("Light", imgui.TreeNodeFlags_.default_open):
@@ -230,11 +251,22 @@ class PropertiesPanel:
             self._number(light, "inner_cone_angle", "Inner cone", 0.01, 0.0)
             self._number(light, "outer_cone_angle", "Outer cone", 0.01, 0.0)
         if not isinstance(light, DirectionalLight):
-            self._number(light, "range", "Range", 0.1, 0.001)
+            self._draw_range(light)
         else:
             direction = self._numbers("Direction", light.direction, 0.01)
             if direction is not None:
                 self._set([light], {"direction": direction})
+
+    def _draw_range(self, light: PointLight | SpotLight) -> None:
+        """Lay out how far a light reaches; one that reaches everywhere gets the scene's size."""
+        if math.isfinite(light.range):
+            self._number(light, "range", "Range", 0.1, 0.001)
+        imgui.begin_disabled(light.falloff == "window")  # which needs a range
+        changed, endless = imgui.checkbox("Infinite range", not math.isfinite(light.range))
+        imgui.end_disabled()
+        if changed:
+            reach = math.inf if endless else max(2.0 * self._workspace.bounds.radius, 0.001)
+            self._workspace.do(SetValues([light], {"range": reach}))
 
     def _draw_camera(self, node: Node, camera: Camera) -> None:
         if not imgui.collapsing_header("Camera", imgui.TreeNodeFlags_.default_open):

@@ -13,6 +13,7 @@ from imgui_bundle import imgui
 from ...ui.imgui_painter import ImguiPainter
 from ..resource_list import Entry
 from ..thumbnails import Thumbnails
+from .layout import begin_panel
 from .workspace import Workspace
 
 PICTURE = 48
@@ -41,7 +42,7 @@ class ResourcesPanel:
         """Lay the panel out."""
         self.is_waiting = False
         self._deadline = time.perf_counter() + PATIENCE
-        shown, _ = imgui.begin("Resources")
+        shown = begin_panel(self._workspace, "Resources")
         if shown:
             entries = self._workspace.resources.entries()
             self._forget_unused(entries)

@@ -7,29 +7,24 @@ another one; commands.
 from __future__ import annotations
 
 import time
-from typing import get_args
 
 import numpy as np
-from imgui_bundle import imgui, imguizmo
+from imgui_bundle import imgui
 
-from ... import linalg
-from ...choices import Mode
 from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
 from ...scene.nodes import Node
 from ...ui.imgui_painter import ImguiPainter
 from ...viewer.selection import CLICK_OUTPUTS, outline_pixels
-from ..node_commands import MoveNodes, counted, in_world
 from ..picking import enclosed, pick
+from .gizmo_handles import GizmoHandles
+from .layout import begin_panel
 from .overlays import Overlays
+from .scene_tools import draw_tools
 from .workspace import Workspace
 
 #: A press and a release no farther apart than so many pixels are a click.
 CLICK_PIXELS = 4.0
-MODES = get_args(Mode)
-TOOLS = {"select": "Q", "move": "W", "turn": "E", "scale": "R"}
-#: What a step of each tool is when it snaps: world units, degrees, factors.
-STEPS = {"move": 0.25, "turn": 15.0, "scale": 0.1}
 MOST_SIDE = 8192
 #: Keys that move the camera while the right button is held: along which of its axes, which way.
 FLYING = {"w": (2, -1), "s": (2, 1), "a": (0, -1), "d": (0, 1), "q": (1, -1), "e": (1, 1)}
@@ -60,11 +55,11 @@ class ScenePanel:
         self._frame: Frame | None = None
         self._drawn: tuple = ()
         self._overlays = Overlays(workspace)
+        self._gizmo = GizmoHandles(workspace)
         self._seconds = 0.0
         self._corner = imgui.ImVec2(0.0, 0.0)
         self._is_hovered = False
         self._pressed: tuple[float, float] | None = None
-        self._drag: int | None = None
         self.is_flying = False
 
     def close(self) -> None:
@@ -87,36 +82,14 @@ class ScenePanel:
     def draw(self) -> None:
         """Lay the panel out."""
         imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
-        shown, _ = imgui.begin("Scene")
+        shown = begin_panel(self._workspace, "Scene")
         imgui.pop_style_var()
         if shown:
-            self._draw_tools()
+            draw_tools(self._workspace, self._overlays)
             room = imgui.get_content_region_avail()
             size = tuple(min(max(int(side), 16), MOST_SIDE) for side in (room.x, room.y))
             self._show(size)
         imgui.end()
-
-    def _draw_tools(self) -> None:
-        workspace = self._workspace
-        imgui.dummy((2.0, 0.0))
-        for name, key in TOOLS.items():
-            imgui.same_line()
-            if imgui.radio_button(f"{name.capitalize()} ({key})", workspace.tool == name):
-                workspace.tool = name
-        imgui.same_line()
-        _, workspace.is_local = imgui.checkbox("Local", workspace.is_local)
-        imgui.same_line()
-        _, workspace.snaps = imgui.checkbox("Snap", workspace.snaps)
-        imgui.same_line()
-        imgui.set_next_item_width(imgui.get_font_size() * 7)
-        _, chosen = imgui.combo("##mode", MODES.index(workspace.mode), list(MODES))
-        workspace.mode = MODES[chosen]
-        imgui.same_line()
-        _, workspace.wireframe = imgui.checkbox("Wireframe", workspace.wireframe)
-        imgui.same_line()
-        _, workspace.view.orthographic = imgui.checkbox("Parallel", workspace.view.orthographic)
-        imgui.same_line()
-        self._overlays.draw_menu()
 
     # The picture
 
@@ -131,7 +104,7 @@ class ScenePanel:
         self._corner = corner
         self._overlays.draw(self._frame, corner)
         self._draw_times(corner)
-        captured = self._draw_gizmo(corner, size)
+        captured = self._gizmo.draw(corner, size)
         self._turn_camera(hovered and not captured, corner, size)
         self._select(corner)
 
@@ -169,6 +142,9 @@ class ScenePanel:
         """Tell what the last picture of the scene took."""
         triangles = self._frame.stats["triangles"]
         text = f"{1e3 * self._seconds:.1f} ms, {triangles:,} triangles"
+        if self._workspace.document.moves:
+            animator = self._workspace.document.animator
+            text += f", {animator.time:.2f} s, frame {self._workspace.moments}"
         place = corner.x + 8.0, corner.y + self._frame.height - 1.5 * imgui.get_font_size()
         color = imgui.get_color_u32(imgui.Col_.text_disabled)
         imgui.get_window_draw_list().add_text(place, color, text)
@@ -260,64 +236,3 @@ class ScenePanel:
             selection.set([found.node])
         if found is not None:
             workspace.hierarchy.reveal(found.node)
-
-    # The gizmo
-
-    def _draw_gizmo(self, corner, size: tuple[int, int]) -> bool:
-        """Draw what moves the selection; return whether the mouse is on it."""
-        workspace = self._workspace
-        nodes = workspace.document.selection.topmost()
-        if workspace.tool == "select" or not nodes:
-            self._drag = None
-            return False
-        gizmo = imguizmo.im_guizmo
-        gizmo.set_orthographic(workspace.view.orthographic)
-        gizmo.set_drawlist(imgui.get_window_draw_list())
-        gizmo.set_rect(corner.x, corner.y, *map(float, size))
-        old = nodes[-1].world_pose
-        new = self._manipulated(gizmo, old, size)
-        if not gizmo.is_using():
-            self._drag = None
-        elif new is not None:
-            if self._drag is None:
-                self._drag = workspace.next_drag()
-            label = counted(workspace.tool.capitalize(), nodes)
-            move = MoveNodes(workspace.scene, nodes, in_world(self._change(old, new)), label)
-            workspace.do(move, drag=self._drag)
-        return gizmo.is_over() or gizmo.is_using()
-
-    def _manipulated(self, gizmo, pose: np.ndarray, size: tuple[int, int]) -> np.ndarray | None:
-        """Where the gizmo takes a pose, float32; None if it leaves it."""
-        workspace = self._workspace
-        view, bounds = workspace.view, workspace.bounds
-        # Lights and cameras may stand before the near plane, which meshes decide.
-        reach = float(linalg.length(view.position() - bounds.center)) + bounds.radius
-        camera = view.camera(bounds._replace(radius=reach))
-        matrices = [
-            gizmo.Matrix16(matrix.T.ravel().tolist())
-            for matrix in (linalg.inverse(view.pose()), camera.projection(*size), pose)
-        ]
-        operation = {
-            "move": gizmo.OPERATION.translate,
-            "turn": gizmo.OPERATION.rotate,
-            "scale": gizmo.OPERATION.scale,
-        }[workspace.tool]
-        is_local = workspace.is_local or workspace.tool == "scale"
-        mode = gizmo.MODE.local if is_local else gizmo.MODE.world
-        snaps = workspace.snaps != imgui.get_io().key_ctrl
-        snap = gizmo.Matrix3([STEPS[workspace.tool]] * 3) if snaps else None
-        if not gizmo.manipulate(*matrices[:2], operation, mode, matrices[2], None, snap):
-            return None
-        return np.array(matrices[2].values, np.float64).reshape(4, 4).T
-
-    def _change(self, old: np.ndarray, new: np.ndarray) -> np.ndarray:
-        """The matrix in world space that takes one pose to another.
-
-        Of a move it is exact: the gizmo counts in float32, which would turn and scale a little.
-        """
-        if self._workspace.tool == "move":
-            change = np.eye(4)
-            change[:3, 3] = new[:3, 3] - old[:3, 3]
-            return change
-        new[:3, 3] = old[:3, 3]
-        return linalg.multiply(new, linalg.inverse(old))

@@ -5,19 +5,22 @@ In: what panels do. Out: the same for all panels. Nothing here draws.
 
 from __future__ import annotations
 
+import contextlib
 import os
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
+from contextlib import AbstractContextManager
+from typing import Any
 
 import numpy as np
 
+from ... import linalg
 from ...choices import Mode
 from ...errors import Engine3DError
-from ...loaders import load_texture
+from ...loaders import load_mesh, load_texture
 from ...materials.material import Material
 from ...scene.nodes import Node
 from ...scene.scene import Scene
 from ...viewer.orbit import OrbitController
-from ...viewer.scene_bounds import bounding_sphere
 from ...viewer.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from ..autosave import Autosave, Recovery
 from ..console import Console
@@ -29,6 +32,12 @@ from ..recent_files import RecentFiles
 from ..resource_list import ResourceList
 from ..value_commands import SetValues
 
+#: The panels, by their titles.
+PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
+#: How many pictures it takes until a field has the focus that it was given.
+FOCUSING = 6
+#: How far one picture may move time on, in seconds, however long it took.
+LONGEST_STEP = 0.1
 #: Formats whose files say that +Z is up, as in the viewer.
 _Z_UP = (".asc", ".stl")
 
@@ -49,6 +58,22 @@ class Workspace:
     is_local : bool
         Whether tools work along the axes of the node.
     snaps : bool
+    steps : dict of str to float
+        What tools snap to: units, degrees, per cent.
+    plays : bool
+        Whether time goes on.
+    moments : int
+        How many pictures moved time on since the document was opened.
+    closed : set of str
+        Panels that the user closed.
+    wants_usual_places : bool
+        Whether panels are to go where they are at first.
+    lines_to_run : list of str
+        Of Python, that were entered and did not run yet.
+    pictures_to_focus : int
+        As long as it is not 0, what is typed waits for a field to appear.
+    guard : callable
+        As in `Prompt`.
     aspect : float
         Width over height of the picture.
     changes : int
@@ -65,6 +90,13 @@ class Workspace:
         self.tool = "select"
         self.is_local = False
         self.snaps = False
+        self.steps = {"move": 0.25, "turn": 15.0, "scale": 10.0}
+        self.plays = False
+        self.closed: set[str] = set()
+        self.wants_usual_places = False
+        self.lines_to_run: list[str] = []
+        self.pictures_to_focus = 0
+        self.guard: Callable[[], AbstractContextManager[Any]] = contextlib.nullcontext
         self.aspect = 16 / 9
         self.changes = 0
         self.wants_exit = False
@@ -77,6 +109,8 @@ class Workspace:
         if self._autosave is not None:
             self._autosave.discard()
         self.document = document
+        document.prompt.guard = lambda: self.guard()
+        self.plays, self.moments = False, 0
         self._autosave = Autosave(document)
         self.hierarchy = Hierarchy(document.scene)
         self.resources = ResourceList(document.scene)
@@ -143,6 +177,17 @@ class Workspace:
         label = f"Load {os.path.basename(path)}"
         return self.do(SetValues([material], {slot: texture}, label))
 
+    def load_mesh(self, path: str, node: Node) -> bool:
+        """Let a node hold a file's mesh; where that fails the console tells why."""
+        try:
+            with self.console.warnings_noted():
+                mesh = load_mesh(path)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        label = f"Load {os.path.basename(path)}"
+        return self.do(SetValues([node], {"object": mesh}, label))
+
     def save(self, path: str | None = None, *, overwrite: bool = False) -> bool:
         """Save the scene; where that fails the console tells why."""
         saved = self.document.save(path, overwrite=overwrite)
@@ -153,6 +198,11 @@ class Workspace:
     def tick(self) -> None:
         """Keep a copy of what is not saved, if one is due; to be called often."""
         self._autosave.tick()
+
+    def keep_copy(self) -> None:
+        """Keep a copy of what is not saved, for the next editor."""
+        if self.document.is_modified:
+            self._autosave.save()
 
     def close(self) -> None:
         """Give up what is not saved, and the copy of it."""
@@ -173,10 +223,40 @@ class Workspace:
         self.changes += 1
         self.document.redo()
 
-    def run(self, line: str) -> None:
-        """Run a line of Python on the scene."""
-        self.changes += 1
-        self.document.prompt.push(line)
+    def run_lines(self) -> None:
+        """Run the lines of Python that were entered."""
+        while self.lines_to_run:
+            self.changes += 1
+            self.document.prompt.push(self.lines_to_run.pop(0))
+
+    # Time
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the next picture shows another moment."""
+        return self.plays and self.document.moves
+
+    def animate(self, seconds: float) -> None:
+        """Let time go on, if it does."""
+        if self.is_moving:
+            self.document.animator.advance(min(seconds, LONGEST_STEP), self.view.position())
+            self.moments += 1
+
+    def play_or_pause(self) -> None:
+        """Let time go on, or stand still."""
+        self.plays = not self.plays
+        if self.plays and not self.document.moves:
+            self.plays = False
+            self.console.write("message", "nothing moves: animator.spin(node, period=4) lets it")
+
+    def rewind(self) -> None:
+        """Go to time 0."""
+        if self.document.moves:
+            self.document.animator.seek(0.0)
+
+    def hold_keys(self) -> None:
+        """Let what is typed wait until a field has the focus."""
+        self.pictures_to_focus = FOCUSING
 
     def next_drag(self) -> int:
         """Return what the commands of one movement of the mouse have in common."""
@@ -185,10 +265,15 @@ class Workspace:
 
     @property
     def bounds(self) -> Sphere:
-        """A sphere round all that is visible, found when something changed."""
+        """A sphere round the box of all that is visible, found when something changed.
+
+        The smallest sphere would take seconds of thousands of nodes, at every step of a drag.
+        """
         key = self.changes, self.scene._arrays.changes
         if self._bounds is None or self._bounds[0] != key:
-            self._bounds = key, bounding_sphere(self.scene)
+            low, high = self.scene.bounds
+            radius = float(linalg.length((high - low) * 0.5)) or 1.0
+            self._bounds = key, Sphere((low + high) * 0.5, radius)
         return self._bounds[1]
 
     def frame(self, nodes: tuple[Node, ...]) -> None:

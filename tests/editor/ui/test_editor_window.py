@@ -1,20 +1,27 @@
 """The editor's window, driven by events: what one clicks and types changes the scene."""
 
+import os
+import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
 
+import engine3d as e3d
 from engine3d import data, events
 
 pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[editor]")
 
 from importlib.resources import files
 
-from engine3d.editor.ui.editor_window import SETTLING, EditorWindow, layout_path
+from engine3d.editor.ui.editor_window import SETTLING, EditorWindow
+from engine3d.editor.ui.layout import layout_path, load_layout, save_layout
 from engine3d.editor.ui.properties_panel import _COLLIDERS, _KINDS
+from engine3d.editor.ui.workspace import Workspace
 
 SIZE = (1000, 640)
+STUBBORN = "exec('while True:\\n try:\\n  while True: pass\\n except BaseException: pass')"
 
 
 @pytest.fixture
@@ -202,11 +209,12 @@ def test_keys_that_come_at_once_count_one_after_the_other(editor):
     nodes = editor.workspace.scene.nodes
     name = "Left Ctrl"
     for key in "AQAQ":
-        editor._take(events.KeyDown(name, name, False, True))
-        editor._take(events.KeyDown(key, key, False, True))
-        editor._take(events.KeyUp(key, key))
-        editor._take(events.KeyUp(name, name))
-    while editor._pictures_due:
+        editor._late += [
+            events.KeyDown(name, name, False, True),
+            events.KeyDown(key, key, False, True),
+            *(events.KeyUp(name, name), events.KeyUp(key, key))[:: 1 if key == "Q" else -1],
+        ]
+    while editor._pictures_due or editor._late:
         editor.turn(0.0)
     assert editor.workspace.wants_exit
     assert len(nodes) > 1 and editor.workspace.document.selection.nodes == ()
@@ -272,17 +280,15 @@ def test_files_that_are_dropped_are_added_and_a_bad_one_is_told(editor, tmp_path
     assert len(editor.workspace.scene.nodes) == count
 
 
-def test_a_scene_is_saved_and_opened_again(editor, tmp_path, monkeypatch):
+def test_a_scene_is_saved_and_opened_again(editor, tmp_path):
     asked, path = editor._files, tmp_path / "train.e3d.json"
     editor.workspace.document.selection.set([find(editor, "Cab")])
     press(editor, "Delete")
     names = [node.name for node in editor.workspace.scene.nodes]
     press(editor, "S", control=True)
     asked._dialog._go(str(tmp_path))
-    asked._dialog._name = "train"
-    settle(editor)
-    asked._dialog._finish()
-    settle(editor)
+    do(editor, *(events.TextEntered(letter) for letter in "train"))
+    press(editor, "Return")
     assert path.exists() and not editor.workspace.document.is_modified
     assert editor.window.title == "train.e3d.json - engine3d"
     press(editor, "N", control=True)
@@ -392,15 +398,148 @@ def test_an_error_of_a_panel_is_told_and_the_editor_goes_on(editor, monkeypatch)
     assert editor.workspace.document.selection.active.name == "Base"
 
 
+def test_an_error_amid_a_picture_ends_it(editor, monkeypatch):
+    with monkeypatch.context() as patched:
+        patched.setattr(editor, "_guarded", lambda act: raise_from(KeyboardInterrupt))
+        with pytest.raises(KeyboardInterrupt):
+            settle(editor)
+    first = settle(editor)
+    assert (settle(editor) == first).all()
+
+
+def raise_from(kind):
+    raise kind("planted")
+
+
+def test_what_is_not_saved_is_kept_when_the_editor_fails(tmp_path):
+    """In a process of its own, which must end as Python does after an error."""
+    program = (
+        "import sys\n"
+        "from engine3d.editor.ui.editor_window import EditorWindow\n"
+        "with EditorWindow(size=(600, 400)) as editor:\n"
+        "    editor.workspace.lines_to_run.append('scene.add()')\n"
+        "    editor.turn(0.0)\n"
+        "    editor._guarded = lambda act: sys.exit('planted')\n"
+        "    editor.run()\n"
+    )
+    homes = {name: str(tmp_path) for name in ("XDG_STATE_HOME", "XDG_CACHE_HOME")}
+    environment = {**os.environ, **homes, "SDL_VIDEODRIVER": "dummy"}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True)
+    assert (done.returncode, done.stderr) == (1, b"planted\n")
+    assert len(list((tmp_path / "engine3d" / "unsaved").glob("*.e3d.json"))) == 1
+
+
+@pytest.mark.parametrize("path", ["", "broken.obj"])
+@pytest.mark.parametrize("line", ["", "while True: pass", "import time; time.sleep(99)", STUBBORN])
+def test_sigterm_ends_the_editor_whatever_it_does(tmp_path, path, line):
+    (tmp_path / "broken.obj").write_text("v 1 x\n")
+    program = (
+        "import os, signal, sys, threading\n"
+        "from engine3d.editor.ui.editor_window import EditorWindow\n"
+        f"with EditorWindow({path!r}, size=(600, 400)) as editor:\n"
+        f"    editor.workspace.lines_to_run += ['scene.add()', {line!r}, '']\n"
+        "    end = lambda: os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    threading.Timer(0.5, end).start()\n"
+        "    sys.exit(editor.run())\n"
+    )
+    homes = {name: str(tmp_path) for name in ("XDG_STATE_HOME", "XDG_CACHE_HOME")}
+    environment = {**os.environ, **homes, "SDL_VIDEODRIVER": "dummy"}
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, cwd=tmp_path
+    )
+    assert (done.returncode, done.stderr) == (143, b"")
+    assert len(list((tmp_path / "engine3d" / "unsaved").glob("*.e3d.json"))) == 1
+
+
+def test_a_file_is_opened_by_two_clicks(editor, tmp_path):
+    (tmp_path / "inside").mkdir()
+    e3d.box().save(tmp_path / "inside" / "box.obj")
+    dialog = editor._files._dialog
+    press(editor, "O", control=True)
+    dialog._go(str(tmp_path))
+    settle(editor)
+    x = SIZE[0] // 2
+    y = next(y for y in range(120, 400, 9) if click(editor, x, y) or dialog._name == "inside")
+    for _ in range(2):
+        time.sleep(0.4)  # this is another double click
+        click(editor, x, y)
+        click(editor, x, y)
+    assert editor.workspace.document.scene.nodes[0].name == "box"
+    assert not editor.workspace.console.filtered(["error"])
+
+
+def test_panels_can_be_closed_and_come_back(editor):
+    everything = settle(editor)
+    editor.workspace.closed.add("Console")
+    assert (settle(editor) != everything).any()
+    editor.workspace.wants_usual_places = True
+    assert (settle(editor) == everything).all() and not editor.workspace.closed
+
+
+def test_closed_panels_and_steps_are_kept(editor):
+    editor.workspace.closed.add("Resources")
+    editor.workspace.steps["turn"] = 22.5
+    save_layout(editor.workspace)
+    again = Workspace()
+    assert load_layout(again)
+    assert (again.closed, again.steps) == (editor.workspace.closed, editor.workspace.steps)
+    layout_path().write_text("[engine3d][Editor]\nmove=-1\nturn=x\nscale\nclosed=Console,Cat\n")
+    damaged = Workspace()
+    assert load_layout(damaged)
+    assert damaged.steps == Workspace().steps and damaged.closed <= {"Console"}
+
+
+def test_time_goes_on_until_space_is_pressed_again(editor):
+    workspace, base = editor.workspace, find(editor, "Base")
+    press(editor, "Space")
+    assert not workspace.plays and "nothing moves" in workspace.console.entries[-1].text
+    workspace.document.animator.spin(base, period=5)
+    still = settle(editor)
+    press(editor, "Space")
+    assert workspace.moments > 0 and editor._pictures_due
+    press(editor, "Space")
+    moments, paused = workspace.moments, settle(editor)
+    assert (paused != still).any() and (settle(editor) == paused).all()
+    assert workspace.moments == moments and not workspace.document.is_modified
+    workspace.rewind()
+    assert base.rotation.tolist() == [0, 0, 0, 1]
+
+
+def test_a_mesh_is_loaded_into_a_node_and_removed(editor, tmp_path):
+    workspace, cab = editor.workspace, find(editor, "Cab")
+    old = cab.object
+    assert not workspace.load_mesh(str(tmp_path / "none.obj"), cab)
+    assert workspace.load_mesh(str(files(data) / "models" / "teapot.obj"), cab)
+    assert cab.object is not old
+    workspace.undo()
+    assert cab.object is old
+
+
+def test_a_window_is_not_larger_than_the_screen(editor, monkeypatch):
+    monkeypatch.setattr("engine3d.editor.ui.editor_window.usable_area", lambda sdl: (500, 400))
+    with editor._opened_window((1000, 300)) as window:
+        assert window.size == (500, 300)
+
+
+def test_the_bounds_hold_the_scene_without_a_look_at_each_node(editor, monkeypatch):
+    workspace = editor.workspace
+    workspace.document.animator.spin(find(editor, "Base"), period=5)
+    workspace.document.animator.seek(1.0)
+    with monkeypatch.context() as patched:  # which takes microseconds a node
+        patched.setattr(e3d.Node, "world_pose", property(lambda node: raise_from(AssertionError)))
+        center, radius = workspace.bounds
+    assert np.allclose(np.linalg.norm(workspace.scene.bounds - center, axis=1), radius)
+
+
 def test_places_of_panels_are_kept(editor):
-    editor._save_layout()
+    save_layout(editor.workspace)
     assert "[Docking]" in layout_path().read_text("utf-8")
 
 
 def test_a_layout_that_cannot_be_kept_does_no_harm(editor, monkeypatch, tmp_path):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "file"))
-    editor._save_layout()
+    save_layout(editor.workspace)
     assert not layout_path().exists()
 
 

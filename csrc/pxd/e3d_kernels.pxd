@@ -177,6 +177,7 @@ cdef extern from "kernels/kernels.h" nogil:
         e3d_varying sheen_roughness
         int has_coat
         int has_sheen
+        int is_grey
         int coat_is_mapped
 
     ctypedef struct e3d_kernels:

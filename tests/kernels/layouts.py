@@ -150,6 +150,24 @@ LIGHT = np.dtype(
         ("range", "f4"),
     ]
 )
+CELLS, LOBE_TEXELS = 4, 16
+CELL_GROUP = np.dtype(
+    [
+        ("direction", "f4", (3, CELLS)),
+        ("weight", "f4", CELLS),
+        ("light", "f4", (3, CELLS)),
+        ("middle", "f4", 3),
+    ]
+)
+LOBE_BLOCK = np.dtype(
+    [
+        ("normal", "f4", (3, LOBE_TEXELS)),
+        ("sums", "f4", (4, LOBE_TEXELS)),
+        ("square", "f4"),
+        ("rest", "f4"),
+    ]
+)
+
 STRUCTS = {
     "cluster": CLUSTER,
     "facing": FACING,
@@ -171,6 +189,8 @@ STRUCTS = {
     "surfaces": SURFACES,
     "batch": BATCH_RECORD,
     "light": LIGHT,
+    "cell_group": CELL_GROUP,
+    "lobe_block": LOBE_BLOCK,
 }
 
 

@@ -1,4 +1,4 @@
-/* Cubes: directions of their texels, borders, halves, and texels between texels. */
+/* Cubes: directions of their texels, and borders. */
 #include <math.h>
 #include <string.h>
 
@@ -22,6 +22,14 @@ void e3d_cube_direction(int face, double p, double q, double out[3])
         out[k] = (FACES[face].middle[k] + p * FACES[face].across[k]) + q * FACES[face].down[k];
 }
 
+void e3d_cube_unit(int face, double p, double q, float out[3])
+{
+    double d[3], length = sqrt((1.0 + p * p) + q * q);
+    e3d_cube_direction(face, p, q, d);
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)(d[k] / length);
+}
+
 double e3d_cube_weight(double p, double q)
 {
     double length2 = (1.0 + p * p) + q * q;
@@ -43,31 +51,6 @@ static place place_of(float x, float y, float z)
     if (b >= c)
         return (place){2 + (y < 0.0f), x / b, (y < 0.0f ? -z : z) / b};
     return (place){4 + (z < 0.0f), (z < 0.0f ? -x : x) / c, -y / c};
-}
-
-/* A place among texel middles, its border included: within [0.5, size + 0.5]. */
-static float among(float p, float size)
-{
-    float u = p * (0.5f * size) + (0.5f * size + 0.5f);
-    u = u > 0.5f ? u : 0.5f;
-    return u < size + 0.5f ? u : size + 0.5f;
-}
-
-void e3d_cube_sample(const e3d_cube *cube, const float direction[3], float out[3])
-{
-    place at = place_of(direction[0], direction[1], direction[2]);
-    float u = among(at.p, (float)cube->size), v = among(at.q, (float)cube->size);
-    int32_t column = (int32_t)u, row = (int32_t)v;
-    float f = u - (float)column, g = v - (float)row;
-    const float *upper = e3d_cube_texel(cube, at.face, column - 1, row - 1);
-    const float *lower = upper + E3D_TEXEL * ((size_t)cube->size + 2);
-    float texel[E3D_TEXEL];
-    for (int k = 0; k < E3D_TEXEL; k++) { /* all four channels fill a register */
-        float t = upper[k] + (upper[E3D_TEXEL + k] - upper[k]) * f;
-        float b = lower[k] + (lower[E3D_TEXEL + k] - lower[k]) * f;
-        texel[k] = t + (b - t) * g;
-    }
-    memcpy(out, texel, 3 * sizeof *out);
 }
 
 /* ---- borders ---- */
@@ -111,31 +94,4 @@ void e3d_cube_fill_border(const e3d_cube *cube)
         for (int corner = 0; corner < 4; corner++)
             fill_corner(cube, face, ends[corner & 1], ends[corner >> 1]);
     }
-}
-
-/* ---- halves ---- */
-
-static void halve_texel(const e3d_cube *fine, const e3d_cube *coarse, int face, int32_t column, int32_t row)
-{
-    float *out = e3d_cube_texel(coarse, face, column, row);
-    double sum[E3D_TEXEL] = {0}, total = 0;
-    for (int part = 0; part < 4; part++) {
-        int32_t x = 2 * column + (part & 1), y = 2 * row + (part >> 1);
-        const float *texel = e3d_cube_texel(fine, face, x, y);
-        double weight = e3d_cube_weight(e3d_cube_middle(fine->size, x), e3d_cube_middle(fine->size, y));
-        total += weight;
-        for (int k = 0; k < E3D_TEXEL; k++)
-            sum[k] += weight * (double)texel[k];
-    }
-    for (int k = 0; k < E3D_TEXEL; k++)
-        out[k] = (float)(sum[k] / total);
-}
-
-void e3d_cube_halve(const e3d_cube *fine, const e3d_cube *coarse)
-{
-    for (int face = 0; face < E3D_FACES; face++)
-        for (int32_t row = 0; row < coarse->size; row++)
-            for (int32_t column = 0; column < coarse->size; column++)
-                halve_texel(fine, coarse, face, column, row);
-    e3d_cube_fill_border(coarse);
 }

@@ -29,13 +29,11 @@ static inline double e3d_cube_middle(int32_t size, int32_t number) { return (2.0
 
 /* The direction of a place on a face; not of unit length. */
 void e3d_cube_direction(int face, double p, double q, double out[3]);
+/* The same of unit length. */
+void e3d_cube_unit(int face, double p, double q, float out[3]);
 /* The solid angle of a texel but for a factor that is common to all of a cube. */
 double e3d_cube_weight(double p, double q);
 /* Fills the borders with the texels of the neighbours; where three meet, with their mean. */
 void e3d_cube_fill_border(const e3d_cube *cube);
-/* Averages each four texels of a face by solid angle; the border is filled, too. */
-void e3d_cube_halve(const e3d_cube *fine, const e3d_cube *coarse);
-/* R60 and R61 for a direction of any length but 0: red, green and blue. */
-void e3d_cube_sample(const e3d_cube *cube, const float direction[3], float out[3]);
 
 #endif

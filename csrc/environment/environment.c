@@ -1,4 +1,4 @@
-/* Environments: a picture of the whole sphere becomes a cube, its halves, and what mirrors of some roughness show of it.
+/* Environments: a picture of the whole sphere becomes a cube, and what mirrors of some roughness show of it.
  *
  * In:  an equirectangular picture of linear radiance.
  * Out: the levels of e3d_environment_view, in one piece of memory.
@@ -10,6 +10,7 @@
 #include "core/fpenv.h"
 #include "e3d_environment.h"
 #include "environment/cube.h"
+#include "environment/light_tree.h"
 #include "environment/picture.h"
 #include "environment/prefilter.h"
 
@@ -19,8 +20,8 @@ struct e3d_environment {
 };
 
 enum { LEAST_SIZE = 32,
-       MOST_SIZE = 1024,
-       LEAST_HALF = 8 };
+       LEAST_LOBES = 64,
+       MOST_SIZE = 1024 };
 
 /* Of faces that have about as many texels to a degree as the picture has along the horizon and along a meridian. */
 static int32_t size_of_faces(int32_t width, int32_t height)
@@ -31,54 +32,53 @@ static int32_t size_of_faces(int32_t width, int32_t height)
     return size;
 }
 
-/* A lobe needs no more texels than show its shape. */
+/* A lobe needs as many texels as show its shape: no more, but also where the picture has fewer. */
 static int32_t size_of_level(int32_t faces, int level)
 {
-    static const int32_t MOST[E3D_ENVIRONMENT_LEVELS] = {MOST_SIZE, 256, 128, 64, 32, 32, 16, 16, 16};
-    return faces < MOST[level] ? faces : MOST[level];
+    static const int32_t MOST[E3D_ENVIRONMENT_LEVELS] = {MOST_SIZE, 256, 128, 64, 32, 32, 32, 32, 32};
+    int32_t half = faces / 2 > LEAST_LOBES ? faces / 2 : LEAST_LOBES;
+    if (level == 0)
+        return faces;
+    return half < MOST[level] ? half : MOST[level];
 }
 
 static size_t floats_of(int32_t size) { return E3D_TEXEL * e3d_cube_texels(size); }
 
-/* Room for all levels, and for the halves of the first; 0 when memory is out. */
-static int allocate(e3d_environment *environment, int32_t faces, e3d_halves *halves, float **of_halves)
+static int allocate(e3d_environment *environment, int32_t faces)
 {
-    size_t total = 0, halved = 0;
+    size_t total = 0;
     for (int l = 0; l < E3D_ENVIRONMENT_LEVELS; l++)
         total += floats_of(size_of_level(faces, l));
-    for (int32_t size = faces / 2; size >= LEAST_HALF; size /= 2)
-        halved += floats_of(size);
-    environment->texels = malloc(total * sizeof(float));
-    *of_halves = malloc(halved * sizeof(float));
-    if (!environment->texels || !*of_halves)
+    float *next = environment->texels = malloc(total * sizeof(float));
+    if (!next)
         return 0;
-    float *next = environment->texels;
     for (int l = 0; l < E3D_ENVIRONMENT_LEVELS; l++) {
         environment->view.levels[l] = (e3d_environment_level){next, size_of_level(faces, l)};
         next += floats_of(size_of_level(faces, l));
     }
-    halves->of[halves->count++] = (e3d_cube){environment->texels, faces};
-    next = *of_halves;
-    for (int32_t size = faces / 2; size >= LEAST_HALF; size /= 2) {
-        halves->of[halves->count++] = (e3d_cube){next, size};
-        next += floats_of(size);
-    }
     return 1;
 }
 
-static int fill(const e3d_environment *environment, const float *pixels, int32_t width, int32_t height, int threads,
-                const e3d_halves *halves)
+static e3d_cube cube_of(const e3d_environment *environment, int level)
 {
-    if (!e3d_cube_from_picture(pixels, width, height, threads, &halves->of[0]))
+    const e3d_environment_level *view = &environment->view.levels[level];
+    return (e3d_cube){(float *)view->texels, view->size};
+}
+
+/* The levels from the first; 0 when memory is out. */
+static int fill(const e3d_environment *environment, const float *pixels, int32_t width, int32_t height, int threads)
+{
+    e3d_cube faces = cube_of(environment, 0);
+    e3d_light_tree tree;
+    if (!e3d_cube_from_picture(pixels, width, height, threads, &faces))
         return 0;
-    for (int n = 1; n < halves->count; n++)
-        e3d_cube_halve(&halves->of[n - 1], &halves->of[n]);
-    for (int l = 1; l < E3D_ENVIRONMENT_LEVELS; l++) {
-        const e3d_environment_level *level = &environment->view.levels[l];
-        const e3d_cube out = {(float *)level->texels, level->size};
-        e3d_prefilter(halves, (double)l / (E3D_ENVIRONMENT_LEVELS - 1), threads, &out);
+    int built = e3d_light_tree_create(&faces, threads, &tree);
+    for (int l = 1; l < E3D_ENVIRONMENT_LEVELS && built; l++) {
+        e3d_cube out = cube_of(environment, l);
+        e3d_prefilter(&tree, (double)l / (E3D_ENVIRONMENT_LEVELS - 1), threads, &out);
     }
-    return 1;
+    e3d_light_tree_free(&tree);
+    return built;
 }
 
 e3d_status e3d_environment_create(const float *pixels, int32_t width, int32_t height, int threads, e3d_environment **out)
@@ -87,15 +87,12 @@ e3d_status e3d_environment_create(const float *pixels, int32_t width, int32_t he
     if (!pixels || width < 1 || height < 1 || width > E3D_MAX_ENVIRONMENT_SIZE || height > E3D_MAX_ENVIRONMENT_SIZE || threads < 1)
         return E3D_INVALID_ARGUMENT;
     e3d_environment *environment = calloc(1, sizeof *environment);
-    e3d_halves halves = {.count = 0};
-    float *of_halves = NULL;
-    if (environment && allocate(environment, size_of_faces(width, height), &halves, &of_halves)) {
+    if (environment && allocate(environment, size_of_faces(width, height))) {
         e3d_fpenv saved = e3d_fpenv_enter();
-        if (fill(environment, pixels, width, height, threads, &halves))
+        if (fill(environment, pixels, width, height, threads))
             *out = environment;
         e3d_fpenv_leave(saved);
     }
-    free(of_halves);
     if (!*out)
         e3d_environment_destroy(environment);
     return *out ? E3D_OK : E3D_OUT_OF_MEMORY;

@@ -1,217 +1,143 @@
-/* What rough mirrors show of an environment (R67, R68): light l counts D(h)(n.l), GGX's D of the half vector h of n and l, as the
+/* What rough mirrors show of an environment (R68): light from l counts D(h) (n.l), GGX's D of the half vector h of n and l, as the
  * split sum takes it (Karis, Real Shading in Unreal Engine 4, 2013: the mirror is seen along its normal).
  *
- * Narrow lobes are sampled: directions of equal shares of D (n.h) on a spiral of the golden angle, each in the cube whose texels are
- * about as large as its share (Krivanek and Colbert, Real-time Shading with Filtered Importance Sampling, 2008). Wide lobes are sums
- * over all texels of a small cube.
+ * The lobe is summed over cells of a tree of light, the smaller the nearer to its middle, where it changes faster: some hundred for
+ * each texel. Four by four texels, which lie close together, take the same cells.
  */
 #include <math.h>
 #include <string.h>
 
 #include "core/pool.h"
 #include "environment/cube.h"
+#include "environment/light_tree.h"
 #include "environment/prefilter.h"
-
-#define PI 0x1.921fb54442d18p+1
+#include "kernels/kernels.h"
+#include "kernels/types/lobe.h"
 
 enum {
-    SAMPLES = 96,
-    SUM_SIZE = 32, /* texels along a face of the cube that is summed */
-    LANES = 4      /* partial sums side by side */
+    BLOCK = 4, /* texels along a side */
+    TEXELS = E3D_LOBE_TEXELS,
+    SMALL = 32, /* texels of a face */
+    GROUPS_IN_A_ROW = 16 /* whose sums are f32 */
 };
-#define WIDE 0.45 /* roughness above which texels are summed */
-#define TEXELS_A_SHARE 2.0
+/* The width of a cell over the lobe's there; of small levels, whose wide lobes show all of the light, less. */
+#define COARSE 0.5f
+#define FINE 0.05f
 
-/* ---- narrow lobes ---- */
-
-typedef struct lobe_sample {
-    float x, y, z, weight; /* z is along the normal */
-    const e3d_cube *cube;
-} lobe_sample;
-
+/* GGX's lobe: D and the width of its middle. */
 typedef struct lobe {
-    lobe_sample samples[SAMPLES];
-    int count;
+    float square, rest, width; /* alpha^2 and 1 - alpha^2 */
+    float fineness;
+    const e3d_kernels *kernels;
+    const e3d_light_tree *tree;
     const e3d_cube *out;
 } lobe;
 
-/* GGX's D times pi. */
-static double distribution(double square, double h2)
+typedef struct block {
+    const lobe *lobe;
+    float middle[3], radius;
+    e3d_lobe_block texels;
+    double totals[E3D_LOBE_SUMS][TEXELS];
+    int groups;
+} block;
+
+static float distance(const float a[3], const float b[3])
 {
-    double t = h2 * (square - 1.0) + 1.0;
-    return square / (t * t);
+    float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return sqrtf((x * x + y * y) + z * z);
 }
 
-/* The cube of which so many texels take a sample's solid angle. */
-static const e3d_cube *cube_of(const e3d_halves *halves, double solid_angle)
+static void begin(const lobe *lobe, int face, int32_t column, int32_t row, block *out)
 {
-    double size = halves->of[0].size, texel = TEXELS_A_SHARE * 4.0 * PI / (E3D_FACES * size * size);
-    int n = 0;
-    for (; n < halves->count - 1 && texel * 2.0 < solid_angle; n++)
-        texel *= 4.0;
-    return &halves->of[n];
-}
-
-static void find_samples(const e3d_halves *halves, double roughness, lobe *out)
-{
-    const double COSINE = -0x1.798869e0de833p-1, SINE = 0x1.59d9dd253cc13p-1; /* of the golden angle */
-    double square = roughness * roughness * roughness * roughness, c = 1.0, s = 0.0, total = 0.0;
-    out->count = 0;
-    for (int i = 0; i < SAMPLES; i++) {
-        double share = (i + 0.5) / SAMPLES, h2 = (1.0 - share) / (1.0 + (square - 1.0) * share);
-        double z = 2.0 * h2 - 1.0, radius = sqrt(1.0 - z * z), turned = c * COSINE - s * SINE;
-        s = s * COSINE + c * SINE;
-        c = turned;
-        if (z <= 0.0)
-            continue;
-        const e3d_cube *cube = cube_of(halves, 4.0 * PI / (SAMPLES * distribution(square, h2)));
-        out->samples[out->count++] = (lobe_sample){(float)(radius * c), (float)(radius * s), (float)z, (float)z, cube};
-        total += (float)z;
-    }
-    for (int i = 0; i < out->count; i++)
-        out->samples[i].weight = (float)(out->samples[i].weight / total);
-}
-
-/* The unit vectors of a texel: along the face, down it, and outwards. */
-static void find_frame(const e3d_cube *cube, int face, int32_t column, int32_t row, float frame[3][3])
-{
-    double p = e3d_cube_middle(cube->size, column), q = e3d_cube_middle(cube->size, row), n[3], t[3], b[3], middle[3];
-    e3d_cube_direction(face, p, q, n);
-    e3d_cube_direction(face, 0.0, 0.0, middle);
-    e3d_cube_direction(face, 1.0, 0.0, t);
-    double length = sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
-    for (int k = 0; k < 3; k++) {
-        n[k] /= length;
-        t[k] -= middle[k];
-    }
-    double along = (n[0] * t[0] + n[1] * t[1]) + n[2] * t[2], rest = sqrt(1.0 - along * along);
-    for (int k = 0; k < 3; k++)
-        t[k] = (t[k] - along * n[k]) / rest;
-    for (int k = 0; k < 3; k++)
-        b[k] = n[(k + 1) % 3] * t[(k + 2) % 3] - n[(k + 2) % 3] * t[(k + 1) % 3];
-    for (int k = 0; k < 3; k++) {
-        frame[0][k] = (float)t[k];
-        frame[1][k] = (float)b[k];
-        frame[2][k] = (float)n[k];
-    }
-}
-
-static void sample_texel(const lobe *lobe, int face, int32_t column, int32_t row)
-{
-    float frame[3][3], *out = e3d_cube_texel(lobe->out, face, column, row);
-    double sum[3] = {0};
-    find_frame(lobe->out, face, column, row, frame);
-    for (int i = 0; i < lobe->count; i++) {
-        const lobe_sample *s = &lobe->samples[i];
-        float d[3], light[3];
-        for (int k = 0; k < 3; k++)
-            d[k] = (s->x * frame[0][k] + s->y * frame[1][k]) + s->z * frame[2][k];
-        e3d_cube_sample(s->cube, d, light);
-        for (int k = 0; k < 3; k++)
-            sum[k] += (double)(s->weight * light[k]);
-    }
-    for (int k = 0; k < 3; k++)
-        out[k] = (float)sum[k];
-    out[3] = 0.0f;
-}
-
-static void sample_row(void *argument, int number)
-{
-    const lobe *lobe = argument;
     int32_t size = lobe->out->size;
-    for (int32_t column = 0; column < size; column++)
-        sample_texel(lobe, number / size, column, number % size);
-}
-
-/* ---- wide lobes ---- */
-
-/* The texels of a cube as arrays: directions, solid angles and light. */
-typedef struct texel_rows {
-    float direction[3][E3D_FACES * SUM_SIZE * SUM_SIZE], weight[E3D_FACES * SUM_SIZE * SUM_SIZE];
-    float light[3][E3D_FACES * SUM_SIZE * SUM_SIZE];
-    int count, row; /* texels of a row of a face */
-    float square;
-    const e3d_cube *out;
-} texel_rows;
-
-static void find_texels(const e3d_cube *cube, texel_rows *out)
-{
-    int n = 0;
-    for (int face = 0; face < E3D_FACES; face++)
-        for (int32_t row = 0; row < cube->size; row++)
-            for (int32_t column = 0; column < cube->size; column++, n++) {
-                double p = e3d_cube_middle(cube->size, column), q = e3d_cube_middle(cube->size, row), d[3];
-                e3d_cube_direction(face, p, q, d);
-                double length = sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
-                const float *texel = e3d_cube_texel(cube, face, column, row);
-                for (int k = 0; k < 3; k++) {
-                    out->direction[k][n] = (float)(d[k] / length);
-                    out->light[k][n] = texel[k];
-                }
-                out->weight[n] = (float)e3d_cube_weight(p, q);
-            }
-    out->count = n;
-    out->row = cube->size;
-}
-
-/* What a row of texels adds: red, green, blue, and what light of 1 would. */
-static void add_row(const texel_rows *t, int first, const float n[3], double sums[4])
-{
-    float partial[4][LANES] = {{0}};
-    for (int i = first; i < first + t->row; i += LANES)
-        for (int k = 0; k < LANES; k++) {
-            float c = (n[0] * t->direction[0][i + k] + n[1] * t->direction[1][i + k]) + n[2] * t->direction[2][i + k];
-            float h2 = (1.0f + c) * 0.5f, d = h2 * (t->square - 1.0f) + 1.0f;
-            c = c > 0.0f ? c : 0.0f;
-            float weight = (c * t->weight[i + k]) / (d * d);
-            for (int channel = 0; channel < 3; channel++)
-                partial[channel][k] += weight * t->light[channel][i + k];
-            partial[3][k] += weight;
-        }
-    for (int channel = 0; channel < 4; channel++)
-        for (int k = 0; k < LANES; k++)
-            sums[channel] += (double)partial[channel][k];
-}
-
-static void sum_row(void *argument, int number)
-{
-    const texel_rows *t = argument;
-    int32_t size = t->out->size, row = number % size;
-    for (int32_t column = 0; column < size; column++) {
-        double n[3], sums[4] = {0};
-        float *out = e3d_cube_texel(t->out, number / size, column, row);
-        e3d_cube_direction(number / size, e3d_cube_middle(size, column), e3d_cube_middle(size, row), n);
-        double length = sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
-        const float unit[3] = {(float)(n[0] / length), (float)(n[1] / length), (float)(n[2] / length)};
-        for (int first = 0; first < t->count; first += t->row)
-            add_row(t, first, unit, sums);
+    double half = (double)BLOCK / size, p = e3d_cube_middle(size, column) - 1.0 / size, q = e3d_cube_middle(size, row) - 1.0 / size;
+    memset(out, 0, sizeof *out);
+    out->lobe = lobe;
+    out->texels.square = lobe->square;
+    out->texels.rest = lobe->rest;
+    e3d_cube_unit(face, p + half, q + half, out->middle);
+    for (int t = 0; t < TEXELS; t++) {
+        float n[3], radius;
+        e3d_cube_unit(face, e3d_cube_middle(size, column + t % BLOCK), e3d_cube_middle(size, row + t / BLOCK), n);
         for (int k = 0; k < 3; k++)
-            out[k] = (float)(sums[k] / sums[3]);
+            out->texels.normal[k][t] = n[k];
+        radius = distance(n, out->middle);
+        out->radius = radius > out->radius ? radius : out->radius;
+    }
+}
+
+/* Moves the sums so far to where they lose no bits. */
+static void settle(block *b)
+{
+    for (int k = 0; k < E3D_LOBE_SUMS; k++)
+        for (int t = 0; t < TEXELS; t++) {
+            b->totals[k][t] += (double)b->texels.sums[k][t];
+            b->texels.sums[k][t] = 0.0f;
+        }
+    b->groups = 0;
+}
+
+static void add_group(block *b, const e3d_cell_group *group)
+{
+    b->lobe->kernels->lobe(group, &b->texels);
+    if (++b->groups == GROUPS_IN_A_ROW)
+        settle(b);
+}
+
+/* Adds a group, or in place of its cells those that they sum up, where these are too large for the lobe. */
+static void visit(block *b, int level, int face, int32_t column, int32_t row)
+{
+    const e3d_light_tree *tree = b->lobe->tree;
+    const e3d_tree_level *here = &tree->levels[level];
+    const e3d_cell_group *group = e3d_group_at(here, face, column, row);
+    float cell = 1.0f / (float)here->size; /* the widest */
+    float away = distance(group->middle, b->middle), near = away - (b->radius + 1.5f * cell);
+    if (near > 1.4143f) /* below the horizon of all */
+        return;
+    near = near > 0.0f ? near : 0.0f;
+    if (level == tree->count - 1 || cell <= b->lobe->fineness * (b->lobe->width + near)) {
+        add_group(b, group);
+        return;
+    }
+    for (int32_t part = 0; part < E3D_CELLS; part++)
+        visit(b, level + 1, face, 2 * column + (part & 1), 2 * row + (part >> 1));
+}
+
+static void finish(block *b, int face, int32_t column, int32_t row)
+{
+    settle(b);
+    for (int t = 0; t < TEXELS; t++) {
+        float *out = e3d_cube_texel(b->lobe->out, face, column + t % BLOCK, row + t / BLOCK);
+        for (int k = 0; k < 3; k++)
+            out[k] = (float)(b->totals[k][t] / b->totals[3][t]);
         out[3] = 0.0f;
     }
 }
 
-static const e3d_cube *cube_to_sum(const e3d_halves *halves)
+static void filter_row(void *argument, int number)
 {
-    int n = 0;
-    while (halves->of[n].size > SUM_SIZE)
-        n++;
-    return &halves->of[n];
+    const lobe *lobe = argument;
+    int32_t rows = lobe->out->size / BLOCK, face = number / rows, row = number % rows * BLOCK;
+    for (int32_t column = 0; column < lobe->out->size; column += BLOCK) {
+        block b;
+        begin(lobe, face, column, row, &b);
+        for (int from = 0; from < E3D_FACES; from++)
+            for (int32_t root = 0; root < E3D_TREE_ROOT * E3D_TREE_ROOT; root++)
+                visit(&b, 0, from, root % E3D_TREE_ROOT, root / E3D_TREE_ROOT);
+        finish(&b, face, column, row);
+    }
 }
 
-void e3d_prefilter(const e3d_halves *halves, double roughness, int threads, const e3d_cube *out)
+void e3d_prefilter(const e3d_light_tree *tree, double roughness, int threads, const e3d_cube *out)
 {
-    int rows = E3D_FACES * out->size;
-    if (roughness > WIDE) {
-        texel_rows texels;
-        find_texels(cube_to_sum(halves), &texels);
-        texels.square = (float)(roughness * roughness * roughness * roughness);
-        texels.out = out;
-        e3d_pool_share(threads, rows, sum_row, &texels);
-    } else {
-        lobe samples = {.out = out};
-        find_samples(halves, roughness, &samples);
-        e3d_pool_share(threads, rows, sample_row, &samples);
-    }
+    double alpha = roughness * roughness;
+    lobe lobe = {.square = (float)(alpha * alpha),
+                 .rest = (float)(1.0 - alpha * alpha),
+                 .width = (float)(2.0 * alpha),
+                 .fineness = out->size > SMALL ? COARSE : FINE,
+                 .kernels = e3d_kernels_for(e3d_backend_best()),
+                 .tree = tree,
+                 .out = out};
+    e3d_pool_share(threads, E3D_FACES * out->size / BLOCK, filter_row, &lobe);
     e3d_cube_fill_border(out);
 }

@@ -11,6 +11,7 @@
 #include "e3d.h"
 #include "e3d_canvas.h"
 #include "kernels/types/fragments.h"
+#include "kernels/types/lobe.h"
 #include "kernels/types/maps.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
@@ -106,6 +107,8 @@ typedef struct e3d_kernels {
     void (*irradiance)(const e3d_environment_light *light, const float *const normal[3], int count, float *const color[3]);
     /* Finds what surfaces reflect of light that is 1 all around. */
     void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out);
+    /* Adds what a block of texels gathers of the light of cells. */
+    void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block);
     /* Finds the clamped colours of an environment behind `count` pixels of a row, from (x, y) on. */
     void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]);
     /* Clamps planes of colours to [0, 1], and encodes them as RGBA8 with alpha 255. */

@@ -56,6 +56,13 @@ class NativeMesh:
 class NativeTexture:
     def __init__(self, pixels: _Bytes, decode_srgb: bool, filter: int, wrap: int) -> None: ...
 
+class NativeEnvironment:
+    def __init__(self, pixels: _Floats, threads: int) -> None: ...
+    def level(self, number: int) -> LevelTexels: ...
+
+class LevelTexels:
+    def __buffer__(self, flags: int, /) -> memoryview: ...
+
 class NativeDrawList:
     object_count: int
     material_count: int
@@ -164,6 +171,12 @@ class NativeOptions:
         ambient: Sequence[float],
         light_clamp: Sequence[float],
         exposure: float,
+        environment: NativeEnvironment | None = None,
+        environment_turn: Sequence[float] = (1.0, 0.0),
+        environment_intensity: float = 1.0,
+        backdrop: NativeEnvironment | None = None,
+        backdrop_intensity: float = 1.0,
+        backdrop_level: float = 0.0,
     ) -> None: ...
 
 class NativeStats:
@@ -188,6 +201,7 @@ class NativeRenderer:
         depth_near: float,
         depth_far: float,
         frozen_clip_from_world: _Doubles | None = None,
+        rays: _Floats | None = None,
     ) -> NativeStats: ...
 
 def rasterize(

@@ -21,6 +21,7 @@
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/albedo.inl"
+#include "kernels/generic/lobe.inl"
 #include "kernels/generic/environment.inl"
 #include "kernels/generic/maps.inl"
 #include "kernels/generic/physical.inl"
@@ -68,6 +69,7 @@ const e3d_kernels E3D_TABLE = {
     .environment = kernel_environment,
     .irradiance = kernel_irradiance,
     .albedo = kernel_albedo,
+    .lobe = kernel_lobe,
     .backdrop = kernel_backdrop,
     .encode = kernel_encode,
     .put = kernel_put,

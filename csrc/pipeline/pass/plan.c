@@ -83,7 +83,7 @@ static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
            asked_if(has_mapped_normals(f), E3D_ASKED_MAPPED_NORMALS) | asked_if(f->shading == E3D_SHADING_FORWARD, E3D_ASKED_FORWARD) | asked_if(f->encode_srgb, E3D_ASKED_SRGB) |
            asked_if(f->culling == E3D_CULLING_ALL || f->culling == E3D_CULLING_ALWAYS, E3D_ASKED_OCCLUSION) |
            asked_if(f->frozen_clip_from_world != NULL, E3D_ASKED_OTHER_FRUSTUM) |
-           asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
+           asked_if(f->backdrop.light.environment != NULL, E3D_ASKED_BACKDROP) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
 }
 
 /* ---- what is done about it ---- */
@@ -135,6 +135,8 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_EDGES, ASKED(COLOR) | ASKED(WIREFRAME), 0},
     {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER), ASKED(WIRE_ONLY)},
     {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER) | ASKED(HIDDEN_LINES), 0},
+    {E3D_PLAN_BACKDROP, PLAN(COLORS) | ASKED(BACKDROP) | ASKED(LIT), 0},
+    {E3D_PLAN_BACKDROP, PLAN(COLORS) | ASKED(BACKDROP) | ASKED(UNLIT), 0},
     {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(LIT), 0},
     {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(UNLIT), 0},
 };

@@ -37,6 +37,7 @@
     X(SRGB, "the sRGB encoder")                                                        \
     X(OCCLUSION, "that what is hidden is left out")                                    \
     X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
+    X(BACKDROP, "an environment as the background")                                    \
     X(HUGE, "more samples than tiles are kept for")
 
 /* What is done about it: X(name, what that is). */
@@ -62,6 +63,7 @@
     X(COUNTS_OVERDRAW, "faces are counted, sample by sample")                            \
     X(EDGES, "the edges of faces are drawn")                                             \
     X(EDGE_DEPTHS, "edges are tested against the depths of faces")                       \
+    X(BACKDROP, "the background is looked up in an environment, pixel by pixel")         \
     X(ENCODES_SRGB, "colours go through the sRGB encoder")
 
 #define E3D_ASKED_NAME(name, text) E3D_ASKED_##name,

@@ -9,7 +9,8 @@ term, of glTF's Appendix B (alpha = roughness**2); the split sum of Karis, Real 
 Engine 4, 2013. Half vectors are taken over the distribution's own probability, and only where they
 mirror the viewer above the surface: what is left to integrate is smooth.
 SHEEN: the albedo of Charlie's distribution (Estevez and Kulla 2017) with the visibility of Neubelt
-and Pettineo 2013, 1/(4*(l + v - l*v)); roughness below 0.07 counts as that.
+and Pettineo 2013, 1/(4*(l + v - l*v)), but no more than 1, which that visibility passes at grazing
+angles; roughness below 0.07 counts as that.
 """
 
 from pathlib import Path
@@ -74,7 +75,7 @@ def sheen(roughness, v):
     distribution = (2 + 1 / alpha) * sine ** (1 / alpha) / (2 * np.pi)
     visibility = 1 / (4 * (light + v - light * v))
     weight = np.outer(POLAR[1], POLAR[1]) * 2 * np.pi
-    return (weight * distribution * visibility * light).sum()
+    return min((weight * distribution * visibility * light).sum(), 1.0)
 
 
 def tables():

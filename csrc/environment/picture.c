@@ -1,7 +1,8 @@
 /* Equirectangular pictures to the faces of a cube (R65, R66).
  *
  * Each texel is the mean of many places on it, between whose texels the picture is interpolated: a sun of one pixel keeps its light
- * to about a hundredth. The azimuth of a place on one of the four upright faces depends on its column alone, and its height above
+ * to about a hundredth. Near the poles, where pixels are narrower than places lie apart, rows are averaged to pixels as wide as they
+ * are high first. The azimuth of a place on one of the four upright faces depends on its column alone, and its height above
  * the horizon is the same on all four.
  */
 #include <math.h>
@@ -41,18 +42,40 @@ typedef struct copy_job {
     const picture *to;
 } copy_job;
 
+/* How many pixels to either side are about as wide, near a pole, as a pixel is high. */
+static int32_t spread_of(const picture *p, int32_t row)
+{
+    int32_t from_pole = row < p->height - 1 - row ? row : p->height - 1 - row;
+    double angle = 2.0 * HALF_PI * (from_pole + 0.5) / p->height, square = angle * angle;
+    double sine = angle * (1.0 - square / 6.0 * (1.0 - square / 20.0)); /* where it matters, to a thousandth */
+    double spread = (1.0 / sine - 0.5) * ((double)p->width / (2.0 * p->height)), most = (p->width - 1) / 2;
+    return angle > 1.0 ? 0 : (int32_t)(spread < most ? spread : most);
+}
+
+static void copy_pixel(const copy_job *job, const float *row, int32_t x, int32_t spread, float *out)
+{
+    int32_t width = job->to->width;
+    double sum[3] = {0};
+    for (int32_t i = x - spread; i <= x + spread; i++) {
+        const float *from = row + 3 * (size_t)(i < 0 ? i + width : i < width ? i
+                                                                             : i - width);
+        for (int k = 0; k < 3; k++)
+            sum[k] += (double)(isfinite(from[k]) ? limited(from[k]) : 0.0f);
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)(sum[k] / (2 * spread + 1));
+    out[3] = 0.0f;
+}
+
 static void copy_row(void *argument, int row)
 {
     const copy_job *job = argument;
     const picture *to = job->to;
     const size_t bytes = E3D_TEXEL * sizeof(float);
     const float *from = job->pixels + 3 * (size_t)row * (size_t)to->width;
-    float *out = picture_texel(to, 0, row);
-    for (int32_t x = 0; x < to->width; x++, from += 3, out += E3D_TEXEL) {
-        for (int k = 0; k < 3; k++)
-            out[k] = isfinite(from[k]) ? limited(from[k]) : 0.0f;
-        out[3] = 0.0f;
-    }
+    int32_t spread = spread_of(to, row);
+    for (int32_t x = 0; x < to->width; x++)
+        copy_pixel(job, from, x, spread, picture_texel(to, x, row));
     memcpy(picture_texel(to, -1, row), picture_texel(to, to->width - 1, row), bytes);
     memcpy(picture_texel(to, to->width, row), picture_texel(to, 0, row), bytes);
 }

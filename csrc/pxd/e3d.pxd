@@ -146,7 +146,12 @@ cdef extern from "e3d.h" nogil:
         float down[3]
 
     ctypedef enum e3d_dfg:
-        pass
+        E3D_DFG_TABLES
+
+    enum:
+        E3D_DFG_SIZE
+
+    const float E3D_DFG_TABLE[E3D_DFG_TABLES][E3D_DFG_SIZE * E3D_DFG_SIZE]
 
     ctypedef struct e3d_material:
         float color[3]

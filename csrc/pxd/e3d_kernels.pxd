@@ -2,7 +2,7 @@
 
 from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
 
-from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
+from e3d cimport e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment_light, e3d_filter, e3d_light, e3d_wrap
 from e3d_clusters cimport e3d_cluster
 
 
@@ -124,6 +124,12 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_batch:
         pass
 
+    ctypedef struct e3d_cell_group:
+        pass
+
+    ctypedef struct e3d_lobe_block:
+        pass
+
     ctypedef struct e3d_lighting:
         const e3d_light *lights
         int light_count
@@ -177,6 +183,7 @@ cdef extern from "kernels/kernels.h" nogil:
         e3d_varying sheen_roughness
         int has_coat
         int has_sheen
+        int is_grey
         int coat_is_mapped
 
     ctypedef struct e3d_kernels:
@@ -227,6 +234,13 @@ cdef extern from "kernels/kernels.h" nogil:
                         float exposure)
         void (*physical)(e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting,
                          e3d_map_batch *maps)
+        void (*environment)(const e3d_environment_light *light, const float *const *direction, const float *level,
+                            int count, float *const *color)
+        void (*irradiance)(const e3d_environment_light *light, const float *const *normal, int count,
+                           float *const *color)
+        void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out)
+        void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block)
+        void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const *color)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)

@@ -49,7 +49,7 @@ static lobe make_lobe(const float normal[3], const float view[3], float roughnes
 /* R50: D times V. */
 static float reflect(const lobe *lobe, const half_vector *h, float nl)
 {
-    float k[3], nh = ref_dot3(lobe->normal, h->h);
+    float k[3], nh = nl + lobe->facing;
     ref_cross(lobe->normal, h->h, k);
     float t = ref_dot3(k, k) + lobe->A * (nh * nh);
     float u = lobe->nv * sqrtf(lobe->A + (1.0f - lobe->A) * (nl * nl)) + nl * lobe->root;
@@ -99,7 +99,7 @@ static void add_light(const e3d_light *light, const ref_surface *s, const sample
 {
     const e3d_material *material = s->piece->primitive.material;
     float l[3], attenuation;
-    if (!ref_light_reach(light, s->world_position, l, &attenuation))
+    if (!ref_light_reach(light, s->world_position, 1, l, &attenuation))
         return;
     float nl = ref_dot3(at->base.normal, l);
     if (!(nl > 0.0f))
@@ -109,10 +109,10 @@ static void add_light(const e3d_light *light, const ref_surface *s, const sample
         h.h[c] = l[c] + at->view[c];
     h.square = ref_dot3(h.h, h.h);
     float w5 = fifth_power(ref_max(1.0f - sqrtf(h.square) * 0.5f, 0.0f)), e = attenuation * nl;
-    float keep = 1.0f - (at->top + (at->specular - at->top) * w5), d = reflect(&at->base, &h, nl);
+    float keep = (1.0f - (at->top + (at->specular - at->top) * w5)) * e, d = reflect(&at->base, &h, nl) * e;
     for (int c = 0; c < 3; c++)
         out->direct[c] = out->direct[c] +
-                         light->lux[c] * ((at->diffuse[c] * keep + d * (at->f0[c] + (at->f90 - at->f0[c]) * w5)) * e);
+                         light->lux[c] * (at->diffuse[c] * keep + d * (at->f0[c] + (at->f90 - at->f0[c]) * w5));
     float coat_nl = ref_dot3(at->coat.normal, l);
     if (material->physical.clearcoat != 0.0f && coat_nl > 0.0f) {
         float coat = reflect(&at->coat, &h, coat_nl) * (attenuation * coat_nl);
@@ -156,26 +156,30 @@ static void find_radiance(const e3d_frame *frame, const lobe *lobe, const float 
         out[c] = out[c] + more[c];
 }
 
-/* R55: of light that is 1 all around, what is reflected once and what more often. */
-static void scatter(float f0, float f90, float a, float b, float *once, float *more)
+/* R55: a lobe under light that is 1 all around: once is what it reflects once, twice a factor of what it reflects more often. */
+typedef struct scattering {
+    float once, twice, q;
+} scattering;
+
+static scattering scatter(float f0, float f90, float a, float b)
 {
-    float x = f0 * a + f90 * b, y = f0 + (f90 - f0) * E3D_OVER_21, rest = 1.0f - (a + b);
-    *once = x;
-    *more = ((x * y) / (1.0f - rest * y)) * rest;
+    float y = f0 + (f90 - f0) * E3D_OVER_21, rest = 1.0f - (a + b), x = f0 * a + f90 * b;
+    return (scattering){x, x * y, 1.0f - rest * y};
 }
 
 static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sample *at, const float irradiance[3], float out[3])
 {
     const ref_physical *p = &s->physical;
     float radiance[3], a = ref_albedo(E3D_DFG_A, at->base.roughness, at->base.nv), b = ref_albedo(E3D_DFG_B, at->base.roughness, at->base.nv);
+    float rest = 1.0f - (a + b);
     find_radiance(frame, &at->base, at->view, radiance);
     for (int c = 0; c < 3; c++) {
-        float x, z, albedo = s->albedo[c];
-        scatter(albedo, 1.0f, a, b, &x, &z);
-        float metal = radiance[c] * x + irradiance[c] * z;
-        scatter(p->reflectance[c], p->specular, a, b, &x, &z);
-        float other = (radiance[c] * x + irradiance[c] * z) + irradiance[c] * (albedo * (1.0f - (x + z)));
-        out[c] = other + (metal - other) * p->metallic;
+        float albedo = s->albedo[c];
+        scattering metal = scatter(albedo, 1.0f, a, b), other = scatter(p->reflectance[c], p->specular, a, b);
+        float r = 1.0f / (metal.q * other.q), zt = (metal.twice * (r * other.q)) * rest, zd = (other.twice * (r * metal.q)) * rest;
+        float t = radiance[c] * metal.once + irradiance[c] * zt;
+        float d = (radiance[c] * other.once + irradiance[c] * zd) + irradiance[c] * (albedo * (1.0f - (other.once + zd)));
+        out[c] = d + (t - d) * p->metallic;
     }
 }
 
@@ -204,7 +208,7 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
 {
     const e3d_material *material = surface->piece->primitive.material;
     sample at = find_sample(frame, surface);
-    sums lights = {{0.0f}};
+    sums lights = {.direct = {0.0f}};
     float irradiance[3], indirect[3];
     for (int32_t n = 0; n < frame->light_count; n++)
         add_light(&frame->lights[n], surface, &at, &lights);

@@ -180,8 +180,9 @@ void ref_backdrop(const e3d_backdrop *backdrop, int32_t x, int32_t y, float out[
 float ref_albedo(e3d_dfg kind, float roughness, float cosine);
 
 /* light.c */
-/* The unit vector from p towards the light, and its attenuation; returns 0 where the light is out of range. */
-int ref_light_reach(const e3d_light *light, const float p[3], float l[3], float *attenuation);
+/* The unit vector from p towards the light, and its attenuation, in the way of R51 if by_product; returns 0 where the light is out of
+ * range. */
+int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation);
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
 void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3]);

@@ -6,6 +6,8 @@ what is in memory goes through a temporary file. Sizes are checked before any pi
 
 from __future__ import annotations
 
+import contextlib
+import os
 import tempfile
 
 import numpy as np
@@ -42,16 +44,32 @@ def read_exr(source: Source) -> NDArray[np.float32]:
         file.write(source.data)
         file.flush()
         try:
-            header = OpenEXR.File(file.name, header_only=True).header()
-            check_image_size(*_size(header), source.path, source.size)
-            channels = OpenEXR.File(file.name, separate_channels=True).channels()
-            planes = {name: channel.pixels for name, channel in channels.items()}
+            with _silence():
+                header = OpenEXR.File(file.name, header_only=True).header()
+                check_image_size(*_size(header), source.path, source.size)
+                channels = OpenEXR.File(file.name, separate_channels=True).channels()
+                planes = {name: channel.pixels for name, channel in channels.items()}
         except FileFormatError:
             raise
         except Exception as error:  # whatever the library says of a damaged file
-            reason = str(error).strip().splitlines() or ["it cannot be decoded"]
-            raise FileFormatError(f"damaged OpenEXR picture: {reason[0]}", source.path) from None
+            lines = str(error).replace(file.name, "it").strip().splitlines()
+            reason = lines[0] if lines else "it cannot be decoded"
+            raise FileFormatError(f"damaged OpenEXR picture: {reason}", source.path) from None
     return _joined(planes, source.path)
+
+
+@contextlib.contextmanager
+def _silence():
+    """The library writes to both streams of the process what it raises as well."""
+    kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 2)
+        with contextlib.redirect_stdout(None):
+            yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
 
 
 def _size(header: dict) -> tuple[int, int]:

@@ -107,7 +107,7 @@ class FrameOptions:
             environment_turn=(linalg.cos(turn), linalg.sin(turn)),
             environment_intensity=scene.environment_intensity,
             backdrop=backdrop,
-            backdrop_intensity=scene.environment_intensity,
+            backdrop_intensity=scene.environment_intensity * 2.0**scene.exposure,
             backdrop_level=scene.background_blur * _MOST_BLURRED,
         )
         self.has_backdrop = backdrop is not None

@@ -166,6 +166,24 @@ LIGHT = np.dtype(
         ("cone", "f4", 2),
     ]
 )
+CELLS, LOBE_TEXELS = 4, 16
+CELL_GROUP = np.dtype(
+    [
+        ("direction", "f4", (3, CELLS)),
+        ("weight", "f4", CELLS),
+        ("light", "f4", (3, CELLS)),
+        ("middle", "f4", 3),
+    ]
+)
+LOBE_BLOCK = np.dtype(
+    [
+        ("normal", "f4", (3, LOBE_TEXELS)),
+        ("sums", "f4", (4, LOBE_TEXELS)),
+        ("square", "f4"),
+        ("rest", "f4"),
+    ]
+)
+
 STRUCTS = {
     "cluster": CLUSTER,
     "facing": FACING,
@@ -188,6 +206,8 @@ STRUCTS = {
     "batch": BATCH_RECORD,
     "light": LIGHT,
     "map_batch": MAP_BATCH,
+    "cell_group": CELL_GROUP,
+    "lobe_block": LOBE_BLOCK,
 }
 
 

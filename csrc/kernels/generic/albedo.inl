@@ -7,7 +7,7 @@
 
 /* The place of a roughness and a cosine between normal and viewer in all tables. */
 typedef struct albedo_place {
-    vi32 first;
+    int32_t first[V_LANES];
     vf32 by_roughness, by_cosine;
 } albedo_place;
 
@@ -20,12 +20,15 @@ static ALWAYS_INLINE albedo_place albedo_find(vf32 roughness, vf32 cosine)
     vf32 size = v_setf((float)(E3D_DFG_SIZE - 1));
     vf32 x = v_mul(albedo_clamp(roughness), size), y = v_mul(v_sqrt(albedo_clamp(cosine)), size);
     vi32 i = albedo_node(x), j = albedo_node(y);
-    return (albedo_place){v_addi(v_muli(i, v_seti(E3D_DFG_SIZE)), j), v_sub(x, v_float(i)), v_sub(y, v_float(j))};
+    albedo_place at = {.by_roughness = v_sub(x, v_float(i)), .by_cosine = v_sub(y, v_float(j))};
+    v_storei(at.first, v_addi(v_muli(i, v_seti(E3D_DFG_SIZE)), j));
+    return at;
 }
 
 static ALWAYS_INLINE vf32 albedo_row(const float *nodes, const albedo_place *at)
 {
-    vf32 a = v_asf(v_gatheri(nodes, at->first)), b = v_asf(v_gatheri(nodes + 1, at->first));
+    vf32 a, b;
+    v_load_pairs(nodes, at->first, &a, &b);
     return v_add(a, v_mul(v_sub(b, a), at->by_cosine));
 }
 

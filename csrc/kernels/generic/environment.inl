@@ -118,19 +118,21 @@ static ALWAYS_INLINE void environment_radiance(const environment_plan *plan, con
     environment_scale(plan, out);
 }
 
-/* The same for one level of all lanes, as a material without a texture of roughness has it: where it is a whole number, one look-up
- * is left out. */
+/* The same for one level of all lanes, as a material without a texture of roughness has it: where it is a whole number, one
+ * look-up is left out. */
 static ALWAYS_INLINE void environment_radiance_at(const environment_plan *plan, const vf32 direction[3], float level, vf32 out[3])
 {
     float l = level > 0.0f ? level : 0.0f;
     l = l < (float)ENVIRONMENT_LAST ? l : (float)ENVIRONMENT_LAST;
     int fine = (int)l < ENVIRONMENT_LAST - 1 ? (int)l : ENVIRONMENT_LAST - 1;
     environment_place at = environment_find(plan, direction);
-    vf32 weight = v_setf(l - (float)fine), coarser[3];
     environment_at(plan, &at, fine, out);
-    environment_at(plan, &at, fine + 1, coarser);
-    for (int k = 0; k < 3; k++)
-        out[k] = environment_mix(out[k], coarser[k], weight);
+    if (l > (float)fine) { /* else nothing is added to numbers that are finite and not below 0 */
+        vf32 weight = v_setf(l - (float)fine), coarser[3];
+        environment_at(plan, &at, fine + 1, coarser);
+        for (int k = 0; k < 3; k++)
+            out[k] = environment_mix(out[k], coarser[k], weight);
+    }
     environment_scale(plan, out);
 }
 

@@ -15,11 +15,11 @@ typedef struct lit_lanes {
     vf32 energy[3], shine[3];
 } lit_lanes;
 
-/* R43: what of a light's range is left, over the squared distance. */
-static inline vf32 light_gltf_falloff(vf32 d2, float over_range2)
+/* R43: what of a light's range is left. */
+static inline vf32 light_gltf_window(vf32 d2, float over_range2)
 {
     vf32 x = v_mul(d2, v_setf(over_range2)), one = v_setf(1.0f);
-    return v_div(v_max(v_sub(one, v_mul(x, x)), v_setf(0.0f)), d2);
+    return v_max(v_sub(one, v_mul(x, x)), v_setf(0.0f));
 }
 
 /* R43: how much of a spot light goes this way. */
@@ -31,9 +31,10 @@ static inline vf32 light_cone(const e3d_light *light, const vf32 l[3])
     return v_mul(t, t);
 }
 
-/* Finds the unit vector towards a point or spot light and its attenuation; returns the lanes within its range. */
-static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], vf32 l[3],
-                                  vf32 *attenuation)
+/* Finds the unit vector towards a point or spot light and its attenuation, in the way of R51 if by_product; returns the lanes within
+ * its range. */
+static ALWAYS_INLINE vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], int by_product, vf32 l[3],
+                                         vf32 *attenuation)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 one = v_setf(1.0f);
@@ -48,10 +49,9 @@ static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf3
     if (light->falloff == E3D_FALLOFF_WINDOW) {
         vf32 t = v_sub(one, v_mul(d2, v_setf(lighting->reach[4][n])));
         *attenuation = v_mul(t, t);
-    } else if (light->falloff == E3D_FALLOFF_GLTF) {
-        *attenuation = light_gltf_falloff(d2, lighting->reach[4][n]);
     } else {
-        *attenuation = v_div(one, d2);
+        vf32 window = light->falloff == E3D_FALLOFF_GLTF ? light_gltf_window(d2, lighting->reach[4][n]) : one;
+        *attenuation = by_product ? v_mul(window, v_mul(inverse, inverse)) : v_div(window, d2);
     }
     if (light->kind == E3D_LIGHT_SPOT)
         *attenuation = v_mul(*attenuation, light_cone(light, l));
@@ -102,7 +102,7 @@ static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, float s
         light_from(light, l, attenuation, NULL, shininess, lit);
         return;
     }
-    vmask near = light_towards(lighting, n, lit->position, l, &attenuation);
+    vmask near = light_towards(lighting, n, lit->position, 0, l, &attenuation);
     if (v_any(near))
         light_from(light, l, attenuation, &near, shininess, lit);
 }

@@ -147,11 +147,13 @@ static inline int maps_are_alike(const e3d_map *a, const e3d_map *b)
            x->level_count == y->level_count && x->levels[0].width == y->levels[0].width && x->levels[0].height == y->levels[0].height;
 }
 
-/* Reads a texture whose places are found already. */
-static ALWAYS_INLINE void map_read(const texture_plan *plan, int filter, int bits, int count, e3d_lane_array *out)
+/* Reads a texture, whose places may be found already. */
+static ALWAYS_INLINE void map_filter(texture_plan *plan, int filter, int bits, int is_found, const texture_source *from, e3d_lane_array *out)
 {
-    texture_ask_all(plan, filter, bits, count);
-    for (int i = 0; i < count; i += V_LANES) {
+    if (!is_found)
+        texture_find_all(plan, filter, bits, from);
+    texture_ask_all(plan, filter, bits, from->count);
+    for (int i = 0; i < from->count; i += V_LANES) {
         texel_lanes texel = texture_read(plan, filter, bits, i);
         for (int k = 0; k < 3; k++)
             v_storef(out[k] + i, texel.c[k]);
@@ -162,20 +164,18 @@ static inline void map_texture(texture_plan *plan, const e3d_map *map, int is_fo
 {
     const texture_source from = {out->uv[map->place][0], out->uv[map->place][1], out->lod[map->place], count};
     static const float ones[3] = {1.0f, 1.0f, 1.0f};
-    int usual = map->view->filter == E3D_TRILINEAR && map->view->channel_bits == 16;
+    const e3d_texture_view *view = map->view;
     if (!is_found)
-        texture_begin(plan, map->view, ones);
-    plan->view = map->view;
-    if (!is_found && usual)
-        texture_find_all(plan, E3D_TRILINEAR, 16, &from);
-    else if (!is_found)
-        texture_find_all(plan, map->view->filter, map->view->channel_bits, &from);
-    if (usual)
-        map_read(plan, E3D_TRILINEAR, 16, count, texels);
+        texture_begin(plan, view, ones);
+    plan->view = view;
+    if (view->filter == E3D_TRILINEAR)
+        map_filter(plan, E3D_TRILINEAR, 16, is_found, &from, texels);
+    else if (view->filter == E3D_BILINEAR && view->channel_bits == 8)
+        map_filter(plan, E3D_BILINEAR, 8, is_found, &from, texels);
     else
-        map_read(plan, map->view->filter, map->view->channel_bits, count, texels);
+        map_filter(plan, view->filter, view->channel_bits, is_found, &from, texels);
     for (int i = 0; i < count && map->has_alpha; i += V_LANES)
-        v_storef(texels[3] + i, alpha_read(plan, map->view->filter, map->view->channel_bits, i));
+        v_storef(texels[3] + i, alpha_read(plan, view->filter, view->channel_bits, i));
 }
 
 /* Coordinates, tangents and texels of a batch, whose weights and normals are there. */

@@ -23,7 +23,8 @@ typedef struct lobe_lanes {
 typedef struct model_lanes {
     vf32 position[3], view[3];
     lobe_lanes base, coat;
-    vf32 metallic, albedo[3], reflectance[3], specular, top, diffuse[3], f0[3], f90;
+    vf32 metallic, albedo[3], reflectance[3], specular, top, diffuse[3], f0[3];
+    vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to top, to f0 */
     vf32 sheen_power; /* 1 / alpha of the sheen */
     vf32 direct[3], coat_light[3], fuzz[3];
 } model_lanes;
@@ -83,8 +84,11 @@ static ALWAYS_INLINE void model_begin(const e3d_batch *batch, const e3d_map_batc
         at->f0[k] = v_add(f, v_mul(v_sub(at->albedo[k], f), at->metallic));
         at->diffuse[k] = v_mul(v_mul(at->albedo[k], rest), v_setf(E3D_OVER_PI));
     }
-    at->f90 = v_add(at->specular, v_mul(v_sub(one, at->specular), at->metallic));
+    vf32 f90 = v_add(at->specular, v_mul(v_sub(one, at->specular), at->metallic));
     at->top = v_max(v_max(at->reflectance[0], at->reflectance[1]), at->reflectance[2]);
+    at->rise = v_sub(at->specular, at->top);
+    for (int k = 0; k < 3; k++)
+        at->f_rise[k] = v_sub(f90, at->f0[k]);
     if (model->has_coat)
         model_coat(batch, m, model, i, at);
     if (model->has_sheen) {
@@ -103,7 +107,7 @@ typedef struct half_lanes {
 /* R50: D times V. */
 static ALWAYS_INLINE vf32 lobe_reflect(const lobe_lanes *lobe, const half_lanes *h, vf32 nl)
 {
-    vf32 k[3], nh = dot_three(lobe->normal, h->h), zero = v_setf(0.0f);
+    vf32 k[3], nh = v_add(nl, lobe->facing), zero = v_setf(0.0f);
     cross_three(lobe->normal, h->h, k);
     vf32 t = v_add(dot_three(k, k), v_mul(lobe->A, v_mul(nh, nh)));
     vf32 root = v_sqrt(v_add(lobe->A, v_mul(v_sub(v_setf(1.0f), lobe->A), v_mul(nl, nl))));
@@ -152,7 +156,7 @@ static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, i
     int is_local = light->kind != E3D_LIGHT_DIRECTIONAL;
     vmask near = v_eq(zero, zero);
     if (is_local)
-        near = light_towards(lighting, n, at->position, l, &attenuation);
+        near = light_towards(lighting, n, at->position, 1, l, &attenuation);
     for (int k = 0; k < 3 && !is_local; k++)
         l[k] = v_setf(light->to_light[k]);
     vf32 nl = dot_three(at->base.normal, l);
@@ -164,10 +168,10 @@ static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, i
         h.h[k] = v_add(l[k], at->view[k]);
     h.square = dot_three(h.h, h.h);
     vf32 w5 = fifth_power(v_max(v_sub(one, v_mul(v_sqrt(h.square), v_setf(0.5f))), zero)), e = v_mul(attenuation, nl);
-    vf32 keep = v_sub(one, v_add(at->top, v_mul(v_sub(at->specular, at->top), w5))), d = lobe_reflect(&at->base, &h, nl);
+    vf32 keep = v_mul(v_sub(one, v_add(at->top, v_mul(at->rise, w5))), e), d = v_mul(lobe_reflect(&at->base, &h, nl), e);
     for (int k = 0; k < 3; k++) {
-        vf32 fresnel = v_add(at->f0[k], v_mul(v_sub(at->f90, at->f0[k]), w5));
-        vf32 shown = v_mul(v_add(v_mul(at->diffuse[k], keep), v_mul(d, fresnel)), e);
+        vf32 fresnel = v_add(at->f0[k], v_mul(at->f_rise[k], w5));
+        vf32 shown = v_add(v_mul(at->diffuse[k], keep), v_mul(d, fresnel));
         at->direct[k] = v_self(lit, v_add(at->direct[k], v_mul(v_setf(light->lux[k]), shown)), at->direct[k]);
     }
     if (has_coat)
@@ -203,30 +207,38 @@ static ALWAYS_INLINE void around_radiance(const e3d_lighting *lighting, const en
     }
 }
 
-/* R55: of light that is 1 all around, what is reflected once and what more often. */
-static ALWAYS_INLINE void around_scatter(vf32 f0, vf32 f90, vf32 a, vf32 b, vf32 *once, vf32 *more)
+/* R55: a lobe under light that is 1 all around: once is what it reflects once, twice a factor of what it reflects more often. */
+typedef struct scatter_lanes {
+    vf32 once, twice, q;
+} scatter_lanes;
+
+static ALWAYS_INLINE scatter_lanes around_scatter(vf32 f0, vf32 f90, vf32 a, vf32 b, vf32 rest)
 {
-    vf32 one = v_setf(1.0f), rest = v_sub(one, v_add(a, b));
-    vf32 x = v_add(v_mul(f0, a), v_mul(f90, b)), y = v_add(f0, v_mul(v_sub(f90, f0), v_setf(E3D_OVER_21)));
-    *once = x;
-    *more = v_mul(v_div(v_mul(x, y), v_sub(one, v_mul(rest, y))), rest);
+    vf32 one = v_setf(1.0f), x = v_add(v_mul(f0, a), v_mul(f90, b));
+    vf32 y = v_add(f0, v_mul(v_sub(f90, f0), v_setf(E3D_OVER_21)));
+    return (scatter_lanes){x, v_mul(x, y), v_sub(one, v_mul(rest, y))};
 }
 
-static ALWAYS_INLINE void around_indirect(const e3d_lighting *lighting, const environment_plan *plan, const model_lanes *at,
+/* is_grey: what is no metal reflects the same of all channels. */
+static ALWAYS_INLINE void around_indirect(const e3d_lighting *lighting, const environment_plan *plan, const model_lanes *at, int is_grey,
                                           const vf32 irradiance[3], vf32 out[3])
 {
     vf32 radiance[3], one = v_setf(1.0f);
     albedo_place place = albedo_find(at->base.roughness, at->base.nv);
-    vf32 a = albedo_of(E3D_DFG_A, &place), b = albedo_of(E3D_DFG_B, &place);
+    vf32 a = albedo_of(E3D_DFG_A, &place), b = albedo_of(E3D_DFG_B, &place), rest = v_sub(one, v_add(a, b));
+    scatter_lanes other = around_scatter(at->reflectance[0], at->specular, a, b, rest);
     around_radiance(lighting, plan, &at->base, at->view, radiance);
     for (int k = 0; k < 3; k++) {
-        vf32 x, z, albedo = at->albedo[k];
-        around_scatter(albedo, one, a, b, &x, &z);
-        vf32 metal = v_add(v_mul(radiance[k], x), v_mul(irradiance[k], z));
-        around_scatter(at->reflectance[k], at->specular, a, b, &x, &z);
-        vf32 other = v_add(v_mul(radiance[k], x), v_mul(irradiance[k], z));
-        other = v_add(other, v_mul(irradiance[k], v_mul(albedo, v_sub(one, v_add(x, z)))));
-        out[k] = v_add(other, v_mul(v_sub(metal, other), at->metallic));
+        vf32 albedo = at->albedo[k];
+        scatter_lanes metal = around_scatter(albedo, one, a, b, rest);
+        if (!is_grey)
+            other = around_scatter(at->reflectance[k], at->specular, a, b, rest);
+        vf32 r = v_div(one, v_mul(metal.q, other.q));
+        vf32 zt = v_mul(v_mul(metal.twice, v_mul(r, other.q)), rest), zd = v_mul(v_mul(other.twice, v_mul(r, metal.q)), rest);
+        vf32 t = v_add(v_mul(radiance[k], metal.once), v_mul(irradiance[k], zt));
+        vf32 d = v_add(v_mul(radiance[k], other.once), v_mul(irradiance[k], zd));
+        d = v_add(d, v_mul(irradiance[k], v_mul(albedo, v_sub(one, v_add(other.once, zd)))));
+        out[k] = v_add(d, v_mul(v_sub(t, d), at->metallic));
     }
 }
 
@@ -272,7 +284,7 @@ static ALWAYS_INLINE void model_finish(const e3d_surface_model *model, const e3d
 {
     vf32 irradiance[3], indirect[3], occlusion = model_occlusion(model, i);
     around_irradiance(lighting, plan, at->base.normal, irradiance);
-    around_indirect(lighting, plan, at, irradiance, indirect);
+    around_indirect(lighting, plan, at, model->is_grey, irradiance, indirect);
     for (int k = 0; k < 3; k++)
         color[k] = v_add(at->direct[k], v_mul(indirect[k], occlusion));
     if (has_sheen)

@@ -74,6 +74,7 @@ typedef struct e3d_surface_model {
     e3d_varying reflectance[3], specular, emissive[3];
     e3d_varying coat, coat_roughness, sheen[3], sheen_roughness;
     int has_coat, has_sheen;
+    int is_grey;        /* the reflectance is the same of all channels */
     int coat_is_mapped; /* coat_normal is read; else the coat's normal is shading_normal */
 } e3d_surface_model;
 

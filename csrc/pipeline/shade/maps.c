@@ -242,6 +242,8 @@ static e3d_surface_model model_of(const e3d_material *m, const e3d_map_memory *m
         .sheen_roughness = varying_of(maps, E3D_SLOT_SHEEN_ROUGHNESS, 3, p->sheen_roughness),
         .has_coat = p->clearcoat != 0.0f,
         .has_sheen = e3d_adds(p->sheen_color),
+        .is_grey = maps->maps.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
+                   p->reflectance[1] == p->reflectance[2],
         .coat_is_mapped = maps->maps.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
     };
     for (int k = 0; k < 3; k++) {

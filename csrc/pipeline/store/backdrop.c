@@ -93,7 +93,7 @@ void e3d_backdrop_pixels(const e3d_store *store, const e3d_tile *tile, uint32_t 
     colors row;
     for (int y = 0; y < tile->height; y += axis, rgba += E3D_TILE) {
         find_colors(store, tile, 0, y, width, &row);
-        for (int x = 0; x < width; x++) {
+        for (int x = 0; x < width && axis > 1; x++) {
             row.red[x] = e3d_mean_of(row.red[x], axis * axis);
             row.green[x] = e3d_mean_of(row.green[x], axis * axis);
             row.blue[x] = e3d_mean_of(row.blue[x], axis * axis);

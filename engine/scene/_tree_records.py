@@ -35,8 +35,10 @@ def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
     InvalidArgumentError
     """
     names = () if tree is None else tree.variants
-    number = variant if isinstance(variant, int) else next(
-        (index for index, name in enumerate(names) if name == variant), -1
+    number = (
+        variant
+        if isinstance(variant, int)
+        else next((index for index, name in enumerate(names) if name == variant), -1)
     )
     if tree is None or not 0 <= number < len(names):
         known = ", ".join(map(repr, names)) or "none"

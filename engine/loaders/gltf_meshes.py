@@ -74,7 +74,7 @@ class GltfMeshes:
             raise file.error(f"damaged: {where} has no primitives")
         name = file.text(entry, "name", where)
         weights = file.number_list(entry, "weights", where)
-        targets = {len(primitive.get("targets") or ()) for primitive in primitives}
+        targets = {len(file.entries("targets", p, f"{where}.")) for p in primitives}
         if len(targets) > 1:
             raise file.error(f"damaged: the primitives of {where} have unequal morph targets")
         groups: dict[tuple, list[tuple[Primitive, dict, str]]] = {}

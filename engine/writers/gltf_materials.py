@@ -63,7 +63,7 @@ class GltfMaterialList:
         self.required: set[str] = set()
         self.converted = 0
         self._numbers: dict[int, int] = {}
-        self._by_words: dict[str, int] = {}
+        self._twins: dict[tuple[str, bool], list[int]] = {}
         self._images: dict[int, tuple[int, str | None]] = {}
         self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
 
@@ -77,14 +77,16 @@ class GltfMaterialList:
 
     def _add(self, material: Material) -> int:
         entry = self._entry(material)
-        if not entry:
+        if not entry and material._is_implied:
             return -1
-        words = repr(entry)  # flat and smooth ones of a file differ by their meshes alone
-        if words not in self._by_words:
-            self._by_words[words] = len(self.materials)
-            self.materials.append(entry)
-            self.converted += not material.is_physical
-        return self._by_words[words]
+        # Of a flat one and a smooth one that are else the same, a file's meshes tell which is which.
+        words, flat = repr(entry), material.flat_shading
+        if twins := self._twins.get((words, not flat)):
+            return twins.pop()
+        self._twins.setdefault((words, flat), []).append(len(self.materials))
+        self.materials.append(entry)
+        self.converted += not material.is_physical
+        return len(self.materials) - 1
 
     def _entry(self, material: Material) -> dict[str, Any]:
         entry: dict[str, Any] = {"name": material.name} if material.name else {}

@@ -28,7 +28,7 @@ from ..loaders.documents import (
 from ..loaders.tree_posing import local_pose
 from ..materials.colors import linear_color
 from ..materials.material import Material
-from ..scene._tree_records import FURTHER_PART, records
+from ..scene.tree_records import FURTHER_PART, records
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight, PointLight, SpotLight
@@ -110,7 +110,9 @@ class _Making:
         if instanced:
             found["instances"] = _poses(instanced[0])
             if any(obj.colors is not None for obj in instanced):
-                self.told.append(f"node {shown(node.name)}: gltf files hold no colours of instances")
+                self.told.append(
+                    f"node {shown(node.name)}: gltf files hold no colours of instances"
+                )
         if node.skin is not None:
             found["skin"] = self._number("skins", node.skin, self._skin)
         usual = self._lists["meshes"][found["mesh"]].morph_weights
@@ -191,9 +193,7 @@ class _Making:
         if came.variants and fits:
             self._variants = variants
         usual = came.morph_weights if len(came.morph_weights) == len(none) else none
-        return MeshRecord(
-            mesh.name, mesh, usual, came.variants if fits else {}, extras=came.extras
-        )
+        return MeshRecord(mesh.name, mesh, usual, came.variants if fits else {}, extras=came.extras)
 
     def _skin(self, skin) -> SkinRecord:
         came = records.get(skin)

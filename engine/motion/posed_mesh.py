@@ -14,6 +14,7 @@ import numpy as np
 from .._native import loaders as native_loaders
 from .._native.rasterizer import NativeMesh, NativePose, NativeRest, pose_meshes
 from .._native.scene_graph import OBJECT_BOX
+from ..geometry._movers import VERTEX_AXES
 from ..geometry.mesh import Mesh
 from ..geometry.native_meshes import make_native_mesh
 
@@ -82,12 +83,14 @@ class PosedMesh:
     def _copied(self) -> Mesh:
         positions = np.empty((len(self.mesh.positions), 3), np.float32)
         normals = np.empty_like(positions)
-        self.native.copy_vertices(positions, normals)
+        tangents = self._made_of.get("tangents")
+        tangents = None if tangents is None else np.empty_like(tangents)
+        self.native.copy_vertices(positions, normals, tangents)
         copy = Mesh(positions, name=self.mesh.name)
-        gone = dict.fromkeys(("joints", "weights", "morph_positions", "morph_normals"))
+        gone = dict.fromkeys(VERTEX_AXES)
         kept = {**self._made_of, **gone, "positions": copy.positions}
         copy._arrays.update(kept)
-        copy.normals = normals
+        copy.normals, copy.tangents = normals, tangents
         copy.materials = self.mesh.materials
         return copy
 
@@ -104,10 +107,12 @@ def _rest_of(mesh: Mesh, arrays: dict) -> NativeRest:
         rest = NativeRest(
             native,
             mesh._derive("normals", arrays),
+            arrays.get("tangents"),
             arrays.get("joints"),
             arrays.get("weights"),
             arrays.get("morph_positions"),
             arrays.get("morph_normals"),
+            arrays.get("morph_tangents"),
         )
         _rests[mesh] = arrays, rest
     return rest

@@ -25,6 +25,7 @@ SHARED = Path(os.environ.get("ENGINE3D_SHARED") or ROOT.parent / "shared")
 LARGEST_SEED = 1 << 16
 # How long inputs are by default: those of files longer, those that take long to draw shorter.
 LENGTHS = {"obj": 4096, "rows": 384, "weld": 384, "draw": 4096, "canvas": 2048, "ui": 2048}
+LENGTHS["meshopt"] = 1024
 LENGTHS.update(dict.fromkeys(("forms", "numbers", "ply", "png", "polygons", "sums", "text"), 256))
 SETTINGS = {
     # Little quarantine: fresh pages take most of the time otherwise.

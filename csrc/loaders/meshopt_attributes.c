@@ -8,10 +8,17 @@
 
 #include <string.h>
 
-enum { GROUP = 16, MAX_BLOCK = 256, BLOCK_BYTES = 8192, CHANNEL = 4 };
-enum { CONTROL_ZERO = 2, CONTROL_BYTES = 3 };
-enum { BYTE_DELTAS, WORD_DELTAS, XOR_DELTAS };
-enum { TAIL_OF_0 = 32, TAIL_OF_1 = 24 };
+enum { GROUP = 16,
+       MAX_BLOCK = 256,
+       BLOCK_BYTES = 8192,
+       CHANNEL = 4 };
+enum { CONTROL_ZERO = 2,
+       CONTROL_BYTES = 3 };
+enum { BYTE_DELTAS,
+       WORD_DELTAS,
+       XOR_DELTAS };
+enum { TAIL_OF_0 = 32,
+       TAIL_OF_1 = 24 };
 
 typedef struct stream {
     const uint8_t *at, *end;

@@ -41,9 +41,9 @@ static void undo_octahedral(uint8_t *element, size_t width)
     const float one = given == 0 ? 1.0f : (float)given;
     float v[3] = {(float)get(element, width, 0) / one, (float)get(element, width, 1) / one, 0.0f};
     v[2] = 1.0f - fabsf(v[0]) - fabsf(v[1]);
-    const float over = v[2] < 0.0f ? v[2] : 0.0f;
+    const float over = v[2] < 0.0f ? v[2] : 0.0f; /* the lower half is folded outwards */
     for (int k = 0; k < 2; k++)
-        v[k] -= v[k] < 0.0f ? -over : over;
+        v[k] += v[k] < 0.0f ? -over : over;
     const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     for (int k = 0; k < 3; k++)
         put(element, width, k, limited(v[k] / length * (float)most, -most, most));

@@ -4,7 +4,11 @@
  */
 #include "e3d_meshopt.h"
 
-enum { FIFO = 16, TRIANGLES = 0xE1, INDICES = 0xD1, TABLE = 16, INDICES_TAIL = 4 };
+enum { FIFO = 16,
+       TRIANGLES = 0xE1,
+       INDICES = 0xD1,
+       TABLE = 16,
+       INDICES_TAIL = 4 };
 
 typedef struct edge {
     uint32_t a, b;

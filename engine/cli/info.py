@@ -11,6 +11,9 @@ from ..errors import Engine3DError, Engine3DWarning, printable
 from ..geometry.mesh import Mesh
 from ..linalg import transform_points
 from ..loaders import load_document
+from ..loaders.documents import Document, TreeRecord
+from ..loaders.tree_totals import rest_bounds, triangle_count
+from ..materials.material import Material, textures_of
 from .inputs import model_files
 from .loading_bar import LoadingBar
 
@@ -48,19 +51,19 @@ def describe(path) -> dict:
     Returns
     -------
     dict
-        ``file``, ``format``, ``counts``, ``bounds`` (``min``, ``max``, ``size``, or None where
-        there is no vertex), ``objects``, ``materials``, ``lights``, ``cameras``, ``warnings``.
+        ``file``, ``format``, ``counts``, ``triangles`` (as drawn, each instance's counted),
+        ``bounds`` (lowest and highest coordinates, at rest; None where there is no vertex),
+        ``objects``, ``nodes`` and ``meshes`` (how many the file has), ``materials``, ``variants``,
+        ``lights``, ``cameras``, ``skins``, ``animations``, ``warnings``.
     """
     with LoadingBar() as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
         document = load_document(path, progress=progress)
-    meshes = [mesh for _, mesh, _ in document.objects]
-    materials = {id(material): material for mesh in meshes for material in mesh.materials}
     return {
         "file": path.name if hasattr(path, "read") else str(path),
         "format": document.format,
         "counts": dict(document.counts),
-        "bounds": _bounds(document.objects),
+        **(_of_objects(document) if document.tree is None else _of_tree(document.tree)),
         "objects": [
             {
                 "name": name,
@@ -72,25 +75,67 @@ def describe(path) -> dict:
             }
             for name, mesh, _ in document.objects
         ],
-        "materials": [
-            {"name": material.name, "texture": material.texture and material.texture.name}
-            for material in materials.values()
-        ],
-        "lights": [light.kind for light in document.lights],
-        "cameras": len(document.cameras),
         "warnings": [str(warning) for warning in document.warnings],
     }
 
 
-def _bounds(objects) -> dict | None:
+def _of_tree(tree: TreeRecord) -> dict:
+    """What a file that holds a tree says of itself."""
+    return {
+        "triangles": triangle_count(tree),
+        "bounds": rest_bounds(tree),
+        "nodes": len(tree.nodes),
+        "meshes": len(tree.meshes),
+        "materials": [_of_material(material) for material in tree.materials],
+        "variants": list(tree.variants),
+        "lights": [light.kind for light in tree.lights],
+        "cameras": len(tree.cameras),
+        "skins": [{"joints": len(skin.joints)} for skin in tree.skins],
+        "animations": [
+            {"name": clip.name or None, "duration": clip.duration} for clip in tree.clips
+        ],
+    }
+
+
+def _of_objects(document: Document) -> dict:
+    """The same of a file that holds objects."""
+    meshes = {id(mesh): mesh for _, mesh, _ in document.objects}
+    materials = {id(m): m for mesh in meshes.values() for m in mesh.materials}
+    return {
+        "triangles": sum(len(mesh.faces) for _, mesh, _ in document.objects),
+        "bounds": _bounds(document.objects),
+        "nodes": document.counts.get("nodes", len(document.objects)),
+        "meshes": len(meshes),
+        "materials": [_of_material(material) for material in materials.values()],
+        "variants": [],
+        "lights": [light.kind for light in document.lights],
+        "cameras": len(document.cameras),
+        "skins": [],
+        "animations": [],
+    }
+
+
+def _of_material(material: Material) -> dict:
+    textures = textures_of(material)
+    base = textures.get("texture")
+    return {
+        "name": material.name,
+        "texture": base and base.name,
+        "textures": list(textures),
+        "physical": material.is_physical,
+        "alpha_mode": material.alpha_mode,
+    }
+
+
+def _bounds(objects) -> list[list[float]] | None:
     """Return the box round the objects in file coordinates."""
     boxes = [_box(mesh, pose) for _, mesh, pose in objects if len(mesh.positions)]
     if not boxes:
         return None
-    low = [min(box[0][axis] for box in boxes) for axis in range(3)]
-    high = [max(box[1][axis] for box in boxes) for axis in range(3)]
-    size = [b - a for a, b in zip(low, high, strict=True)]
-    return {"min": low, "max": high, "size": size}
+    return [
+        [pick(box[side][axis] for box in boxes) for axis in range(3)]
+        for side, pick in enumerate((min, max))
+    ]
 
 
 def _box(mesh, pose) -> list[list[float]]:
@@ -106,10 +151,12 @@ def report_lines(report: dict) -> list[str]:
         count = entries if isinstance(entries, int) else len(entries)
         lines.append(f"  {name:<12}{count:>12,d}")
     if report["bounds"] is not None:
+        low, high = report["bounds"]
+        size = [b - a for a, b in zip(low, high, strict=True)]
         lines.append("bounds")
         lines += [
-            f"  {name:<12}" + "".join(f"{value:>12.6g}" for value in report["bounds"][name])
-            for name in ("min", "max", "size")
+            f"  {name:<12}" + "".join(f"{value:>12.6g}" for value in values)
+            for name, values in (("min", low), ("max", high), ("size", size))
         ]
     for item in report["objects"]:
         name = item["name"] or "unnamed"
@@ -117,8 +164,12 @@ def report_lines(report: dict) -> list[str]:
     for material in report["materials"]:
         texture = f", texture {material['texture']}" if material["texture"] else ""
         lines.append(f"material {material['name'] or 'default'}{texture}")
+    lines += [f"variant {name}" for name in report["variants"]]
     lines += [f"light {kind}" for kind in report["lights"]]
     if report["cameras"]:
         lines.append(f"cameras: {report['cameras']}")
+    lines += [f"skin: {skin['joints']:,d} joints" for skin in report["skins"]]
+    for number, clip in enumerate(report["animations"]):
+        lines.append(f"animation {clip['name'] or number}: {clip['duration']:g} s")
     lines += [f"warning: {warning}" for warning in report["warnings"]]
     return lines

@@ -56,9 +56,7 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> T
     nodes = read_nodes(file, accessors)
     roots = read_roots(file, nodes, warnings)
     materials = GltfMaterials(file, GltfTextures(file, buffers, warnings), warnings)
-    primitives = GltfPrimitives(
-        file, accessors, materials, GltfDraco(file, buffers), warnings
-    )
+    primitives = GltfPrimitives(file, accessors, materials, GltfDraco(file, buffers), warnings)
     meshes = GltfMeshes(file, buffers, primitives, materials).all()
     if primitives.left_out:
         first, count = primitives.left_out[0], len(primitives.left_out)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._native.loaders import large_array
 from .gltf_buffers import GltfBuffers
 from .gltf_file import GltfFile
 from .text import shown
@@ -87,9 +88,9 @@ class GltfAccessors:
         values = values[rows]
         self._buffers.count(values.size)
         if self.file.entries("accessors")[index].get("normalized") is not True:
-            return values.astype(np.float32)
-        if values.dtype.kind == "f":  # some exporters say it of floats, too, of which it means nothing
-            return values.astype(np.float32)
+            return _copied(values)
+        if values.dtype.kind == "f":  # some exporters say it of floats, too: it means nothing
+            return _copied(values)
         return np.maximum(values / np.float32(np.iinfo(values.dtype).max), np.float32(-1))
 
     def indices(self, index, where: str) -> np.ndarray:
@@ -149,3 +150,10 @@ class GltfAccessors:
         changed = values.copy()
         changed[rows] = self._stored(what, place, count, values.shape[1], values.dtype)
         return changed
+
+
+def _copied(values: np.ndarray) -> np.ndarray:
+    """The values as float32, in memory of their own."""
+    made = large_array(values.shape, np.float32)
+    made[:] = values
+    return made

@@ -73,7 +73,9 @@ class GltfBuffers:
         self._unpacked_bytes += size
         most = sources.MAX_UNPACKED_BASE + sources.MAX_UNPACKED_RATIO * self._file_bytes
         if self._unpacked_bytes > most:
-            raise self._file.error(f"{where} unpacks to more than {most} bytes, the limit for its size")
+            raise self._file.error(
+                f"{where} unpacks to more than {most} bytes, the limit for its size"
+            )
         self.limit += _NUMBERS_PER_BYTE * size
 
     def view(self, index, where: str) -> memoryview:

@@ -68,7 +68,9 @@ PARTS: dict[str, tuple[Numbers | Map, ...]] = {
         Numbers("clearcoat_roughness", "clearcoatRoughnessFactor", 0.0),
         Map("clearcoat_texture", "clearcoatTexture"),
         Map("clearcoat_roughness_texture", "clearcoatRoughnessTexture"),
-        Map("clearcoat_normal_texture", "clearcoatNormalTexture", "clearcoat_normal_scale", "scale"),
+        Map(
+            "clearcoat_normal_texture", "clearcoatNormalTexture", "clearcoat_normal_scale", "scale"
+        ),
     ),
     "KHR_materials_sheen": (
         Numbers("sheen_color", "sheenColorFactor", (0.0, 0.0, 0.0)),
@@ -118,7 +120,12 @@ class GltfMaterials:
         return tuple(self.get(index, "") for index in range(len(self._file.entries("materials"))))
 
     def get(
-        self, index: int | None, where: str, *, flat: bool = False, uv_sets: tuple[int, ...] = (0, 1)
+        self,
+        index: int | None,
+        where: str,
+        *,
+        flat: bool = False,
+        uv_sets: tuple[int, ...] = (0, 1),
     ) -> Material:
         """Return a material.
 
@@ -137,6 +144,7 @@ class GltfMaterials:
         key = index, flat, uv_sets
         if key not in self._made:
             self._made[key] = self._material(entry, f"materials[{index}]", flat, uv_sets)
+            self._made[key]._is_implied = index is None
         return self._made[key]
 
     def uv_sets(self, primitive: dict, where: str) -> set[int]:
@@ -223,7 +231,9 @@ class GltfMaterials:
                 values.update(self._values(part, item, where, uv_sets))
         extensions = file.part(entry, "extensions", where)
         if _GLOSSY in extensions:
-            glossiness = file.number(file.part(extensions, _GLOSSY, where), "glossinessFactor", where, 1)
+            glossiness = file.number(
+                file.part(extensions, _GLOSSY, where), "glossinessFactor", where, 1
+            )
             values.update(_from_glossiness(values, glossiness))
         color = values.get("color", (1.0, 1.0, 1.0))
         values["color"] = color[:3] if color[3:] == (1.0,) else color

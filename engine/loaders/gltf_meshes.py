@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .._native.loaders import frozen
 from ..geometry.mesh import Mesh
 from ..geometry.morph_targets import MorphTarget
 from .documents import MeshRecord
@@ -73,7 +74,7 @@ class GltfMeshes:
             raise file.error(f"damaged: {where} has no primitives")
         name = file.text(entry, "name", where)
         weights = file.number_list(entry, "weights", where)
-        targets = {len(primitive.get("targets") or ()) for primitive in primitives}
+        targets = {len(file.entries("targets", p, f"{where}.")) for p in primitives}
         if len(targets) > 1:
             raise file.error(f"damaged: the primitives of {where} have unequal morph targets")
         groups: dict[tuple, list[tuple[Primitive, dict, str]]] = {}
@@ -88,9 +89,7 @@ class GltfMeshes:
         names = _target_names(entry.get("extras"), count)
         first, *rest = (self._part(name, members, names) for members in groups.values())
         weights = self._weights(weights, count, where)
-        return replace(
-            first, morph_weights=weights, rest=tuple(rest), extras=entry.get("extras")
-        )
+        return replace(first, morph_weights=weights, rest=tuple(rest), extras=entry.get("extras"))
 
     def _weights(self, weights, count: int, where: str) -> tuple[float, ...]:
         if weights is None:
@@ -106,7 +105,9 @@ class GltfMeshes:
         primitives = [primitive for primitive, _, _ in members]
         counts = [len(primitive.arrays["positions"]) for primitive in primitives]
         starts = np.cumsum([0, *counts])[:-1]
-        arrays = {key: self._joined([p.arrays[key] for p in primitives]) for key in primitives[0].arrays}
+        arrays = {
+            key: self._joined([p.arrays[key] for p in primitives]) for key in primitives[0].arrays
+        }
         kind = primitives[0].kind
         elements = [
             primitive.elements + np.int32(start) if start else primitive.elements
@@ -169,9 +170,9 @@ class GltfMeshes:
 
     def _joined(self, parts: list[np.ndarray]) -> np.ndarray:
         if len(parts) == 1:
-            return parts[0]
+            return frozen(parts[0])
         self._buffers.count(sum(part.size for part in parts))
-        return np.concatenate(parts)
+        return frozen(np.concatenate(parts))
 
 
 def _kind_of(primitive: Primitive) -> tuple:

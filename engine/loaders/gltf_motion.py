@@ -129,9 +129,23 @@ class _Clips:
                 f"damaged: {where} has {values.size} numbers for {len(times)} times of {width}"
             )
         values = values.reshape(len(times), *shape)
+        if path == "rotation":
+            values = self._turning(values, where)
         if is_later is not None:
             times, values = times[is_later], values[is_later]
         return ChannelRecord(target["node"], path, interpolation, times, values)
+
+    def _turning(self, values: np.ndarray, where: str) -> np.ndarray:
+        """Rotations of which none is the null quaternion."""
+        keys = values if values.ndim == 2 else values[:, 1]
+        is_none = ~keys.any(axis=1)
+        if not is_none.any():
+            return values
+        self._warnings.add(f"{where} has rotations without a direction: none instead")
+        values = values.copy()
+        keys = values if values.ndim == 2 else values[:, 1]
+        keys[is_none, 3] = 1.0
+        return values
 
     def _width(self, path: str, node: int, where: str) -> int:
         """How many numbers there are for each time."""

@@ -157,6 +157,8 @@ def _instances(file: GltfFile, accessors: GltfAccessors, extensions: dict, where
     }
     if len({len(values) for values in held.values()}) != 1:
         raise file.error(f"damaged: {where} has no instances, or unequal numbers of their parts")
+    if not all(np.isfinite(values).all() for values in held.values()):
+        raise file.error(f"damaged: {where} has instances that are nowhere")
     count = len(next(iter(held.values())))
     rotations = held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1)))
     return poses_of(

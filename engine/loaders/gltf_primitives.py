@@ -211,7 +211,9 @@ class _Vertices:
             raise self._accessors.file.error(
                 f"damaged: {self.where} names vertex {highest}, there are {self.total}"
             )
-        return corners.astype(np.int32)
+        made = native.large_array(corners.shape, np.int32)
+        made[:] = corners
+        return made
 
     def raw(self, name: str, *widths: int) -> np.ndarray:
         """An attribute as it is stored."""

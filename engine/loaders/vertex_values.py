@@ -29,7 +29,9 @@ def usable_normals(
     if normals is None:
         return None
     with np.errstate(invalid="ignore"):
-        largest = np.abs(normals).max(axis=1)
+        # Column by column: along such short rows NumPy takes ten times as long.
+        x, y, z = (np.abs(normals[:, axis]) for axis in range(3))
+        largest = np.maximum(np.maximum(x, y), z)
         usable = (largest >= _SHORTEST) & (largest <= _LONGEST)
     if usable.all():
         return normals

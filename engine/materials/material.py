@@ -176,6 +176,7 @@ class Material(Closed):
     """
 
     version: int
+    _is_implied = False  # whether a file names no material where this one is
     color: CheckedAttribute[ColorLike, SurfaceColor] = CheckedAttribute(check_surface_color)
     texture: TextureSlot = TextureSlot(is_color=True)
     specular: ColorAttribute = CheckedAttribute(check_color)

@@ -23,6 +23,8 @@ from .scene import Scene
 
 #: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
 records: WeakKeyDictionary = WeakKeyDictionary()
+#: Stands there for a node that holds what the one above it could not hold besides.
+FURTHER_PART = object()
 
 
 def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
@@ -49,6 +51,7 @@ def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
 
 def fill_from_tree(scene: Scene, tree: TreeRecord) -> None:
     """Add the nodes of a tree's shown scene to an empty scene, and its clips."""
+    records[scene] = tree.extras
     _Filling(scene, tree).fill()
 
 
@@ -81,6 +84,7 @@ class _Filling:
         shows = [node] if isinstance(first, (Mesh, InstancedMesh)) else []
         for number, obj in enumerate(others, start=1):
             below = self._scene.add(obj, name=f"{record.name}_{number}", parent=node)
+            records[below] = FURTHER_PART
             shows += [below] if isinstance(obj, (Mesh, InstancedMesh)) else []
         if shows:
             self._parts[index] = shows

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 from weakref import WeakSet
@@ -583,6 +584,12 @@ class Scene(Closed):
         box = np.empty(OBJECT_BOX)
         around = union(self._arrays.columns["bounds"][: self._arrays.count], box)
         return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the scene to a file; see `engine3d.save_scene`."""
+        from ..writers.scene import save_scene
+
+        save_scene(self, path)
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")

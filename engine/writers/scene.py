@@ -31,6 +31,7 @@ from ..scene.object_kinds import kind_of, parameters, plain, values_of
 from ..scene.placements import Placements
 from ..scene.scene import Scene
 from ..spatial.colliders import BoxCollider, MeshCollider, SphereCollider
+from . import gltf
 
 _IDENTITY = {"translation": np.zeros(3), "rotation": np.eye(4)[3], "scale": np.ones(3)}
 
@@ -42,10 +43,11 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     ----------
     scene : Scene
     path : str or path-like
-        By custom it ends in ``.e3d.json``; `load_scene` tells it by its content. Meshes and
-        textures that were loaded from files in its folder, or below it, are named by their
-        relative paths; all others become a part of the file. What cannot be written is warned of
-        as `Engine3DWarning`.
+        With ``.glb`` or ``.gltf`` it becomes glTF 2.0, all in one file; images keep the bytes that
+        they came in. With any other extension it becomes JSON of engine3d: by custom it ends in
+        ``.e3d.json``, and `load_scene` tells it by its content; meshes and textures that were
+        loaded from files in its folder, or below it, are named by their relative paths, and all
+        others become a part of the file. What cannot be written is warned of as `Engine3DWarning`.
 
     Raises
     ------
@@ -57,9 +59,13 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     if not isinstance(scene, Scene):
         raise InvalidArgumentError(f"not a Scene: {type(scene).__name__}")
     name = checked_path(path)
-    content, told = scene_text(scene, os.path.dirname(name) or ".")
-    with atomic_write(name) as file:
-        file.write(content)
+    if gltf.is_gltf(name):
+        with atomic_write(name) as file:
+            told = gltf.write_scene(scene, name, file)
+    else:
+        content, told = scene_text(scene, os.path.dirname(name) or ".")
+        with atomic_write(name) as file:
+            file.write(content)
     for message in told:
         warn(located(message, name))
 

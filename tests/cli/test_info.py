@@ -17,7 +17,7 @@ def test_info(model, capsys):
     assert main(["info", str(model), "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["counts"]["vertices"] == 4
-    assert report["bounds"]["max"] == [1.0, 1.0, 0.0]
+    assert report["bounds"][1] == [1.0, 1.0, 0.0]
     assert report["warnings"] == []
     assert [item["faces"] for item in report["objects"]] == [2]
 

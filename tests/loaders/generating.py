@@ -12,7 +12,7 @@ import random
 import re
 import struct
 
-from loaders.seeds import GLTF, SCENE
+from loaders.seeds import GLTF, MOVING_GLTF, SCENE
 
 WORDS = [b"f ", b"v ", b"vt", b"/", b"-", b"\n", b"1e999", b"nan", b"\\\n", b"#", b"s 3\n"]
 WORDS += [b"usemtl q\n", b"mtllib .\n", b"99999999999", b"\xff", b"\0", b'"', b"o x\n"]
@@ -309,7 +309,7 @@ _VALUES += [1e39, 1e308, "", "2.0", "BLEND", "VEC3", "\ud800", "house.tga", "dat
 
 
 def _gltf(choice: random.Random) -> bytes:
-    return _other_values(json.loads(GLTF), choice)
+    return _other_values(json.loads(choice.choice([GLTF, MOVING_GLTF])), choice)
 
 
 def _scene(choice: random.Random) -> bytes:

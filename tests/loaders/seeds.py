@@ -128,7 +128,7 @@ _GLTF = {
         {
             "primitives": [
                 {"attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1, "material": 0},
-                {"attributes": {"POSITION": 0, "COLOR_0": 0}, "mode": 3, "targets": [{}]},
+                {"attributes": {"POSITION": 0, "COLOR_0": 0}, "mode": 3},
             ]
         }
     ],
@@ -184,6 +184,142 @@ _JSON = _gltf({})
 GLB = struct.pack("<4sIIII", b"glTF", 2, 28 + len(_JSON) + len(_NUMBERS), len(_JSON), 0x4E4F534A)
 GLB += _JSON + struct.pack("<II", len(_NUMBERS), 0x4E4942) + _NUMBERS
 
+# What moves, what lights, and what is packed: one triangle with a skin and a morph target.
+_MOVING_NUMBERS = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes([0, 1, 0, 0] * 3)
+_MOVING_NUMBERS += struct.pack("<12f", *(0.5, 0.5, 0, 0) * 3)
+_MOVING_NUMBERS += struct.pack("<32f", *(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * 2)
+_MOVING_NUMBERS += struct.pack("<11f", 0, 1, *(0, 0, 0.5) * 3)
+_MOVING_NUMBERS += struct.pack("<8f2f", 0, 0, 0, 1, 0, 0, 0.6, 0.8, 0, 1)
+_MOVING_NUMBERS += b"\xd1\0\4\4\0\0\0\0" + bytes([0, 255, 9, 255] * 3)
+_SIZES = (36, 12, 48, 128, 8, 36, 32, 8, 8, 12)
+_MOVING = {
+    "asset": {"version": "2.0"},
+    "extensionsUsed": ["KHR_lights_punctual", "EXT_meshopt_compression", "KHR_materials_sheen"],
+    "extensions": {
+        "KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0.5}}]},
+        "KHR_materials_variants": {"variants": [{"name": "a"}, {"name": "b"}]},
+    },
+    "scene": 0,
+    "scenes": [{"nodes": [0, 1, 4]}],
+    "nodes": [
+        {"mesh": 0, "skin": 0, "weights": [0.5]},
+        {"children": [2], "translation": [0, 0, 1]},
+        {"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}, "children": [3]},
+        {"camera": 1, "extensions": {"KHR_node_visibility": {"visible": False}}},
+        {
+            "mesh": 1,
+            "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}},
+        },
+    ],
+    "meshes": [
+        {
+            "primitives": [
+                {
+                    "attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2},
+                    "indices": 8,
+                    "material": 0,
+                    "targets": [{"POSITION": 5}],
+                    "extensions": {
+                        "KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}
+                    },
+                }
+            ],
+            "weights": [0.25],
+            "extras": {"targetNames": ["up"]},
+        },
+        {"primitives": [{"attributes": {"POSITION": 0, "COLOR_0": 9}, "mode": 0}]},
+    ],
+    "materials": [
+        {
+            "alphaMode": "MASK",
+            "normalTexture": {"index": 0, "texCoord": 1, "scale": 0.5},
+            "extensions": {
+                "KHR_materials_sheen": {"sheenColorFactor": [1, 0.5, 0]},
+                "KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0}},
+            },
+        },
+        {
+            "extensions": {
+                "KHR_materials_pbrSpecularGlossiness": {
+                    "specularGlossinessTexture": {"index": 0},
+                    "glossinessFactor": 0.5,
+                }
+            }
+        },
+    ],
+    "textures": [{"source": 0}],
+    "images": [{"uri": "house.tga"}],
+    "skins": [{"joints": [1, 2], "inverseBindMatrices": 3, "skeleton": 1}],
+    "animations": [
+        {
+            "name": "turn",
+            "samplers": [
+                {"input": 4, "output": 6},
+                {"input": 4, "output": 7, "interpolation": "STEP"},
+            ],
+            "channels": [
+                {"sampler": 0, "target": {"node": 1, "path": "rotation"}},
+                {"sampler": 1, "target": {"node": 0, "path": "weights"}},
+            ],
+        }
+    ],
+    "cameras": [
+        {"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}},
+        {
+            "type": "orthographic",
+            "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 9},
+        },
+    ],
+    "accessors": [
+        {"bufferView": view, "componentType": kind, "count": count, "type": shape, **more}
+        for view, kind, count, shape, more in (
+            (0, 5126, 3, "VEC3", {}),
+            (1, 5121, 3, "VEC4", {}),
+            (2, 5126, 3, "VEC4", {}),
+            (3, 5126, 2, "MAT4", {}),
+            (4, 5126, 2, "SCALAR", {}),
+            (5, 5126, 3, "VEC3", {}),
+            (6, 5126, 2, "VEC4", {}),
+            (7, 5126, 2, "SCALAR", {}),
+            (8, 5123, 3, "SCALAR", {}),
+            (9, 5121, 3, "VEC4", {"normalized": True}),
+        )
+    ],
+    "bufferViews": [
+        {"buffer": 0, "byteOffset": sum(_SIZES[:k]), "byteLength": size}
+        for k, size in enumerate(_SIZES)
+    ],
+}
+_MOVING["bufferViews"][8] = {
+    "buffer": 1,
+    "byteLength": 6,
+    "extensions": {
+        "EXT_meshopt_compression": {
+            "buffer": 0,
+            "byteOffset": sum(_SIZES[:8]),
+            "byteLength": 8,
+            "byteStride": 2,
+            "count": 3,
+            "mode": "INDICES",
+        }
+    },
+}
+
+
+def _moving(buffer: dict) -> bytes:
+    buffers = [{"byteLength": len(_MOVING_NUMBERS), **buffer}, {"byteLength": 6}]
+    text = json.dumps({**_MOVING, "buffers": buffers}).encode()
+    return text + b" " * (-len(text) % 4)
+
+
+_URI = "data:application/octet-stream;base64," + base64.b64encode(_MOVING_NUMBERS).decode()
+MOVING_GLTF = _moving({"uri": _URI})
+_JSON = _moving({})
+MOVING_GLB = struct.pack(
+    "<4sIIII", b"glTF", 2, 28 + len(_JSON) + len(_MOVING_NUMBERS), len(_JSON), 0x4E4F534A
+)
+MOVING_GLB += _JSON + struct.pack("<II", len(_MOVING_NUMBERS), 0x4E4942) + _MOVING_NUMBERS
+
 SCENE = b"""{
 "format": "engine3d scene",
 "version": 1,
@@ -227,6 +363,8 @@ FILES = {
     "binary.stl": BINARY_STL,
     "a.off": OFF,
     "a.gltf": GLTF,
+    "moving.gltf": MOVING_GLTF,
+    "moving.glb": MOVING_GLB,
     "a.glb": GLB,
     "a.json": SCENE,
 }

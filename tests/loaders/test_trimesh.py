@@ -99,7 +99,7 @@ def test_binary_gltf(tmp_path):
     document = load_document(path)
     assert sorted(entry.name for entry in document.objects) == ["left", "right"]
     assert document.format == "glb"
-    assert describe(path)["bounds"]["max"][0] == 8
+    assert describe(path)["bounds"][1][0] == 8
     mesh = load_mesh(path.read_bytes())
     assert mesh.bounds[:, 0].tolist() == [-0.5, 8]
     assert len(mesh.faces) == 12 + 80

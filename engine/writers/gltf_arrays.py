@@ -1,0 +1,83 @@
+"""The binary part of a glTF file that is written: arrays and images, one behind another.
+
+In: arrays and bytes. Out: their numbers as accessors and buffer views, and the chunks themselves.
+What is the same array is written once.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+_TYPES = {"u1": 5121, "u2": 5123, "u4": 5125, "f4": 5126}
+_SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+_VERTICES, _INDICES = 34962, 34963
+_STEP = 4  # where arrays begin
+
+
+class GltfArrays:
+    """What a file holds in bytes.
+
+    Attributes
+    ----------
+    accessors, views : list of dict
+        As the JSON has them.
+    chunks : list of bytes-like
+    size : int
+        Bytes of all chunks.
+    """
+
+    def __init__(self) -> None:
+        self.accessors: list[dict[str, Any]] = []
+        self.views: list[dict[str, Any]] = []
+        self.chunks: list[Any] = []
+        self.size = 0
+        self._numbers: dict[tuple, int] = {}
+        self._kept: list[Any] = []  # so that no other array gets an id meanwhile
+
+    def vertices(self, array: np.ndarray, what: str, *, key: Any = None) -> int:
+        """Return the accessor of an attribute, (V, N); positions with their bounds.
+
+        Parameters
+        ----------
+        key : object
+            What the array was made of, if it was: the same makes the same accessor.
+        """
+        known = (id(array if key is None else key), what, len(array))
+        if known not in self._numbers:
+            self._kept.append(array if key is None else key)
+            self._numbers[known] = self.add(array, bounds=what == "POSITION", target=_VERTICES)
+        return self._numbers[known]
+
+    def indices(self, elements: np.ndarray) -> int:
+        """Return the accessor of indices, in as few bytes as hold them."""
+        wide = elements.size and int(elements.max()) >= 0xFFFF
+        return self.add(elements.ravel().astype("<u4" if wide else "<u2"), target=_INDICES)
+
+    def add(self, array: np.ndarray, *, bounds: bool = False, target: int | None = None) -> int:
+        """Return a new accessor of an array, (N,) or (N, columns)."""
+        rows = array.reshape(len(array), -1)
+        content = np.ascontiguousarray(rows, rows.dtype.newbyteorder("<"))
+        view = self.bytes(memoryview(content).cast("B") if content.size else b"", target)
+        accessor = {
+            "bufferView": view,
+            "componentType": _TYPES[rows.dtype.str[1:]],
+            "count": len(rows),
+            "type": _SHAPES[rows.shape[1]],
+        }
+        if bounds and len(rows) and np.isfinite(rows).all():
+            accessor["min"], accessor["max"] = rows.min(axis=0).tolist(), rows.max(axis=0).tolist()
+        self.accessors.append(accessor)
+        return len(self.accessors) - 1
+
+    def bytes(self, content: Any, target: int | None = None) -> int:
+        """Return the view of some bytes."""
+        view = {"buffer": 0, "byteOffset": self.size, "byteLength": len(content)}
+        if target is not None:
+            view["target"] = target
+        self.views.append(view)
+        padding = -len(content) % _STEP
+        self.chunks += [content, bytes(padding)]
+        self.size += len(content) + padding
+        return len(self.views) - 1

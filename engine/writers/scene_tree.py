@@ -1,0 +1,325 @@
+"""From a scene to the tree that files of other programs hold.
+
+In: a `Scene`. Out: a `TreeRecord`, and a line for each thing that it has no place for. What a file
+said of the scene's things is said again, where they still are what they were.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from .. import linalg
+from .._support.numbers import shown
+from ..geometry.mesh import Mesh
+from ..loaders.documents import (
+    ChannelRecord,
+    ClipRecord,
+    LampRecord,
+    LensRecord,
+    MeshRecord,
+    NodeRecord,
+    SkinRecord,
+    TreeRecord,
+)
+from ..loaders.tree_posing import local_pose
+from ..materials.colors import linear_color
+from ..materials.material import Material
+from ..scene._tree_records import FURTHER_PART, records
+from ..scene.cameras import OrthographicCamera, PerspectiveCamera
+from ..scene.instances import InstancedMesh
+from ..scene.lights import DirectionalLight, PointLight, SpotLight
+from ..scene.nodes import Node
+from ..scene.placements import Placements
+from ..scene.scene import Scene
+
+_LIGHTS = (DirectionalLight, PointLight, SpotLight)
+_IDENTITY = {"translation": (0.0, 0.0, 0.0), "rotation": (0.0, 0.0, 0.0, 1.0)}
+_IDENTITY["scale"] = (1.0, 1.0, 1.0)
+
+
+def tree_of_scene(scene: Scene) -> tuple[TreeRecord, list[str]]:
+    """Return a scene as a tree, and a line for each thing that is lost."""
+    making = _Making(scene)
+    return making.tree(), making.told
+
+
+class _Making:
+    """The lists of a tree, each thing once."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self.told: list[str] = []
+        self._lists: dict[str, list[Any]] = {
+            name: [] for name in ("meshes", "cameras", "lights", "skins")
+        }
+        self._numbers: dict[tuple, int] = {}
+        self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
+        self._variants: tuple[str, ...] = ()
+
+    def tree(self) -> TreeRecord:
+        scene = self._scene
+        # What hangs below a node since that could not hold it goes back into it.
+        self._folded = {node: node.parent for node in scene.nodes if _is_further_part(node)}
+        nodes = [node for node in scene.nodes if node not in self._folded]
+        self._row = {node: row for row, node in enumerate(nodes)}
+        placements = Placements(scene, nodes)
+        made = [self._node(node, placements, row) for row, node in enumerate(nodes)]
+        made += self._turned_lights(made)
+        self._tell_of_scene(nodes)
+        meshes = tuple(self._lists["meshes"])
+        return TreeRecord(
+            nodes=tuple(made),
+            roots=tuple(self._row[node] for node in nodes if node.parent is None),
+            meshes=meshes,
+            skins=tuple(self._lists["skins"]),
+            clips=tuple(self._clip(clip) for clip in scene.animations.values()),
+            cameras=tuple(self._lists["cameras"]),
+            lights=tuple(self._lists["lights"]),
+            materials=_materials_of(meshes),
+            variants=self._variants,
+            extras=records.get(scene),
+        )
+
+    def _node(self, node: Node, placements: Placements, row: int) -> NodeRecord:
+        below = [child for child in node.children if child not in self._folded]
+        parts = [node, *(child for child in node.children if child in self._folded)]
+        held = [part.object for part in parts if part.object is not None]
+        came = records.get(node)
+        came = came if isinstance(came, NodeRecord) else NodeRecord()
+        return NodeRecord(
+            name=node.name,
+            children=tuple(self._row[child] for child in below),
+            visible=node.visible,
+            extras=came.extras,
+            **_place(node, came, placements, row),
+            **self._shown(node, held),
+            **self._placed(node, held),
+        )
+
+    def _shown(self, node: Node, held: list) -> dict[str, Any]:
+        """The mesh of a node, and how it is bent."""
+        instanced = [obj for obj in held if isinstance(obj, InstancedMesh)]
+        meshes = [obj.mesh for obj in instanced] or [obj for obj in held if isinstance(obj, Mesh)]
+        if not meshes:
+            return {}
+        found: dict[str, Any] = {"mesh": self._mesh(meshes)}
+        if instanced:
+            found["instances"] = _poses(instanced[0])
+            if any(obj.colors is not None for obj in instanced):
+                self.told.append(
+                    f"node {shown(node.name)}: gltf files hold no colours of instances"
+                )
+        if node.skin is not None:
+            found["skin"] = self._number("skins", node.skin, self._skin)
+        usual = self._lists["meshes"][found["mesh"]].morph_weights
+        if meshes[0].morph_targets:
+            none = (0.0,) * len(usual)
+            given = none if node.morph_weights is None else tuple(node.morph_weights.tolist())
+            if given != usual:
+                found["weights"] = given
+        return found
+
+    def _placed(self, node: Node, held: list) -> dict[str, int]:
+        """The camera and the light of a node."""
+        found: dict[str, int] = {}
+        for obj in held:
+            if isinstance(obj, (Mesh, InstancedMesh)):
+                continue
+            if isinstance(obj, (PerspectiveCamera, OrthographicCamera)):
+                found["camera"] = self._number("cameras", obj, _lens)
+            elif isinstance(obj, _LIGHTS) and self._is_told(node, obj):
+                found["light"] = self._number("lights", obj, _lamp)
+            elif not isinstance(obj, _LIGHTS):
+                kind = type(obj).__name__
+                self.told.append(f"node {shown(node.name)}: gltf files hold no {kind}")
+        return found
+
+    def _is_told(self, node: Node, light) -> bool:
+        """Whether a light shines as such files say; others that are nearly so are told of."""
+        if isinstance(light, DirectionalLight) and light.direction.tolist()[:2] != [0.0, 0.0]:
+            return False  # it hangs below, turned
+        if isinstance(light, DirectionalLight) and light.direction[2] > 0:
+            return False
+        if isinstance(light, PointLight) and light.falloff != "gltf" and light.range < math.inf:
+            self.told.append(
+                f"node {shown(node.name)}: gltf files hold no light whose falloff is "
+                f"{light.falloff!r}"
+            )
+        return True
+
+    def _turned_lights(self, made: list[NodeRecord]) -> list[NodeRecord]:
+        """Nodes for the directional lights that shine elsewhere than along -Z, below their own."""
+        added: list[NodeRecord] = []
+        for node, row in self._row.items():
+            light = node.object
+            if not isinstance(light, DirectionalLight) or made[row].light is not None:
+                continue
+            number = self._number("lights", light, _lamp)
+            turned = linalg.look_at((0, 0, 0), light.direction, _across(light.direction))
+            below = NodeRecord(matrix=turned, light=number)
+            made[row] = replace(made[row], children=(*made[row].children, len(made) + len(added)))
+            added.append(below)
+        return added
+
+    def _number(self, where: str, thing: Any, record_of) -> int:
+        """The number of a thing in its list, to which it is added if it is new there."""
+        key = where, id(thing)
+        if key not in self._numbers:
+            self._kept.append(thing)
+            self._lists[where].append(record_of(thing))
+            self._numbers[key] = len(self._lists[where]) - 1
+        return self._numbers[key]
+
+    def _mesh(self, meshes: list[Mesh]) -> int:
+        key = "meshes", *map(id, meshes)
+        if key not in self._numbers:
+            self._kept += meshes
+            first, *rest = map(self._part, meshes)
+            self._lists["meshes"].append(replace(first, rest=tuple(rest)))
+            self._numbers[key] = len(self._lists["meshes"]) - 1
+            self._tell_of_mesh(meshes)
+        return self._numbers[key]
+
+    def _part(self, mesh: Mesh) -> MeshRecord:
+        came, variants = records.get(mesh, (None, ()))
+        none = (0.0,) * len(mesh.morph_targets)
+        if came is None:
+            return MeshRecord(mesh.name, mesh, none)
+        fits = all(len(held) == len(mesh.materials) for held in came.variants.values())
+        if came.variants and fits:
+            self._variants = variants
+        usual = came.morph_weights if len(came.morph_weights) == len(none) else none
+        return MeshRecord(mesh.name, mesh, usual, came.variants if fits else {}, extras=came.extras)
+
+    def _skin(self, skin) -> SkinRecord:
+        came = records.get(skin)
+        joints = tuple(self._row[joint] for joint in skin.joints)
+        return SkinRecord(
+            skin.name, joints, skin.inverse_binds, extras=None if came is None else came.extras
+        )
+
+    def _clip(self, clip) -> ClipRecord:
+        channels, seen = [], set()
+        for channel in clip.channels:
+            node = self._folded.get(channel.node, channel.node)
+            # Each part of a mesh has a channel for its weights, a file has one for all.
+            if node not in self._row or (node, channel.path) in seen:
+                continue
+            seen.add((node, channel.path))
+            channels.append(
+                ChannelRecord(
+                    self._row[node],
+                    channel.path,
+                    channel.interpolation,
+                    channel.times,
+                    channel.values,
+                )
+            )
+        came = records.get(clip)
+        extras = None if came is None else came.extras
+        return ClipRecord(clip.name, clip.duration, tuple(channels), extras)
+
+    def _tell_of_mesh(self, meshes: list[Mesh]) -> None:
+        lost = ["groups"] if any(mesh.groups for mesh in meshes) else []
+        hides = (m.edge_visible is not None and not m.edge_visible.all() for m in meshes)
+        lost += ["polygons"] if any(hides) else []
+        if lost:
+            names = " and ".join(lost)
+            self.told.append(f"mesh {shown(meshes[0].name)}: gltf files hold no {names}")
+
+    def _tell_of_scene(self, nodes: list[Node]) -> None:
+        usual, scene = Scene(), self._scene
+        lost = [
+            name.replace("_", " ")
+            for name in ("background", "ambient", "light_clamp", "exposure")
+            if not _are_equal(getattr(scene, name, None), getattr(usual, name, None))
+        ]
+        lost += ["colliders"] if any(node.collider is not None for node in nodes) else []
+        if lost:
+            self.told.append(f"gltf files do not hold {', '.join(lost)}")
+
+
+def _is_further_part(node: Node) -> bool:
+    """Whether a node is as the loader made it for what the node above it could not hold."""
+    if records.get(node) is not FURTHER_PART or node.parent is None or node.children:
+        return False
+    return np.array_equal(node.pose, np.eye(4)) and node.visible and node.object is not None
+
+
+def _place(node: Node, came: NodeRecord, placements: Placements, row: int) -> dict[str, Any]:
+    """A node's pose: as the file had it while it is the same, else its parts or its matrix."""
+    names = (*_IDENTITY, "matrix")
+    pose = placements.poses[row]
+    if any(getattr(came, name) is not None for name in names):
+        if np.array_equal(np.array(local_pose(came)), pose):
+            return {name: getattr(came, name) for name in names}
+    if not placements.has_parts[row]:
+        return {"matrix": pose}
+    parts = {
+        "translation": tuple(pose[:3, 3].tolist()),
+        "rotation": tuple(placements.rotations[row].tolist()),
+        "scale": tuple(placements.scales[row].tolist()),
+    }
+    return {name: value for name, value in parts.items() if value != _IDENTITY[name]}
+
+
+def _poses(instanced: InstancedMesh) -> np.ndarray:
+    """node-from-instance, (N, 4, 4) float64."""
+    given = instanced.poses.astype(np.float64)
+    if given.ndim == 3:
+        return given
+    poses = np.tile(np.eye(4), (len(given), 1, 1))
+    poses[:, :3, :3] *= given[:, 3, np.newaxis, np.newaxis]
+    poses[:, :3, 3] = given[:, :3]
+    return poses
+
+
+def _lens(camera: PerspectiveCamera | OrthographicCamera) -> LensRecord:
+    came = records.get(camera, LensRecord("perspective"))
+    zfar = math.inf if camera.zfar is None else camera.zfar
+    common = {"name": came.name, "znear": camera.znear, "zfar": zfar, "extras": came.extras}
+    if isinstance(camera, PerspectiveCamera):
+        aspect = came.aspect if camera.aspect is None else camera.aspect
+        return LensRecord("perspective", yfov=camera.yfov, aspect=aspect, **common)
+    xmag = camera.xmag
+    if xmag is None:
+        xmag = came.xmag if came.ymag == camera.ymag else camera.ymag
+    return LensRecord("orthographic", xmag=xmag, ymag=camera.ymag, **common)
+
+
+def _lamp(light) -> LampRecord:
+    came = records.get(light, LampRecord("point"))
+    color = tuple(map(float, light.color))
+    if not all(isinstance(part, float) for part in light.color):
+        color = tuple(map(float, linear_color(light.color)))
+    common = {"name": came.name, "color": color, "extras": came.extras}
+    if isinstance(light, DirectionalLight):
+        return LampRecord("directional", intensity=light.intensity, **common)
+    common |= {"intensity": light.intensity, "range": light.range}
+    if isinstance(light, PointLight):
+        return LampRecord("point", **common)
+    angles = light.inner_cone_angle, light.outer_cone_angle
+    return LampRecord("spot", **common, inner_cone_angle=angles[0], outer_cone_angle=angles[1])
+
+
+def _across(direction: np.ndarray) -> tuple[float, float, float]:
+    """A direction that is not along another."""
+    x, y, z = np.abs(direction).tolist()
+    return (0.0, 1.0, 0.0) if y < max(x, z) else (1.0, 0.0, 0.0)
+
+
+def _materials_of(meshes: tuple[MeshRecord, ...]) -> tuple[Material, ...]:
+    """The materials in use, in the order of their use."""
+    found: dict[int, Material] = {}
+    for record in meshes:
+        for part in record.parts:
+            found.update((id(material), material) for material in part.mesh.materials)
+    return tuple(found.values())
+
+
+def _are_equal(one: Any, other: Any) -> bool:
+    return one is other or (type(one) is type(other) and bool(np.all(one == other)))

@@ -14,8 +14,8 @@ import numpy as np
 from .._native import loaders as native_loaders
 from .._native.rasterizer import NativeMesh, NativePose, NativeRest, pose_meshes
 from .._native.scene_graph import OBJECT_BOX
-from ..geometry._movers import VERTEX_AXES
 from ..geometry.mesh import Mesh
+from ..geometry.movers import VERTEX_AXES
 from ..geometry.native_meshes import make_native_mesh
 
 _MOST_COLUMNS = 8  # that C numbers at once

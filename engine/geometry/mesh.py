@@ -23,7 +23,7 @@ from .._support.dirty_tracking import renew
 from .._support.validation import Closed, own
 from ..errors import InvalidArgumentError
 from ..materials.material import Material
-from . import _movers
+from . import movers as _movers
 from . import normals as _normals
 from . import topology as _topology
 from ._arrays import (

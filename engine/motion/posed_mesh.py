@@ -15,6 +15,7 @@ from .._native import loaders as native_loaders
 from .._native.rasterizer import NativeMesh, NativePose, NativeRest, pose_meshes
 from .._native.scene_graph import OBJECT_BOX
 from ..geometry.mesh import Mesh
+from ..geometry.movers import VERTEX_AXES
 from ..geometry.native_meshes import make_native_mesh
 
 _MOST_COLUMNS = 8  # that C numbers at once
@@ -34,12 +35,17 @@ class PosedMesh:
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         self._made_of: dict = {}
+        self._version = -1  # of the mesh, when its arrays were last looked at
         self._now: tuple[NativeMesh, Mesh] | None = None
         self.renew()
 
     def renew(self) -> bool:
         """Begin anew where arrays of the mesh are others; return whether they are."""
+        version = self.mesh.version
+        if version == self._version:
+            return False
         arrays = dict(self.mesh._arrays)
+        self._version = version
         if _same(arrays, self._made_of):
             return False
         self._made_of = arrays
@@ -82,12 +88,14 @@ class PosedMesh:
     def _copied(self) -> Mesh:
         positions = np.empty((len(self.mesh.positions), 3), np.float32)
         normals = np.empty_like(positions)
-        self.native.copy_vertices(positions, normals)
+        tangents = self._made_of.get("tangents")
+        tangents = None if tangents is None else np.empty_like(tangents)
+        self.native.copy_vertices(positions, normals, tangents)
         copy = Mesh(positions, name=self.mesh.name)
-        gone = dict.fromkeys(("joints", "weights", "morph_positions", "morph_normals"))
+        gone = dict.fromkeys(VERTEX_AXES)
         kept = {**self._made_of, **gone, "positions": copy.positions}
         copy._arrays.update(kept)
-        copy.normals = normals
+        copy.normals, copy.tangents = normals, tangents
         copy.materials = self.mesh.materials
         return copy
 
@@ -104,10 +112,12 @@ def _rest_of(mesh: Mesh, arrays: dict) -> NativeRest:
         rest = NativeRest(
             native,
             mesh._derive("normals", arrays),
+            arrays.get("tangents"),
             arrays.get("joints"),
             arrays.get("weights"),
             arrays.get("morph_positions"),
             arrays.get("morph_normals"),
+            arrays.get("morph_tangents"),
         )
         _rests[mesh] = arrays, rest
     return rest

@@ -27,10 +27,19 @@ def bent_tube(rng, rings=40, sides=24, joints=5, influences=4, targets=0, normal
         e3d.MorphTarget(
             rng.normal(0, 0.2, positions.shape),
             rng.normal(0, 0.2, positions.shape) if normals else None,
+            rng.normal(0, 0.2, positions.shape) if normals else None,
         )
         for _ in range(targets)
     ]
-    return e3d.Mesh(positions, faces, joints=moved_by, weights=weights, morph_targets=morphs)
+    tangents = np.hstack([rng.normal(size=positions.shape), np.ones((len(positions), 1))])
+    return e3d.Mesh(
+        positions,
+        faces,
+        tangents=tangents,
+        joints=moved_by,
+        weights=weights,
+        morph_targets=morphs,
+    )
 
 
 def random_poses(rng, count):
@@ -96,20 +105,25 @@ def test_posed_vertices_are_those_of_the_reference(case):
     arrays = mesh._arrays
     skinned = matrices is not None
     positions, normals = (np.empty_like(mesh.positions) for _ in range(2))
+    tangents = np.empty_like(mesh.tangents)
     kernels_testing.pose_by_reference(
         mesh.positions,
         mesh.normals,
+        mesh.tangents,
         mesh.joints if skinned else None,
         mesh.weights if skinned else None,
         arrays.get("morph_positions"),
         arrays.get("morph_normals"),
+        arrays.get("morph_tangents"),
         matrices,
         None if weights is None else np.float32(weights),
         positions,
         normals,
+        tangents,
     )
     assert now.positions.tobytes() == positions.tobytes()
     assert now.normals.tobytes() == normals.tobytes()
+    assert now.tangents.tobytes() == tangents.tobytes()
     assert not np.array_equal(now.positions, mesh.positions)
 
 

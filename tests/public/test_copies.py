@@ -48,6 +48,7 @@ COPIED = {
     "InstancedMesh": lambda: drawn().find("crowd").object,
     "Texture": lambda: painted().materials[0].texture,
     "Material": lambda: painted().materials[0],
+    "Environment": lambda: e3d.Environment(np.ones((2, 4, 3))),
     "Camera": lambda: e3d.Camera(np.eye(4)),
     "PerspectiveCamera": e3d.PerspectiveCamera,
     "OrthographicCamera": lambda: e3d.OrthographicCamera(2.0),

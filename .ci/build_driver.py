@@ -23,7 +23,7 @@ FUZZ_FLAGS += ["-fno-sanitize-recover=float-cast-overflow"]
 FUZZ_FLAGS += ["-DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"]
 # What compares bytes of a file. Elsewhere most comparisons are of pixels and coordinates, and the
 # tracing would take most of the time.
-TRACED = ("csrc/loaders/", "csrc/fuzz/decimal", "csrc/images/tga")
+TRACED = ("csrc/loaders/", "csrc/fuzz/decimal", "csrc/images/tga", "csrc/images/rgbe")
 UNTRACED_FLAGS = ["-fno-sanitize-coverage=trace-cmp"]
 # What a target that lets memory run out calls in their place.
 WRAPPED = ("malloc", "calloc", "realloc", "posix_memalign")

@@ -62,6 +62,10 @@ def as_targets(name, data):
         count = int.from_bytes(data[12:14], "little") * int.from_bytes(data[14:16], "little")
         head = bytes([(size - 1) & 3]) + (count & 0xFFFF).to_bytes(2, "little")
         yield "tga", head + data[start:]
+    if suffix == ".hdr" and (size := re.search(rb"\n\n[-+]Y (\d+) [-+]X (\d+)\n", data)):
+        lines, width = (int(number) - 1 for number in size.groups())
+        head = (width % 2048).to_bytes(2, "little") + bytes([lines % 16])
+        yield "rgbe", head + data[size.end() :]
     if suffix in (".stl", ".ply"):
         columns, rows, gap, are_floats = 2, 2, 2, 1
         yield "rows", bytes([columns, rows, gap, are_floats]) + data[84:]

@@ -141,12 +141,6 @@ class Environment(Closed):
     def height(self) -> int:
         return self._pixels.shape[0]
 
-    def __copy__(self) -> Environment:
-        return self
-
-    def __deepcopy__(self, memo) -> Environment:
-        return self
-
     def __repr__(self) -> str:
         return f"Environment({self.width}x{self.height}, name={self.name!r})"
 

@@ -149,6 +149,12 @@ def check_mesh(mesh) -> None:
 def load(path: Path, draw: bool) -> None:
     """Load a file in every way that there is for it."""
     target = path.with_name("house.obj") if path.name.startswith("house.mtl") else path
+    if ".hdr" in target.suffixes:
+        environment = e3d.Environment.load(target)
+        check_array(environment.pixels, "pixels", (np.float32,), (None, None, 3))
+        require(environment.pixels.size > 0, "a picture without pixels")
+        require(bool(np.isfinite(environment.pixels).all()), "pixels are not finite")
+        return
     if ".obj" in target.suffixes or not any(s in IMAGES for s in target.suffixes):
         mesh = e3d.load_mesh(target)
         check_mesh(mesh)

@@ -352,11 +352,19 @@ SCENE = b"""{
 }
 """
 
+# Radiance pictures of 8 x 3 and 4 x 2 pixels: lines of the new kind, pixels with runs of the old.
+_CHANNEL = bytes([128 + 5, 40, 3, 1, 2, 3])
+HDR = b"#?RADIANCE\n# light\nFORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 8\n"
+HDR += 3 * (bytes([2, 2, 0, 8]) + 3 * _CHANNEL + bytes([128 + 8, 130]))
+OLD_HDR = b"#?RGBE\n\n+Y 2 +X 4\n" + bytes([9, 8, 7, 128, 1, 1, 1, 3, 5, 5, 5, 127, *range(12)])
+
 FILES = {
     "house.obj": OBJ,
     "house.mtl": MTL,
     "a.asc": ASC,
     "house.tga": TGA,
+    "light.hdr": HDR,
+    "old.hdr": OLD_HDR,
     "a.ply": PLY,
     "binary.ply": BINARY_PLY,
     "a.stl": STL,

@@ -83,6 +83,13 @@ def playing(name):
     return call
 
 
+def lit_scene():
+    """A scene in an environment, which shows."""
+    lit = scene()
+    lit.environment = lit.background = e3d.Environment(np.ones((2, 4, 3)))
+    return lit
+
+
 def camera():
     return e3d.PerspectiveCamera(), e3d.look_at((0, 0, 5), (0, 0, 0))
 
@@ -204,6 +211,7 @@ LEVELS = [(mesh(), 0.0)]
 IDENTITY = np.eye(4)
 TEXT = {"string": "ab", "x": 1, "y": 1, "color": (1, 2, 3), "scale": 1}
 LOW_HIGH = {"low": (0, 0, 0), "high": (1, 1, 1)}
+RADIANCE = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + bytes([9, 9, 9, 128] * 2)
 RAY = {"origin": (0, 0, 5), "direction": (0, 0, -1), "max_distance": 9.0}
 
 CALLS = {
@@ -235,6 +243,11 @@ CALLS = {
         lambda **a: e3d.Texture(**a),
         {"pixels": np.zeros((2, 2, 3), np.uint8), "filter": "nearest", "wrap": "clamp"},
     ),
+    "Environment": (
+        lambda **a: e3d.Environment(**a),
+        {"pixels": np.ones((2, 4, 3), np.float32)},
+    ),
+    "Environment.load": (lambda **a: e3d.Environment.load(**a), {"path": RADIANCE}),
     "Scene": (
         lambda **a: e3d.render(e3d.Scene(**a), size=SIZE, threads=1),
         {"background": (0, 0, 0), "ambient": (0, 0, 0), "light_clamp": (0, 1)},
@@ -449,9 +462,16 @@ for _name in ("positions", "normals"):
 for _name in ("color", "specular", "emissive", "shininess"):
     _value = 3.0 if _name == "shininess" else (1, 1, 1)
     CALLS[f"Material.{_name} ="] = (assigned(e3d.Material, _name), {"value": _value})
-for _name in ("background", "ambient", "light_clamp"):
-    _value = (0, 1) if _name == "light_clamp" else (1, 1, 1)
-    CALLS[f"Scene.{_name} ="] = (assigned(scene, _name), {"value": _value})
+for _name, _value in {
+    "background": (1, 1, 1),
+    "ambient": (1, 1, 1),
+    "light_clamp": (0, 1),
+    "environment": e3d.Environment(np.ones((2, 4, 3))),
+    "environment_intensity": 0.5,
+    "environment_rotation": 1.0,
+    "background_blur": 0.5,
+}.items():
+    CALLS[f"Scene.{_name} ="] = (assigned(lit_scene, _name), {"value": _value})
 for _name, _value in {
     "pose": IDENTITY,
     "translation": (0, 0, 0),

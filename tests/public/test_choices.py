@@ -9,6 +9,7 @@ import pytest
 import engine3d as e3d
 from engine3d import choices
 from engine3d._native import rasterizer as native
+from engine3d.environments import environment
 from engine3d.geometry.vertex_attributes import vertex_attributes
 from engine3d.materials import colors, textures
 from engine3d.materials.material import TEXTURE_SLOTS
@@ -40,6 +41,7 @@ ACCEPTED = {
     "MotionPath": clips.PATHS,
     "Interpolation": clips.INTERPOLATIONS,
     "Loop": player.LOOPS,
+    "BuiltInEnvironment": environment.BUILT_IN,
     "ImageFormat": frame._FORMATS,
     "PixelFormat": pixels.FORMATS,
     "PointerShape": POINTERS,

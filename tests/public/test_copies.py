@@ -54,6 +54,7 @@ COPIED = {
     "Texture": lambda: painted().materials[0].texture,
     "PlacedTexture": lambda: e3d.PlacedTexture(painted().materials[0].texture, uv_set=1),
     "Material": lambda: painted().materials[0],
+    "Environment": lambda: e3d.Environment(np.ones((2, 4, 3))),
     "Camera": lambda: e3d.Camera(np.eye(4)),
     "PerspectiveCamera": e3d.PerspectiveCamera,
     "OrthographicCamera": lambda: e3d.OrthographicCamera(2.0),

@@ -60,6 +60,7 @@ const e3d_kernels E3D_TABLE = {
     .combine = kernel_combine,
     .alpha = kernel_alpha,
     .lay = kernel_lay,
+    .blend = kernel_blend,
     .encode = kernel_encode,
     .put = kernel_put,
     .keep = kernel_keep,

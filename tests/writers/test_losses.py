@@ -134,6 +134,7 @@ def test_what_mtl_can_say_comes_back(tmp_path):
     again = loaded(tmp_path / "a.obj").materials[0]
     maps = again.extras["maps"]
     assert maps.pop("map_Kd") == {"clamp": ["on"], "name": "a_0.png"}
+    assert maps.pop("map_d") == {"name": "a_0.png"}  # the image has alpha
     assert again.extras == extras
     assert again.texture.wrap == "clamp"
     assert np.array_equal(again.texture.pixels, material.texture.pixels)

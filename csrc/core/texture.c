@@ -61,6 +61,14 @@ static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t tabl
     }
 }
 
+static int is_opaque(const uint8_t *pixels, size_t count)
+{
+    uint8_t all = 255;
+    for (size_t i = 0; i < count; i++)
+        all &= pixels[4 * i + 3];
+    return all == 255;
+}
+
 static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode_srgb)
 {
     const e3d_level *level = &texture->view.levels[0];
@@ -148,6 +156,7 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     texture->view.channel_bits = decode_srgb || levels > 1 ? 16 : 8;
     texture->view.filter = filter;
     texture->view.wrap = wrap;
+    texture->view.is_opaque = is_opaque(pixels, (size_t)width * (size_t)height);
     size_t bytes = chain_texels(width, height, levels) * texel_bytes(texture);
     texture->texels = malloc(bytes + PAST);
     if (!texture->texels) {

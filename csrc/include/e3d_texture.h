@@ -32,6 +32,7 @@ typedef struct e3d_texture_view {
     e3d_level levels[E3D_MAX_LEVELS];
     int32_t level_count; /* 1 unless the filter is E3D_TRILINEAR */
     int32_t channel_bits;
+    int32_t is_opaque;   /* every alpha is 255 */
     e3d_filter filter;
     e3d_wrap wrap;
 } e3d_texture_view;

@@ -34,6 +34,7 @@ cdef extern from "kernels/kernels.h" nogil:
         e3d_level levels[16]
         int32_t level_count
         int32_t channel_bits
+        int32_t is_opaque
         e3d_filter filter
         e3d_wrap wrap
 
@@ -149,6 +150,21 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_samples:
         pass
 
+    ctypedef struct e3d_alpha_list:
+        const float *limit
+        const int32_t *kept
+        e3d_shown *shown
+        float *z
+        uint64_t once[64]
+        uint64_t met
+
+    ctypedef float e3d_alpha_color[4]
+    ctypedef struct e3d_alpha_layers:
+        const uint32_t *first
+        const int32_t *depth
+        const uint32_t *which
+        const e3d_alpha_color *color
+
     ctypedef struct e3d_paint:
         int wanted
         const e3d_texture_view *texture
@@ -245,6 +261,11 @@ cdef extern from "kernels/kernels.h" nogil:
                        uint32_t *rgba)
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)
         void (*keep)(const e3d_batch *batch, e3d_samples *samples)
+        int32_t (*raster_alpha)(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out)
+        void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, float base,
+                      int by_vertex, int by_instance)
+        void (*lay)(const e3d_batch *batch, e3d_samples *samples)
+        int (*blend)(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left)
         void (*average)(const e3d_samples *samples, int axis, int row, int width,
                         const float *background, int srgb, uint32_t *rgba)
         void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint,

@@ -119,7 +119,7 @@ void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t
         ref_shade(scene->frame, &surface, shaded);
         for (int c = 0; c < 3; c++)
             color[c] = ref_clamp(shaded[c], 0.0f, 1.0f) * surface.alpha + color[c] * (1.0f - surface.alpha);
-        *alpha = *alpha + surface.alpha * (1.0f - *alpha);
+        *alpha = surface.alpha + *alpha * (1.0f - surface.alpha);
         scene->stats.pixels_shaded++;
     }
 }

@@ -129,6 +129,7 @@ cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
     cdef Py_ssize_t start = 0, level
     view.level_count = <int32_t>sizes.shape[0]
     view.channel_bits = channel_bits
+    view.is_opaque = 0
     view.filter = <e3d_filter>filter
     view.wrap = <e3d_wrap>wrap
     for level in range(sizes.shape[0]):

@@ -211,6 +211,34 @@ class Kernels:
     ) -> None: ...
     def put(self, batch: _Bytes, srgb: bool, rgba: _Words) -> None: ...
     def keep(self, batch: _Bytes, samples: _Floats) -> None: ...
+    def raster_alpha(
+        self,
+        piece: _Bytes,
+        records: _Bytes,
+        limit: _Floats,
+        kept: _Integers,
+        shown: _Bytes,
+        z: _Floats,
+    ) -> tuple[int, bool]: ...
+    def alpha(
+        self,
+        batch: _Bytes,
+        surfaces: _Bytes,
+        texture: tuple | None,
+        base: float,
+        by_vertex: bool,
+        by_instance: bool,
+    ) -> None: ...
+    def lay(self, batch: _Bytes, samples: _Floats) -> None: ...
+    def blend(
+        self,
+        first: _Words,
+        depth: _Integers,
+        which: _Words,
+        color: _Floats,
+        samples: _Floats,
+        left: npt.NDArray[np.uint16],
+    ) -> int: ...
     def average(
         self,
         samples: _Floats,

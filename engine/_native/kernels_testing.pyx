@@ -522,6 +522,55 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.keep(<const e3d_batch *>&batch[0], samples_of(samples))
 
+    def raster_alpha(self, const uint8_t[::1] piece, const uint8_t[:, ::1] records, const float[::1] limit,
+                     const int32_t[::1] kept, uint8_t[::1] shown, float[::1] z):
+        """Adds to what is shown; returns the row that comes next, and whether a sample came again."""
+        cdef e3d_record_table table
+        cdef const e3d_record *rows[MOST_WORKERS]
+        cdef e3d_alpha_list listed
+        cdef int32_t row = 0
+        check_size(piece, sizeof(e3d_piece))
+        check_size(shown, sizeof(e3d_shown))
+        fill_table(&table, rows, records)
+        memset(&listed, 0, sizeof(listed))
+        listed.limit, listed.kept, listed.z = &limit[0], &kept[0], &z[0]
+        listed.shown = <e3d_shown *>&shown[0]
+        for _ in range(self.rounds):
+            row = self.table.raster_alpha(<const e3d_piece *>&piece[0], &table, &listed)
+        return row, listed.met != 0
+
+    def alpha(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, texture, float base, bint by_vertex, bint by_instance):
+        """``texture``: None, or what `texture` takes, as a tuple, and whether every alpha is 255."""
+        cdef e3d_texture_view view
+        check_size(batch, sizeof(e3d_batch))
+        check_size(surfaces, sizeof(e3d_surfaces))
+        if texture is not None:
+            texels, channel_bits, sizes, filter, wrap, opaque = texture
+            view = texture_view(texels, channel_bits, sizes, filter, wrap)
+            view.is_opaque = opaque
+        for _ in range(self.rounds):
+            self.table.alpha(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
+                             NULL if texture is None else &view, base, by_vertex, by_instance)
+
+    def lay(self, const uint8_t[::1] batch, float[:, ::1] samples):
+        """``samples``: as for `keep`."""
+        check_size(batch, sizeof(e3d_batch))
+        for _ in range(self.rounds):
+            self.table.lay(<const e3d_batch *>&batch[0], samples_of(samples))
+
+    def blend(self, const uint32_t[::1] first, const int32_t[::1] depth, const uint32_t[::1] which,
+              const float[:, ::1] color, float[:, ::1] samples, uint16_t[::1] left):
+        """Returns how many samples are left, which are listed."""
+        cdef e3d_alpha_layers layers
+        cdef int count = 0
+        if first.shape[0] != E3D_TILE_SAMPLES + 1 or left.shape[0] != E3D_TILE_SAMPLES or color.shape[1] != 4:
+            raise ValueError("first and left are of a tile's samples, colours have four numbers")
+        layers.first, layers.depth, layers.which = &first[0], &depth[0], &which[0]
+        layers.color = <const e3d_alpha_color *>&color[0, 0]
+        for _ in range(self.rounds):
+            count = self.table.blend(&layers, samples_of(samples), &left[0])
+        return count
+
     def average(self, float[:, ::1] samples, int axis, int row, int width,
                 const float[::1] background, bint srgb, uint32_t[::1] rgba):
         """``samples``: as for `keep`; ``rgba`` has width + PAD elements."""

@@ -1,8 +1,8 @@
 """Wavefront MTL: the material libraries that OBJ files name.
 
 In: the bytes of a library. Out: materials by name. Colours are linear light, as the numbers are
-floats. What a `Material` has no place for (Ka, d, illum, the physically based parameters, all
-maps with their options) is kept in its ``extras`` under the file's own keys. A line that makes no
+floats. What a `Material` has no place for (Ka, illum, the physically based parameters, all
+maps with their options), and d and Tr, is kept in its ``extras`` under the file's own keys. A line that makes no
 sense is a warning; a library never fails as a whole unless it is no text.
 """
 
@@ -15,6 +15,7 @@ from ..materials.material import Material
 from ..materials.textures import Texture
 from .linked_files import LinkedFileError
 from .linked_textures import TextureCache
+from .mtl_alpha import OPACITY_MAPS, set_alpha
 from .sources import Source
 from .text import decoded, shown, text_lines
 from .warning_list import WarningList
@@ -37,9 +38,6 @@ _UNDRAWN_MAPS = {
     "map_decal": "decal",
     "refl": "reflection",
     "map_refl": "reflection",
-    "map_d": "opacity map",
-    "map_tr": "opacity map",
-    "map_opacity": "opacity map",
     "map_ke": "emission map",
     "map_ks": "specular map",
     "map_ns": "specular map",
@@ -227,7 +225,17 @@ def _finish(current, materials, textures, warnings, source) -> None:
     for name, value in given.items():
         if value is not None:
             setattr(material, name, value)
+    _finish_alpha(material, maps, textures, warnings, source)
     materials[current["name"]] = material
+
+
+def _finish_alpha(material, maps, textures, warnings, source) -> None:
+    entries = {key.lower(): entry for key, entry in maps.items()}
+    keyword = next((key for key in OPACITY_MAPS if key in entries), None)
+    opacity_map = _texture(entries.get(keyword), textures, warnings, source)
+    if opacity_map is not None or material.texture is not None or "opacity" in material.extras:
+        opacity = material.extras.get("opacity", 1.0)
+        set_alpha(material, opacity, opacity_map, OPACITY_MAPS.get(keyword, False))
 
 
 def _specular(values: dict) -> tuple[float, float, float]:
@@ -261,8 +269,6 @@ def undrawn_kinds(material: Material) -> set[str]:
         kinds.add("ambient map")
     if any(extras.get(key) for key in _PHYSICAL):
         kinds.add("physical")
-    if extras.get("opacity", 1.0) < 1:
-        kinds.add("transparent")
     return kinds
 
 

@@ -15,7 +15,6 @@ from .warning_list import WarningList
 KINDS = {
     "transparent": ("is transparent", "are transparent", "drawn opaque"),
     "cut out": ("has its alpha cut off", "have their alpha cut off", "drawn whole"),
-    "opacity map": ("has an opacity map", "have opacity maps", "drawn opaque"),
     "emission map": ("has an emission map", "have emission maps", "drawn without emission"),
     "normal map": ("has a normal map", "have normal maps", "drawn without"),
     "bump map": ("has a bump map", "have bump maps", "drawn without"),

@@ -67,6 +67,8 @@ def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
     things = ["two_sided"] if material.two_sided else []
     if material.flat_shading and has_normals:
         things.append("flat_shading")  # without normals, smoothing groups say it
+    if material.alpha_mode == "mask" and material.alpha_cutoff != 0.5:
+        things.append("alpha_cutoff")
     texture = textures_of(material).get("texture")
     if texture is not None:
         things += ["the texture's wrap 'mirror'"] if texture.wrap == "mirror" else []

@@ -13,6 +13,7 @@ import re
 from .._native.images import encode_png
 from ..files.atomic_write import AtomicFiles
 from ..loaders.mtl import parse_map
+from ..loaders.mtl_alpha import OPACITY_MAPS
 from ..materials.colors import linear_color
 from ..materials.material import Material, says_something, textures_of
 from .names import encoded, line_text, unique
@@ -20,12 +21,15 @@ from .rows import float_words
 from .side_files import LIBRARY_MARK, SideFiles
 
 _COLORS = ("Ka", "Tf")
-_SCALARS = ("Ni", "d", "Tr", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "Pcor")
+_SCALARS = ("Ni", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "Pcor")
 # Keys of glTF, and ours, that are said by statements unless these are there already.
-_SYNONYMS = {"metallicFactor": ("Pm",), "roughnessFactor": ("Pr",), "opacity": ("d", "Tr")}
+_SYNONYMS = {"metallicFactor": ("Pm",), "roughnessFactor": ("Pr",)}
 _SAID_ELSEWHERE = {"illum", "maps", *_SYNONYMS}
-_OWN_WORDS = {"newmtl", "Kd", "Ks", "Ns", "Ke", "illum", *_COLORS, *_SCALARS, *_SYNONYMS}
+_OWN_WORDS = {"newmtl", "Kd", "Ks", "Ns", "Ke", "d", "Tr", "opacity", "illum"}
+_OWN_WORDS |= {*_COLORS, *_SCALARS, *_SYNONYMS}
 _OWN_WORDS |= {"maps", "bump", "disp", "decal", "refl", "norm"}
+# Keys of extras that the material's alpha stands for.
+_ALPHA = {"d", "Tr", "opacity"}
 # Options of map_Kd that the texture coordinates and the texture have taken over.
 _APPLIED = ("name", "s", "o", "clamp")
 
@@ -76,11 +80,14 @@ class Library:
         lines += [f"Ks {_numbers(specular)}", f"Ns {_numbers([material.shininess])}"]
         if linear_color(material.emissive).any():
             lines.append(f"Ke {_numbers(linear_color(material.emissive))}")
-        illum = material.extras.get("illum")
+        if material.alpha_mode == "blend" and material.alpha < 1:
+            lines.append(f"d {_numbers([material.alpha])}")
+        extras = {k: v for k, v in material.extras.items() if k not in _ALPHA}
+        illum = extras.get("illum")
         if not _are_numbers([illum]) or (illum < 2 and specular.any()):
             illum = 2.0 if specular.any() else 1.0
         lines.append(f"illum {_numbers([illum])}")
-        lines += self._extra_statements(material.extras, name)
+        lines += self._extra_statements(extras, name)
         return lines + self._map_statements(material, name)
 
     def _extra_statements(self, extras: dict, name: str) -> list[str]:
@@ -107,6 +114,9 @@ class Library:
             options |= {key: words for key, words in rest.items() if key not in _APPLIED}
             image = self._image(texture)
             lines.append(_map_statement("map_Kd", {**options, "name": image}) or f"map_Kd {image}")
+            if material.alpha_mode != "opaque" and (texture.pixels[:, :, 3] != 255).any():
+                maps = {key: entry for key, entry in maps.items() if key.lower() not in OPACITY_MAPS}
+                lines.append(f"map_d {image}")
         elif entry:
             self._leave_out("map_Kd without its image", name)
         for key, entry in maps.items():

@@ -1,6 +1,7 @@
 """The table of pictures: name -> function that makes the Picture. One module a subject fills it."""
 
 from images import (  # noqa: F401
+    scenes_alpha,
     scenes_geometry,
     scenes_lights,
     scenes_looks,

@@ -43,7 +43,7 @@ def material(write, obj_mesh):
 def test_colors_and_numbers(material):
     read = material("Ka .1 .1 .1\nKd .5 .25 0\nKs 1 1 1\nKe 0 0 .5\nNs 90\nd .5\nillum 2\nNi 1.5\n")
     assert read.name == "m"
-    assert read.color == (0.5, 0.25, 0)
+    assert read.color == (0.5, 0.25, 0, 0.5)
     assert read.specular == (1, 1, 1)
     assert read.emissive == (0, 0, 0.5)
     assert read.shininess == 90
@@ -276,7 +276,8 @@ def test_a_texture_is_read_once_for_several_materials(image, write, obj_mesh):
     assert np.array_equal(mesh.material_ids, [0, 1])
 
 
-def test_what_is_not_drawn_is_told_once_a_kind(write):
+def test_what_is_not_drawn_is_told_once_a_kind(image, write):
+    image("a.png")
     write(
         "a.mtl",
         "newmtl a\nd 0.5\nmap_Bump a.png\nPr 0.5\nnewmtl b\nTr 0.25\nbump a.png\n"
@@ -289,8 +290,6 @@ def test_what_is_not_drawn_is_told_once_a_kind(write):
     with pytest.warns(Engine3DWarning):
         mesh = load_mesh(path)
     assert [warning.removeprefix(f"{path}: ") for warning in mesh.warnings] == [
-        "2 materials are transparent: drawn opaque",
-        "1 material has an opacity map: drawn opaque",
         "1 material has an emission map: drawn without emission",
         "1 material has a normal map: drawn without",
         "2 materials have bump maps: drawn without",

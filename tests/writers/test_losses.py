@@ -127,12 +127,14 @@ def test_what_mtl_can_say_comes_back(tmp_path):
         "maps": {"map_Ks": {"bm": ["2"], "mm": ["0", "1"], "name": "my shine.png"}},
     }
     material = red(texture=image(1, wrap="clamp"), specular=(1, 1, 0), extras=extras)
+    material.color, material.alpha_mode = (*material.rgb, 0.5), "blend"
     mesh = polygon(materials=[material], uvs=np.zeros((4, 2)))
     said = said_of(mesh, tmp_path / "a.obj")
     assert said == ["images that are named, but not copied: 'my shine.png'"]
     again = loaded(tmp_path / "a.obj").materials[0]
     maps = again.extras["maps"]
     assert maps.pop("map_Kd") == {"clamp": ["on"], "name": "a_0.png"}
+    assert maps.pop("map_d") == {"name": "a_0.png"}  # the image has alpha
     assert again.extras == extras
     assert again.texture.wrap == "clamp"
     assert np.array_equal(again.texture.pixels, material.texture.pixels)
@@ -154,10 +156,10 @@ def test_options_of_the_texture_come_back(tmp_path):
 
 
 def test_physically_based_numbers_of_gltf_become_those_of_mtl(tmp_path):
-    extras = {"metallicFactor": 0.25, "roughnessFactor": 0.5, "opacity": 0.75}
+    extras = {"metallicFactor": 0.25, "roughnessFactor": 0.5}
     assert said_of(polygon(materials=[red(extras=extras)]), tmp_path / "a.obj") == []
     again = loaded(tmp_path / "a.obj").materials[0].extras
-    assert (again["Pm"], again["Pr"], again["opacity"]) == (0.25, 0.5, 0.75)
+    assert (again["Pm"], again["Pr"]) == (0.25, 0.5)
 
 
 def test_lines_keep_their_material(tmp_path):

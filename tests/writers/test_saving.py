@@ -134,12 +134,13 @@ def test_materials_and_textures(tmp_path):
     mesh.materials = [
         e3d.Material(
             name="# skin",
-            color=(0.5, 0.25, 0.125),
+            color=(0.5, 0.25, 0.125, 0.5),
+            alpha_mode="blend",
             texture=texture,
             specular=(1, 0.5, 0),
             shininess=9.5,
             emissive=(0.0, 2.0, 0.0),
-            extras={"Pm": 0.25, "opacity": 0.5, "d": 0.5, "maps": {"map_Ks": {"name": "s.png"}}},
+            extras={"Pm": 0.25, "maps": {"map_Ks": {"name": "s.png"}}},
         ),
         e3d.Material(name="# skin", texture=texture, color=(255, 0, 0)),
         e3d.Material(),
@@ -148,13 +149,13 @@ def test_materials_and_textures(tmp_path):
     assert [m.name for m in again.materials] == ["_ skin", "_ skin_2", "material_2"]
     first = again.materials[0]
     assert (first.color, first.specular, first.emissive) == (
-        (0.5, 0.25, 0.125),
+        (0.5, 0.25, 0.125, 0.5),
         (1, 0.5, 0),
         (0, 2, 0),
     )
     assert first.shininess == 9.5
     assert first.extras["Pm"] == 0.25
-    assert first.extras["opacity"] == 0.5
+    assert first.alpha_mode == "blend"
     assert first.extras["maps"]["map_Ks"]["name"] == "s.png"
     assert np.array_equal(first.texture.pixels, image)
     assert first.texture.wrap == "clamp"

@@ -29,47 +29,103 @@ static uint32_t __attribute__((noinline, cold)) alpha_ties(uint32_t equal, const
     return won;
 }
 
-/* Lists one row of a piece from `at` in the list on; returns how many samples. */
-static ALWAYS_INLINE int32_t alpha_row(const e3d_piece *p, const raster_constants *c, int32_t y, const e3d_record_table *table,
-                                       e3d_alpha_list *out, int32_t at)
+/* Where a list goes on. */
+typedef struct alpha_end {
+    const e3d_record_table *table;
+    e3d_alpha_list *list;
+    int32_t *sample;
+    float *z;
+} alpha_end;
+
+/* Lists the samples of one vector from (x, y) on, whose `inside` lanes are covered at these depths. */
+static ALWAYS_INLINE void alpha_vector(const e3d_piece *p, int32_t x, int32_t y, vmask inside, vf32 z, alpha_end *end)
 {
-    int32_t count = 0;
-    uint64_t row = 0;
-    vf32 down = v_mul(v_setf((float)(y - p->base_y)), c->gy);
+    int32_t at = y * E3D_TILE + x;
+    vf32 limit = v_loadf(end->list->limit + at);
+    uint32_t shown = v_bits(v_mand(inside, v_lt(z, limit))), equal = v_bits(v_mand(inside, v_eq(z, limit)));
+    if (__builtin_expect(equal != 0, 0))
+        shown |= alpha_ties(equal, end->list->kept + at, p, end->table);
+    uint64_t row = (uint64_t)shown << x;
+    end->list->met |= end->list->once[y] & row;
+    end->list->once[y] |= row;
+    v_pack(end->z, v_asi(z), shown);
+    int count = v_pack(end->sample, v_addi(v_iota(), v_seti(at)), shown);
+    end->z += count;
+    end->sample += count;
+}
+
+/* R12 and R14 of a column of vectors, that rows share. */
+typedef struct alpha_column {
+    vi32 e[3]; /* at row 0 of the tile */
+    vmask own; /* lanes in the box */
+    vf32 z;
+} alpha_column;
+
+static ALWAYS_INLINE alpha_column alpha_column_of(const e3d_piece *p, const raster_constants *c, int32_t x)
+{
+    vi32 column = v_addi(v_iota(), v_seti(x));
+    alpha_column out = {.own = v_gti(v_seti(p->x1 + 1), column), .z = raster_column(c, x - p->base_x)};
+    for (int k = 0; k < 3; k++)
+        out.e[k] = v_addi(v_seti(p->e[k]), v_muli(column, v_seti(p->a[k])));
+    return out;
+}
+
+static ALWAYS_INLINE vmask alpha_inside(const e3d_piece *p, const alpha_column *column, int32_t y)
+{
+    vi32 e = v_seti(0);
+    for (int k = 0; k < 3; k++)
+        e = v_ori(e, v_addi(column->e[k], v_seti(p->b[k] * y)));
+    return v_mand(v_gti(e, v_seti(-1)), column->own);
+}
+
+/* Rows y to last - 1 of a box that is one vector wide: what its columns share is found once. */
+static ALWAYS_INLINE void alpha_narrow(const e3d_piece *p, const raster_constants *c, int32_t y, int32_t last, alpha_end *end)
+{
+    alpha_column column = alpha_column_of(p, c, p->x0);
+    for (; y < last; y++)
+        alpha_vector(p, p->x0, y, alpha_inside(p, &column, y), raster_z(c, column.z, y - p->base_y), end);
+}
+
+static ALWAYS_INLINE void alpha_row(const e3d_piece *p, const raster_constants *c, int32_t y, alpha_end *end)
+{
     for (int32_t x = p->x0; x <= p->x1; x += V_LANES) {
-        vi32 column = v_addi(v_iota(), v_seti(x)), e = v_seti(0);
-        for (int k = 0; k < 3; k++)
-            e = v_ori(e, v_addi(v_seti(p->e[k] + p->b[k] * y), v_muli(column, v_seti(p->a[k]))));
-        vmask inside = v_mand(v_gti(e, v_seti(-1)), v_gti(v_seti(p->x1 + 1), column));
-        vf32 dx = v_float(v_subi(column, v_seti(p->base_x)));
-        vf32 z = v_min(v_max(v_add(v_add(c->z0, v_mul(dx, c->gx)), down), c->zmin), c->zmax);
-        vf32 limit = v_loadf(out->limit + y * E3D_TILE + x);
-        uint32_t shown = v_bits(v_mand(inside, v_lt(z, limit))), equal = v_bits(v_mand(inside, v_eq(z, limit)));
-        if (__builtin_expect(equal != 0, 0))
-            shown |= alpha_ties(equal, out->kept + y * E3D_TILE + x, p, table);
-        row |= (uint64_t)shown << x;
-        v_pack(out->z + at + count, v_asi(z), shown);
-        count += v_pack(out->shown->sample + at + count, v_addi(column, v_seti(y * E3D_TILE)), shown);
+        alpha_column column = alpha_column_of(p, c, x);
+        alpha_vector(p, x, y, alpha_inside(p, &column, y), raster_z(c, column.z, y - p->base_y), end);
     }
-    out->met |= out->once[y] & row;
-    out->once[y] |= row;
-    return count;
+}
+
+/* How many rows of a piece from y on there surely is room for. */
+static ALWAYS_INLINE int32_t alpha_rows(const e3d_piece *p, int32_t y, int32_t room)
+{
+    int32_t rows = p->y1 - y + 1, width = p->x1 - p->x0 + 1;
+    return rows * width <= room ? rows : room / width;
 }
 
 /* Lists the rows of a piece for which there is room, as a piece of the list; returns the row that comes next. */
-static int32_t kernel_raster_alpha(const e3d_piece *p, const e3d_record_table *table, e3d_alpha_list *out)
+static int32_t kernel_raster_alpha(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out)
 {
+    const e3d_piece own = *piece, *p = &own; /* which no store can change */
     e3d_shown *shown = out->shown;
-    raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
-                          v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
-    int32_t first = shown->count, width = p->x1 - p->x0 + 1, y = p->y0, end = first;
-    for (; y <= p->y1 && end + width <= E3D_SHOWN_ROOM; y++)
-        end += alpha_row(p, &c, y, table, out, end);
-    for (int32_t i = first; i < end; i += V_LANES)
+    const int32_t first = shown->count;
+    const raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
+                                v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
+    alpha_end end = {table, out, shown->sample + first, out->z + first};
+    int32_t y = p->y0, next;
+    for (int32_t count = first; y <= p->y1; y = next, count = (int32_t)(end.sample - shown->sample)) {
+        next = y + alpha_rows(p, y, E3D_SHOWN_ROOM - count);
+        if (next == y)
+            break;
+        if (p->x1 - p->x0 < V_LANES)
+            alpha_narrow(p, &c, y, next, &end);
+        for (; y < next && p->x1 - p->x0 >= V_LANES; y++)
+            alpha_row(p, &c, y, &end);
+    }
+    int32_t count = (int32_t)(end.sample - shown->sample);
+    for (int32_t i = first; i < count; i += V_LANES)
         v_storei(shown->of + i, v_seti(shown->pieces));
     shown->piece[shown->pieces] = (e3d_shown_piece){p->slot, first};
-    shown->pieces += end > first;
-    shown->count = end;
+    shown->pieces += count > first;
+    shown->count = count;
     return y;
 }
 
@@ -81,6 +137,14 @@ static ALWAYS_INLINE void alpha_filter(texture_plan *plan, int filter, int bits,
     texture_find_all(plan, filter, bits, &from);
     for (int i = 0; i < batch->count; i += V_LANES)
         v_storef(batch->alpha + i, v_mul(alpha_read(plan, filter, bits, i), v_setf(scale)));
+}
+
+/* What filters give where all alphas are 255: their weights add up. */
+static inline float alpha_of_opaque(const e3d_texture_view *view)
+{
+    if (view->channel_bits == 16)
+        return view->filter == E3D_NEAREST ? 32767.0f : 32767.0f * 256.0f;
+    return view->filter == E3D_NEAREST ? 255.0f : 255.0f * 255.0f * 255.0f;
 }
 
 static void alpha_texture(e3d_batch *batch, const e3d_texture_view *view, float base)
@@ -113,10 +177,12 @@ static ALWAYS_INLINE void stage_instance_alpha(e3d_batch *batch, const sample_ve
 static void kernel_alpha(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *view, const e3d_varying *base, int by_vertex,
                          int by_instance)
 {
-    if (view)
+    int varies = view && !view->is_opaque;
+    const e3d_varying opaque = {NULL, view ? alpha_of_opaque(view) * (base->factor * e3d_texture_unit(view)) : 0.0f};
+    if (varies)
         alpha_texture(batch, view, base->factor);
     else
-        kernel_varying(base, batch->count, batch->alpha);
+        kernel_varying(view ? &opaque : base, batch->count, batch->alpha);
     if (by_vertex)
         each_vector(batch, surfaces, stage_vertex_alpha, NULL);
     if (by_instance)
@@ -133,7 +199,7 @@ static ALWAYS_INLINE void alpha_over(const vf32 color[3], vf32 alpha, vf32 over[
     vf32 rest = v_sub(v_setf(1.0f), alpha);
     for (int k = 0; k < 3; k++)
         over[k] = v_add(v_mul(color[k], alpha), v_mul(over[k], rest));
-    over[3] = v_add(over[3], v_mul(alpha, v_sub(v_setf(1.0f), over[3])));
+    over[3] = v_add(alpha, v_mul(over[3], rest));
 }
 
 static void kernel_lay(const e3d_batch *batch, e3d_samples *samples)
@@ -159,6 +225,57 @@ static void kernel_lay(const e3d_batch *batch, e3d_samples *samples)
             for (int lane = 0; lane < lanes; lane++)
                 planes[k][sample[lane]] = room[k][lane];
     }
+}
+
+/* ---- sorting ---- */
+
+enum { ALPHA_MOST = 64 }; /* that are sorted here */
+
+/* Puts the numbers of a sample's layers in order, the farthest first: the rank of each is how many are farther, which no branch
+ * has to foresee. 0 if some are equally far. */
+static ALWAYS_INLINE int alpha_sort(const e3d_alpha_layers *layers, uint32_t first, int count, uint32_t order[ALPHA_MOST])
+{
+    const int32_t *depth = layers->depth + first;
+    int sum = 0;
+    for (int i = 0; i < count; i++) {
+        vi32 own = v_seti(depth[i]);
+        int rank = 0;
+        for (int j = 0; j < count; j += V_LANES)
+            rank += v_count(v_bits(v_gti(v_loadi(depth + j), own)) & setup_tail(count - j));
+        order[rank] = layers->which[first + (uint32_t)i];
+        sum += rank;
+    }
+    return 2 * sum == count * (count - 1);
+}
+
+static ALWAYS_INLINE void alpha_lay_all(const e3d_alpha_layers *layers, const uint32_t *order, int count, int sample, e3d_samples *samples)
+{
+    float *const planes[4] = {samples->color[0] + sample, samples->color[1] + sample, samples->color[2] + sample, samples->counts + sample};
+    float over[4] = {*planes[0], *planes[1], *planes[2], *planes[3]};
+    for (int i = 0; i < count; i++) {
+        const float *color = layers->color[order[i]];
+        float alpha = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - alpha;
+        const float whole[4] = {color[0], color[1], color[2], 1.0f};
+        for (int k = 0; k < 4; k++)
+            over[k] = whole[k] * alpha + over[k] * rest;
+    }
+    for (int k = 0; k < 4; k++)
+        *planes[k] = over[k];
+}
+
+static int kernel_blend(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left)
+{
+    int listed = 0;
+    for (int s = 0; s < E3D_TILE_SAMPLES; s++) {
+        uint32_t first = layers->first[s], count = layers->first[s + 1] - first, order[ALPHA_MOST];
+        if (!count)
+            continue;
+        if (count > ALPHA_MOST || !alpha_sort(layers, first, (int)count, order))
+            left[listed++] = (uint16_t)s;
+        else
+            alpha_lay_all(layers, order, (int)count, s, samples);
+    }
+    return listed;
 }
 
 #endif

@@ -13,7 +13,7 @@ static ALWAYS_INLINE vi32 alpha_of_16(const void *texels, vi32 at) { return v_sh
 static ALWAYS_INLINE vi32 alpha_of_8(const void *texels, vi32 at) { return v_xori(v_shr(v_gatheri(texels, at), 24), v_seti(128)); }
 
 /* R30, of 15 bits: columns first. */
-static ALWAYS_INLINE vi32 alpha_column(vi32 upper, vi32 lower, vi32 down)
+static ALWAYS_INLINE vi32 alpha_between(vi32 upper, vi32 lower, vi32 down)
 {
     return v_addi(upper, v_sra(v_addi(v_muli(v_subi(lower, upper), down), v_seti(128)), 8));
 }
@@ -29,8 +29,8 @@ static ALWAYS_INLINE vf32 alpha_mix(const texture_plan *plan, int bits, const te
         return v_float(v_addi(v_muli(upper, v_subi(all, down)), v_muli(lower, down)));
     }
     vi32 bottom = v_loadi(places->bottom + i);
-    vi32 left = alpha_column(alpha_of_16(texels, top), alpha_of_16(texels, bottom), down);
-    vi32 right = alpha_column(alpha_of_16(texels, v_addi(top, one)), alpha_of_16(texels, v_addi(bottom, one)), down);
+    vi32 left = alpha_between(alpha_of_16(texels, top), alpha_of_16(texels, bottom), down);
+    vi32 right = alpha_between(alpha_of_16(texels, v_addi(top, one)), alpha_of_16(texels, v_addi(bottom, one)), down);
     return v_float(v_addi(v_muli(left, v_subi(v_seti(256), across)), v_muli(right, across)));
 }
 

@@ -21,7 +21,7 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
         wanted |= E3D_WANT_WEIGHTS;
     if (bucket->mapped)
         return wanted | E3D_WANT_WEIGHTS | E3D_WANT_SURFACE;
-    if (bucket->textured) {
+    if (bucket->textured && !e3d_texture_get_view(bucket->material->texture.texture)->is_opaque) {
         wanted |= E3D_WANT_UV | E3D_WANT_SURFACE;
         if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
             wanted |= E3D_WANT_LEVEL;
@@ -54,15 +54,26 @@ static void test(e3d_shade_memory *memory, e3d_alpha_shading *alpha)
     }
 }
 
+/* Samples first to end - 1 of the batch, which are of one piece. */
+static void keep_run(const e3d_batch *batch, int first, int end, float sign, float (*color)[4])
+{
+    for (int i = first; i < end; i++, color++) {
+        (*color)[0] = clamped(batch->color[0][i]);
+        (*color)[1] = clamped(batch->color[1][i]);
+        (*color)[2] = clamped(batch->color[2][i]);
+        (*color)[3] = sign * batch->alpha[i];
+    }
+}
+
 static void keep(e3d_shade_memory *memory, float sign, e3d_alpha_shading *alpha)
 {
     const e3d_batch *batch = &memory->batch;
-    for (int i = 0; i < batch->count; i++) {
-        int32_t piece = memory->surfaces.piece[batch->surface[i]];
-        float *color = alpha->color[next_place(memory->pieces.data, piece, alpha)];
-        for (int k = 0; k < 3; k++)
-            color[k] = clamped(batch->color[k][i]);
-        color[3] = sign * batch->alpha[i];
+    for (int i = 0, end; i < batch->count; i = end) {
+        int32_t place = next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], alpha);
+        for (end = i + 1; end < batch->count && batch->surface[end] == batch->surface[i];)
+            end++;
+        keep_run(batch, i, end, sign, alpha->color + place);
+        alpha->at = place + (end - i);
     }
 }
 

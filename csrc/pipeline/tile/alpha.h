@@ -14,25 +14,26 @@ typedef struct e3d_tile_job e3d_tile_job;
 
 enum { E3D_ALPHA_SLICES = 512 };
 
-/* A sample of a blended record, shaded, in front of what is kept. */
-typedef struct e3d_alpha_fragment {
-    float color[4]; /* clamped, with alpha (e3d_alpha_shading.color) */
-    uint32_t depth; /* less is farther */
-    int32_t id, sample;
-    float z;
-} e3d_alpha_fragment;
+/* Samples of blended records in front of what is kept, one after the other. */
+typedef struct e3d_alpha_fragments {
+    e3d_array z;      /* float */
+    e3d_array sample; /* int32_t */
+    e3d_array of;     /* int32_t: the number of its ID, of which there are fewer */
+    e3d_array ids;    /* int32_t */
+    e3d_array color;  /* float[4]: clamped, with alpha (e3d_alpha_shading.color) */
+    e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the fragment */
+    uint32_t first[E3D_TILE_SAMPLES + 1]; /* in these, of each sample */
+} e3d_alpha_fragments;
 
 /* A thread's memory, of one tile. */
 typedef struct e3d_alpha_memory {
     float z[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* of each entry of the list (e3d_shade_memory.shown) */
     float alpha[E3D_SHOWN_ROOM];
-    float color[E3D_SHOWN_ROOM][4];
     e3d_alpha_list list;
     e3d_array pieces, sorted;              /* e3d_piece of the blended records: as they are listed; by group, the farthest first */
-    e3d_array groups;                      /* int32_t: of each piece its group */
-    e3d_array fragments;                   /* e3d_alpha_fragment */
-    e3d_array keys;                        /* uint64_t: depth << 32 | fragment, by sample */
-    uint32_t first[E3D_TILE_SAMPLES + 1];  /* key of each sample */
+    e3d_array ranges, groups;              /* of each piece its depths (float[2]), and its group (int32_t) */
+    e3d_alpha_fragments fragments;
+    uint16_t left[E3D_TILE_SAMPLES];       /* samples that are not sorted yet */
     float front_z[E3D_TILE_SAMPLES];       /* of the nearest fragment */
     int32_t front_id[E3D_TILE_SAMPLES];    /* or E3D_NO_SLOT */
 } e3d_alpha_memory;
@@ -57,7 +58,7 @@ typedef int (*e3d_alpha_action)(const e3d_tile_job *job);
 int e3d_alpha_add(const e3d_tile_job *job, const e3d_piece *piece, e3d_alpha_action action);
 /* Begins a list of what is in front of the visible surface; `all`: of everything that is no farther than the far plane. */
 void e3d_alpha_begin(const e3d_tile_job *job, int all);
-/* Shades the list. */
-int e3d_alpha_shade(const e3d_tile_job *job, e3d_alpha_use use);
+/* Shades the list; `color`: of each entry, where these are kept. */
+int e3d_alpha_shade(const e3d_tile_job *job, e3d_alpha_use use, float (*color)[4]);
 
 #endif

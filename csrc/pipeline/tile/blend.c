@@ -23,38 +23,11 @@
 #include "pipeline/tile/piece.h"
 #include "pipeline/tile/tile.h"
 
-enum { MOST_FRAGMENTS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen: 4 MB */
+enum { MOST_FRAGMENTS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen */
 
 /* ---- the records of a tile ---- */
 
-/* 0 when memory is out. */
-static int add_piece(const e3d_tile_job *job, uint32_t id)
-{
-    e3d_array *pieces = &job->memory->alpha.pieces;
-    const e3d_record *record = e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], id);
-    if (!e3d_array_reserve(pieces, pieces->count + 1, sizeof(e3d_piece)))
-        return 0;
-    pieces->count += (size_t)e3d_piece_in_tile(&job->in->pass->view->viewport, record, &job->tile, id, (e3d_piece *)pieces->data + pieces->count);
-    return 1;
-}
-
-static int find_pieces(const e3d_tile_job *job)
-{
-    const e3d_bins *bins = job->in->bins;
-    job->memory->alpha.pieces.count = 0;
-    for (int32_t t = 0; t < bins->threads; t++) {
-        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        const e3d_bin_block *block = e3d_first_alpha(set, E3D_ALPHA_BLENDED, job->number);
-        for (; block; block = e3d_next_alpha(set, E3D_ALPHA_BLENDED, block))
-            for (uint32_t i = 0; i < block->count; i++)
-                if (!add_piece(job, block->id[i]))
-                    return 0;
-    }
-    return 1;
-}
-
-/* ---- groups ---- */
-
+/* The least and the greatest depth of a record in a tile. */
 typedef struct depth_range {
     float near, far;
 } depth_range;
@@ -72,15 +45,56 @@ static int is_tame(float v) { return v < 0x1p100f && v > -0x1p100f; }
 /* z is monotone along both axes, so its values at the corners of the box bound it, unless a step overflows. */
 static depth_range range_of(const e3d_piece *p)
 {
-    depth_range range = {p->zmin, p->zmax};
-    if (is_tame(p->z0) && is_tame(p->gx) && is_tame(p->gy)) {
-        int32_t near_x = p->gx > 0 ? p->x0 : p->x1, near_y = p->gy > 0 ? p->y0 : p->y1;
-        range = (depth_range){depth_at(p, near_x, near_y), depth_at(p, p->x0 + p->x1 - near_x, p->y0 + p->y1 - near_y)};
-    }
-    if (range.far > 1.0f)
-        range.far = 1.0f; /* R15 */
-    return range;
+    if (!is_tame(p->z0) || !is_tame(p->gx) || !is_tame(p->gy))
+        return (depth_range){p->zmin, p->zmax};
+    int32_t x = p->gx > 0 ? p->x0 : p->x1, y = p->gy > 0 ? p->y0 : p->y1;
+    return (depth_range){depth_at(p, x, y), depth_at(p, p->x0 + p->x1 - x, p->y0 + p->y1 - y)};
 }
+
+/* Adds a record that shows in the tile, nearer than the far plane. */
+static void add_piece(const e3d_tile_job *job, uint32_t id, e3d_alpha_memory *memory)
+{
+    e3d_piece *piece = (e3d_piece *)memory->pieces.data + memory->pieces.count;
+    const e3d_record *record = e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], id);
+    if (!e3d_piece_in_tile(&job->in->pass->view->viewport, record, &job->tile, id, piece))
+        return;
+    depth_range range = range_of(piece);
+    if (range.near > 1.0f)
+        return;
+    range.far = range.far < 1.0f ? range.far : 1.0f; /* R15 */
+    ((depth_range *)memory->ranges.data)[memory->pieces.count++] = range;
+}
+
+/* The records of a block; 0 when memory is out. */
+static int add_block(const e3d_tile_job *job, const e3d_bin_block *block, e3d_alpha_memory *memory)
+{
+    const e3d_record_table *table = &job->in->bins->tables[E3D_SET_SCENE];
+    size_t room = memory->pieces.count + block->count;
+    if (!e3d_array_reserve(&memory->pieces, room, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->ranges, room, sizeof(depth_range)))
+        return 0;
+    for (uint32_t i = 0; i < block->count; i++)
+        __builtin_prefetch(e3d_record_at(table, block->id[i]));
+    for (uint32_t i = 0; i < block->count; i++)
+        add_piece(job, block->id[i], memory);
+    return 1;
+}
+
+static int find_pieces(const e3d_tile_job *job)
+{
+    const e3d_bins *bins = job->in->bins;
+    e3d_alpha_memory *memory = &job->memory->alpha;
+    memory->pieces.count = 0;
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
+        const e3d_bin_block *block = e3d_first_alpha(set, E3D_ALPHA_BLENDED, job->number);
+        for (; block; block = e3d_next_alpha(set, E3D_ALPHA_BLENDED, block))
+            if (!add_block(job, block, memory))
+                return 0;
+    }
+    return 1;
+}
+
+/* ---- groups ---- */
 
 /* The slices that the depths of a tile's records are cut into. */
 typedef struct slicing {
@@ -93,28 +107,26 @@ static int32_t slice_of(const slicing *s, float z)
     return slice > 0.0f ? slice < E3D_ALPHA_SLICES - 1 ? (int32_t)slice : E3D_ALPHA_SLICES - 1 : 0;
 }
 
-static slicing slicing_of(const e3d_piece *pieces, size_t count)
+static slicing slicing_of(const depth_range *ranges, size_t count)
 {
     float near = 1.0f, far = -1.0f;
     for (size_t i = 0; i < count; i++) {
-        depth_range range = range_of(&pieces[i]);
-        near = range.near < near ? range.near : near;
-        far = range.far > far ? range.far : far;
+        near = ranges[i].near < near ? ranges[i].near : near;
+        far = ranges[i].far > far ? ranges[i].far : far;
     }
     return (slicing){near, far - near > 0x1p-60f ? (float)E3D_ALPHA_SLICES / (far - near) : 0.0f};
 }
 
 /* Numbers groups from near to far: a slice begins one where no record reaches over from the slice before. Returns how many there are;
  * of each record its group, of each group how many records it has. */
-static int32_t find_groups(const e3d_piece *pieces, size_t count, int32_t *group, int32_t records[E3D_ALPHA_SLICES])
+static int32_t find_groups(const depth_range *ranges, size_t count, int32_t *group, int32_t records[E3D_ALPHA_SLICES])
 {
-    const slicing s = slicing_of(pieces, count);
+    const slicing s = slicing_of(ranges, count);
     int32_t begun[E3D_ALPHA_SLICES] = {0}, done[E3D_ALPHA_SLICES] = {0}, of[E3D_ALPHA_SLICES], groups = 0, open = 0;
     for (size_t i = 0; i < count; i++) {
-        depth_range range = range_of(&pieces[i]);
-        group[i] = slice_of(&s, range.near);
+        group[i] = slice_of(&s, ranges[i].near);
         begun[group[i]]++;
-        done[slice_of(&s, range.far)]++;
+        done[slice_of(&s, ranges[i].far)]++;
     }
     for (int32_t k = 0; k < E3D_ALPHA_SLICES; k++) {
         if (!open && begun[k])
@@ -137,135 +149,186 @@ static int32_t sort_pieces(e3d_alpha_memory *memory, int32_t records[E3D_ALPHA_S
     if (!e3d_array_reserve(&memory->sorted, count, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->groups, count, sizeof(int32_t)))
         return -1;
     const e3d_piece *pieces = memory->pieces.data;
-    int32_t *group = memory->groups.data, groups = find_groups(pieces, count, group, records), at = 0;
+    int32_t *group = memory->groups.data, groups = find_groups(memory->ranges.data, count, group, records), at = 0;
     for (int32_t g = groups - 1; g >= 0; g--) {
         next[g] = at;
         at += records[g];
     }
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && groups > 1; i++)
         ((e3d_piece *)memory->sorted.data)[next[group[i]]++] = pieces[i];
     return groups;
 }
 
 /* ---- fragments ---- */
 
-/* Turned round, the bits of a depth are an integer that is less the farther it is; -0 is 0. */
-static uint32_t depth_key(float z)
+static int reserve_fragments(e3d_alpha_fragments *f, size_t count, size_t ids)
 {
-    float positive = z + 0.0f;
-    uint32_t bits;
-    memcpy(&bits, &positive, sizeof bits);
-    return bits >> 31 ? bits : ~bits & 0x7FFFFFFF;
+    return e3d_array_reserve(&f->z, count, sizeof(float)) && e3d_array_reserve(&f->sample, count, sizeof(int32_t)) &&
+           e3d_array_reserve(&f->of, count, sizeof(int32_t)) && e3d_array_reserve(&f->color, count, sizeof(float[4])) &&
+           e3d_array_reserve(&f->ids, ids, sizeof(int32_t));
 }
+
+static void clear_fragments(e3d_alpha_fragments *f) { f->z.count = f->ids.count = 0; }
 
 /* Shades what is listed, and keeps it to be sorted. */
 static int keep_list(const e3d_tile_job *job)
 {
-    e3d_alpha_memory *memory = &job->memory->alpha;
+    const e3d_alpha_memory *memory = &job->memory->alpha;
     const e3d_shown *shown = &job->memory->shade.shown;
-    e3d_array *fragments = &memory->fragments;
-    size_t count = (size_t)shown->count;
+    e3d_alpha_fragments *f = &job->memory->alpha.fragments;
+    size_t first = f->z.count, count = (size_t)shown->count, ids = f->ids.count;
     if (!count)
         return 1;
-    if (!e3d_array_reserve(fragments, fragments->count + count, sizeof(e3d_alpha_fragment)) || !e3d_alpha_shade(job, E3D_ALPHA_KEEP))
+    if (!reserve_fragments(f, first + count, ids + (size_t)shown->pieces) ||
+        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float(*)[4])f->color.data + first))
         return 0;
-    e3d_alpha_fragment *out = (e3d_alpha_fragment *)fragments->data + fragments->count;
-    for (size_t n = 0; n < count; n++) {
-        memcpy(out[n].color, memory->color[n], sizeof out[n].color);
-        out[n].depth = depth_key(memory->z[n]);
-        out[n].id = (int32_t)shown->piece[shown->of[n]].id;
-        out[n].sample = shown->sample[n];
-        out[n].z = memory->z[n];
-    }
-    fragments->count += count;
+    memcpy((float *)f->z.data + first, memory->z, count * sizeof(float));
+    memcpy((int32_t *)f->sample.data + first, shown->sample, count * sizeof(int32_t));
+    for (size_t n = 0; n < count; n++)
+        ((int32_t *)f->of.data)[first + n] = shown->of[n] + (int32_t)ids;
+    for (int32_t p = 0; p < shown->pieces; p++)
+        ((int32_t *)f->ids.data)[ids + (size_t)p] = (int32_t)shown->piece[p].id;
+    f->z.count = first + count;
+    f->ids.count = ids + (size_t)shown->pieces;
     return 1;
 }
 
-/* Lists the fragments' keys by sample, in no order. */
-static int find_keys(e3d_alpha_memory *memory)
+/* The bits of a depth as an integer that is greater the farther it is; -0 is 0. */
+static int32_t depth_key(float z)
 {
-    const e3d_alpha_fragment *fragments = memory->fragments.data;
-    uint32_t *first = memory->first;
-    if (!e3d_array_reserve(&memory->keys, memory->fragments.count, sizeof(uint64_t)))
+    float positive = z + 0.0f;
+    int32_t bits;
+    memcpy(&bits, &positive, sizeof bits);
+    return bits < 0 ? bits ^ 0x7FFFFFFF : bits;
+}
+
+/* Lists the fragments by sample: the last ones first, since they come roughly from near to far. */
+static int list_by_sample(e3d_alpha_fragments *f)
+{
+    size_t count = f->z.count;
+    uint32_t *first = f->first, at = 0;
+    if (!e3d_array_reserve(&f->depth, count + E3D_PAD, sizeof(int32_t)) || !e3d_array_reserve(&f->which, count, sizeof(uint32_t)))
         return 0;
-    uint64_t *keys = memory->keys.data;
-    memset(first, 0, sizeof memory->first);
-    for (size_t n = 0; n < memory->fragments.count; n++)
-        first[fragments[n].sample + 1]++;
+    const int32_t *sample = f->sample.data;
+    const float *z = f->z.data;
+    int32_t *depth = f->depth.data;
+    uint32_t *which = f->which.data;
+    memset(first, 0, sizeof f->first);
+    for (size_t n = 0; n < count; n++)
+        first[sample[n]]++;
     for (int s = 0; s < E3D_TILE_SAMPLES; s++)
-        first[s + 1] += first[s];
-    for (size_t n = memory->fragments.count; n-- > 0;) /* first[s] is moved on to first[s + 1] */
-        keys[--first[fragments[n].sample + 1]] = (uint64_t)fragments[n].depth << 32 | n;
-    memmove(first, first + 1, E3D_TILE_SAMPLES * sizeof *first);
-    first[E3D_TILE_SAMPLES] = (uint32_t)memory->fragments.count;
+        first[s] = at += first[s]; /* so far where those of the next one begin */
+    for (size_t n = 0; n < count; n++) {
+        uint32_t place = --first[sample[n]];
+        depth[place] = depth_key(z[n]);
+        which[place] = (uint32_t)n;
+    }
+    first[E3D_TILE_SAMPLES] = at;
+    memset(depth + count, 0, E3D_PAD * sizeof *depth);
     return 1;
 }
 
 /* Whether fragment a is laid before b: it is farther, or later in order (R83). */
-static int is_before(const e3d_record_table *table, const e3d_alpha_fragment *fragments, uint64_t a, uint64_t b)
+static int is_before(const e3d_record_table *table, const e3d_alpha_fragments *f, uint32_t a, uint32_t b)
 {
-    if ((a ^ b) >> 32)
-        return a < b;
-    int32_t id = fragments[(uint32_t)a].id, other = fragments[(uint32_t)b].id;
+    const float *z = f->z.data;
+    const int32_t *of = f->of.data, *ids = f->ids.data;
+    if (z[a] != z[b])
+        return z[a] > z[b];
+    int32_t id = ids[of[a]], other = ids[of[b]];
     uint32_t order = e3d_order_at(table, (uint32_t)id), other_order = e3d_order_at(table, (uint32_t)other);
     return order > other_order || (order == other_order && id > other);
 }
 
-/* A sample has few of them, mostly in the order of their records. */
-static void sort_keys(const e3d_record_table *table, const e3d_alpha_fragment *fragments, uint64_t *keys, uint32_t count)
+/* Lets an element sink to its place in a heap, whose first is laid last. */
+static void sink(const e3d_record_table *table, const e3d_alpha_fragments *f, uint32_t *heap, uint32_t at, uint32_t count)
 {
-    for (uint32_t i = 1; i < count; i++) {
-        uint64_t key = keys[i];
-        uint32_t at = i;
-        for (; at > 0 && is_before(table, fragments, key, keys[at - 1]); at--)
-            keys[at] = keys[at - 1];
-        keys[at] = key;
+    uint32_t sinking = heap[at];
+    for (uint32_t child; (child = 2 * at + 1) < count; at = child) {
+        if (child + 1 < count && is_before(table, f, heap[child], heap[child + 1]))
+            child++;
+        if (!is_before(table, f, sinking, heap[child]))
+            break;
+        heap[at] = heap[child];
+    }
+    heap[at] = sinking;
+}
+
+/* Sorts the fragments of a sample in the order in which they are laid: a heap, since a sample may have any number of them. */
+static void sort_sample(const e3d_record_table *table, const e3d_alpha_fragments *f, uint32_t *which, uint32_t count)
+{
+    for (uint32_t at = count / 2; at-- > 0;)
+        sink(table, f, which, at, count);
+    for (uint32_t end = count; end-- > 1;) {
+        uint32_t last = which[0];
+        which[0] = which[end];
+        which[end] = last;
+        sink(table, f, which, 0, end);
     }
 }
 
-/* R84 */
-static void lay(const float color[4], float over[4])
+/* Lays the fragments of one sample, which are sorted, over its colour (R84). */
+static void blend_sample(const e3d_alpha_fragments *f, int32_t sample, const uint32_t *which, uint32_t count, e3d_samples *samples)
 {
-    float a = color[3], rest = 1.0f - a;
-    for (int k = 0; k < 3; k++)
-        over[k] = color[k] * a + over[k] * rest;
-    over[3] = over[3] + a * (1.0f - over[3]);
-}
-
-/* Lays the fragments of one sample, which are sorted, over its colour. */
-static void blend_sample(e3d_alpha_memory *memory, int32_t sample, const uint64_t *keys, uint32_t count, e3d_samples *samples)
-{
-    const e3d_alpha_fragment *fragments = memory->fragments.data;
+    const float (*colors)[4] = (const float(*)[4])f->color.data;
     float over[4] = {samples->color[0][sample], samples->color[1][sample], samples->color[2][sample], samples->counts[sample]};
     for (uint32_t i = 0; i < count; i++) {
-        const e3d_alpha_fragment *f = &fragments[(uint32_t)keys[i]];
-        if (f->color[3] >= E3D_LEAST_ALPHA)
-            lay(f->color, over);
-        if (f->color[3] >= E3D_LEAST_ALPHA || -f->color[3] >= E3D_LEAST_ALPHA) {
-            memory->front_z[sample] = f->z;
-            memory->front_id[sample] = f->id;
-        }
+        const float *color = colors[which[i]], a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - a;
+        const float whole[4] = {color[0], color[1], color[2], 1.0f};
+        for (int k = 0; k < 4; k++)
+            over[k] = whole[k] * a + over[k] * rest;
     }
     for (int k = 0; k < 3; k++)
         samples->color[k][sample] = over[k];
     samples->counts[sample] = over[3];
 }
 
+/* The nearest fragment of a sample that shows (a face that a wireframe leaves out does), of those that are sorted. */
+static void find_front(e3d_alpha_memory *memory, int32_t sample, const uint32_t *which, uint32_t count)
+{
+    const e3d_alpha_fragments *f = &memory->fragments;
+    const float (*colors)[4] = (const float(*)[4])f->color.data;
+    for (uint32_t i = count; i-- > 0;) {
+        float alpha = colors[which[i]][3];
+        if (alpha >= E3D_LEAST_ALPHA || -alpha >= E3D_LEAST_ALPHA) {
+            memory->front_z[sample] = ((const float *)f->z.data)[which[i]];
+            memory->front_id[sample] = ((const int32_t *)f->ids.data)[((const int32_t *)f->of.data)[which[i]]];
+            return;
+        }
+    }
+}
+
+/* Blends samples one by one: those that the kernel leaves, or, where the nearest fragments are asked for, all. */
+static void blend_slowly(const e3d_tile_job *job, int32_t sample)
+{
+    e3d_alpha_memory *memory = &job->memory->alpha;
+    e3d_alpha_fragments *f = &memory->fragments;
+    uint32_t *which = (uint32_t *)f->which.data + f->first[sample], count = f->first[sample + 1] - f->first[sample];
+    if (!count)
+        return;
+    sort_sample(&job->in->bins->tables[E3D_SET_SCENE], f, which, count);
+    blend_sample(f, sample, which, count, &job->memory->pixels.samples);
+    if (e3d_plans(job->in->pass, E3D_PLAN_FRONT))
+        find_front(memory, sample, which, count);
+}
+
 static int blend_fragments(const e3d_tile_job *job)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
-    if (!memory->fragments.count)
+    e3d_alpha_fragments *f = &memory->fragments;
+    if (!f->z.count)
         return 1;
-    if (!find_keys(memory))
+    if (!list_by_sample(f))
         return 0;
-    uint64_t *keys = memory->keys.data;
-    for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++) {
-        uint32_t first = memory->first[s], count = memory->first[s + 1] - first;
-        if (!count)
-            continue;
-        sort_keys(&job->in->bins->tables[E3D_SET_SCENE], memory->fragments.data, keys + first, count);
-        blend_sample(memory, s, keys + first, count, &job->memory->pixels.samples);
+    if (e3d_plans(job->in->pass, E3D_PLAN_FRONT)) {
+        for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)
+            blend_slowly(job, s);
+        return 1;
     }
+    const e3d_alpha_layers layers = {f->first, f->depth.data, f->which.data, (const float(*)[4])f->color.data};
+    int left = job->in->pass->kernels->blend(&layers, &job->memory->pixels.samples, memory->left);
+    for (int i = 0; i < left; i++)
+        blend_slowly(job, memory->left[i]);
     return 1;
 }
 
@@ -286,7 +349,7 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
     e3d_alpha_begin(job, 0);
-    memory->fragments.count = 0;
+    clear_fragments(&memory->fragments);
     for (int32_t i = 0; i < count; i++) {
         e3d_piece rows = pieces[i];
         rows.y0 = rows.y0 > y ? rows.y0 : y;
@@ -294,8 +357,8 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
         if (rows.y0 <= rows.y1 && !e3d_alpha_add(job, &rows, keep_list))
             return 0;
     }
-    if (!memory->fragments.count && !memory->list.met && !e3d_plans(job->in->pass, E3D_PLAN_FRONT))
-        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY);
+    if (!memory->fragments.z.count && !memory->list.met && !e3d_plans(job->in->pass, E3D_PLAN_FRONT))
+        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL);
     return keep_list(job) && blend_fragments(job);
 }
 
@@ -313,7 +376,7 @@ static int blend_groups(const e3d_tile_job *job)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
     int32_t records[E3D_ALPHA_SLICES], groups = sort_pieces(memory, records);
-    const e3d_piece *pieces = memory->sorted.data;
+    const e3d_piece *pieces = groups > 1 ? memory->sorted.data : memory->pieces.data;
     if (groups < 0)
         return 0;
     for (int32_t g = groups - 1; g >= 0; g--) {
@@ -342,8 +405,8 @@ static int lay_later(const e3d_tile_job *job)
     if (!left)
         return 1;
     if (!e3d_plans(job->in->pass, E3D_PLAN_FRONT))
-        return e3d_alpha_shade(job, E3D_ALPHA_LAY);
-    memory->fragments.count = 0;
+        return e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL);
+    clear_fragments(&memory->fragments);
     return keep_list(job) && blend_fragments(job);
 }
 
@@ -377,7 +440,7 @@ static int shade_front(const e3d_tile_job *job)
             runs->rows[count++] = (e3d_run){front[s], (uint16_t)s, 1};
     }
     e3d_show_runs(e3d_sort_runs(runs->rows, runs->spare, count), count, &job->memory->shade.shown);
-    return !count || e3d_alpha_shade(job, E3D_ALPHA_OUTPUTS);
+    return !count || e3d_alpha_shade(job, E3D_ALPHA_OUTPUTS, NULL);
 }
 
 void e3d_alpha_front(const e3d_tile_job *job)

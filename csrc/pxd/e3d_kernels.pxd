@@ -262,7 +262,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)
         void (*keep)(const e3d_batch *batch, e3d_samples *samples)
         int32_t (*raster_alpha)(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out)
-        void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, float base,
+        void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const e3d_varying *base,
                       int by_vertex, int by_instance)
         void (*lay)(const e3d_batch *batch, e3d_samples *samples)
         int (*blend)(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left)

@@ -541,6 +541,9 @@ cdef class Kernels:
 
     def alpha(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, texture, float base, bint by_vertex, bint by_instance):
         """``texture``: None, or what `texture` takes, as a tuple, and whether every alpha is 255."""
+        cdef e3d_varying varying
+        varying.lanes = NULL
+        varying.factor = base
         cdef e3d_texture_view view
         check_size(batch, sizeof(e3d_batch))
         check_size(surfaces, sizeof(e3d_surfaces))
@@ -550,7 +553,7 @@ cdef class Kernels:
             view.is_opaque = opaque
         for _ in range(self.rounds):
             self.table.alpha(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
-                             NULL if texture is None else &view, base, by_vertex, by_instance)
+                             NULL if texture is None else &view, &varying, by_vertex, by_instance)
 
     def lay(self, const uint8_t[::1] batch, float[:, ::1] samples):
         """``samples``: as for `keep`."""

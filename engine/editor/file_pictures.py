@@ -115,6 +115,6 @@ def _draw_model(path: str, size: int) -> NDArray[np.uint8]:
     scene = scene_from_document(document)
     if document.scene is None:
         scene.background = BACKGROUND
-        scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8))
+        scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8, unit="white"))
     with Renderer(size, size, samples=4, threads=1) as renderer:
         return renderer.render(scene).color.copy()

@@ -81,7 +81,7 @@ class Thumbnails:
         mesh = thing if isinstance(thing, Mesh) else self._dressed_ball(thing)
         scene = Scene(background=BACKGROUND, ambient=(0.25, 0.25, 0.25))
         scene.add(mesh)
-        scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8))
+        scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8, unit="white"))
         return self._renderer.render(scene).color.copy()
 
     def _dressed_ball(self, material: Material) -> Mesh:

@@ -95,15 +95,16 @@ class LightList:
     def _add(self, light) -> None:
         color = shading_color(light.color, self._color_space)
         color = [component * light.intensity for component in color]
+        lux = color if light.unit == "photometric" else [math.pi * component for component in color]
         if isinstance(light, DirectionalLight):
-            self._native.add_directional_light(color, color, (0.0, 0.0, 1.0))
+            self._native.add_directional_light(color, lux, (0.0, 0.0, 1.0))
         elif isinstance(light, SpotLight):
             light.check()
-            self._native.add_spot_light(color, color, light.range, *light.cone())
+            self._native.add_spot_light(color, lux, light.range, *light.cone())
         else:
             light.check()
             falloff = FALLOFFS[light.falloff]
-            self._native.add_point_light(color, color, (0.0, 0.0, 0.0), light.range, falloff)
+            self._native.add_point_light(color, lux, (0.0, 0.0, 0.0), light.range, falloff)
 
     def _place(self, number: int, light, pose: list[float]) -> None:
         """Put a light where the first three rows of its world pose say."""

@@ -24,13 +24,16 @@ from .._support.validation import (
     one_of,
     vector3,
 )
-from ..choices import ColorLike, Falloff
+from ..choices import ColorLike, Falloff, LightUnit
 from ..errors import InvalidArgumentError
 from ..linalg import cos
 from ..materials.colors import check_color
 from ._placed_by_node import PlacedByNode
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
+UNITS: tuple[LightUnit, ...] = get_args(LightUnit)
+
+UnitAttribute: TypeAlias = CheckedAttribute[LightUnit, LightUnit]
 
 
 def _direction(value: ArrayLike, what: str) -> NDArray[np.float64]:
@@ -65,6 +68,8 @@ class DirectionalLight(PlacedByNode):
     intensity : float
         Multiplies the colour; a white surface that faces the light gets ``color * intensity``. Of
         physical materials it is in lux: such a surface shows it over pi.
+    unit : {"photometric", "white"}
+        With ``"white"``, physical materials take the intensity as the others do.
 
     Attributes
     ----------
@@ -80,16 +85,19 @@ class DirectionalLight(PlacedByNode):
     direction: VectorAttribute = CheckedAttribute(_direction)
     color: ColorAttribute = CheckedAttribute(check_color)
     intensity: NumberAttribute = CheckedAttribute(not_negative)
+    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
 
     def __init__(
         self,
         direction: ArrayLike = (0, 0, -1),
         color: ColorLike = (1, 1, 1),
         intensity: float = 1.0,
+        unit: LightUnit = "photometric",
     ) -> None:
         self.direction = direction
         self.color = color
         self.intensity = intensity
+        self.unit = unit
 
     def __repr__(self) -> str:
         direction = tuple(self.direction.tolist())
@@ -111,6 +119,8 @@ class PointLight(PlacedByNode):
     falloff : {"inverse_square", "window", "gltf"}
         Attenuation at distance d: ``1 / d**2``, or ``(1 - d**2 / range**2)**2``, or, as
         KHR_lights_punctual has it, ``(1 - (d / range)**4) / d**2``.
+    unit : {"photometric", "white"}
+        As for `DirectionalLight`.
 
     Attributes
     ----------
@@ -125,6 +135,7 @@ class PointLight(PlacedByNode):
     version: int
     color: ColorAttribute = CheckedAttribute(check_color)
     intensity: NumberAttribute = CheckedAttribute(not_negative)
+    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
     range: NumberAttribute = CheckedAttribute(_range)
     falloff: CheckedAttribute[Falloff, Falloff] = CheckedAttribute(one_of(FALLOFFS))
 
@@ -134,11 +145,13 @@ class PointLight(PlacedByNode):
         intensity: float = 1.0,
         range: float = math.inf,
         falloff: Falloff = "inverse_square",
+        unit: LightUnit = "photometric",
     ) -> None:
         self.color = color
         self.intensity = intensity
         self.range = range
         self.falloff = falloff
+        self.unit = unit
         self.check()
 
     def check(self) -> None:
@@ -169,6 +182,8 @@ class SpotLight(PlacedByNode):
         World units; the light adds exactly nothing from this distance on. May be infinite.
     inner_cone_angle, outer_cone_angle : float
         Radians from the axis: 0 <= inner < outer <= pi/2.
+    unit : {"photometric", "white"}
+        As for `DirectionalLight`.
 
     Attributes
     ----------
@@ -183,6 +198,7 @@ class SpotLight(PlacedByNode):
     version: int
     color: ColorAttribute = CheckedAttribute(check_color)
     intensity: NumberAttribute = CheckedAttribute(not_negative)
+    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
     range: NumberAttribute = CheckedAttribute(_range)
     inner_cone_angle: NumberAttribute = CheckedAttribute(_angle)
     outer_cone_angle: NumberAttribute = CheckedAttribute(_angle)
@@ -194,12 +210,14 @@ class SpotLight(PlacedByNode):
         range: float = math.inf,
         inner_cone_angle: float = 0.0,
         outer_cone_angle: float = math.pi / 4,
+        unit: LightUnit = "photometric",
     ) -> None:
         self.color = color
         self.intensity = intensity
         self.range = range
         self.inner_cone_angle = inner_cone_angle
         self.outer_cone_angle = outer_cone_angle
+        self.unit = unit
         self.check()
 
     def check(self) -> None:

@@ -69,6 +69,7 @@ def scene_from_document(document: Document, variant: str | int | None = None) ->
     if variant is not None:
         choose_variant(document.tree, variant)
     if document.tree is not None:
+        scene.ambient = (0, 0, 0)  # glTF has no such light
         fill_from_tree(scene, document.tree)
         return scene
     if document.scene is not None:

@@ -36,6 +36,7 @@ SETUPS = {
 }
 FIXED_SETUPS = ("sun",)
 OWN_LIGHTS = "scene"
+_IN_ENVIRONMENT = 0.6  # how bright set-ups are in an environment, which lights as well
 
 
 class Lighting:
@@ -48,7 +49,7 @@ class Lighting:
     up : (3,) sequence of float
         The world's up direction.
     intensity : float
-        Factor on the set-ups' intensities.
+        Factor on the set-ups' intensities. In an environment they are dimmer.
     """
 
     def __init__(self, scene, up, intensity: float = 1.0):
@@ -56,9 +57,11 @@ class Lighting:
         self._scene = scene
         self._nodes = {OWN_LIGHTS: own} if own else {}
         self._home = np.stack(home_axes(up), axis=1)
+        if scene.environment is not None:
+            intensity *= _IN_ENVIRONMENT
         for name, lights in SETUPS.items():
             self._nodes[name] = [
-                scene.add(DirectionalLight(direction, color, strength * intensity))
+                scene.add(DirectionalLight(direction, color, strength * intensity, "white"))
                 for direction, color, strength in lights
             ]
         self.names = tuple(self._nodes)
@@ -166,7 +169,7 @@ def placed_light(scene, position, bounds: Sphere, intensity: float | None = None
     if intensity is None:
         intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
         intensity = intensity if intensity > 0.0 and math.isfinite(intensity) else 1.0
-    return OnlyLight(scene, PointLight((1.0, 1.0, 1.0), intensity), position)
+    return OnlyLight(scene, PointLight((1.0, 1.0, 1.0), intensity, unit="white"), position)
 
 
 def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:

@@ -8,7 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..environments.environment import Environment
+from ..materials.material import Material
 from ..scene.scene import Scene
+from ..scene.usage import uses_in
+
+_USUAL_INTENSITY = 0.5  # of the environment that scenes get by themselves, beside their lights
 
 
 @dataclass
@@ -24,7 +28,8 @@ class Surroundings:
         Radians.
     intensity : float or None
     shows : bool
-        Whether the environment is the background; a scene without any then gets the studio.
+        Whether the environment is the background; a scene without any then gets the studio, as do
+        scenes of physically based materials, whose metals would have nothing to mirror.
     blur : float or None
     """
 
@@ -39,6 +44,9 @@ class Surroundings:
         """Give them to a scene."""
         if self.environment is not None or self.without:
             scene.environment = self.environment
+        elif scene.environment is None and _has_physical(scene):
+            scene.environment = Environment.studio()
+            scene.environment_intensity = _USUAL_INTENSITY
         if self.rotation is not None:
             scene.environment_rotation = self.rotation
         if self.intensity is not None:
@@ -48,3 +56,8 @@ class Surroundings:
         if self.shows:
             scene.environment = scene.environment or Environment.studio()
             scene.background = scene.environment
+
+
+def _has_physical(scene: Scene) -> bool:
+    """Return whether a scene shows physically based materials."""
+    return any(isinstance(thing, Material) and thing.is_physical for thing in uses_in([scene]))

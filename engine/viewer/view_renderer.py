@@ -167,7 +167,7 @@ class ViewRenderer:
             return placed_light(scene, settings.light_position, self.bounds, intensity)
         intensity = 1.0 if intensity is None else intensity
         if settings.light_direction is not None:
-            light = DirectionalLight(settings.light_direction, (1.0, 1.0, 1.0), intensity)
+            light = DirectionalLight(settings.light_direction, (1.0, 1.0, 1.0), intensity, "white")
             return OnlyLight(scene, light)
         return Lighting(scene, UP_DIRECTIONS[self.up], intensity)
 

@@ -76,6 +76,7 @@ def test_the_textures_of_materials_are_those_of_the_core():
 
 def test_lists_of_modules_are_the_types():
     assert get_args(choices.Falloff) == lights.FALLOFFS
+    assert get_args(choices.LightUnit) == lights.UNITS
     assert get_args(choices.Filter) == textures.FILTERS
     assert get_args(choices.Wrap) == textures.WRAPS
 

@@ -38,6 +38,7 @@ CHAPTERS = {
         "InstancedMesh",
         "DirectionalLight",
         "PointLight",
+        "Environment",
         "Animator",
         "BoxCollider",
         "SphereCollider",

@@ -76,6 +76,8 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     writing = _Writing(folder)
     writing.nodes(scene)
     values = writing.values(scene)
+    if not writing.lists["environments"]:  # few scenes have any
+        del writing.lists["environments"]
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
     return "".join(_lines(tree)).encode("ascii"), writing.told
 

@@ -39,6 +39,7 @@ CHAPTERS = {
         "DirectionalLight",
         "PointLight",
         "SpotLight",
+        "Environment",
         "Animator",
         "AnimationPlayer",
         "AnimationClip",

@@ -28,7 +28,7 @@ typedef struct e3d_environment_view {
 } e3d_environment_view;
 
 /* pixels: (height, width, 3) linear radiance, top row first, not kept: column u = atan2(z, x) / 2 pi + 1/2 of the width, row
- * asin(y) / pi + 1/2 of the height from below. What isn't finite or is below 0 counts as 0, what is above E3D_MAX_RADIANCE as that.
+ * asin(y) / pi + 1/2 of the height from below. What isn't finite or is below 0 counts as 0, what is above 2^40 as that.
  * threads: at least 1; the bytes don't depend on it. */
 e3d_status e3d_environment_create(const float *pixels, int32_t width, int32_t height, int threads, e3d_environment **out);
 void e3d_environment_destroy(e3d_environment *environment);

@@ -109,7 +109,10 @@ class Environment(Closed):
 
     @staticmethod
     def sky() -> Environment:
-        """Return a clear sky with the sun, from the front right, over bare ground."""
+        """Return a clear sky over bare ground.
+
+        The sun stands behind the right shoulder of who looks along -Z, and so lights what they see.
+        """
         return _made("sky")
 
     @staticmethod

@@ -6,7 +6,7 @@ import numpy as np
 
 from ._directions import directions, picture, ramp, toward
 
-_SUN = (0.62, 0.72, -0.5)  # towards it
+_SUN = (0.62, 0.72, 0.5)  # towards it
 _ZENITH, _HORIZON = (0.11, 0.26, 0.66), (0.62, 0.77, 0.95)
 _GROUND, _FAR_GROUND = (0.20, 0.175, 0.14), (0.40, 0.42, 0.42)
 _GLOW = (1.0, 0.92, 0.78)

@@ -89,6 +89,8 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     if animator is not None and any(animator._motions):
         if math.isfinite(animator._full_rate_distance):
             values["full_rate_distance"] = animator._full_rate_distance
+    if not writing.lists["environments"]:  # few scenes have any
+        del writing.lists["environments"]
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
     return "".join(_lines(tree)).encode("ascii"), writing.told
 

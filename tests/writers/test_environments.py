@@ -73,7 +73,7 @@ def test_others_are_a_part_of_the_file(tmp_path, light):
 
 def test_scenes_without_one_say_nothing_of_it(tmp_path):
     tree, again = written(e3d.Scene(), tmp_path)
-    assert set(tree["scene"]) == {"background", "ambient"} and tree["environments"] == []
+    assert set(tree["scene"]) == {"background", "ambient"} and "environments" not in tree
     assert again.environment is None and again.background == (0, 0, 0)
 
 

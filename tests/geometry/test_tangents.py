@@ -97,8 +97,9 @@ def attributes_of(path):
         view = tree["bufferViews"][accessor["bufferView"]]
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[accessor["type"]]
-        dtype = {5123: "<u2", 5125: "<u4", 5126: "<f4"}[accessor["componentType"]]
-        return np.frombuffer(binary, dtype, accessor["count"] * width, start).reshape(-1, width)
+        dtype = np.dtype({5123: "<u2", 5125: "<u4", 5126: "<f4"}[accessor["componentType"]])
+        strides = view.get("byteStride", width * dtype.itemsize), dtype.itemsize
+        return np.ndarray((accessor["count"], width), dtype, binary, start, strides)
 
     for mesh in tree["meshes"]:
         for primitive in mesh["primitives"]:

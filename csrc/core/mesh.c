@@ -70,6 +70,7 @@ e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh 
     if (!mesh)
         return E3D_OUT_OF_MEMORY;
     mesh->desc = *desc;
+    mesh->like = mesh;
     mesh->material_most = material_most;
     e3d_fpenv saved = e3d_fpenv_enter();
     int built = e3d_clusters_build(mesh, threads ? threads : e3d_thread_count());

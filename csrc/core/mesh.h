@@ -42,6 +42,7 @@ struct e3d_mesh {
     float **blocks;    /* one for each chunk of faces: positions and indices of its clusters */
     int32_t block_count;
     int32_t *faces;    /* the faces of the clusters' triangles, cluster after cluster */
+    const e3d_mesh *like; /* itself, or of a posed mesh the one at rest: what has the same clusters, wherever they are */
     int32_t borrows_faces; /* a posed mesh: they are those of the mesh at rest, which outlives it */
     float lo[3], hi[3]; /* of the whole mesh: faces, lines and points */
     int32_t any_finite;

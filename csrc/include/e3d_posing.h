@@ -23,11 +23,12 @@ enum {
 /* What moves the vertices of a mesh. Arrays are borrowed. */
 typedef struct e3d_pose_desc {
     const float *normals;         /* (vertices, 3) or NULL */
+    const float *tangents;        /* (vertices, 4) or NULL */
     int32_t influences;           /* of each vertex; 0: no joints */
     const uint16_t *joints;       /* (vertices, influences) */
     const float *weights;         /* (vertices, influences), finite, at least one of each vertex is not 0 */
     int32_t targets;
-    const float *target_positions, *target_normals; /* (targets, vertices, 3) or NULL */
+    const float *target_positions, *target_normals, *target_tangents; /* (targets, vertices, 3) or NULL */
 } e3d_pose_desc;
 
 typedef struct e3d_rest e3d_rest;
@@ -41,6 +42,7 @@ int32_t e3d_rest_joints(const e3d_rest *rest);
 e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **out);
 const float *e3d_posed_positions(const e3d_mesh *posed);
 const float *e3d_posed_normals(const e3d_mesh *posed);
+const float *e3d_posed_tangents(const e3d_mesh *posed);
 
 /* One mesh to pose. */
 typedef struct e3d_pose_job {
@@ -53,9 +55,9 @@ typedef struct e3d_pose_job {
 
 /* Poses meshes, each another one, on up to `threads` threads. */
 void e3d_pose_meshes(e3d_pose_job *jobs, int32_t count, int threads);
-/* The same of one mesh's vertices, one by one, as the rules say: what tests compare with. normals may be NULL. */
+/* The same of one mesh's vertices, one by one, as the rules say: what tests compare with. normals and tangents may be NULL. */
 void e3d_reference_pose(const e3d_mesh_desc *mesh, const e3d_pose_desc *desc, const float *matrices, const float *weights,
-                        float *positions, float *normals);
+                        float *positions, float *normals, float *tangents);
 
 /* The joints of a skin, found from the poses of the nodes between an anchor and them. */
 typedef struct e3d_skeleton {

@@ -8,24 +8,26 @@
 #include "core/pool.h"
 #include "posing/rest.h"
 
-enum { SMALL = 16384 /* vertices */, VERTICES_A_TASK = 2048, CLUSTERS_A_TASK = 64 };
+enum { SMALL = 16384 /* vertices */,
+       VERTICES_A_TASK = 2048,
+       CLUSTERS_A_TASK = 64 };
 
 typedef struct sharing {
     e3d_pose_job *jobs;
 } sharing;
 
-static float *own_positions(const e3d_mesh *posed) { return posed->blocks[1]; }
-
-static float *own_normals(const e3d_mesh *posed)
+static float *own(const e3d_mesh *posed, const float *array)
 {
-    return posed->desc.normals ? posed->blocks[1] + (posed->desc.normals - posed->blocks[1]) : NULL;
+    return array ? posed->blocks[1] + (array - posed->blocks[1]) : NULL;
 }
 
 static int is_small(const e3d_pose_job *job) { return job->rest->mesh->desc.vertices <= SMALL; }
 
 static void pose_some(const e3d_pose_job *job, int32_t first, int32_t count)
 {
-    e3d_pose_vertices(job, first, count, own_positions(job->out), own_normals(job->out));
+    const e3d_mesh_desc *d = &job->out->desc;
+    const e3d_posed_arrays out = {own(job->out, d->positions), own(job->out, d->normals), own(job->out, d->tangents)};
+    e3d_pose_vertices(job, first, count, &out);
 }
 
 static void pose_small(void *argument, int i)

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4, PAD = 4 /* vectors of four are read where a position begins */ };
+enum { INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4,
+       PAD = 4 /* vectors of four are read where a position begins */ };
 
 static int take_influences(e3d_rest *rest)
 {
@@ -130,7 +131,7 @@ e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **o
 {
     const e3d_mesh *mesh = rest->mesh;
     size_t vertices = (size_t)mesh->desc.vertices, faces = (size_t)mesh->desc.faces_count;
-    size_t normals = rest->desc.normals ? 3 * vertices + PAD : 0;
+    size_t normals = rest->desc.normals ? 3 * vertices + PAD : 0, tangents = rest->desc.tangents ? 4 * vertices : 0;
     *out = NULL;
     e3d_mesh *posed = calloc(1, sizeof *posed);
     if (!posed)
@@ -142,7 +143,7 @@ e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **o
     posed->blocks = calloc(2, sizeof *posed->blocks);
     posed->block_count = 2;
     float *clusters = new_floats(rest->cluster_floats);
-    float *own = new_floats(3 * vertices + PAD + normals + (face_normals ? 3 * faces : 0));
+    float *own = new_floats(3 * vertices + PAD + normals + tangents + (face_normals ? 3 * faces : 0));
     if (posed->blocks) {
         posed->blocks[0] = clusters;
         posed->blocks[1] = own;
@@ -159,10 +160,12 @@ e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **o
         place_clusters(mesh, posed, clusters);
     posed->desc.positions = own;
     posed->desc.normals = normals ? own + 3 * vertices + PAD : NULL;
-    posed->desc.face_normals = face_normals ? own + 3 * vertices + PAD + normals : NULL;
+    posed->desc.tangents = tangents ? own + 3 * vertices + PAD + normals : NULL;
+    posed->desc.face_normals = face_normals ? own + 3 * vertices + PAD + normals + tangents : NULL;
     *out = posed;
     return E3D_OK;
 }
 
 const float *e3d_posed_positions(const e3d_mesh *posed) { return posed->desc.positions; }
 const float *e3d_posed_normals(const e3d_mesh *posed) { return posed->desc.normals; }
+const float *e3d_posed_tangents(const e3d_mesh *posed) { return posed->desc.tangents; }

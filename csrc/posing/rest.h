@@ -22,8 +22,13 @@ struct e3d_rest {
     size_t cluster_floats;     /* what the clusters' positions and indices take */
 };
 
-/* Poses vertices first … first + count - 1 into arrays of all vertices. normals may be NULL. */
-void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, float *positions, float *normals);
+/* Arrays of all vertices that posing writes; normals and tangents may be NULL. */
+typedef struct e3d_posed_arrays {
+    float *positions, *normals, *tangents;
+} e3d_posed_arrays;
+
+/* Poses vertices first … first + count - 1. */
+void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, const e3d_posed_arrays *out);
 /* Brings the positions of some clusters and their boxes up to date with those of the vertices. */
 void e3d_refit_clusters(const e3d_rest *rest, e3d_mesh *posed, int32_t first, int32_t count);
 /* Then the boxes of groups and of the mesh, and normals of faces, if it has them. */

@@ -1,7 +1,7 @@
 /* vertices: morph targets, then joints, for a run of vertices (R71 to R74).
  *
- * In:  positions and normals at rest, weights of targets, matrices of joints.
- * Out: positions and normals.
+ * In:  positions, normals and tangents at rest, weights of targets, matrices of joints.
+ * Out: positions, normals and tangents.
  * Always: a vertex at a time, its four columns side by side in vectors of four, which have the same bits on every processor;
  *      lane 3 means nothing.
  */
@@ -125,6 +125,58 @@ static void unit_rows(const float *from, int32_t count, float *out)
     }
 }
 
+/* Tangents by the upper left of the matrix, made unit; the sign of the bitangent stays (R74). */
+static void skin_tangents(const e3d_rest *rest, const float *matrices, int32_t first, int32_t count, const float *from, float *out)
+{
+    for (int32_t v = 0; v < count; v += 4) {
+        float4 row[4] = {{0}};
+        int some = count - v < 4 ? count - v : 4;
+        for (int i = 0; i < some; i++) {
+            const float *t = from + 4 * (v + i);
+            row[i] = load4(t);
+            if (matrices) {
+                const uint32_t *start = rest->starts + first + v + i;
+                float4 m[4];
+                blend(rest->influences + start[0], rest->influences + start[1], matrices, m);
+                row[i] = (m[0] * splat(t[0]) + m[1] * splat(t[1])) + m[2] * splat(t[2]);
+            }
+        }
+        make_unit(row);
+        for (int i = 0; i < some; i++) {
+            store3(out + 4 * (v + i), row[i]);
+            out[4 * (v + i) + 3] = from[4 * (v + i) + 3];
+        }
+    }
+}
+
+/* out = base + weight * delta in x, y and z of rows of four (R71); returns out. */
+static const float *morph_tangents(const e3d_pose_job *job, int32_t first, int32_t count, float *restrict out)
+{
+    const e3d_pose_desc *d = &job->rest->desc;
+    memcpy(out, d->tangents + 4 * (size_t)first, 4 * (size_t)count * sizeof *out);
+    for (int32_t t = 0; t < d->targets; t++) {
+        const float *delta = d->target_tangents + 3 * ((size_t)t * (size_t)job->rest->mesh->desc.vertices + (size_t)first);
+        float weight = job->weights[t];
+        for (int32_t v = 0; weight != 0 && v < count; v++)
+            for (int k = 0; k < 3; k++)
+                out[4 * v + k] = out[4 * v + k] + weight * delta[3 * v + k];
+    }
+    return out;
+}
+
+static void pose_tangents(const e3d_pose_job *job, int32_t first, int32_t count, float *out)
+{
+    const e3d_pose_desc *d = &job->rest->desc;
+    int turned = job->weights && d->targets && d->target_tangents;
+    const float *matrices = job->rest->starts ? job->matrices : NULL;
+    float now[4 * RUN];
+    const float *from = turned ? morph_tangents(job, first, count, now) : d->tangents + 4 * (size_t)first;
+    if (matrices || turned)
+        skin_tangents(job->rest, matrices, first, count, from, out + 4 * (size_t)first);
+    else
+        memcpy(out + 4 * (size_t)first, from, 4 * (size_t)count * sizeof *out);
+}
+
 static void pose_run(const e3d_pose_job *job, int32_t first, int32_t count, float *positions, float *normals)
 {
     const e3d_rest *rest = job->rest;
@@ -148,8 +200,12 @@ static void pose_run(const e3d_pose_job *job, int32_t first, int32_t count, floa
         memcpy(normals + at, n, floats * sizeof *n);
 }
 
-void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, float *positions, float *normals)
+void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, const e3d_posed_arrays *out)
 {
-    for (int32_t end = first + count; first < end; first += RUN)
-        pose_run(job, first, end - first < RUN ? end - first : RUN, positions, normals);
+    for (int32_t end = first + count; first < end; first += RUN) {
+        int32_t some = end - first < RUN ? end - first : RUN;
+        pose_run(job, first, some, out->positions, out->normals);
+        if (out->tangents)
+            pose_tangents(job, first, some, out->tangents);
+    }
 }

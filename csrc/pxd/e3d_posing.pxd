@@ -12,12 +12,14 @@ cdef extern from "e3d_posing.h" nogil:
 
     ctypedef struct e3d_pose_desc:
         const float *normals
+        const float *tangents
         int32_t influences
         const uint16_t *joints
         const float *weights
         int32_t targets
         const float *target_positions
         const float *target_normals
+        const float *target_tangents
 
     ctypedef struct e3d_rest:
         pass
@@ -28,6 +30,7 @@ cdef extern from "e3d_posing.h" nogil:
     e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **out)
     const float *e3d_posed_positions(const e3d_mesh *posed)
     const float *e3d_posed_normals(const e3d_mesh *posed)
+    const float *e3d_posed_tangents(const e3d_mesh *posed)
 
     ctypedef struct e3d_pose_job:
         const e3d_rest *rest
@@ -39,7 +42,7 @@ cdef extern from "e3d_posing.h" nogil:
     void e3d_pose_meshes(e3d_pose_job *jobs, int32_t count, int threads)
     void e3d_reference_pose(
         const e3d_mesh_desc *mesh, const e3d_pose_desc *desc, const float *matrices,
-        const float *weights, float *positions, float *normals,
+        const float *weights, float *positions, float *normals, float *tangents,
     )
 
     ctypedef struct e3d_skeleton:

@@ -4,12 +4,12 @@
 #include "e3d_posing.h"
 #include "reference/float_environment.h"
 
-/* R71 */
-static void morph(const float *base, const float *deltas, int32_t targets, const float *weights, int32_t vertices, int32_t vertex,
-                  float out[3])
+/* R71: x, y and z of a row of `width` */
+static void morph(const float *base, int width, const float *deltas, int32_t targets, const float *weights, int32_t vertices,
+                  int32_t vertex, float out[3])
 {
     for (int k = 0; k < 3; k++) {
-        out[k] = base[3 * vertex + k];
+        out[k] = base[width * vertex + k];
         for (int32_t t = 0; t < targets && deltas; t++)
             if (weights[t] != 0)
                 out[k] = out[k] + weights[t] * deltas[3 * ((int64_t)t * vertices + vertex) + k];
@@ -57,28 +57,50 @@ static void turn_normal(const float m[3][4], const float n[3], float out[3])
     make_unit(out);
 }
 
+/* R74 */
+static void turn_tangent(const float m[3][4], const float t[3], float out[3])
+{
+    for (int r = 0; r < 3; r++)
+        out[r] = (m[r][0] * t[0] + m[r][1] * t[1]) + m[r][2] * t[2];
+    make_unit(out);
+}
+
+/* A direction that joints do not turn: unit where a target moved it. */
+static void keep(const float v[3], int moved, float out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = v[k];
+    if (moved)
+        make_unit(out);
+}
+
 void e3d_reference_pose(const e3d_mesh_desc *mesh, const e3d_pose_desc *d, const float *matrices, const float *weights,
-                        float *positions, float *normals)
+                        float *positions, float *normals, float *tangents)
 {
     ref_float_environment saved = ref_float_environment_enter();
-    int32_t targets = weights ? d->targets : 0;
-    for (int32_t v = 0; v < mesh->vertices; v++) {
+    int32_t targets = weights ? d->targets : 0, count = mesh->vertices;
+    int skinned = matrices && d->influences;
+    for (int32_t v = 0; v < count; v++) {
         float p[3], n[3], m[3][4] = {{0}}, *out = positions + 3 * v;
-        morph(mesh->positions, d->target_positions, targets, weights, mesh->vertices, v, p);
-        if (normals)
-            morph(d->normals, d->target_normals, targets, weights, mesh->vertices, v, n);
-        int skinned = matrices && d->influences;
         if (skinned)
             blend(d, matrices, v, m);
+        morph(mesh->positions, 3, d->target_positions, targets, weights, count, v, p);
         for (int r = 0; r < 3; r++)
             out[r] = skinned ? ((m[r][0] * p[0] + m[r][1] * p[1]) + m[r][2] * p[2]) + m[r][3] : p[r];
-        if (normals && skinned)
-            turn_normal(m, n, normals + 3 * v);
-        else if (normals) {
-            if (targets && d->target_normals)
-                make_unit(n);
-            for (int k = 0; k < 3; k++)
-                normals[3 * v + k] = n[k];
+        if (normals) {
+            morph(d->normals, 3, d->target_normals, targets, weights, count, v, n);
+            if (skinned)
+                turn_normal(m, n, normals + 3 * v);
+            else
+                keep(n, targets && d->target_normals, normals + 3 * v);
+        }
+        if (tangents) {
+            morph(d->tangents, 4, d->target_tangents, targets, weights, count, v, n);
+            if (skinned)
+                turn_tangent(m, n, tangents + 4 * v);
+            else
+                keep(n, targets && d->target_tangents, tangents + 4 * v);
+            tangents[4 * v + 3] = d->tangents[4 * v + 3];
         }
     }
     ref_float_environment_leave(saved);

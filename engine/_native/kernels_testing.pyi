@@ -20,14 +20,17 @@ def clusters_of(
 def pose_by_reference(
     positions: _Floats,
     normals: _Floats,
+    tangents: _Floats,
     joints: npt.NDArray[np.uint16] | None,
     weights: _Floats | None,
     target_positions: _Floats | None,
     target_normals: _Floats | None,
+    target_tangents: _Floats | None,
     matrices: _Floats | None,
     target_weights: _Floats | None,
     out_positions: _Floats,
     out_normals: _Floats,
+    out_tangents: _Floats,
 ) -> None: ...
 def jobs_alone(rates: _Doubles, passed: int, alone: _Bytes) -> None: ...
 def plan_rules() -> list[tuple[str, list[str], list[str]]]: ...

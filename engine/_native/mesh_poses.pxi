@@ -16,39 +16,48 @@ cdef class NativeRest:
         self,
         NativeMesh mesh not None,
         const float[:, ::1] normals,
+        const float[:, ::1] tangents,
         const uint16_t[:, ::1] joints,
         const float[:, ::1] weights,
         const float[:, :, ::1] target_positions,
         const float[:, :, ::1] target_normals,
+        const float[:, :, ::1] target_tangents,
     ):
         cdef e3d_pose_desc desc
         cdef int32_t count = mesh.vertices
         memset(&desc, 0, sizeof(desc))
         self.mesh = mesh
-        self.borrowed = [normals, joints, weights, target_positions, target_normals]
+        self.borrowed = [normals, tangents, joints, weights]
         if normals is not None and count:
             require(normals.shape[0] == count and normals.shape[1] == 3, "normals: (V, 3)")
             desc.normals = &normals[0, 0]
+        if tangents is not None and count:
+            require(tangents.shape[0] == count and tangents.shape[1] == 4, "tangents: (V, 4)")
+            desc.tangents = &tangents[0, 0]
         if joints is not None and count:
             require(weights is not None and joints.shape[0] == weights.shape[0] == count, "joints: (V, n)")
             require(joints.shape[1] == weights.shape[1] > 0, "joints and weights have equal columns")
             desc.influences = <int32_t>joints.shape[1]
             desc.joints, desc.weights = &joints[0, 0], &weights[0, 0]
-        if target_positions is not None and count and target_positions.shape[0]:
-            require(target_positions.shape[1] == count and target_positions.shape[2] == 3, "targets: (T, V, 3)")
-            desc.targets = <int32_t>target_positions.shape[0]
-            desc.target_positions = &target_positions[0, 0, 0]
-        if target_normals is not None and count and target_normals.shape[0]:
-            require(target_normals.shape[1] == count and target_normals.shape[2] == 3, "targets: (T, V, 3)")
-            require(desc.targets in (0, target_normals.shape[0]), "as many targets of normals as of positions")
-            desc.targets = <int32_t>target_normals.shape[0]
-            desc.target_normals = &target_normals[0, 0, 0]
+        desc.target_positions = self.take_targets(&desc, target_positions)
+        desc.target_normals = self.take_targets(&desc, target_normals)
+        desc.target_tangents = self.take_targets(&desc, target_tangents)
         self.targets = desc.targets
         check(e3d_rest_create(mesh.handle, &desc, &self.handle))
         self.joints = e3d_rest_joints(self.handle)
 
     def __dealloc__(self):
         e3d_rest_destroy(self.handle)
+
+    cdef const float *take_targets(self, e3d_pose_desc *desc, const float[:, :, ::1] deltas) except? NULL:
+        """What targets add to one kind of array: rows of as many targets as of other kinds."""
+        if deltas is None or deltas.shape[0] == 0 or deltas.shape[1] == 0:
+            return NULL
+        require(deltas.shape[1] == self.mesh.vertices and deltas.shape[2] == 3, "targets: (T, V, 3)")
+        require(desc.targets in (0, deltas.shape[0]), "as many targets of one kind as of another")
+        desc.targets = <int32_t>deltas.shape[0]
+        self.borrowed.append(deltas)
+        return &deltas[0, 0, 0]
 
     cdef NativeMesh new_posed(self, bint face_normals):
         cdef NativeMesh posed = NativeMesh.__new__(NativeMesh)
@@ -186,7 +195,7 @@ cdef class NativePose:
         if self.skeleton.joints:
             memcpy(&matrices[0, 0], self.matrices, self.skeleton.joints * E3D_JOINT_MATRIX * sizeof(float))
 
-    def copy_vertices(self, float[:, ::1] positions not None, float[:, ::1] normals):
+    def copy_vertices(self, float[:, ::1] positions not None, float[:, ::1] normals, float[:, ::1] tangents):
         """Copy what was posed last."""
         cdef size_t size = 3 * <size_t>self.rest.mesh.vertices * sizeof(float)
         require(self.current is not None, "nothing was posed")
@@ -197,6 +206,9 @@ cdef class NativePose:
         if normals is not None and e3d_posed_normals(self.current.handle) != NULL:
             require(normals.shape[0] == positions.shape[0] and normals.shape[1] == 3, "normals: (V, 3)")
             memcpy(&normals[0, 0], e3d_posed_normals(self.current.handle), size)
+        if tangents is not None and e3d_posed_tangents(self.current.handle) != NULL:
+            require(tangents.shape[0] == positions.shape[0] and tangents.shape[1] == 4, "tangents: (V, 4)")
+            memcpy(&tangents[0, 0], e3d_posed_tangents(self.current.handle), size // 3 * 4)
 
 
 def pose_meshes(list poses not None, const double[:, ::1] node_poses, int threads):

@@ -64,10 +64,12 @@ class NativeRest:
         self,
         mesh: NativeMesh,
         normals: _Floats | None,
+        tangents: _Floats | None,
         joints: npt.NDArray[np.uint16] | None,
         weights: _Floats | None,
         target_positions: _Floats | None,
         target_normals: _Floats | None,
+        target_tangents: _Floats | None,
     ) -> None: ...
 
 class NativePose:
@@ -83,7 +85,9 @@ class NativePose:
     def want_face_normals(self) -> None: ...
     def want_edges(self, edges: _Integers) -> None: ...
     def copy_box(self, box: _Doubles) -> None: ...
-    def copy_vertices(self, positions: _Floats, normals: _Floats | None) -> None: ...
+    def copy_vertices(
+        self, positions: _Floats, normals: _Floats | None, tangents: _Floats | None
+    ) -> None: ...
     def copy_matrices(self, matrices: _Floats) -> None: ...
 
 def pose_meshes(

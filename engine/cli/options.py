@@ -46,6 +46,9 @@ SIGNED_OPTIONS = frozenset(
         "--camera-view-up",
         "--camera-azimuth-angle",
         "--camera-elevation-angle",
+        "--camera-index",
+        "--animation-index",
+        "--animation-time",
     }
 )
 _SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]$|inf|nan)")
@@ -108,6 +111,23 @@ def add_viewed_scene(parser) -> None:
         type=values.color,
         metavar="COLOR",
         help="colour for a model, or for what in a scene is, without materials",
+    )
+    group.add_argument(
+        "--animation-index",
+        type=values.index,
+        metavar="N",
+        help="which animation of the model plays, from 0 on; -1 for all of them together",
+    )
+    group.add_argument(
+        "--animation-time",
+        type=values.number,
+        metavar="T",
+        help="seconds of the animation at which the model stands, or begins to play",
+    )
+    group.add_argument(
+        "--variant",
+        metavar="NAME",
+        help="which of the sets of materials that the model offers, by name or number",
     )
     group.add_argument(
         "--no-texture", action="store_true", help="leave textures out; light and colours stay"
@@ -292,6 +312,12 @@ def add_camera(parser) -> None:
         help="the model's up direction; +Y by default, +Z for .asc and .stl",
     )
     group.add_argument(
+        "--camera-index",
+        type=values.index,
+        metavar="N",
+        help="look through a camera of the model, from 0 on; -1 for none of them",
+    )
+    group.add_argument(
         "--camera-position", type=values.vector, metavar="X,Y,Z", help="position of the camera"
     )
     group.add_argument(
@@ -412,6 +438,13 @@ def add_render(parser) -> None:
         "numbered pictures like frame_%%04d.png or frame_{:04}.png",
     )
     group.add_argument(
+        "--animation",
+        type=values.count,
+        metavar="N",
+        help="N pictures of the model's animation, once through, to files as --turntable writes; "
+        "with --turntable it plays while the model turns",
+    )
+    group.add_argument(
         "--no-background", action="store_true", help="leave the background transparent"
     )
     group.add_argument(
@@ -483,6 +516,8 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
     else:
         view = view_renderer.view(math.radians(args.camera_view_angle))
     view.orthographic = args.camera_orthographic
+    if args.camera_index is not None and args.camera_index >= 0:
+        return _through_camera(args, view_renderer, view)
     if args.camera_view_up is not None:
         view.up = args.camera_view_up
     if args.camera_position is not None:
@@ -499,6 +534,20 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
     return view
 
 
+def _through_camera(args: argparse.Namespace, view_renderer, view):
+    """Return the view of one of the scene's cameras."""
+    from ..scene.cameras import Camera
+    from ..viewer.viewpoint import look_through
+
+    title, scene = view_renderer.viewed.title, view_renderer.viewed.scene
+    nodes = [node for node in scene.nodes if isinstance(node.object, Camera)]
+    if args.camera_index >= len(nodes):
+        known = f"the last is {len(nodes) - 1}" if nodes else "there are none"
+        raise UsageError(f"{title} has no camera {args.camera_index} ({known})")
+    look_through(view, nodes[args.camera_index], view_renderer.bounds)
+    return view
+
+
 def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     """Return the `ViewedScene` that the options name; ``default_scene`` if they name none."""
     if args.models and args.scene is not None:
@@ -508,8 +557,9 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     if args.triangles is not None and args.scene != "city":
         raise UsageError("--triangles goes with --scene city")
     if not args.models:
-        if args.texture is not None:
-            raise UsageError("--texture needs a MODEL")
+        for option in ("texture", "variant", "animation_index", "animation_time"):
+            if getattr(args, option) is not None:
+                raise UsageError(f"--{option.replace('_', '-')} needs a MODEL")
         if args.scene is None and default_scene is None:
             raise UsageError("give a MODEL or --scene NAME")
         from ..demos import load_demo
@@ -535,4 +585,24 @@ def opening(args: argparse.Namespace) -> dict:
         "texture": args.texture,
         "color": args.color,
         "companion": not_the_output(args.output),
+        "variant": _variant(args.variant),
+        "animation": _animation(args),
     }
+
+
+def _variant(given: str | None) -> str | int | None:
+    """A name, or a number where it is one."""
+    return int(given) if given is not None and given.isdecimal() else given
+
+
+def _animation(args: argparse.Namespace):
+    """Return what lets a model that is opened play its animations, or stand at a time of them."""
+    from ..viewer.clips import play_clips, stand_at
+
+    plays = getattr(args, "animation", None) is not None or args.command == "run"
+    asked = args.animation_index is not None or args.animation_time is not None
+    if plays:
+        return lambda viewed: play_clips(viewed, args.animation_index)
+    if asked and getattr(args, "turntable", None) is None:
+        return lambda viewed: stand_at(viewed, args.animation_index, args.animation_time or 0.0)
+    return (lambda viewed: play_clips(viewed, args.animation_index)) if asked else None

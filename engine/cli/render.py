@@ -41,8 +41,8 @@ def render(args: argparse.Namespace) -> int:
         report=report.frame if args.verbose else None,
     ) as view_renderer:
         view = options.place_view(args, view_renderer, turns=args.turntable is not None)
-        if args.turntable is not None:
-            _write_turntable(args, view_renderer, view)
+        if _count(args) is not None:
+            _write_pictures(args, view_renderer, view)
             return 0
         frame = view_renderer.draw(view)
         report.drawn(view_renderer, frame)
@@ -54,13 +54,16 @@ def _check(args: argparse.Namespace) -> None:
     """Refuse, before any work, what cannot be written."""
     if args.reference_threshold is not None and args.reference is None:
         raise UsageError("--reference-threshold goes with --reference")
+    if None not in (args.turntable, args.animation) and args.turntable != args.animation:
+        raise UsageError("--turntable and --animation together need the same N")
+    many = "--animation" if args.turntable is None else "--turntable"
     if args.output is None:
-        if args.reference is None or args.turntable is not None:
+        if args.reference is None or _count(args) is not None:
             raise UsageError("say where to write with -o FILE")
         return
-    if args.turntable is not None:
+    if _count(args) is not None:
         if args.output == STANDARD_OUTPUT or args.reference is not None:
-            raise UsageError("--turntable writes to a file, and compares with none")
+            raise UsageError(f"{many} writes to a file, and compares with none")
         check_animation(args.output, transparent=args.no_background)
         return
     if args.output == STANDARD_OUTPUT:
@@ -69,9 +72,20 @@ def _check(args: argparse.Namespace) -> None:
     check_picture(args.output, transparent=args.no_background, series="--turntable N")
 
 
-def _write_turntable(args: argparse.Namespace, view_renderer: ViewRenderer, view) -> None:
-    count = args.turntable
-    pictures = with_progress(headless.turntable(view_renderer, view, count), count, "rendering")
+def _count(args: argparse.Namespace) -> int | None:
+    """How many pictures are asked for; None for one, as a picture."""
+    return args.animation if args.turntable is None else args.turntable
+
+
+def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view) -> None:
+    count = _count(args)
+    if args.turntable is not None:
+        pictures = headless.turntable(view_renderer, view, count, args.animation_time or 0.0)
+    elif view_renderer.viewed.update is None:
+        raise UsageError(f"--animation: {view_renderer.viewed.title} has no animation")
+    else:
+        pictures = headless.animation(view_renderer, view, count, args.animation_time or 0.0)
+    pictures = with_progress(pictures, count, "rendering")
     save_animation(pictures, args.output, headless.seconds_a_frame(view_renderer, count))
 
 

@@ -114,6 +114,7 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
             ),
             sampling=Sampling(args.samples),
         )
+        viewer.time = (args.animation_time or 0.0) % viewed.period
         remember([] if STANDARD_INPUT in args.models else args.models)
         still = viewed.update is not None and not viewer.playing
         if viewer.walker is None:
@@ -137,7 +138,9 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
                 controller(view_renderer, view).place(view)
             view_renderer.draw(view).save(path)
         else:
-            pictures = (headless.walk if walks else headless.animation)(view_renderer, view, count)
+            start = () if walks else (args.animation_time or 0.0,)
+            draw = headless.walk if walks else headless.animation
+            pictures = draw(view_renderer, view, count, *start)
             pictures = with_progress(pictures, count, "rendering")
             save_animation(pictures, path, headless.seconds_a_frame(view_renderer, count))
     if reason is None and args.output is None:

@@ -41,6 +41,17 @@ def number(text: str) -> float:
     return value
 
 
+def index(text: str) -> int:
+    """Parse a whole number from -1 on."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = -2
+    if value < -1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, -1 or greater")
+    return value
+
+
 def positive(text: str) -> float:
     """Parse a finite number above zero."""
     value = number(text)

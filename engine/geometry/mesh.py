@@ -23,9 +23,9 @@ from .._support.dirty_tracking import renew
 from .._support.validation import Closed, own
 from ..errors import InvalidArgumentError
 from ..materials.material import Material
+from . import movers as _movers
 from . import normals as _normals
 from . import topology as _topology
-from . import _movers
 from ._arrays import (
     ArrayAttribute,
     check_colors,

@@ -6,6 +6,7 @@ In: keys, each a time and a value, of parts of nodes. Out: the same, checked and
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,8 +17,8 @@ from ..choices import Interpolation, MotionPath
 from ..errors import InvalidArgumentError
 from ..scene.nodes import Node
 
-PATHS = ("translation", "rotation", "scale", "weights")
-INTERPOLATIONS = ("step", "linear", "cubicspline")
+PATHS = get_args(MotionPath)
+INTERPOLATIONS = get_args(Interpolation)
 _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 
 

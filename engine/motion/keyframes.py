@@ -46,7 +46,8 @@ class KeyframeTable:
         if self._interpolation == "step":
             return self._values[at]
         spans = self._times[after] - self._times[at]
-        shares = (times - self._times[at]) / np.where(after > at, spans, 1.0)
+        with np.errstate(over="ignore"):  # keys may be very close
+            shares = (times - self._times[at]) / np.where(after > at, spans, 1.0)
         shares = np.where(after > at, np.minimum(np.maximum(shares, 0.0), 1.0), 0.0)
         if self._turns is not None:
             return self._turns.rows(at).at(shares)

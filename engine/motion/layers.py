@@ -76,7 +76,8 @@ def looped(times: np.ndarray, durations: np.ndarray, loop: Loop) -> np.ndarray:
     if loop == "once":
         return np.minimum(np.maximum(times, 0.0), durations)
     spans = np.where(durations > 0.0, durations, 1.0)
-    laps = times / spans
+    with np.errstate(over="ignore"):
+        laps = times / spans
     laps = np.where(np.isfinite(laps), laps, 0.0)
     if loop == "repeat":
         return np.where(durations > 0.0, (laps - np.floor(laps)) * spans, 0.0)

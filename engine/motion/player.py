@@ -8,6 +8,7 @@ same bits on every machine. All channels are found together.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import get_args
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from .animated_parts import AnimatedParts
 from .clips import AnimationClip
 from .layers import Layer, mixed
 
-LOOPS = ("repeat", "once", "ping-pong")
+LOOPS = get_args(Loop)
 
 
 class AnimationPlayer(Closed):
@@ -168,6 +169,8 @@ class AnimationPlayer(Closed):
             return (clip,)
         if isinstance(clip, str):
             named = [each for each in self._clips if each.name == clip]
+            named = [self._scene.animations.get(clip), *named]
+            named = [each for each in named if each in self._clips]
             if named:
                 return (named[0],)
         elif isinstance(clip, int) and 0 <= clip < len(self._clips):
@@ -205,7 +208,8 @@ def _check_clips(value, scene: Scene) -> tuple[AnimationClip, ...]:
 
 
 def _check_offsets(value, count: int) -> np.ndarray:
-    offsets = np.array([real(value)] * count if np.ndim(value) == 0 else list(map(real, value)))
+    many = isinstance(value, Iterable) and not isinstance(value, str)
+    offsets = np.array(list(map(real, value)) if many else [real(value)] * count)
     if len(offsets) != count or not np.isfinite(offsets).all():
         raise InvalidArgumentError(f"offsets must be {count} finite numbers, not {value!r}")
     return offsets

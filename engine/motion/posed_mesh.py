@@ -15,6 +15,8 @@ from .._native import loaders as native_loaders
 from .._native.rasterizer import NativeMesh, NativePose, NativeRest, pose_meshes
 from .._native.scene_graph import OBJECT_BOX
 from ..geometry.mesh import Mesh
+from ..geometry.movers import VERTEX_AXES
+from ..geometry.native_meshes import make_native_mesh
 
 _MOST_COLUMNS = 8  # that C numbers at once
 _rests: WeakKeyDictionary[Mesh, tuple[dict, NativeRest]] = WeakKeyDictionary()
@@ -81,12 +83,14 @@ class PosedMesh:
     def _copied(self) -> Mesh:
         positions = np.empty((len(self.mesh.positions), 3), np.float32)
         normals = np.empty_like(positions)
-        self.native.copy_vertices(positions, normals)
+        tangents = self._made_of.get("tangents")
+        tangents = None if tangents is None else np.empty_like(tangents)
+        self.native.copy_vertices(positions, normals, tangents)
         copy = Mesh(positions, name=self.mesh.name)
-        gone = dict.fromkeys(("joints", "weights", "morph_positions", "morph_normals"))
+        gone = dict.fromkeys(VERTEX_AXES)
         kept = {**self._made_of, **gone, "positions": copy.positions}
         copy._arrays.update(kept)
-        copy.normals = normals
+        copy.normals, copy.tangents = normals, tangents
         copy.materials = self.mesh.materials
         return copy
 
@@ -99,16 +103,16 @@ def _rest_of(mesh: Mesh, arrays: dict) -> NativeRest:
     """What is known of a mesh at rest; shared by all that pose it."""
     made_of, rest = _rests.get(mesh, ({}, None))
     if rest is None or not _same(arrays, made_of):
-        from ..rendering._native_handles import make_mesh
-
-        native = make_mesh(arrays, 0, _movers_of(arrays))
+        native = make_native_mesh(arrays, 0, _movers_of(arrays))
         rest = NativeRest(
             native,
             mesh._derive("normals", arrays),
+            arrays.get("tangents"),
             arrays.get("joints"),
             arrays.get("weights"),
             arrays.get("morph_positions"),
             arrays.get("morph_normals"),
+            arrays.get("morph_tangents"),
         )
         _rests[mesh] = arrays, rest
     return rest

@@ -14,6 +14,7 @@ import numpy as np
 from .._native.rasterizer import NativePose, pose_meshes
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..materials.colors import float32_of
 from .posed_mesh import PosedMesh
 from .skeletons import WORLD, skeleton_of
 from .skins import Skin
@@ -112,8 +113,6 @@ def check_skin(value: Skin | None, node: Node) -> Skin | None:
         return None
     if not isinstance(value, Skin):
         raise InvalidArgumentError(f"skin must be a Skin or None, not {type(value).__name__}")
-    if node._scene is None:
-        raise InvalidArgumentError("the node was removed from its scene")
     if value.joints[0]._scene is not node._scene:
         raise InvalidArgumentError("the joints of a skin must be nodes of the node's scene")
     check_fit(node._object, value)
@@ -143,10 +142,12 @@ def check_morph_weights(value, obj) -> np.ndarray | None:
 
 def posed_for(node: Node) -> PosedMesh | None:
     """Return what a node shows instead of its mesh, or None for the mesh itself."""
-    mesh = node._object
-    if node._skin is None and (node._morph_weights is None or not mesh.morph_targets):
+    mesh, posed = node._object, node._posed
+    if not isinstance(mesh, Mesh):
         return None
-    posed = node._posed
+    bent = node._skin is not None and mesh.joints is not None
+    if not bent and (node._morph_weights is None or not mesh.morph_targets):
+        return None
     if posed is None or posed.mesh is not mesh:
         posed = PosedMesh(mesh)
     if node._morph_weights is not None:
@@ -157,4 +158,4 @@ def posed_for(node: Node) -> PosedMesh | None:
 def set_weights(posed: PosedMesh, weights: np.ndarray) -> None:
     """Give a posed mesh its weights, if its targets are still those."""
     if posed.native.rest.targets == len(weights):
-        posed.native.set_weights(weights.astype(np.float32))
+        posed.native.set_weights(float32_of(weights))

@@ -13,6 +13,7 @@ import numpy as np
 from .. import linalg
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.scene import Scene
 
@@ -22,8 +23,10 @@ _IDENTITY = np.eye(4)
 def placed_meshes(thing) -> list[tuple[Mesh, np.ndarray]]:
     """Return the meshes that have faces and the (4, 4) float64 matrices that place them."""
     if isinstance(thing, Scene):
+        thing._update()
         nodes = [node for node in thing.nodes if node.shown]
-        placed = [part for node in nodes for part in _placed(node.object, node.world_pose)]
+        shown = [(shown_object(node), placing_pose(node)) for node in nodes]
+        placed = [part for obj, pose in shown for part in _placed(obj, pose)]
     elif isinstance(thing, (Mesh, InstancedMesh)):
         placed = list(_placed(thing, _IDENTITY))
     elif isinstance(thing, Iterable):

@@ -11,11 +11,9 @@ import operator
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
-import numpy as np
-
-from .._native.rasterizer import FILTERS, VERTEX_ATTRIBUTES, WRAPS, NativeMesh, NativeTexture
+from .._native.rasterizer import FILTERS, WRAPS, NativeMesh, NativeTexture
 from ..geometry.mesh import Mesh
-from ..geometry.vertex_attributes import vertex_attributes
+from ..geometry.native_meshes import make_native_mesh
 from ..materials.textures import Texture
 
 
@@ -39,7 +37,7 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
     made_of, native = _meshes.get(mesh, (None, None))
     if made_of is None or not all(map(operator.is_, arrays.values(), made_of.values())):
-        native = make_mesh(arrays, threads)
+        native = make_native_mesh(arrays, threads)
         _meshes[mesh] = arrays, native
     if needs.vertex_normals and "normals" not in native.attributes:
         native.set_attribute("normals", mesh._derive("normals", arrays))
@@ -48,27 +46,6 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     if needs.edges and not native.has_edges:
         native.set_edges(mesh._derive("edges", arrays))
     return native
-
-
-def make_mesh(arrays: dict, threads: int, movers: np.ndarray | None = None) -> NativeMesh:
-    """Return a handle of a mesh's arrays; vertices with different movers share none of clusters."""
-    held = {name: arrays[name] for name in vertex_attributes(Mesh) if arrays[name] is not None}
-    return NativeMesh(
-        arrays["positions"],
-        arrays["faces"],
-        {_core_name(name, array): array for name, array in held.items()},
-        material_ids=arrays["material_ids"],
-        lines=arrays["lines"],
-        points=arrays["points"],
-        movers=movers,
-        threads=threads,
-    )
-
-
-def _core_name(name: str, array: np.ndarray) -> str:
-    """What the core calls an attribute: by its type as well, where it may have several."""
-    kind = "u8" if array.dtype == np.uint8 else "f32"
-    return name if name in VERTEX_ATTRIBUTES else f"{name}_{kind}"
 
 
 def native_texture(texture: Texture, color_space: str) -> NativeTexture:

@@ -90,28 +90,24 @@ class Node:
 
     @object.setter
     def object(self, value: SceneObject | None) -> None:
-        if self._scene is None:
-            raise InvalidArgumentError("the node was removed from its scene")
+        scene = self._in_scene()
         if self._collider is not None:
             check_collider(value, self._collider)
-        self._scene._put(self, value)
+        scene._put(self, value)
 
     @property
     def skin(self) -> Skin | None:
         """The joints that bend the node's mesh, or None.
 
         The mesh needs ``joints`` and ``weights``. It then stands where the joints put it, wherever
-        the node itself is. A mesh may be shown by many nodes, each with a skin of its own.
+        the node itself is. A mesh may be shown by many nodes, each with a skin of its own. Whatever
+        else the node holds meanwhile is shown as it is.
         """
         return self._skin
 
     @skin.setter
     def skin(self, value: Skin | None) -> None:
-        from ..motion.posing import check_skin
-
-        self._skin = check_skin(value, self)
-        if self._scene is not None:
-            self._scene._show(self)
+        self._in_scene()._set_skin(self, value)
 
     @property
     def morph_weights(self) -> NDArray[np.float64] | None:
@@ -120,14 +116,7 @@ class Node:
 
     @morph_weights.setter
     def morph_weights(self, value: ArrayLike | None) -> None:
-        from ..motion.posing import check_morph_weights, set_weights
-
-        self._morph_weights = check_morph_weights(value, self._object)
-        if self._posed is not None and value is not None:
-            set_weights(self._posed, self._morph_weights)
-            self._arrays.changes += 1
-        elif self._scene is not None:
-            self._scene._show(self)
+        self._in_scene()._set_morph_weights(self, value)
 
     @property
     def name(self) -> str:
@@ -329,6 +318,12 @@ class Node:
     def __repr__(self) -> str:
         what = "group" if self._object is None else type(self._object).__name__
         return f"<Node {self.id} {self.name!r}: {what}>"
+
+    def _in_scene(self) -> Scene:
+        """The scene that the node is in."""
+        if self._scene is None:
+            raise InvalidArgumentError("the node was removed from its scene")
+        return self._scene
 
     def _show_as(self, other: Node) -> None:
         """Let frames show another node's id for this one."""

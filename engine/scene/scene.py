@@ -25,7 +25,7 @@ from ..choices import Color, ColorLike, Cull
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import check_color
-from ..motion.posing import Posing, check_fit, posed_for
+from ..motion.posing import Posing, check_morph_weights, check_skin, posed_for, set_weights
 from ._objects import ObjectTable
 from .cameras import Camera
 from .instances import InstancedMesh
@@ -35,8 +35,9 @@ from .nodes import Node, check_pose, check_rotation, check_scale
 from .selection import NodeSelection
 
 if TYPE_CHECKING:
-    from ..rendering.frame import Frame
     from ..motion.clips import AnimationClip
+    from ..motion.skins import Skin
+    from ..rendering.frame import Frame
     from ..spatial.colliders import ColliderHit
     from ..spatial.rays import RayHit, RayHits
     from .nodes import SceneObject
@@ -244,10 +245,6 @@ class Scene(Closed):
     def _put(self, node: Node, obj) -> None:
         """Let a node hold another object."""
         _check_object(obj)
-        if node._skin is not None:
-            check_fit(obj, node._skin)
-        if node._object is not obj:
-            node._morph_weights = None
         node._object = obj
         self._show(node)
         self._cameras.pop(node.id, None)
@@ -267,6 +264,20 @@ class Scene(Closed):
         self._arrays.set_object(node._slot, number)
         if self._posing is not None:
             (self._posing.leave if posed is None else self._posing.take)(node)
+
+    def _set_skin(self, node: Node, skin: Skin | None) -> None:
+        """Let joints bend what a node holds."""
+        node._skin = check_skin(skin, node)
+        self._show(node)
+
+    def _set_morph_weights(self, node: Node, weights: ArrayLike | None) -> None:
+        """Let a node add morph targets to its mesh."""
+        node._morph_weights = check_morph_weights(weights, node._object)
+        if node._posed is not None and node._morph_weights is not None:
+            set_weights(node._posed, node._morph_weights)
+            self._arrays.changes += 1
+        else:
+            self._show(node)
 
     def remove(self, node: Node) -> None:
         """Take a node and everything below it out of the scene; see `restore`.

@@ -14,6 +14,7 @@ from ..choices import Samples
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
 from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .clips import play_clips
 from .debug_lines import DEBUG_DRAWINGS
 from .fps import FpsController
 from .ground import told
@@ -244,6 +245,26 @@ def toggle_playing(viewer, step: int) -> None:
     """Pause, or go on."""
     viewer.playing = not viewer.playing
     viewer.say("playing" if viewer.playing else "paused")
+
+
+def cycle_animations(viewer, step: int) -> None:
+    """Play the next of the model's animations, or all of them together."""
+    viewed = viewer.view_renderer.viewed
+    if viewed.player is None:
+        viewer.say("the model has no animations")
+        return
+    clips = viewed.player.clips
+    numbers = (*range(len(clips)), -1) if len(clips) > 1 else (0,)
+    playing = viewed.player.playing
+    now = clips.index(playing[0]) if len(playing) == 1 else -1
+    chosen = following(now, numbers, step)
+    play_clips(viewed, chosen)
+    viewer.time = 0.0
+    viewer.say(
+        "all animations"
+        if chosen < 0
+        else f"animation {chosen}: {list(viewed.scene.animations)[chosen]}"
+    )
 
 
 def toggle_grid(viewer, step: int) -> None:

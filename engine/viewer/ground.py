@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import linalg
+from ..motion.shown import placing_pose, shown_object
 from ..navigation import NavigationGrid, Walker
 from ..scene.orbiting import home_axes
 from ..scene.scene import Scene
@@ -89,9 +90,10 @@ def _turned(scene: Scene, axes: np.ndarray) -> Scene:
     turned, pose = Scene(), np.eye(4)
     pose[:3, :3] = axes
     group = turned.add(pose=pose)
+    scene._update()
     for node in scene.nodes:
         if isinstance(node.object, DRAWABLE) and node.shown:
-            turned.add(node.object, parent=group, pose=node.world_pose)
+            turned.add(shown_object(node), parent=group, pose=placing_pose(node))
     return turned
 
 

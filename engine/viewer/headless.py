@@ -29,21 +29,27 @@ def seconds_a_frame(view_renderer: ViewRenderer, count: int) -> float:
     return min(LONGEST_FRAME, max(SHORTEST_FRAME, seconds))
 
 
-def turntable(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
-    """Yield ``count`` pictures of one turn of the camera round the scene."""
+def turntable(
+    view_renderer: ViewRenderer, view: Viewpoint, count: int, start: float = 0.0
+) -> Iterator[np.ndarray]:
+    """Yield ``count`` pictures of one turn of the camera round the scene, whose clips play."""
+    moves = view_renderer.viewed.period if view_renderer.viewed.player else 0.0
     for index in range(count):
         turned = view.copy()
         turned.azimuth = view.azimuth + 2 * math.pi * index / count
-        yield view_renderer.draw(turned).color
+        yield view_renderer.draw(turned, start + moves * index / count).color
 
 
-def animation(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
+def animation(
+    view_renderer: ViewRenderer, view: Viewpoint, count: int, start: float = 0.0
+) -> Iterator[np.ndarray]:
     """Yield ``count`` pictures of the scene's animation, or of a turntable if it has none."""
     if view_renderer.viewed.update is None:
         yield from turntable(view_renderer, view, count)
         return
     for index in range(count):
-        yield view_renderer.draw(view, view_renderer.viewed.period * index / count).color
+        time = start + view_renderer.viewed.period * index / count
+        yield view_renderer.draw(view, time).color
 
 
 def walk(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:

@@ -47,6 +47,7 @@ SECTIONS = {
         Binding(("Tab",), "toggle_walking", "walk: WASD, mouse, arrows"),
         Binding(("C",), "freeze_culling", "while held: cull, count as from here"),
         Binding(("Space",), "toggle_playing", "pause or play"),
+        Binding(("J",), "cycle_animations", "next animation (Shift: previous)"),
     ),
     "Overlays": (
         Binding(("H",), "toggle_help", "this help"),

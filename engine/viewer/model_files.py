@@ -10,6 +10,7 @@ import os
 from collections.abc import Sequence
 
 from ..loaders import formats
+from .clips import play_clips
 from .open_models import open_models
 from .viewed_scene import ViewedScene
 from .watch import FileWatch
@@ -55,7 +56,7 @@ class ModelFiles:
 
     def replace(self, paths: Sequence) -> ViewedScene:
         """Open other files, which take the place of these if they can be read."""
-        viewed = open_models(paths, **self._always)
+        viewed = open_models(paths, animation=play_clips, **self._always)
         self._options = {}
         self._follow(paths)
         return viewed

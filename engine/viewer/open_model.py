@@ -22,7 +22,16 @@ from .visibility import DRAWABLE, mesh_of
 Z_UP_FORMATS = ("asc", "stl")
 
 
-def open_model(path, *, texture=None, color=None, progress=None, companion=None) -> ViewedScene:
+def open_model(
+    path,
+    *,
+    texture=None,
+    color=None,
+    progress=None,
+    companion=None,
+    variant=None,
+    animation=None,
+) -> ViewedScene:
     """Load a file to look at.
 
     Parameters
@@ -38,6 +47,11 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
     companion : callable, optional
         As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
 
+    variant : str or int, optional
+        As in `engine3d.load_scene`.
+    animation : callable, optional
+        Called with the `ViewedScene`, to let its animations play or stand at a time.
+
     Returns
     -------
     ViewedScene
@@ -46,6 +60,8 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
     ------
     FileFormatError, FileAccessError
         The file (or the texture asked for) cannot be read.
+    InvalidArgumentError
+        It has no such variant or animation.
     """
     image = None if texture is None else load_texture(texture)
     is_dressed = image is not None or color is not None
@@ -55,18 +71,21 @@ def open_model(path, *, texture=None, color=None, progress=None, companion=None)
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
-    scene = scene_from_document(document)
+    scene = scene_from_document(document, variant)
     if document.scene is None:
         scene.background = DARK.background
-    return ViewedScene(
+    viewed = ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
         themed=document.scene is None,
         path=path,
         details=document_lines(document),
-        warnings=list(document.warnings),
+        warnings=list(scene.warnings),
     )
+    if animation is not None:
+        animation(viewed)
+    return viewed
 
 
 def _no_image(path: str) -> bool:

@@ -13,6 +13,7 @@ import numpy as np
 from .. import linalg
 from ..errors import Engine3DWarning
 from ..geometry.mesh import Mesh
+from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.lights import LIGHTS
 from ..scene.scene import Scene
@@ -81,9 +82,11 @@ def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:
 def _add(scene: Scene, viewed: ViewedScene, pose: np.ndarray) -> None:
     """Add what another scene shows, as children of a node that bears its name."""
     group = scene.add(name=viewed.title, pose=pose)
+    viewed.scene._update()
     for node in viewed.scene.nodes:
         if isinstance(node.object, _SHOWN) and node.shown:
-            scene.add(node.object, name=node.name, pose=node.world_pose, parent=group)
+            thing, pose = shown_object(node), placing_pose(node)
+            scene.add(thing, name=node.name, pose=pose, parent=group)
 
 
 def _own_places(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:

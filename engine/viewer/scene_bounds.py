@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import linalg
 from ..geometry.mesh import Mesh
+from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.orbiting import cosine, home_axes, sine
 from .viewpoint import Sphere
@@ -35,6 +36,12 @@ def bounding_sphere(scene) -> Sphere:
         offsets = points - center
         farthest = max(farthest, float(linalg.dot(offsets, offsets).max(initial=0.0)))
     return Sphere(tuple(center.tolist()), math.sqrt(farthest) or 1.0)
+
+
+def sphere_of_box(box: np.ndarray) -> Sphere:
+    """Return the sphere round a box, (2, 3); of one without extent it has a radius of one."""
+    center, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
+    return Sphere(tuple(center.tolist()), float(linalg.length(half)) or 1.0)
 
 
 def turning_outline(scene, up) -> np.ndarray:
@@ -87,17 +94,18 @@ def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
 
 def _world_points(scene) -> Iterator[np.ndarray]:
     """Yield the finite vertices of each visible mesh, (N, 3) in world space; instances as boxes."""
+    scene._update()
     for node in scene.nodes:
         points = _outline(node) if node.shown else None
         if points is not None:
             with np.errstate(over="ignore", invalid="ignore"):
-                points = linalg.transform_points(node.world_pose, points)
+                points = linalg.transform_points(placing_pose(node), points)
             yield points[np.isfinite(points).all(axis=1)]
 
 
 def _outline(node) -> np.ndarray | None:
     """Return points of the node's mesh, (N, 3) in its own space, that its hull goes through."""
-    shape = node.object
+    shape = shown_object(node)
     if isinstance(shape, Mesh):
         return shape.positions
     if isinstance(shape, InstancedMesh):

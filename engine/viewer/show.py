@@ -7,15 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
-
-from .. import linalg
 from .._support.image_size import check_size
 from .._support.numbers import real, shown
 from ..choices import PixelFormat
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..scene.cameras import OrthographicCamera, PerspectiveCamera
+from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
@@ -27,7 +24,7 @@ from .theme import DARK
 from .view_renderer import ViewRenderer
 from .viewed_scene import TURN_SECONDS, ViewedScene
 from .viewer import Viewer
-from .viewpoint import UP_DIRECTIONS, Viewpoint
+from .viewpoint import UP_DIRECTIONS, Viewpoint, look_through
 from .window import Window
 
 SIZE = (1280, 720)
@@ -103,6 +100,8 @@ def _scene(thing) -> Scene | None:
     if isinstance(thing, Mesh | InstancedMesh):
         scene.add(thing, name=getattr(thing, "name", "") or "mesh")
     elif isinstance(thing, Node):
+        if thing._scene is not None:
+            thing._scene._update()
         _add_branch(scene, thing)
     else:
         return None
@@ -112,7 +111,7 @@ def _scene(thing) -> Scene | None:
 def _add_branch(scene: Scene, node: Node) -> None:
     """Add what a node and those below it hold, where they are in the world."""
     if node.visible:
-        scene.add(node.object, name=node.name, pose=node.world_pose)
+        scene.add(shown_object(node), name=node.name, pose=placing_pose(node))
         for child in node.children:
             _add_branch(scene, child)
 
@@ -138,16 +137,8 @@ def _first_view(view_renderer: ViewRenderer) -> Viewpoint | None:
     node = view_renderer.viewed.scene._camera_node()
     if node is None:
         return None
-    pose, camera = node.world_pose, node.object
-    eye, ahead = pose[:3, 3], -linalg.normalize(pose[:3, 2])
-    reach = float(linalg.dot(np.subtract(view_renderer.bounds.center, eye), ahead))
     view = view_renderer.view()
-    if isinstance(camera, PerspectiveCamera):
-        view.yfov = camera.yfov
-    view.look_from(eye, eye + ahead * max(reach, 0.1 * view_renderer.bounds.radius))
-    if isinstance(camera, OrthographicCamera):
-        view.orthographic = True
-        view.distance = camera.ymag / np.tan(view.yfov / 2)
+    look_through(view, node, view_renderer.bounds)
     return view
 
 

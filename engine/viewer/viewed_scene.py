@@ -18,6 +18,7 @@ from .scene_bounds import bounding_sphere
 from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
 
 if TYPE_CHECKING:
+    from ..motion.player import AnimationPlayer
     from ..navigation import Walker
 
 #: Seconds of one turn of a turntable.
@@ -45,6 +46,8 @@ class ViewedScene:
         Seconds after which the animation repeats.
     plays : bool
         Whether it moves from the start.
+    player : AnimationPlayer or None
+        What plays of the scene's animations.
     focus : (N, 3) ndarray of float64 or None
         Points that the first view shows, in world space; by default all of the scene.
     appearance : dict
@@ -81,6 +84,7 @@ class ViewedScene:
     update: Callable[[float], None] | None = None
     period: float = TURN_SECONDS
     plays: bool = False
+    player: AnimationPlayer | None = None
     focus: np.ndarray | None = None
     appearance: dict = field(default_factory=dict)
     follow: Callable[[np.ndarray], None] | None = None

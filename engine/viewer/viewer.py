@@ -16,6 +16,7 @@ from .. import events, linalg
 from ..errors import printable
 from ..spatial.rays import RayHit
 from . import actions as viewer_actions
+from .animation_bar import draw_bar
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
 from .help_panel import draw_help
@@ -198,6 +199,9 @@ class Viewer:
             draw_block(canvas, self._statistics(), **look)
         if self.panel is not None:
             self.panel.draw(canvas, **look)
+        viewed = self.view_renderer.viewed
+        if viewed.player is not None:
+            draw_bar(canvas, self.time / viewed.period, **look)
         draw_block(canvas, self.messages.lines(), corner="bottom", **look)
 
     def _selection(self) -> list[str]:

@@ -39,6 +39,8 @@ QUARTER_TURN = math.pi / 2
 FRAMING_MARGIN = 1.06
 #: What is less than this share of the picture's height is a dot.
 SMALLEST = 0.01
+#: A camera whose up direction is farther from ours than this cosine rolls.
+ROLLS = 1.0 - 1e-9
 #: Seen steeper than this from above or below, a step upward hardly shows.
 STEEPEST = 1e-6
 
@@ -209,6 +211,27 @@ class Viewpoint:
         self.distance = distance
         self.elevation = math.asin(max(-1.0, min(1.0, _dot(offset, up) / distance)))
         self.azimuth = math.atan2(_dot(offset, right), _dot(offset, front))
+
+
+def look_through(view: Viewpoint, node, bounds: Sphere) -> None:
+    """Stand where a node's camera stands, look where it looks, and turn about what is there.
+
+    Up stays up where the camera does not roll; else its own up direction counts from now on.
+    """
+    pose, camera = node.world_pose, node.object
+    eye, ahead = pose[:3, 3], -linalg.normalize(pose[:3, 2])
+    reach = _dot(np.subtract(bounds.center, eye), ahead)
+    if isinstance(camera, PerspectiveCamera):
+        view.yfov = camera.yfov
+    target = eye + ahead * max(reach, 0.1 * bounds.radius)
+    view.look_from(eye, target)
+    own = linalg.normalize(pose[:3, 1])
+    if _dot(view.rotation()[:, 1], own) < ROLLS:
+        view.up = tuple(own.tolist())
+        view.look_from(eye, target)
+    view.orthographic = isinstance(camera, OrthographicCamera)
+    if isinstance(camera, OrthographicCamera):
+        view.distance = camera.ymag / math.tan(view.yfov / 2)
 
 
 def clip_planes(

@@ -161,6 +161,9 @@ def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
         points=mesh.points,
         edge_visible=None if edges is None else edges[kept],
         position_ids=mesh.position_ids,
+        joints=mesh.joints,
+        weights=mesh.weights,
+        morph_targets=mesh.morph_targets,
         name=mesh.name,
         **attributes_of(mesh),
     )

@@ -10,6 +10,7 @@ import engine3d as e3d
 from engine3d import linalg
 from engine3d.motion.shown import placing_pose, shown_object
 
+MOVING = ("animation_list", "skin_list", "morph_targets")
 GLTF = SHARED / "gltf"
 
 
@@ -23,9 +24,9 @@ def animated():
         pytest.param(case, id=case["file"])
         for case in cases
         if case.get("outcome") == "ok"
-        and "anim_pointer" not in case["features"]
-        and case["expect"].get("bbox_rest")
-        and any(case.get("expect", {}).get(key) for key in ("animation_list", "skin_list", "morph_targets"))
+        and "anim_pointer" not in case.get("features", ())
+        and case.get("expect", {}).get("bbox_rest")
+        and any(case["expect"].get(key) for key in MOVING)
     ]
 
 

@@ -47,7 +47,10 @@ def test_lines_are_straight(moved):
 
 def test_rotations_turn_the_shorter_way_at_a_constant_rate(moved):
     scene, node = moved
-    turn = lambda angle: quaternion_from_axis_angle((0, 0, 1), angle)
+
+    def turn(angle):
+        return quaternion_from_axis_angle((0, 0, 1), angle)
+
     values = [turn(0.0), -turn(1.0), 3.0 * turn(-1.0)]
     player = player_of(channel(node, "rotation", values), scene=scene)
     for time, angle in ((0.6, 0.2), (0.9, 0.8), (1.75, 0.0), (2.125, -0.5)):
@@ -148,8 +151,11 @@ def two_clips():
     scene = e3d.Scene()
     node, other = scene.add(), scene.add(translation=(0, 7, 0))
     first = e3d.AnimationClip(
-        [channel(node, "translation", [(0, 0, 0), (4, 0, 0)], times=(0, 4)),
-         channel(other, "translation", [(0, 1, 0), (0, 1, 0)], times=(0, 4))], "walk",
+        [
+            channel(node, "translation", [(0, 0, 0), (4, 0, 0)], times=(0, 4)),
+            channel(other, "translation", [(0, 1, 0), (0, 1, 0)], times=(0, 4)),
+        ],
+        "walk",
     )
     second = e3d.AnimationClip(
         [channel(node, "translation", [(0, 0, 10), (0, 0, 10)], times=(0, 1))], "stand"

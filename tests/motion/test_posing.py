@@ -5,7 +5,9 @@ import pytest
 
 import engine3d as e3d
 from engine3d._native import kernels_testing
+from engine3d._native.rasterizer import pose_meshes
 from engine3d.motion.posed_mesh import PosedMesh
+from engine3d.motion.skeletons import skeleton_of
 
 
 def bent_tube(rng, rings=40, sides=24, joints=5, influences=4, targets=0, normals=True):
@@ -25,10 +27,19 @@ def bent_tube(rng, rings=40, sides=24, joints=5, influences=4, targets=0, normal
         e3d.MorphTarget(
             rng.normal(0, 0.2, positions.shape),
             rng.normal(0, 0.2, positions.shape) if normals else None,
+            rng.normal(0, 0.2, positions.shape) if normals else None,
         )
         for _ in range(targets)
     ]
-    return e3d.Mesh(positions, faces, joints=moved_by, weights=weights, morph_targets=morphs)
+    tangents = np.hstack([rng.normal(size=positions.shape), np.ones((len(positions), 1))])
+    return e3d.Mesh(
+        positions,
+        faces,
+        tangents=tangents,
+        joints=moved_by,
+        weights=weights,
+        morph_targets=morphs,
+    )
 
 
 def random_poses(rng, count):
@@ -68,16 +79,18 @@ def test_skinned_vertices_stand_where_their_joints_put_them(influences):
     mesh = bent_tube(rng, influences=influences)
     scene, node = skinned_scene(mesh, rng)
     now = posed(scene, node)
-    world = e3d.linalg.transform_points(scene._arrays.world_poses(
-        scene._arrays.columns["anchor"][[node._slot]])[0], now.positions)
+    world = e3d.linalg.transform_points(
+        scene._arrays.world_poses(scene._arrays.columns["anchor"][[node._slot]])[0], now.positions
+    )
     assert np.abs(world - by_matrices(mesh, node)).max() < 2e-6 * np.abs(world).max()
 
 
 @pytest.mark.parametrize("case", ("joints", "morphs", "both", "positions only"))
 def test_posed_vertices_are_those_of_the_reference(case):
     rng = np.random.default_rng(7)
-    mesh = bent_tube(rng, influences=8, targets=0 if case == "joints" else 3,
-                     normals=case != "positions only")
+    mesh = bent_tube(
+        rng, influences=8, targets=0 if case == "joints" else 3, normals=case != "positions only"
+    )
     scene, node = skinned_scene(mesh, rng)
     weights = None
     if case in ("morphs", "positions only"):
@@ -92,14 +105,25 @@ def test_posed_vertices_are_those_of_the_reference(case):
     arrays = mesh._arrays
     skinned = matrices is not None
     positions, normals = (np.empty_like(mesh.positions) for _ in range(2))
+    tangents = np.empty_like(mesh.tangents)
     kernels_testing.pose_by_reference(
-        mesh.positions, mesh.normals,
-        mesh.joints if skinned else None, mesh.weights if skinned else None,
-        arrays.get("morph_positions"), arrays.get("morph_normals"), matrices,
-        None if weights is None else np.float32(weights), positions, normals,
+        mesh.positions,
+        mesh.normals,
+        mesh.tangents,
+        mesh.joints if skinned else None,
+        mesh.weights if skinned else None,
+        arrays.get("morph_positions"),
+        arrays.get("morph_normals"),
+        arrays.get("morph_tangents"),
+        matrices,
+        None if weights is None else np.float32(weights),
+        positions,
+        normals,
+        tangents,
     )
     assert now.positions.tobytes() == positions.tobytes()
     assert now.normals.tobytes() == normals.tobytes()
+    assert now.tangents.tobytes() == tangents.tobytes()
     assert not np.array_equal(now.positions, mesh.positions)
 
 
@@ -126,10 +150,7 @@ def test_large_meshes_are_shared_out_and_the_same_on_any_number_of_threads(threa
     now = node._posed.now()
     alone, other = PosedMesh(mesh), node._posed
     alone.native.set_weights(np.float32((1.0, 0.3)))
-    skeleton = __import__("engine3d.motion.skeletons", fromlist=["skeleton_of"])
-    alone.native.set_skeleton(*skeleton.skeleton_of(node.skin, scene._arrays)[1:])
-    from engine3d._native.rasterizer import pose_meshes
-
+    alone.native.set_skeleton(*skeleton_of(node.skin, scene._arrays)[1:])
     pose_meshes([alone.native], scene._arrays.columns["pose"], 1)
     assert alone.now().positions.tobytes() == now.positions.tobytes()
     assert np.array_equal(alone.box(), other.box())

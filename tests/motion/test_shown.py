@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from motion.test_posing import bent_tube, by_matrices, posed, random_poses, skinned_scene
+from motion.test_posing import bent_tube, by_matrices, posed, skinned_scene
 
 import engine3d as e3d
 from engine3d import linalg
@@ -82,7 +82,8 @@ def test_a_posed_mesh_is_drawn_as_one_with_those_vertices(options):
         for node in scene.nodes:
             if node.skin:
                 plain.add(node._posed.now(), pose=placing_pose(node))
-        assert np.array_equal(frame.color, e3d.Renderer(160, 120).render(plain, view(), **options).color)
+        other = e3d.Renderer(160, 120).render(plain, view(), **options)
+        assert np.array_equal(frame.color, other.color)
 
 
 def test_renderers_with_other_needs_show_the_same_pose():
@@ -185,8 +186,14 @@ def test_what_a_node_holds_may_change():
     scene, node = skinned_scene(bent_tube(rng), rng)
     renderer = e3d.Renderer(64, 64)
     renderer.render(scene)
-    with pytest.raises(e3d.InvalidArgumentError, match="skin needs a Mesh"):
-        node.object = e3d.box()
+    mesh, before = node.object, node.bounds
+    node.object = e3d.box()
+    assert np.allclose(node.bounds, [[99.5, -0.5, -0.5], [100.5, 0.5, 0.5]])
+    renderer.render(scene)
+    node.object = None
+    renderer.render(scene)
+    node.object = mesh
+    assert np.array_equal(node.bounds, before)
     node.skin = None
     renderer.render(scene)
     assert scene._arrays.columns["anchor"][node._slot] == -1

@@ -51,6 +51,7 @@ FOLDERS = {
         *("pipeline/pass", "pipeline/shade", "pipeline/store"),
     },
     "reference": {"core", "include"},
+    "posing": {"core", "include", "scene"},
     "scene": {"core", "include"},
     "ui": {"core", "include", "kernels", "reference"},
     "writers": {"include"},

@@ -25,6 +25,64 @@ def scene():
     return scene
 
 
+def bendable(**arrays):
+    parts = {"joints": [[0, 1]] * 3, "weights": [[0.5, 0.5]] * 3, **arrays}
+    return e3d.Mesh(np.eye(3), [[0, 1, 2]], **parts)
+
+
+def bent(**arrays):
+    """A skinned node that is drawn."""
+    shown = e3d.Scene()
+    joints = [shown.add(), shown.add()]
+    node = shown.add(bendable())
+    node.skin = e3d.Skin(joints, **arrays)
+    e3d.render(shown, camera(), size=SIZE, threads=1)
+    return node
+
+
+def influenced(joints, weights):
+    shown = e3d.Scene()
+    chain = [shown.add() for _ in range(2)]
+    node = shown.add(bendable(joints=joints, weights=weights))
+    node.skin = e3d.Skin(chain)
+    e3d.render(shown, camera(), size=SIZE, threads=1)
+
+
+def morphed(positions, normals, weights):
+    target = e3d.MorphTarget(positions, normals)
+    shown = e3d.Scene()
+    node = shown.add(e3d.Mesh(np.eye(3), [[0, 1, 2]], morph_targets=[target]))
+    node.morph_weights = weights
+    e3d.render(shown, camera(), size=SIZE, threads=1)
+
+
+def keyed(times, values, path="translation", interpolation="linear"):
+    shown = scene()
+    channel = e3d.Channel(shown.nodes[0], path, times, values, interpolation)
+    player = e3d.AnimationPlayer(shown, [e3d.AnimationClip([channel])])
+    player.play()
+    for time in (-1.0, 0.3, 9.0):
+        player.seek(time)
+    e3d.render(shown, camera(), size=SIZE, threads=1)
+
+
+def playing(name):
+    shown = scene()
+    channel = e3d.Channel(shown.nodes[0], "scale", [0, 1], [(1, 1, 1), (2, 2, 2)])
+    player = e3d.AnimationPlayer(shown, [e3d.AnimationClip([channel])])
+    player.play()
+
+    def call(**value):
+        if name in ("speed", "loop"):
+            setattr(player, name, value["value"])
+            player.advance(0.5)
+        else:
+            getattr(player, name)(**value)
+        e3d.render(shown, camera(), size=SIZE, threads=1)
+
+    return call
+
+
 def camera():
     return e3d.PerspectiveCamera(), e3d.look_at((0, 0, 5), (0, 0, 0))
 
@@ -334,6 +392,25 @@ CALLS = {
             "scales": [(1, 1, 1)] * 2,
         },
     ),
+    "Mesh.joints": (influenced, {"joints": [[0, 1]] * 3, "weights": [[0.5, 0.5]] * 3}),
+    "MorphTarget": (
+        morphed,
+        {"positions": np.ones((3, 3)), "normals": np.ones((3, 3)), "weights": [0.5]},
+    ),
+    "Skin": (bent, {"inverse_binds": np.tile(np.eye(4), (2, 1, 1))}),
+    "Channel": (
+        keyed,
+        {"times": [0.0, 1.0], "values": [(0, 0, 0), (1, 1, 1)], "path": "scale"},
+    ),
+    "Channel.interpolation": (
+        keyed,
+        {"times": [0.0], "values": [((0, 0, 0),) * 3], "interpolation": "cubicspline"},
+    ),
+    "AnimationPlayer.play": (playing("play"), {"clip": 0, "fade": 0.5, "offsets": 0.25}),
+    "AnimationPlayer.seek": (playing("seek"), {"time": 0.5}),
+    "AnimationPlayer.advance": (playing("advance"), {"seconds": 0.5}),
+    "AnimationPlayer.speed": (playing("speed"), {"value": 0.5}),
+    "AnimationPlayer.loop": (playing("loop"), {"value": "once"}),
     "Animator.spin": (spun, {"period": 2.0, "axis": (0, 1, 0), "phase": 0.1}),
     "Animator.seek": (timed("seek"), {"value": 0.5}),
     "Animator.advance": (timed("advance"), {"value": 0.5}),

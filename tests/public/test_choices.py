@@ -12,6 +12,7 @@ from engine3d._native import rasterizer as native
 from engine3d.geometry.vertex_attributes import vertex_attributes
 from engine3d.materials import colors, textures
 from engine3d.materials.material import TEXTURE_SLOTS
+from engine3d.motion import clips, player
 from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
@@ -36,6 +37,9 @@ ACCEPTED = {
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,
     "AlphaMode": native.ALPHA_MODES,
+    "MotionPath": clips.PATHS,
+    "Interpolation": clips.INTERPOLATIONS,
+    "Loop": player.LOOPS,
     "ImageFormat": frame._FORMATS,
     "PixelFormat": pixels.FORMATS,
     "PointerShape": POINTERS,

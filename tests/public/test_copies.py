@@ -32,6 +32,10 @@ def drawn():
     return scene
 
 
+def moved():
+    return e3d.Channel(drawn().nodes[0], "scale", [0.0], [(1, 1, 1)])
+
+
 def frame():
     return e3d.render(drawn(), size=(16, 12), threads=1, outputs=("color", "depth"))
 
@@ -46,6 +50,7 @@ POSE = np.eye(4)
 COPIED = {
     "Mesh": lambda: drawn().find("ball").object,
     "InstancedMesh": lambda: drawn().find("crowd").object,
+    "MorphTarget": lambda: e3d.MorphTarget(np.ones((3, 3)), np.ones((3, 3))),
     "Texture": lambda: painted().materials[0].texture,
     "PlacedTexture": lambda: e3d.PlacedTexture(painted().materials[0].texture, uv_set=1),
     "Material": lambda: painted().materials[0],
@@ -78,6 +83,10 @@ REFUSED = {
     "Node": lambda: drawn().nodes[0],
     "NodeSelection": lambda: drawn().select(),
     "Animator": lambda: e3d.Animator(drawn()),
+    "Skin": lambda: e3d.Skin(drawn().nodes[:2]),
+    "Channel": lambda: moved(),
+    "AnimationClip": lambda: e3d.AnimationClip([moved()]),
+    "AnimationPlayer": lambda: e3d.AnimationPlayer(drawn()),
     "Renderer": lambda: e3d.Renderer(4, 4),
     "Resources": e3d.Resources,
     "Window": lambda: e3d.Window(64, 48),

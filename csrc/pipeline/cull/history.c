@@ -75,8 +75,8 @@ static e3d_history_row row_of(const e3d_draws *draws, const e3d_order_entry *ent
     int32_t groups = state->mesh->group_count, node = e3d_object_id(draw, entry->instance);
     int64_t base = state->group_base + (int64_t)entry->instance * groups;
     if (draw->pose_kind == E3D_POSE_NODES)
-        return (e3d_history_row){state->mesh, base, node, 0, 1, groups};
-    return (e3d_history_row){state->mesh, base, node, draw->first_instance, draw->instances, groups};
+        return (e3d_history_row){state->mesh->like, base, node, 0, 1, groups};
+    return (e3d_history_row){state->mesh->like, base, node, draw->first_instance, draw->instances, groups};
 }
 
 /* Takes over what both frames know of the instances of one draw; how many groups that is. */

@@ -14,7 +14,13 @@ from ..errors import InvalidArgumentError
 from .morph_targets import MorphTarget
 
 #: Which axis of each array counts the vertices.
-VERTEX_AXES = {"joints": 0, "weights": 0, "morph_positions": 1, "morph_normals": 1}
+VERTEX_AXES = {
+    "joints": 0,
+    "weights": 0,
+    "morph_positions": 1,
+    "morph_normals": 1,
+    "morph_tangents": 1,
+}
 _MOST_JOINT = 2**16 - 1
 
 
@@ -85,6 +91,7 @@ def stacked(targets: tuple[MorphTarget, ...], count: int) -> dict[str, np.ndarra
     return {
         "morph_positions": _stack([target.positions for target in targets], count),
         "morph_normals": _stack([target.normals for target in targets], count),
+        "morph_tangents": _stack([target.tangents for target in targets], count),
     }
 
 

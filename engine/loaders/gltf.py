@@ -7,7 +7,7 @@ besides is told in warnings. Source: Khronos, "glTF 2.0 Specification", 2021.
 
 from __future__ import annotations
 
-from .documents import Document, DocumentObject, TreeRecord
+from .documents import Document, TreeRecord
 from .gltf_accessors import GltfAccessors
 from .gltf_buffers import GltfBuffers
 from .gltf_draco import GltfDraco

@@ -1,8 +1,8 @@
 """glTF 2.0, as .gltf and .glb.
 
 In: the bytes of a file, and the buffers and images that it names. Out: a `Document` whose tree
-holds the file as plain data; its objects are what the shown scene shows, at rest. What the file says
-besides is told in warnings. Source: Khronos, "glTF 2.0 Specification", 2021.
+holds the file as plain data; its objects are what the shown scene shows. What the file says besides
+is told in warnings. Source: Khronos, "glTF 2.0 Specification", 2021.
 """
 
 from __future__ import annotations

@@ -7,7 +7,9 @@ import io
 
 from ..errors import printable
 from ..loaders import load_mesh
+from ..scene.loading import load_scene
 from ..writers import formats, save_mesh
+from ..writers.gltf import save_scene_as
 from .inputs import model_file
 from .loading_bar import LoadingBar
 from .outputs import (
@@ -21,6 +23,7 @@ from .outputs import (
 from .usage import UsageError
 
 BINARY_FORMATS = (".ply", ".stl")
+SCENE_FORMATS = (".glb", ".gltf")
 
 
 def convert(args: argparse.Namespace) -> int:
@@ -32,15 +35,28 @@ def convert(args: argparse.Namespace) -> int:
         raise UsageError(f"--ascii is for {' and '.join(BINARY_FORMATS)} files")
     if is_same_file(args.model, output):
         raise UsageError(f"{printable(output)} is the model itself")
+    convert = _scene if extension in SCENE_FORMATS else _mesh
     with LoadingBar() as progress:
-        mesh = load_mesh(model_file(args.model), progress=progress)
+        save = convert(model_file(args.model), progress, args.format, extension, options)
     if output == STANDARD_OUTPUT:
         stream = io.BytesIO()
-        save_mesh(mesh, stream, format=args.format, **options)
+        save(stream)
         write_standard_output(stream.getbuffer())
     else:
-        save_mesh(mesh, output, format=args.format, **options)
+        save(output)
     return 0
+
+
+def _mesh(model, progress, format: str | None, extension: str, options: dict):
+    """What saves the one mesh that a model is."""
+    mesh = load_mesh(model, progress=progress)
+    return lambda output: save_mesh(mesh, output, format=format, **options)
+
+
+def _scene(model, progress, format: str | None, extension: str, options: dict):
+    """What saves all that a model holds: its nodes, cameras, lights, skins and animations."""
+    scene = load_scene(model, progress=progress)
+    return lambda output: save_scene_as(scene, output, extension)
 
 
 def _output(args: argparse.Namespace) -> str:

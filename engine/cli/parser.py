@@ -13,7 +13,7 @@ from . import environment_options, options, suggestions, values
 from .suggestions import Parser
 from .usage import UsageError
 
-MODEL_FORMATS = ("obj", "ply", "stl")
+MODEL_FORMATS = ("glb", "gltf", "obj", "ply", "stl")
 
 
 def parse(arguments: list[str]) -> argparse.Namespace:

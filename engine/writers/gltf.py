@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import base64
 import json
-import os
 import struct
 from typing import Any, BinaryIO
 
-from ..errors import InvalidArgumentError
-from ..files.atomic_write import Files
+from ..errors import InvalidArgumentError, located, warn
+from ..files.atomic_write import AtomicFiles, Files, StreamFiles
 from ..geometry.mesh import Mesh
 from ..loaders.documents import TreeRecord
 from ..scene.scene import Scene
@@ -28,38 +27,43 @@ _MOST = 2**32 - 1
 _URI = "data:application/octet-stream;base64,"
 
 
-def is_gltf(path: str) -> bool:
-    """Return whether a path's extension is one of glTF's."""
-    return os.path.splitext(path)[1].lower() in EXTENSIONS
-
-
-def write_scene(scene: Scene, path: str, file: BinaryIO) -> list[str]:
-    """Write a scene as ``path`` says; returns a line for each thing that the file does not hold."""
+def write_scene(scene: Scene, extension: str, file: BinaryIO) -> list[str]:
+    """Write a scene to an open file; returns a line for each thing that this does not hold."""
     tree, told = tree_of_scene(scene)
-    return [*told, *write_tree(tree, path, file)]
+    return [*told, *write_tree(tree, extension, file)]
 
 
-def write_tree(tree: TreeRecord, path: str, file: BinaryIO) -> list[str]:
-    """Write a tree to an open file, as .gltf if the path ends so and else as .glb."""
+def save_scene_as(scene: Scene, path: str | BinaryIO, extension: str) -> None:
+    """Write a scene to a file or an open stream, as one of `EXTENSIONS`; tell what is lost."""
+    is_stream = hasattr(path, "write")
+    name = "<stream>" if is_stream else str(path)
+    with StreamFiles(path) if is_stream else AtomicFiles() as files:
+        told = write_scene(scene, extension, files.create(name))
+    for message in told:
+        warn(located(message, name))
+
+
+def write_tree(tree: TreeRecord, extension: str, file: BinaryIO) -> list[str]:
+    """Write a tree to an open file, as one of `EXTENSIONS`; returns as `write_scene`."""
     made = GltfTree(tree)
-    if os.path.splitext(path)[1].lower() == ".gltf":
+    if extension == ".gltf":
         if made.arrays.size:
             content = base64.b64encode(b"".join(made.arrays.chunks)).decode("ascii")
             made.json["buffers"] = [{"byteLength": made.arrays.size, "uri": _URI + content}]
         file.write(_text(made.json, indent=1) + b"\n")
     else:
-        _write_glb(made, path, file)
+        _write_glb(made, file)
     return list(dict.fromkeys(made.told))
 
 
-def _write_glb(made: GltfTree, path: str, file: BinaryIO) -> None:
+def _write_glb(made: GltfTree, file: BinaryIO) -> None:
     if made.arrays.size:
         made.json["buffers"] = [{"byteLength": made.arrays.size}]
     text = _text(made.json)
     text += b" " * (-len(text) % 4)
     size = 12 + 8 + len(text) + (8 + made.arrays.size if made.arrays.size else 0)
     if size > _MOST:
-        raise InvalidArgumentError(f"{path}: a .glb file holds at most {_MOST} bytes, not {size}")
+        raise InvalidArgumentError(f"a .glb file holds at most {_MOST} bytes, not {size}")
     file.write(struct.pack("<4sII", _MAGIC, _VERSION, size))
     file.write(struct.pack("<I4s", len(text), _JSON) + text)
     if made.arrays.size:
@@ -74,20 +78,20 @@ def _text(tree: dict[str, Any], indent: int | None = None) -> bytes:
     return text.encode("utf-8", "backslashreplace")
 
 
-def _write_mesh(mesh: Mesh, path: str, files: Files, kind: str) -> list[str]:
+def _write_mesh(mesh: Mesh, file: BinaryIO, extension: str) -> list[str]:
     scene = Scene()
     scene.add(mesh, name=mesh.name)
-    return write_scene(scene, kind, files.create(path))
+    return write_scene(scene, extension, file)
 
 
 def write_glb(mesh: Mesh, path: str, files: Files) -> list[str]:
     """Write a mesh as .glb; returns what such files do not hold."""
-    return _write_mesh(mesh, path, files, "mesh.glb")
+    return _write_mesh(mesh, files.create(path), ".glb")
 
 
 def write_gltf(mesh: Mesh, path: str, files: Files) -> list[str]:
     """Write a mesh as .gltf; returns what such files do not hold."""
-    return _write_mesh(mesh, path, files, "mesh.gltf")
+    return _write_mesh(mesh, files.create(path), ".gltf")
 
 
 WRITERS = (

@@ -67,13 +67,13 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     if not isinstance(scene, Scene):
         raise InvalidArgumentError(f"not a Scene: {type(scene).__name__}")
     name = checked_path(path)
-    if gltf.is_gltf(name):
-        with atomic_write(name) as file:
-            told = gltf.write_scene(scene, name, file)
-    else:
-        content, told = scene_text(scene, os.path.dirname(name) or ".")
-        with atomic_write(name) as file:
-            file.write(content)
+    extension = os.path.splitext(name)[1].lower()
+    if extension in gltf.EXTENSIONS:
+        gltf.save_scene_as(scene, name, extension)
+        return
+    content, told = scene_text(scene, os.path.dirname(name) or ".")
+    with atomic_write(name) as file:
+        file.write(content)
     for message in told:
         warn(located(message, name))
 

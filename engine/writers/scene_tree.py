@@ -28,7 +28,7 @@ from ..loaders.documents import (
 from ..loaders.tree_posing import local_pose
 from ..materials.colors import linear_color
 from ..materials.material import Material
-from ..scene._tree_records import FURTHER_PART, records
+from ..scene.tree_records import FURTHER_PART, records
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight, PointLight, SpotLight

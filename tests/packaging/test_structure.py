@@ -67,6 +67,7 @@ PROGRAMS = {"fuzz"}
 BACKWARD_IMPORTS = {
     "geometry.mesh -> geometry.trimesh_conversion",
     "geometry.mesh -> writers",
+    "scene.scene -> writers.scene",
 }
 # Lists that repeat a type of engine/choices.py.
 COPIED_CHOICES = set()

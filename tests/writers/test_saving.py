@@ -65,7 +65,7 @@ def house(tmp_path):
 
 
 def test_formats():
-    assert [item.name for item in formats()] == ["obj", "ply", "stl"]
+    assert [item.name for item in formats()] == ["glb", "gltf", "obj", "ply", "stl"]
 
 
 def test_obj_keeps_everything(house, tmp_path):
@@ -198,8 +198,8 @@ def test_flat_materials_are_not_smooth(tmp_path):
 
 
 def test_wrong_arguments(house, tmp_path):
-    with pytest.raises(InvalidArgumentError, match=r"extension '\.glb' .* \(\.obj, \.ply, \.stl\)"):
-        house.save(tmp_path / "a.glb")
+    with pytest.raises(InvalidArgumentError, match=r"extension '\.dae' .* \(\.glb, \.gltf, \.obj"):
+        house.save(tmp_path / "a.dae")
     with pytest.raises(InvalidArgumentError, match="obj files have no option 'ascii'"):
         house.save(tmp_path / "a.obj", ascii=True)
     with pytest.raises(InvalidArgumentError, match="not a Mesh: int"):

@@ -18,7 +18,7 @@ class Peer:
     """Draws one scene; `scene.view` is read anew for each frame."""
 
     split = False  # a frame is delivered as an array
-    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "skin"}
+    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "pbr", "skin"}
 
     def __init__(self, scene):
         self.source = scene
@@ -105,16 +105,14 @@ def drawable(draw, made):
 def new_drawable(draw):
     """A mesh or instances."""
     mesh = draw.mesh
-    material = e3d.Material()
-    if draw.texture is not None:
-        material = e3d.Material(texture=e3d.Texture(draw.texture, filter="bilinear"))
     made = e3d.Mesh(
         mesh.pos,
         mesh.idx.astype(np.int32),
         normals=mesh.nrm,
         uvs=mesh.uv,
+        tangents=mesh.tan,
         colors=mesh.col,
-        materials=[material],
+        materials=[material(draw)],
         joints=mesh.joints,
         weights=mesh.weights,
     )
@@ -123,9 +121,28 @@ def new_drawable(draw):
     return e3d.InstancedMesh(made, draw.inst, colors=draw.inst_col)
 
 
+def material(draw):
+    """Physically based where the neutral description has maps for it."""
+    slots = {
+        "texture": draw.texture,
+        "normal_texture": draw.normal_map,
+        "metallic_roughness_texture": draw.rough_metal,
+    }
+    held = {
+        slot: e3d.Texture(pixels, filter="bilinear")
+        for slot, pixels in slots.items()
+        if pixels is not None
+    }
+    if draw.rough_metal is not None:
+        held.update(roughness=float(draw.roughness), metallic=float(draw.metallic))
+    return e3d.Material(**held)
+
+
 def lights(scene):
     """(light, position) pairs of the neutral description."""
-    if scene.light_pos is not None:
+    if scene.mode == "pbr":
+        yield from physical_lights(scene)
+    elif scene.light_pos is not None:
         for (x, y, z, radius), color in zip(scene.light_pos, scene.light_col, strict=True):
             color = tuple(map(float, color[:3]))
             light = e3d.PointLight(
@@ -136,3 +153,12 @@ def lights(scene):
         strength = 1.0 - float(scene.ambient)
         direction = tuple(-float(c) for c in scene.light_dir)
         yield e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0), None
+
+
+def physical_lights(scene):
+    """A sun and lamps, in units in which a white surface that faces 1 shows 1: pi lux."""
+    direction = tuple(-float(c) for c in scene.light_dir)
+    yield e3d.DirectionalLight(direction=direction, intensity=np.pi), None
+    for (x, y, z, _), color in zip(scene.light_pos, scene.light_col, strict=True):
+        color = tuple(map(float, color[:3]))
+        yield e3d.PointLight(color=color, intensity=np.pi), (float(x), float(y), float(z))

@@ -7,6 +7,7 @@ from . import linalg as linalg
 from . import loaders as loaders
 from . import primitives as primitives
 from .canvas import Canvas as Canvas
+from .environments.environment import Environment as Environment
 from .errors import BackendError as BackendError
 from .errors import DisplayError as DisplayError
 from .errors import Engine3DError as Engine3DError
@@ -23,6 +24,7 @@ from .files.resources import Resource as Resource
 from .files.resources import Resources as Resources
 from .files.resources import ResourceStats as ResourceStats
 from .geometry.mesh import Mesh as Mesh
+from .geometry.morph_targets import MorphTarget as MorphTarget
 from .linalg import look_at as look_at
 from .loaders import load_mesh as load_mesh
 from .loaders import load_texture as load_texture
@@ -33,6 +35,10 @@ from .lod import simplify as simplify
 from .materials.material import Material as Material
 from .materials.textures import PlacedTexture as PlacedTexture
 from .materials.textures import Texture as Texture
+from .motion.clips import AnimationClip as AnimationClip
+from .motion.clips import Channel as Channel
+from .motion.player import AnimationPlayer as AnimationPlayer
+from .motion.skins import Skin as Skin
 from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker
 from .primitives import box as box
@@ -52,11 +58,6 @@ from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
 from .rendering.renderer import Renderer as Renderer
 from .rendering.renderer import render as render
-from .geometry.morph_targets import MorphTarget as MorphTarget
-from .motion.clips import AnimationClip as AnimationClip
-from .motion.clips import Channel as Channel
-from .motion.player import AnimationPlayer as AnimationPlayer
-from .motion.skins import Skin as Skin
 from .scene.animation import Animator as Animator
 from .scene.cameras import Camera as Camera
 from .scene.cameras import IntrinsicsCamera as IntrinsicsCamera

@@ -26,6 +26,9 @@ OutputMode = Literal[
     "world_normal",
     "uv",
     "barycentric",
+    "metallic_roughness",
+    "emissive",
+    "tangent",
     "instance_id",
     "material_id",
 ]
@@ -42,6 +45,7 @@ AlphaMode = Literal["opaque", "mask", "blend"]
 MotionPath = Literal["translation", "rotation", "scale", "weights"]
 Interpolation = Literal["step", "linear", "cubicspline"]
 Loop = Literal["repeat", "once", "ping-pong"]
+BuiltInEnvironment = Literal["studio", "sky", "hall"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
 PixelFormat = Literal["rgba", "bgra"]
 PointerShape = Literal[

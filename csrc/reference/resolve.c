@@ -3,7 +3,7 @@
  * In:  what raster left at each sample.
  * Out: one row of pixels after another: colour averaged over a pixel's samples and encoded; every
  *      other output from the one sample of R35.
- * Rules: R32 (overdraw), R33 (average), R34 (encoding), R35 (outputs), R36 (what wireframe shows).
+ * Rules: R32 (overdraw), R33 (average), R34 (encoding), R35 (outputs), R36 (what wireframe shows), R63 (an environment as the background).
  */
 #include <math.h>
 
@@ -45,6 +45,20 @@ static void overdraw_color(uint8_t layers, float out[3])
         out[c] = (float)color[c] * E3D_UNORM8;
 }
 
+static int shows_backdrop(const e3d_frame *frame)
+{
+    return frame->backdrop.light.environment && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
+}
+
+/* R63: of the pixel that a sample belongs to. */
+static void background_color(const e3d_frame *frame, int32_t x, int32_t y, float out[3])
+{
+    float color[3];
+    if (shows_backdrop(frame))
+        ref_backdrop(&frame->backdrop, x / frame->samples_axis, y / frame->samples_axis, color);
+    clamp_color(shows_backdrop(frame) ? color : frame->background, out);
+}
+
 /* The colour of a sample, clamped; returns 0, and the background's colour, where nothing shows. */
 static int sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
 {
@@ -63,7 +77,7 @@ static int sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32
         return 1;
     }
     if (overdraw || !piece || (only_edges && piece->primitive.kind == REF_FACE)) {
-        clamp_color(frame->background, out);
+        background_color(frame, x, y, out);
         return 0;
     }
     ref_surface surface;
@@ -80,7 +94,7 @@ static void resolve_color(ref_scene *scene, const ref_band *band, int32_t x, int
 {
     const e3d_frame *frame = scene->frame;
     int32_t n = frame->samples_axis;
-    int opaque_background = frame->background[3] != 0.0f;
+    int opaque_background = shows_backdrop(frame) || frame->background[3] != 0.0f;
     int32_t count = 0; /* samples of alpha 1: exactly those that the sum holds */
     float sum[3] = {0.0f, 0.0f, 0.0f}, color[3];
     for (int32_t j = 0; j < n; j++)
@@ -135,6 +149,12 @@ static void write_surface(const e3d_targets *targets, size_t pixel, const ref_su
     write_floats(targets->world_position, pixel, surface->world_position, 3);
     write_floats(targets->uv, pixel, surface->uv, 2);
     write_floats(targets->barycentric, pixel, surface->barycentric, 3);
+    int is_physical = primitive->kind == REF_FACE && primitive->material->is_physical;
+    const float metallic_roughness[2] = {is_physical ? surface->physical.metallic : 0.0f,
+                                         is_physical ? surface->physical.roughness : 1.0f};
+    write_floats(targets->metallic_roughness, pixel, metallic_roughness, 2);
+    write_floats(targets->emissive, pixel, surface->emissive, 3);
+    write_floats(targets->tangent, pixel, surface->view_tangent, 4);
 }
 
 /* R35 */

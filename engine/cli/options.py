@@ -23,6 +23,7 @@ from ..choices import (
     Wireframe,
 )
 from . import values
+from .environment_options import surroundings
 from .inputs import model_files
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
@@ -49,6 +50,7 @@ SIGNED_OPTIONS = frozenset(
         "--camera-index",
         "--animation-index",
         "--animation-time",
+        "--environment-rotation",
     }
 )
 _SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]$|inf|nan)")
@@ -496,6 +498,7 @@ def settings(args: argparse.Namespace):
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,
         light_clamp=args.light_clamp,
+        surroundings=surroundings(args),
         textures=not args.no_texture,
         near=args.near,
         far=args.far,

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
 from .json_values import JsonValue
@@ -101,6 +102,8 @@ class SceneRecord:
         Of each node; -1: none.
     children : dict of int to list of int
         Of each node that has some, in their order.
+    environments : list of Environment or None
+        None stands for one whose file cannot be read.
     """
 
     values: JsonValue
@@ -111,6 +114,7 @@ class SceneRecord:
     places: list[dict[str, list]]
     parents: list[int]
     children: dict[int, list[int]]
+    environments: list[Environment | None] = field(default_factory=list)
 
 
 @dataclass(frozen=True, eq=False)

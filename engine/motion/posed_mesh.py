@@ -35,12 +35,17 @@ class PosedMesh:
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         self._made_of: dict = {}
+        self._version = -1  # of the mesh, when its arrays were last looked at
         self._now: tuple[NativeMesh, Mesh] | None = None
         self.renew()
 
     def renew(self) -> bool:
         """Begin anew where arrays of the mesh are others; return whether they are."""
+        version = self.mesh.version
+        if version == self._version:
+            return False
         arrays = dict(self.mesh._arrays)
+        self._version = version
         if _same(arrays, self._made_of):
             return False
         self._made_of = arrays

@@ -16,6 +16,7 @@ from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
+from .clips import play_clips
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
 from .sampling import Sampling
@@ -59,7 +60,8 @@ def show(
         Which way is up in a scene.
     update : callable, optional
         Called with the time in seconds before each picture of a scene, to move its nodes:
-        ``animator.seek``, or a function of your own. It plays from the start; Space pauses it.
+        ``animator.seek``, or a function of your own. It plays from the start; Space pauses it. Left
+        out, the first of ``scene.animations`` plays.
     period : float
         Seconds after which the time begins again at 0.
     format : {"rgba", "bgra"}, optional
@@ -89,6 +91,8 @@ def show(
     title = title or getattr(thing, "name", "") or type(thing).__name__.lower()
     viewed = ViewedScene(scene, title, up, update=update, period=period, plays=update is not None)
     viewed.themed = scene is not thing
+    if update is None:
+        play_clips(viewed)
     _show_scene(viewed, size)
 
 
@@ -130,6 +134,8 @@ def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
         finally:
             viewer.visibility.restore()
             view_renderer.leave_scene()
+            if viewed.player is not None:
+                viewed.player.stop()
 
 
 def _first_view(view_renderer: ViewRenderer) -> Viewpoint | None:

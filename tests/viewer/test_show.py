@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from motion.moving_model import flag
 
 import engine3d as e3d
 from engine3d import events
@@ -60,6 +61,17 @@ def test_a_scene_is_afterwards_as_it_was(shown):
     assert (scene.nodes, scene.background) == before
     assert (lamp.visible, dark.visible) == (True, False)
     assert len(shown) == 1
+
+
+def test_animations_of_a_scene_play_and_are_put_back(shown, tmp_path):
+    scene = e3d.load_scene(flag(tmp_path / "flag.gltf"))
+    before = scene.bounds
+    e3d.show(scene, size=(64, 48))
+    (viewer,) = shown
+    assert viewer.playing and viewer.view_renderer.viewed.period == 2.0
+    assert np.array_equal(scene.bounds, before)
+    e3d.show(scene.find("flag"), size=(64, 48))
+    assert not shown[1].playing and covered(shown[1]) > 0.001
 
 
 def test_a_scene_with_a_camera_is_seen_from_there(shown):

@@ -207,6 +207,7 @@ static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory
                               .number = number,
                               .state = state};
     int64_t before = memory->shade.shaded;
+    memory->pixels.tile = job.tile;
     if (!draw_job(&job))
         return 0;
     int64_t shaded = memory->shade.shaded - before;

@@ -71,6 +71,11 @@ class MorphTarget(Closed):
         """(V, 3) float32, or None."""
         return self._tangents
 
+    def rows(self, numbers: NDArray[np.integer]) -> MorphTarget:
+        """Return the target of a mesh whose vertices are those of some rows of this one's."""
+        parts = (self._positions, self._normals, self._tangents)
+        return MorphTarget(*(None if p is None else p[numbers] for p in parts), name=self._name)
+
     def __len__(self) -> int:
         return self._count
 

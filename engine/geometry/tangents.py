@@ -75,6 +75,9 @@ def _rebuilt(mesh: Mesh, faces: np.ndarray, rows: np.ndarray, tangents: np.ndarr
         points=mesh.points,
         edge_visible=mesh.edge_visible,
         position_ids=None if ids is None else ids[rows],
+        joints=None if mesh.joints is None else mesh.joints[rows],
+        weights=None if mesh.weights is None else mesh.weights[rows],
+        morph_targets=[target.rows(rows) for target in mesh.morph_targets],
         name=mesh.name,
         **{**attributes, "tangents": tangents},
     )

@@ -6,6 +6,8 @@ from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
 from e3d_clusters cimport e3d_cluster
 
 
+ctypedef float four_floats[4]
+
 cdef extern from "kernels/kernels.h" nogil:
     enum:
         E3D_MAX_LEVELS
@@ -150,12 +152,11 @@ cdef extern from "kernels/kernels.h" nogil:
         uint64_t once[64]
         uint64_t met
 
-    ctypedef float e3d_alpha_color[4]
     ctypedef struct e3d_alpha_layers:
         const uint32_t *first
         const int32_t *depth
         const uint32_t *which
-        const e3d_alpha_color *color
+        const four_floats *color
 
     ctypedef struct e3d_paint:
         int wanted

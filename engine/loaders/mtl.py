@@ -2,8 +2,8 @@
 
 In: the bytes of a library. Out: materials by name. Colours are linear light, as the numbers are
 floats. What a `Material` has no place for (Ka, illum, the physically based parameters, all
-maps with their options), and d and Tr, is kept in its ``extras`` under the file's own keys. A line that makes no
-sense is a warning; a library never fails as a whole unless it is no text.
+maps with their options), and d and Tr, is kept in its ``extras`` under the file's own keys. A line
+that makes no sense is a warning; a library never fails as a whole unless it is no text.
 """
 
 from __future__ import annotations

@@ -64,7 +64,9 @@ def test_layers_whatever_order_they_come_in(backend, count):
     heights = np.linspace(-0.9, 0.9, count)
     expected = over(layers)
     for order in (np.arange(count), np.arange(count)[::-1], rng.permutation(count)):
-        color = draw([layer(heights[k], tuple(map(float, layers[k]))) for k in order], backend).color
+        color = draw(
+            [layer(heights[k], tuple(map(float, layers[k]))) for k in order], backend
+        ).color
         assert (color == expected).all()
 
 
@@ -80,7 +82,9 @@ def test_surfaces_that_cross(backend):
     red, blue = (0.9, 0.1, 0.2, 0.5), (0.1, 0.2, 0.8, 0.625)
     leaning = np.array(CORNERS, float)
     leaning[:, 2] = leaning[:, 0] * 0.5
-    color = draw([layer(0, red, corners=leaning), layer(0, blue, corners=leaning * (1, 1, -1))], backend).color
+    color = draw(
+        [layer(0, red, corners=leaning), layer(0, blue, corners=leaning * (1, 1, -1))], backend
+    ).color
     assert (color[:, :4] == over([red, blue])).all()
     assert (color[:, 4:] == over([blue, red])).all()
 
@@ -95,7 +99,9 @@ def test_opaque_materials_have_no_alpha(backend):
     pixels = np.full((2, 2, 4), 128, np.uint8)
     texture = e3d.Texture(pixels, filter="nearest")
     colors = np.full((4, 4), 60, np.uint8)
-    color = draw([layer(0, (1.0, 1.0, 1.0, 0.1), "opaque", texture=texture, colors=colors)], backend).color
+    color = draw(
+        [layer(0, (1.0, 1.0, 1.0, 0.1), "opaque", texture=texture, colors=colors)], backend
+    ).color
     assert (color[..., 3] == 255).all()
     assert np.array_equal(color[..., :3], np.full((8, 8, 3), round(128 * 60 / 255)))
 
@@ -168,15 +174,21 @@ def test_outputs_are_of_what_is_not_blended(backend):
         for flag, frame in ((False, usual), (True, nearest)):
             alone = draw(things, backend, outputs=(name,), transparent_outputs=flag)
             assert np.array_equal(getattr(alone, name), getattr(frame, name))
-    nothing = draw([layer(0.5, (1.0, 0, 0, 0.0))], backend, outputs=outputs, transparent_outputs=True)
+    nothing = draw(
+        [layer(0.5, (1.0, 0, 0, 0.0))], backend, outputs=outputs, transparent_outputs=True
+    )
     assert (nothing.object_id == -1).all()
 
 
-@pytest.mark.parametrize("mode", ["depth", "normal", "random", "object_id", "triangle_id", "overdraw"])
+@pytest.mark.parametrize(
+    "mode", ["depth", "normal", "random", "object_id", "triangle_id", "overdraw"]
+)
 def test_other_modes_show_blended_faces_as_opaque_ones(backend, mode):
     blended = [layer(0.5, (1.0, 0, 0, 0.5)), layer(0, (0, 1.0, 0, 0.5))]
     opaque = [layer(0.5, (1.0, 0, 0), "opaque"), layer(0, (0, 1.0, 0), "opaque")]
-    assert np.array_equal(draw(blended, backend, mode=mode).color, draw(opaque, backend, mode=mode).color)
+    assert np.array_equal(
+        draw(blended, backend, mode=mode).color, draw(opaque, backend, mode=mode).color
+    )
 
 
 def test_other_methods_blend_as_they_draw(backend):
@@ -211,7 +223,9 @@ def test_random_stacks(threads, samples):
 def _random_stack(rng):
     count = 60
     centre = rng.uniform(-1, 1, (count, 1, 3)) * (1, 1, 0.7)
-    corners = centre + rng.uniform(-1, 1, (count, 3, 3)) * rng.choice([0.02, 0.3, 1.5], (count, 1, 1))
+    corners = centre + rng.uniform(-1, 1, (count, 3, 3)) * rng.choice(
+        [0.02, 0.3, 1.5], (count, 1, 1)
+    )
     modes = ["blend", "mask", "blend", "opaque"]
     pixels = rng.integers(0, 256, (16, 16, 4)).astype(np.uint8)
     texture = e3d.Texture(pixels, filter=str(rng.choice(["nearest", "bilinear", "trilinear"])))

@@ -6,6 +6,8 @@ from e3d cimport e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment_light, e3d_
 from e3d_clusters cimport e3d_cluster
 
 
+ctypedef float four_floats[4]
+
 cdef extern from "kernels/kernels.h" nogil:
     enum:
         E3D_MAX_LEVELS
@@ -158,12 +160,11 @@ cdef extern from "kernels/kernels.h" nogil:
         uint64_t once[64]
         uint64_t met
 
-    ctypedef float e3d_alpha_color[4]
     ctypedef struct e3d_alpha_layers:
         const uint32_t *first
         const int32_t *depth
         const uint32_t *which
-        const e3d_alpha_color *color
+        const four_floats *color
 
     ctypedef struct e3d_paint:
         int wanted

@@ -569,7 +569,7 @@ cdef class Kernels:
         if first.shape[0] != E3D_TILE_SAMPLES + 1 or left.shape[0] != E3D_TILE_SAMPLES or color.shape[1] != 4:
             raise ValueError("first and left are of a tile's samples, colours have four numbers")
         layers.first, layers.depth, layers.which = &first[0], &depth[0], &which[0]
-        layers.color = <const e3d_alpha_color *>&color[0, 0]
+        layers.color = <const four_floats *>&color[0, 0]
         for _ in range(self.rounds):
             count = self.table.blend(&layers, samples_of(samples), &left[0])
         return count

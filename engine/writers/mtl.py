@@ -115,7 +115,9 @@ class Library:
             image = self._image(texture)
             lines.append(_map_statement("map_Kd", {**options, "name": image}) or f"map_Kd {image}")
             if material.alpha_mode != "opaque" and (texture.pixels[:, :, 3] != 255).any():
-                maps = {key: entry for key, entry in maps.items() if key.lower() not in OPACITY_MAPS}
+                maps = {
+                    key: entry for key, entry in maps.items() if key.lower() not in OPACITY_MAPS
+                }
                 lines.append(f"map_d {image}")
         elif entry:
             self._leave_out("map_Kd without its image", name)

@@ -55,11 +55,11 @@ def seen_through(background=(30, 38, 54)):
     )
     scene.add(ball, name="ball", translation=(-0.55, 0.5, 0.1))
     scene.add(pane((*TEAL, 0.6), 1, alpha_mode="blend"), translation=(0.2, 0, 0))
-    scene.add(pane((1, 1, 1), size=0.9, texture=leaf(), alpha_mode="mask"), translation=(-0.6, 0, 0))
-    scene.add(dots())
-    wire = e3d.Mesh(
-        [(-1, 1, 0.6), (1, 0.2, 0.6), (0.6, 1.1, 0.7)], lines=[(0, 1)], points=[2]
+    scene.add(
+        pane((1, 1, 1), size=0.9, texture=leaf(), alpha_mode="mask"), translation=(-0.6, 0, 0)
     )
+    scene.add(dots())
+    wire = e3d.Mesh([(-1, 1, 0.6), (1, 0.2, 0.6), (0.6, 1.1, 0.7)], lines=[(0, 1)], points=[2])
     scene.add(with_material(wire, color=(1.0, 1.0, 0.2, 0.5), alpha_mode="blend"))
     scene.add(with_material(e3d.box(0.4), color=(0.9, 0.9, 0.3)), translation=(0.5, 0.2, -0.4))
     scene.add(e3d.DirectionalLight(direction=(-0.4, -0.8, -0.45)))

@@ -82,7 +82,9 @@ def test_an_opacity_map_alone_cuts_white(material):
     assert (texture.pixels[..., :3] == 255).all()
 
 
-@pytest.mark.parametrize("text", ["map_Kd leaf.png\nmap_d cut.png\n", "d 0.25\n", "map_d smooth.png\n"])
+@pytest.mark.parametrize(
+    "text", ["map_Kd leaf.png\nmap_d cut.png\n", "d 0.25\n", "map_d smooth.png\n"]
+)
 def test_saved_alpha_comes_back(material, folder, text):
     first = material(text)
     save_mesh(load_mesh(folder / "model.obj"), folder / "again.obj")

@@ -114,6 +114,20 @@ def test_lights_and_lines_of_the_scene_lead_to_the_plan_of_the_rules(renderer):
             check(renderer, scene, facts, mode=mode, wireframe=wireframe, hidden_lines=True)
 
 
+def test_alpha_leads_to_the_plan_of_the_rules(renderer):
+    scene, glass = e3d.Scene(), e3d.box()
+    glass.materials = [e3d.Material(color=(1.0, 1.0, 1.0, 0.5), alpha_mode="blend")]
+    scene.add(glass)
+    wanted = ("color",), ("ndc_depth", "color"), ("depth",)
+    for mode, shading, outputs in product(MODES, ("deferred", "forward"), wanted):
+        for front in (False, True):
+            options = {"mode": mode, "shading": shading, "outputs": outputs}
+            facts = asked_for(set(), **options) | {"ALPHA"}
+            facts |= {"TRANSPARENT_OUTPUTS"} if front else set()
+            stats = renderer.render(scene, transparent_outputs=front, **options).stats
+            assert stats["plan"] == planned(facts), (options, front)
+
+
 def test_what_another_camera_holds_is_drawn_without_rounds(renderer):
     scene = scene_of()
     other = e3d.frame_scene(scene)

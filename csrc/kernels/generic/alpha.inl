@@ -4,14 +4,19 @@
 
 #include "core/always_inline.h"
 #include "core/limits.h"
+#include "e3d.h"
 #include "kernels/types/alpha.h"
 #include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
+#include "kernels/generic/setup.inl"
 #include "kernels/generic/raster.inl"
+#include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/texel_alpha.inl"
 #include "kernels/generic/maps.inl"
+#include "kernels/generic/encode.inl"
 #include "kernels/generic/samples.inl"
 
 /* ---- samples ---- */

@@ -17,15 +17,12 @@ typedef struct e3d_alpha_list {
     uint64_t met;            /* not 0: a sample came again */
 } e3d_alpha_list;
 
-/* Clamped, and alpha. */
-typedef float e3d_alpha_color[4];
-
 /* What blended records add to the samples of a tile, sample after sample: to sample s those from first[s] to first[s + 1] - 1. */
 typedef struct e3d_alpha_layers {
     const uint32_t *first;
     const int32_t *depth;  /* greater is farther; E3D_PAD more are read */
     const uint32_t *which; /* the number of a colour */
-    const e3d_alpha_color *color;
+    const float (*color)[4]; /* clamped, and alpha */
 } e3d_alpha_layers;
 
 #endif

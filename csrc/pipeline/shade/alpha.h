@@ -2,6 +2,7 @@
 #ifndef E3D_SHADE_ALPHA_H
 #define E3D_SHADE_ALPHA_H
 
+#include "e3d.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"

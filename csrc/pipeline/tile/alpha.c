@@ -6,6 +6,7 @@
 #include "core/limits.h"
 #include "kernels/kernels.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/records.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"

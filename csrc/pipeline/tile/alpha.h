@@ -7,6 +7,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/shade/shade.h"
 

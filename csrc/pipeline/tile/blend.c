@@ -11,6 +11,8 @@
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/records.h"
+#include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
@@ -18,6 +20,7 @@
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/tile/alpha.h"
 #include "pipeline/tile/piece.h"
@@ -180,7 +183,7 @@ static int keep_list(const e3d_tile_job *job)
     if (!count)
         return 1;
     if (!reserve_fragments(f, first + count, ids + (size_t)shown->pieces) ||
-        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float(*)[4])f->color.data + first))
+        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float (*)[4])f->color.data + first))
         return 0;
     memcpy((float *)f->z.data + first, memory->z, count * sizeof(float));
     memcpy((int32_t *)f->sample.data + first, shown->sample, count * sizeof(int32_t));
@@ -270,7 +273,7 @@ static void sort_sample(const e3d_record_table *table, const e3d_alpha_fragments
 /* Lays the fragments of one sample, which are sorted, over its colour (R84). */
 static void blend_sample(const e3d_alpha_fragments *f, int32_t sample, const uint32_t *which, uint32_t count, e3d_samples *samples)
 {
-    const float (*colors)[4] = (const float(*)[4])f->color.data;
+    const float (*colors)[4] = (const float (*)[4])f->color.data;
     float over[4] = {samples->color[0][sample], samples->color[1][sample], samples->color[2][sample], samples->counts[sample]};
     for (uint32_t i = 0; i < count; i++) {
         const float *color = colors[which[i]], a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - a;
@@ -287,7 +290,7 @@ static void blend_sample(const e3d_alpha_fragments *f, int32_t sample, const uin
 static void find_front(e3d_alpha_memory *memory, int32_t sample, const uint32_t *which, uint32_t count)
 {
     const e3d_alpha_fragments *f = &memory->fragments;
-    const float (*colors)[4] = (const float(*)[4])f->color.data;
+    const float (*colors)[4] = (const float (*)[4])f->color.data;
     for (uint32_t i = count; i-- > 0;) {
         float alpha = colors[which[i]][3];
         if (alpha >= E3D_LEAST_ALPHA || -alpha >= E3D_LEAST_ALPHA) {
@@ -325,7 +328,7 @@ static int blend_fragments(const e3d_tile_job *job)
             blend_slowly(job, s);
         return 1;
     }
-    const e3d_alpha_layers layers = {f->first, f->depth.data, f->which.data, (const float(*)[4])f->color.data};
+    const e3d_alpha_layers layers = {f->first, f->depth.data, f->which.data, (const float (*)[4])f->color.data};
     int left = job->in->pass->kernels->blend(&layers, &job->memory->pixels.samples, memory->left);
     for (int i = 0; i < left; i++)
         blend_slowly(job, memory->left[i]);

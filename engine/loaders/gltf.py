@@ -14,7 +14,7 @@ from .gltf_draco import GltfDraco
 from .gltf_extensions import check_extensions
 from .gltf_file import GltfFile
 from .gltf_lenses import read_cameras, read_lights
-from .gltf_materials import GltfMaterials
+from .gltf_materials import GltfMaterials, undrawn_kinds
 from .gltf_meshes import GltfMeshes
 from .gltf_motion import read_clips, read_skins
 from .gltf_nodes import read_nodes, read_roots
@@ -23,6 +23,7 @@ from .gltf_textures import GltfTextures
 from .registry import Reader
 from .sources import Source
 from .tree_objects import check_skins, tree_counts, tree_objects
+from .undrawn import warn_of_undrawn
 from .warning_list import WarningList
 
 # What stands near the beginning of such a file, whichever of its lists comes first.
@@ -77,6 +78,7 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> T
         extras=file.tree.get("extras"),
     )
     check_skins(file, tree)
+    warn_of_undrawn(map(undrawn_kinds, tree.materials), warnings)
     return tree
 
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import InvalidArgumentError
+from ..materials.colors import certainly_linear
 from ..materials.material import Material
 from ..materials.textures import PlacedTexture, Texture
 from .gltf_file import GltfFile
@@ -237,16 +238,17 @@ class GltfMaterials:
             values.update(_from_glossiness(values, glossiness))
         color = values.get("color", (1.0, 1.0, 1.0))
         values["color"] = color[:3] if color[3:] == (1.0,) else color
+        values |= {
+            "name": file.text(entry, "name", where),
+            "two_sided": entry.get("doubleSided") is True,
+            "unlit": _UNLIT in extensions,
+            "alpha_mode": self._alpha_mode(entry, where),
+            "flat_shading": flat,
+            "extras": self._extras(entry, where),
+        }
         try:
-            return Material(
-                **values,
-                name=file.text(entry, "name", where),
-                two_sided=entry.get("doubleSided") is True,
-                unlit=_UNLIT in extensions,
-                alpha_mode=self._alpha_mode(entry, where),
-                flat_shading=flat,
-                extras=self._extras(entry, where),
-            )
+            with certainly_linear():
+                return Material(**values)
         except InvalidArgumentError as error:
             raise file.error(f"damaged: {where}: {error}") from None
 
@@ -277,6 +279,11 @@ class GltfMaterials:
             return extras
         self._warnings.add_once(f"{where}.extras is no object: left out")
         return {}
+
+
+def undrawn_kinds(material: Material) -> set[str]:
+    """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
+    return {"transmission"} if material.transmission else set()
 
 
 def _from_glossiness(values: dict, glossiness: float) -> dict:

@@ -14,6 +14,11 @@ from .warning_list import WarningList
 #: The kinds, in the order in which they are told -> what is said of one and of several materials.
 KINDS = {
     "transparent": ("is transparent", "are transparent", "drawn opaque"),
+    "transmission": (
+        "is transparent like glass (transmission)",
+        "are transparent like glass (transmission)",
+        "drawn opaque",
+    ),
     "cut out": ("has its alpha cut off", "have their alpha cut off", "drawn whole"),
     "emission map": ("has an emission map", "have emission maps", "drawn without emission"),
     "normal map": ("has a normal map", "have normal maps", "drawn without"),
@@ -31,11 +36,6 @@ KINDS = {
     "ambient map": ("has an ambient map", "have ambient maps", "drawn without"),
     "decal": ("has a decal", "have decals", "drawn without"),
     "unlit": ("is to be drawn unlit", "are to be drawn unlit", "lit like others"),
-    "wraps": (
-        "has an image that wraps differently along its sides",
-        "have images that wrap differently along their sides",
-        "wrapped as along u",
-    ),
 }
 
 

@@ -10,6 +10,9 @@ from __future__ import annotations
 import functools
 import math
 import numbers
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import get_args
 
 import numpy as np
@@ -20,6 +23,7 @@ from ..errors import InvalidArgumentError, warn
 
 COLOR_SPACES: tuple[ColorSpace, ...] = get_args(ColorSpace)
 _LEAST_SUSPECT = 16.0  # whole floats from here on look like 8-bit values
+_is_suspicious: ContextVar[bool] = ContextVar("_is_suspicious", default=True)
 
 
 @functools.cache
@@ -51,9 +55,7 @@ def check_color(value: ColorLike, what: str = "color") -> Color:
     ------
     InvalidArgumentError
     """
-    components = _components(value, what)
-    if len(components) != 3:
-        raise InvalidArgumentError(f"{what} needs 3 components, got {len(components)}")
+    components = _three(value, what)
     if max(components) >= _LEAST_SUSPECT and not is_8bit(components):
         warn_of_8bit_floats(np.array(components, np.float64), what)
     return components
@@ -94,6 +96,13 @@ def split_alpha(color: SurfaceColor) -> tuple[Color, float]:
     return tuple(map(np.uint8, rgb)), int(color[3]) / 255
 
 
+def _three(value: ColorLike, what: str) -> Color:
+    components = _components(value, what)
+    if len(components) != 3:
+        raise InvalidArgumentError(f"{what} needs 3 components, got {len(components)}")
+    return components
+
+
 def _components(value: ColorLike, what: str) -> tuple:
     components = tuple(_scalar(component) for component in _sequence(value, what))
     for component in components:
@@ -106,8 +115,20 @@ def _components(value: ColorLike, what: str) -> tuple:
     return components
 
 
+@contextmanager
+def certainly_linear() -> Iterator[None]:
+    """Within it, floats of any size are not suspected: a file's format says that they are linear."""
+    before = _is_suspicious.set(False)
+    try:
+        yield
+    finally:
+        _is_suspicious.reset(before)
+
+
 def warn_of_8bit_floats(colors: np.ndarray, what: str) -> None:
     """Warn where floats, which are linear light, are all whole numbers as 8-bit colours are."""
+    if not _is_suspicious.get():
+        return
     high = colors.max(initial=0)
     if _LEAST_SUSPECT <= high <= 255 and (colors == np.floor(colors)).all():
         warn(
@@ -167,7 +188,7 @@ def linear_color(value: ColorLike, color_space: ColorSpace = "srgb") -> np.ndarr
     """
     if color_space not in COLOR_SPACES:
         raise InvalidArgumentError(f"color_space must be one of {COLOR_SPACES}: {color_space!r}")
-    components = check_color(value)
+    components = _three(value, "color")  # whoever keeps it was warned
     if not is_8bit(components):
         return float32_of(np.array(components, np.float64))
     if color_space == "linear":

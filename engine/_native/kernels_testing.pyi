@@ -134,7 +134,7 @@ class Kernels:
         channel_bits: int,
         sizes: _Integers,
         filter: int,
-        wrap: int,
+        wrap: tuple[int, int],
         base: _Floats,
     ) -> None: ...
     def tint(self, batch: _Bytes, surfaces: _Bytes, by_vertex: bool, by_instance: bool) -> None: ...

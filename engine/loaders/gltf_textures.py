@@ -28,7 +28,7 @@ TRANSFORM, _WEBP = "KHR_texture_transform", "EXT_texture_webp"
 #: The extensions that are read here.
 READ = (TRANSFORM, _WEBP, *gltf_basisu.READ)
 _WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
-_REPEAT, _NEAREST, _LINEAR = 10497, 9728, 9729
+_NEAREST, _LINEAR = 9728, 9729
 _MOST_THREADS = 4
 # What images begin with: PNG, JPEG, WebP.
 _USUAL = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"RIFF")
@@ -138,18 +138,16 @@ class GltfTextures:
         self._sources[index] = image
         return image
 
-    def _sampling(self, entry: dict, where: str) -> tuple[str, str]:
+    def _sampling(self, entry: dict, where: str) -> tuple[tuple[str, str], str]:
+        """The wraps along both sides, and the filter."""
         sampler = {}
         if "sampler" in entry:
             sampler = self._file.entry("samplers", entry["sampler"], where)
-        wraps = [_wrap(sampler.get(name, _REPEAT)) for name in ("wrapS", "wrapT")]
-        if wraps[0] != wraps[1]:
-            message = f"{where} wraps differently along its sides: as along u along both"
-            self._warnings.add_once(message)
+        wrap = _wrap(sampler.get("wrapS")), _wrap(sampler.get("wrapT"))
         if sampler.get("magFilter") == _NEAREST:
-            return wraps[0], "nearest"
+            return wrap, "nearest"
         has_levels = sampler.get("minFilter") not in (_NEAREST, _LINEAR)
-        return wraps[0], "trilinear" if has_levels else "bilinear"
+        return wrap, "trilinear" if has_levels else "bilinear"
 
     def _decoded(self, image: int) -> Texture | str:
         """The image as a texture, or why there is none."""

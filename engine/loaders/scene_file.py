@@ -27,6 +27,7 @@ from ..environments.environment import (
 from ..errors import FileFormatError, InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..geometry.origins import FileOrigin, remember_origin
+from ..materials.colors import certainly_linear
 from ..materials.material import TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
 from .documents import Document, SceneRecord
@@ -161,7 +162,10 @@ class _Reading:
 
     def _texture(self, entry: JsonValue) -> Texture:
         held = entry.members()
-        options = {key: held[key].text() for key in held if key not in ("file", "png")}
+        options = {key: held[key].text() for key in held if key not in ("file", "png", "wrap")}
+        if (wrap := entry.get("wrap")) is not None:
+            pair = isinstance(wrap.value, list)
+            options["wrap"] = tuple(side.text() for side in wrap) if pair else wrap.text()
         png = entry.get("png")
         try:
             if png is None:
@@ -175,7 +179,7 @@ class _Reading:
         except (InvalidArgumentError, TypeError) as error:
             raise entry.error(str(error)) from None
 
-    def _texture_of_file(self, file: JsonValue, options: dict[str, str]) -> Texture:
+    def _texture_of_file(self, file: JsonValue, options: dict[str, Any]) -> Texture:
         name = file.text()
         if name not in self._images:
             self._images[name] = self._image(name, file)
@@ -203,7 +207,8 @@ class _Reading:
         if values.get("attenuation_distance", 0) is None:
             values["attenuation_distance"] = math.inf
         try:
-            return Material(**values)
+            with certainly_linear():
+                return Material(**values)
         except (InvalidArgumentError, TypeError) as error:
             raise entry.error(str(error)) from None
 

@@ -12,14 +12,14 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypedDict, get_args
+from typing import TypeAlias, TypedDict, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._support.dirty_tracking import renew
 from .._support.numbers import as_array, real, shown
-from .._support.validation import CheckedAttribute, Closed, one_of
+from .._support.validation import CheckedAttribute, Closed, choose, one_of
 from ..choices import ColorSpace, Filter, Wrap
 from ..errors import InvalidArgumentError
 from ..linalg import cos, sin
@@ -27,7 +27,19 @@ from .colors import COLOR_SPACES
 
 FILTERS: tuple[Filter, ...] = get_args(Filter)
 WRAPS: tuple[Wrap, ...] = get_args(Wrap)
+#: One for both coordinates, or one along u and one along v.
+SideWraps: TypeAlias = Wrap | tuple[Wrap, Wrap]
 MAX_SIDE = 16384
+
+
+def _check_wrap(value: SideWraps, what: str) -> SideWraps:
+    """Return the wrap of both coordinates, or a pair where they differ."""
+    if not isinstance(value, (tuple, list)):
+        return choose(value, WRAPS, what)
+    if len(value) != 2:
+        raise InvalidArgumentError(f"{what} must be one name or a pair (u, v), not {shown(value)}")
+    u, v = (choose(name, WRAPS, what) for name in value)
+    return u if u == v else (u, v)
 
 
 class TextureOptions(TypedDict, total=False):
@@ -35,7 +47,7 @@ class TextureOptions(TypedDict, total=False):
 
     color_space: ColorSpace
     filter: Filter
-    wrap: Wrap
+    wrap: SideWraps
     name: str
 
 
@@ -50,7 +62,9 @@ class Texture(Closed):
     color_space : {"srgb", "linear"}
         How the RGB bytes encode light; alpha is always linear.
     filter : {"trilinear", "bilinear", "nearest"}
-    wrap : {"repeat", "clamp", "mirror"}
+    wrap : {"repeat", "clamp", "mirror"} or pair of these
+        What lies beyond the edges; of a pair, along u and along v. An equal pair is kept as the
+        one name.
     name : str
 
     Attributes
@@ -72,7 +86,7 @@ class Texture(Closed):
     _is_missing = False  # whether that file is not there, and these pixels take its place
     color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
     filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
-    wrap: CheckedAttribute[Wrap, Wrap] = CheckedAttribute(one_of(WRAPS))
+    wrap: CheckedAttribute[SideWraps, SideWraps] = CheckedAttribute(_check_wrap)
 
     def __init__(
         self,
@@ -80,7 +94,7 @@ class Texture(Closed):
         *,
         color_space: ColorSpace = "srgb",
         filter: Filter = "trilinear",
-        wrap: Wrap = "repeat",
+        wrap: SideWraps = "repeat",
         name: str = "",
     ) -> None:
         self.pixels = pixels
@@ -98,6 +112,11 @@ class Texture(Closed):
         self._pixels = as_rgba(value)
         self._path, self._file, self._is_missing = None, None, False
         renew(self)
+
+    @property
+    def side_wraps(self) -> tuple[Wrap, Wrap]:
+        """The wrap along u and the wrap along v."""
+        return (self.wrap, self.wrap) if isinstance(self.wrap, str) else self.wrap
 
     @property
     def width(self) -> int:

@@ -58,13 +58,13 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
 def native_texture(texture: Texture, color_space: str) -> NativeTexture:
     """Return the handle of a texture as it is now, for renderers of one colour space."""
-    pixels, filter, wrap = texture.pixels, texture.filter, texture.wrap
+    pixels, filter, sides = texture.pixels, texture.filter, texture.side_wraps
     decode = color_space == "srgb" and texture.color_space == "srgb"
     natives = _textures.setdefault(texture, {})
     made_of, native = natives.get(decode, (None, None))
-    if made_of is None or made_of[0] is not pixels or made_of[1:] != (filter, wrap):
-        native = NativeTexture(pixels, decode, FILTERS[filter], WRAPS[wrap])
-        natives[decode] = (pixels, filter, wrap), native
+    if made_of is None or made_of[0] is not pixels or made_of[1:] != (filter, sides):
+        native = NativeTexture(pixels, decode, FILTERS[filter], *(WRAPS[name] for name in sides))
+        natives[decode] = (pixels, filter, sides), native
     return native
 
 

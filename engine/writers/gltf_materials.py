@@ -154,8 +154,8 @@ class GltfMaterialList:
 
     def _sampler(self, texture: Texture) -> int:
         magnified, reduced = _FILTERS[texture.filter]
-        wrap = _WRAPS[texture.wrap]
-        entry = {"magFilter": magnified, "minFilter": reduced, "wrapS": wrap, "wrapT": wrap}
+        u, v = (_WRAPS[wrap] for wrap in texture.side_wraps)
+        entry = {"magFilter": magnified, "minFilter": reduced, "wrapS": u, "wrapT": v}
         return _number_of(self.samplers, entry)
 
     def _image(self, texture: Texture) -> tuple[int, str | None]:

@@ -151,6 +151,17 @@ def test_wraps(backend, wrap, columns):
     assert np.array_equal(frame.color, pixels[np.ix_(rows, columns)])
 
 
+@pytest.mark.parametrize("wrap", [("repeat", "clamp"), ("clamp", "repeat")])
+def test_each_coordinate_has_its_own_wrap(backend, wrap):
+    """Coordinates from -1/4 to 5/4: one texel more on each side of the image."""
+    pixels = all_codes(4, 4)
+    mesh = square(uv_scale=1.5, texture=e3d.Texture(pixels, filter="nearest", wrap=wrap))
+    mesh.uvs = mesh.uvs - 0.25
+    shown = {"repeat": [3, 0, 1, 2, 3, 0], "clamp": [0, 0, 1, 2, 3, 3]}
+    frame = draw([mesh], (6, 6), backend)
+    assert np.array_equal(frame.color, pixels[np.ix_(shown[wrap[1]], shown[wrap[0]])])
+
+
 def test_uv_is_perspective_correct(backend):
     """A floor seen at an angle: uv of each pixel is where its ray meets the floor."""
     size, focal = 64, 60.0

@@ -164,6 +164,7 @@ variant("physical_layers", layers)
 variant("physical_layers_samples_4", layers, samples=4)
 for _filter, _wrap in (("trilinear", "repeat"), ("bilinear", "clamp"), ("nearest", "mirror")):
     variant(f"physical_maps_{_filter}", maps, _filter, _wrap)
+variant("physical_maps_of_two_wraps", maps, "bilinear", ("clamp", "repeat"))
 for _name, _value in (
     ("mode", "normal"),
     ("mode", "unlit"),

@@ -1,5 +1,7 @@
 """Every filter with every wrap, near and towards the horizon; texture sizes and colour spaces."""
 
+import itertools
+
 import numpy as np
 from images.objects import camera_at, checkerboard, clip_camera, with_material
 from images.picture import Picture, picture, variant
@@ -24,6 +26,13 @@ def floor_and_wall(filter_name, wrap):
 for _filter in FILTERS:
     for _wrap in WRAPS:
         variant(f"texture_{_filter}_{_wrap}", floor_and_wall, _filter, _wrap)
+
+
+#: Along u and along v.
+MIXED = list(itertools.permutations(WRAPS, 2))
+for _number, _filter in enumerate(FILTERS):
+    for _pair in (MIXED[_number], MIXED[-1 - _number]):
+        variant(f"texture_{_filter}_{'_'.join(_pair)}", floor_and_wall, _filter, _pair)
 
 
 def one_to_one(filter_name, color_space):
@@ -57,6 +66,8 @@ def sizes(wrap):
 
 for _wrap in WRAPS:
     variant(f"texture_sizes_{_wrap}", sizes, _wrap)
+for _pair in MIXED:
+    variant(f"texture_sizes_{'_'.join(_pair)}", sizes, _pair)
 
 
 @picture

@@ -283,7 +283,7 @@ def test_a_material_comes_along(write):
         extensions={"KHR_materials_emissive_strength": {"emissiveStrength": 4}},
         pbrMetallicRoughness={"baseColorFactor": [1, 0.5, 0.25, 1], "metallicFactor": 0},
     )
-    tree["samplers"] = [{"wrapS": 33071, "wrapT": 33071, "magFilter": 9728}]
+    tree["samplers"] = [{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}]
     tree["textures"][0]["sampler"] = 0
     info = tree["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
     info["extensions"] = {"KHR_texture_transform": {"offset": [0.5, 0], "scale": [0.5, 2]}}
@@ -296,10 +296,37 @@ def test_a_material_comes_along(write):
     texture = material.texture.texture
     assert material.texture == e3d.PlacedTexture(texture, offset=(0.5, 0), scale=(0.5, 2))
     assert np.array_equal(texture.pixels[:, :, :3], red)
-    assert (texture.wrap, texture.filter) == ("clamp", "nearest")
+    assert (texture.wrap, texture.filter) == (("clamp", "mirror"), "nearest")
     assert mesh.uvs.tolist() == [[0, 1], [1, 1], [0, 0]]
     assert document.counts["materials"] == ["paint"]
     assert document.warnings == []
+
+
+def test_factors_above_one_are_no_suspicion(write):
+    tree = triangle_tree()
+    specular = {"KHR_materials_specular": {"specularColorFactor": [25, 25, 25]}}
+    add_material(tree, png(np.zeros((1, 1, 3), np.uint8)), extensions=specular)
+    document = load_document(write("a.gltf", json.dumps(tree)))
+    assert document.objects[0].mesh.materials[0].specular_color == (25, 25, 25)
+    with pytest.warns(Engine3DWarning, match="floats up to 25"):  # here people write them
+        e3d.Material(specular_color=(25.0, 25.0, 25.0))
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_transmission_is_told_once(count, write):
+    tree = triangle_tree()
+    glass = {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.5}}}
+    dull = {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0}}}
+    tree["materials"] = [*[glass] * count, dull]
+    tree["extensionsUsed"] = ["KHR_materials_transmission", "KHR_materials_iridescence"]
+    path = write("a.gltf", json.dumps(tree))
+    which = "1 material is" if count == 1 else "3 materials are"
+    with pytest.warns(Engine3DWarning):
+        document = load_document(path)
+    assert document.warnings == [
+        f"{path}: the extension 'KHR_materials_iridescence' is not read",
+        f"{path}: {which} transparent like glass (transmission): drawn opaque",
+    ]
 
 
 def test_what_is_left_out_is_told_once(write):

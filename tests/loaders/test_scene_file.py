@@ -121,6 +121,8 @@ WRONG = [
     (changed("textures", 0, {"png": "AAAA"}), r"textures\[0\].png: "),
     (changed("textures", 0, {"png": "?"}), r"textures\[0\].png: is not base64"),
     (changed("textures", 0, "wrap", "round"), r"textures\[0\]: wrap"),
+    (changed("textures", 0, "wrap", ["clamp"]), r"textures\[0\]: wrap must be one name or a pair"),
+    (changed("textures", 0, "wrap", ["clamp", 1]), r"textures\[0\]\.wrap\[1\]"),
 ]  # fmt: skip
 
 

@@ -64,6 +64,29 @@ def test_unknown_options_are_refused(option):
         Texture(image(1, 1), **{option: "unknown"})
 
 
+def test_wraps_of_both_coordinates():
+    texture = Texture(image(2, 2), wrap=["repeat", "clamp"])
+    assert (texture.wrap, texture.side_wraps) == (("repeat", "clamp"), ("repeat", "clamp"))
+    before = texture.version
+    texture.wrap = ("mirror", "mirror")
+    assert (texture.wrap, texture.side_wraps) == ("mirror", ("mirror", "mirror"))
+    assert texture.version > before
+
+
+@pytest.mark.parametrize(
+    ("wrap", "message"),
+    [
+        (("repeat",), r"wrap must be one name or a pair \(u, v\), not \('repeat',\)"),
+        (("repeat", "clamp", "clamp"), "a pair"),
+        (("repeat", "round"), "wrap must be one of 'repeat', 'clamp', 'mirror', not 'round'"),
+        (7, "not 7"),
+    ],
+)
+def test_wrong_wraps_are_refused(wrap, message):
+    with pytest.raises(InvalidArgumentError, match=message):
+        Texture(image(1, 1), wrap=wrap)
+
+
 def test_a_path_is_not_taken_for_pixels():
     with pytest.raises(InvalidArgumentError, match=r"use load_texture\('wood.png'\)"):
         Texture("wood.png")

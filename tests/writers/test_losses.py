@@ -92,6 +92,7 @@ def test_polygons_of_one_material_stay_whole(tmp_path):
         ({"two_sided": True}, "two_sided"),
         ({"flat_shading": True}, "flat_shading"),
         ({"texture": image(0, wrap="mirror")}, "the texture's wrap 'mirror'"),
+        ({"texture": image(0, wrap=("clamp", "repeat"))}, "the texture's wrap ('clamp', 'repeat')"),
         ({"texture": image(0, filter="nearest")}, "the texture's filter 'nearest'"),
         ({"texture": image(0, color_space="linear")}, "the texture's colour space 'linear'"),
         ({"specular": (1, 1, 1), "shininess": 0}, "a highlight of no shininess"),

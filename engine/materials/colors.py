@@ -117,7 +117,7 @@ def _components(value: ColorLike, what: str) -> tuple:
 
 @contextmanager
 def certainly_linear() -> Iterator[None]:
-    """Within it, floats of any size are not suspected: a file's format says that they are linear."""
+    """Within it, no float is suspected: a file's format says that all are linear."""
     before = _is_suspicious.set(False)
     try:
         yield

@@ -144,8 +144,9 @@ class GltfTextures:
             sampler = self._file.entry("samplers", entry["sampler"], where)
         wraps = [_wrap(sampler.get(name, _REPEAT)) for name in ("wrapS", "wrapT")]
         if wraps[0] != wraps[1]:
-            message = f"{where} wraps differently along its sides: as along u along both"
-            self._warnings.add_once(message)
+            self._warnings.add_once(
+                "images that wrap differently along their sides are wrapped as along u"
+            )
         if sampler.get("magFilter") == _NEAREST:
             return wraps[0], "nearest"
         has_levels = sampler.get("minFilter") not in (_NEAREST, _LINEAR)

@@ -282,7 +282,7 @@ class LampRecord:
     extras: Any = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)  # a file may have very many
 class NodeRecord:
     """A node of a tree; numbers count in the lists of the `TreeRecord`.
 

@@ -56,7 +56,7 @@ def _skin(file: GltfFile, accessors: GltfAccessors, entry: dict, where: str) -> 
         if not np.isfinite(matrices).all():
             raise file.error(f"damaged: {where} has matrices that are not finite")
     else:
-        matrices = np.tile(np.eye(4), (len(joints), 1, 1))
+        matrices = np.broadcast_to(np.eye(4), (len(joints), 4, 4))
     name = file.text(entry, "name", where)
     return SkinRecord(name, tuple(joints), matrices, skeleton, entry.get("extras"))
 

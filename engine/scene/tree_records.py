@@ -79,7 +79,9 @@ class _Filling:
         first, others = (held[0], held[1:]) if held else (None, [])
         node = self._scene.add(first, name=record.name, parent=parent, **_place(record))
         node.visible = record.visible
-        records[node] = record
+        # What the node itself does not tell; of very many nodes, records take as much as they do.
+        if any(x is not None for x in (record.extras, record.rotation, record.matrix)):
+            records[node] = record
         self._nodes[index] = node
         shows = [node] if isinstance(first, (Mesh, InstancedMesh)) else []
         for number, obj in enumerate(others, start=1):

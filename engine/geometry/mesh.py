@@ -397,7 +397,7 @@ class Mesh(Closed):
     def save(
         self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
     ) -> None:
-        """Write the mesh to an OBJ, PLY or STL file; parameters and exceptions of `save_mesh`."""
+        """Write the mesh to an OBJ, PLY, STL or glTF file; parameters and exceptions of `save_mesh`."""
         from ..writers import save_mesh
 
         save_mesh(self, path, format=format, **options)

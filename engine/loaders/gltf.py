@@ -1,18 +1,18 @@
 """glTF 2.0, as .gltf and .glb.
 
 In: the bytes of a file, and the buffers and images that it names. Out: a `Document` whose tree
-holds the file as plain data; its objects are what the shown scene shows, at rest. What the file says
-besides is told in warnings. Source: Khronos, "glTF 2.0 Specification", 2021.
+holds the file as plain data; its objects are what the shown scene shows. What the file says besides
+is told in warnings. Source: Khronos, "glTF 2.0 Specification", 2021.
 """
 
 from __future__ import annotations
 
-from .documents import Document, DocumentObject, TreeRecord
+from .documents import Document, TreeRecord
 from .gltf_accessors import GltfAccessors
 from .gltf_buffers import GltfBuffers
 from .gltf_draco import GltfDraco
 from .gltf_extensions import check_extensions
-from .gltf_file import GLB, GltfFile
+from .gltf_file import GltfFile
 from .gltf_lenses import read_cameras, read_lights
 from .gltf_materials import GltfMaterials
 from .gltf_meshes import GltfMeshes
@@ -24,6 +24,9 @@ from .registry import Reader
 from .sources import Source
 from .tree_objects import check_skins, tree_counts, tree_objects
 from .warning_list import WarningList
+
+# What stands near the beginning of such a file, whichever of its lists comes first.
+_WORDS = (b'"asset"', b'"accessors"', b'"bufferView"', b'"extensionsUsed"')
 
 
 def read_gltf(source: Source, split: bool = False) -> Document:
@@ -77,14 +80,10 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> T
     return tree
 
 
-def _is_glb(head: bytes) -> bool:
-    return head.startswith(GLB)
-
-
 def _resembles_gltf(head: bytes, size: int) -> bool:
-    return head.lstrip().startswith(b"{") and b'"asset"' in head
+    return head.lstrip().startswith(b"{") and any(word in head for word in _WORDS)
 
 
 READERS = (
-    Reader("gltf", "glTF 2.0", "mesh", (".gltf", ".glb"), read_gltf, _is_glb, _resembles_gltf),
+    Reader("gltf", "glTF 2.0, text", "mesh", (".gltf",), read_gltf, resembles=_resembles_gltf),
 )

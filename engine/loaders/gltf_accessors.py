@@ -85,12 +85,13 @@ class GltfAccessors:
             The accessor, which says what integers stand for.
         rows : slice or (M,) int
         """
+        is_all = isinstance(rows, slice)
         values = values[rows]
         self._buffers.count(values.size)
-        if self.file.entries("accessors")[index].get("normalized") is not True:
-            return _copied(values)
-        if values.dtype.kind == "f":  # some exporters say it of floats, too: it means nothing
-            return _copied(values)
+        said = self.file.entries("accessors")[index].get("normalized") is True
+        # Some exporters say it of floats, too, of which it means nothing.
+        if not said or values.dtype.kind == "f":
+            return _copied(values) if is_all else values.astype(np.float32, copy=False)
         return np.maximum(values / np.float32(np.iinfo(values.dtype).max), np.float32(-1))
 
     def indices(self, index, where: str) -> np.ndarray:

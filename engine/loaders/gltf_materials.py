@@ -2,7 +2,7 @@
 
 In: a `GltfFile` and its textures. Out: a `Material` for each number, all fields of the core format
 and of the extensions in `READ`. KHR_materials_pbrSpecularGlossiness becomes what KHR_materials_ior
-and KHR_materials_specular say of it: no metal, an index of refraction of 0, and the specular colour.
+and KHR_materials_specular say of it: no metal, an index of refraction of 0, the specular colour.
 """
 
 from __future__ import annotations

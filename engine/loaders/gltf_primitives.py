@@ -103,7 +103,8 @@ class GltfPrimitives:
         vertices = _Vertices(self._accessors, self._draco, attributes, entry, where)
         elements = _elements(vertices.corners(), mode)
         if mode == _POINTS:
-            vertices.rows, elements = elements, np.arange(len(elements), dtype=np.int32)
+            vertices.rows = elements if vertices.is_indexed else slice(None)
+            elements = np.arange(len(elements), dtype=np.int32)
         else:
             vertices.rows, elements = _compact(elements, vertices.total)
         kind = "points" if mode == _POINTS else "lines" if mode < _TRIANGLES else "faces"
@@ -198,11 +199,16 @@ class _Vertices:
         self.rows = slice(None)
         self.total = len(self.raw("POSITION", 3))
 
+    @property
+    def is_indexed(self) -> bool:
+        """Whether the elements name their vertices."""
+        return "indices" in self._entry
+
     def corners(self) -> np.ndarray:
         """The vertices (C,) that the elements name one after the other."""
         if self._unpacked is not None and self._unpacked.corners is not None:
             corners = self._unpacked.corners
-        elif "indices" not in self._entry:
+        elif not self.is_indexed:
             return np.arange(self.total, dtype=np.int32)
         else:
             corners = self._accessors.indices(self._entry["indices"], self.where)

@@ -19,6 +19,7 @@ from ..materials.textures import PlacedTexture, Texture
 from . import gltf_basisu
 from .gltf_buffers import GltfBuffers
 from .gltf_file import GltfFile
+from .images import read_image
 from .registry import find_reader
 from .sources import Source
 from .warning_list import WarningList
@@ -29,6 +30,8 @@ READ = (TRANSFORM, _WEBP, *gltf_basisu.READ)
 _WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 _REPEAT, _NEAREST, _LINEAR = 10497, 9728, 9729
 _MOST_THREADS = 4
+# What images begin with: PNG, JPEG, WebP.
+_USUAL = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"RIFF")
 
 
 class GltfTextures:
@@ -141,8 +144,9 @@ class GltfTextures:
             sampler = self._file.entry("samplers", entry["sampler"], where)
         wraps = [_wrap(sampler.get(name, _REPEAT)) for name in ("wrapS", "wrapT")]
         if wraps[0] != wraps[1]:
-            message = f"{where} wraps differently along its sides: as along u along both"
-            self._warnings.add_once(message)
+            self._warnings.add_once(
+                "images that wrap differently along their sides are wrapped as along u"
+            )
         if sampler.get("magFilter") == _NEAREST:
             return wraps[0], "nearest"
         has_levels = sampler.get("minFilter") not in (_NEAREST, _LINEAR)
@@ -163,7 +167,7 @@ class GltfTextures:
             if gltf_basisu.is_packed(data):
                 pixels = gltf_basisu.read_packed(source)
             else:
-                pixels = find_reader(source, "image").read(source)
+                pixels = _read_image(source)
         except gltf_basisu.NotInstalledError as error:
             raise self._file.error(f"{where} {error}") from None
         except Engine3DError as error:
@@ -172,6 +176,13 @@ class GltfTextures:
         texture = Texture(pixels, name=str(entry.get("name") or (uri if is_file else "")))
         texture._file = data
         return texture
+
+
+def _read_image(source: Source) -> np.ndarray:
+    """Decode an image; those that glTF allows without importing all formats."""
+    if source.data.startswith(_USUAL):
+        return read_image(source)
+    return find_reader(source, "image").read(source)
 
 
 def changed(texture: Texture, pixels: np.ndarray, name: str) -> Texture:

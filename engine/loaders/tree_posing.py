@@ -172,9 +172,8 @@ def _bent(moved: Mesh, mesh: Mesh, matrices: np.ndarray) -> Mesh:
 def _blended(joints: np.ndarray, weights: np.ndarray, matrices: np.ndarray) -> np.ndarray:
     """The matrix of each vertex, (V, 4, 4)."""
     total = np.zeros((len(joints), 4, 4))
-    limit = len(matrices) - 1
     for joint, weight in zip(joints.T, weights.T.astype(np.float64), strict=True):
-        total += weight[:, np.newaxis, np.newaxis] * matrices[np.minimum(joint, limit)]
+        total += weight[:, np.newaxis, np.newaxis] * matrices[joint]
     return total
 
 

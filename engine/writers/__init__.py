@@ -1,4 +1,4 @@
-"""Writing meshes to files: OBJ with MTL, PLY, STL.
+"""Writing meshes to files: OBJ with MTL, PLY, STL, glTF.
 
 `save_mesh` chooses the writer by the file's extension. A format is one module of this package that
 defines ``WRITERS``; `registry` finds it.

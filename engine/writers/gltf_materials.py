@@ -79,7 +79,7 @@ class GltfMaterialList:
         entry = self._entry(material)
         if not entry and material._is_implied:
             return -1
-        # Of a flat one and a smooth one that are else the same, a file's meshes tell which is which.
+        # Of a flat and a smooth one that are else the same, a file's meshes tell which is which.
         words, flat = repr(entry), material.flat_shading
         if twins := self._twins.get((words, not flat)):
             return twins.pop()

@@ -27,7 +27,8 @@ def save_mesh(
     path : str, path-like or binary file object
         Its extension names the format: ``.obj`` (materials go to an ``.mtl`` beside it and textures
         to PNG files beside that, all under the model's name; of files that others wrote there under
-        these names none is replaced), ``.ply`` or ``.stl``. Read again, the file gives the same
+        these names none is replaced), ``.ply``, ``.stl``, or ``.glb`` and ``.gltf`` (all in one
+        file, with the materials as physical ones). Read again, the file gives the same
         arrays, as far as its format holds them; what it does not hold is warned of as
         `Engine3DWarning`. A file object needs ``format``, and takes no materials of OBJ.
     format : str, optional

@@ -22,6 +22,7 @@ from ..environments.environment import Environment
 from ..errors import InvalidArgumentError, located, warn
 from ..files.atomic_write import atomic_write, checked_path
 from ..geometry.mesh import Mesh
+from ..geometry.movers import VERTEX_AXES
 from ..geometry.origins import FileOrigin, PrimitiveOrigin, has_own_materials, origin_of
 from ..loaders.json_values import ARRAY_TYPES
 from ..loaders.scene_file import FORMAT, LISTS, VERSION
@@ -82,9 +83,20 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     """Return a scene's file for a folder, and a line for each thing that it does not hold."""
     writing = _Writing(folder)
     writing.nodes(scene)
+    writing.told += _lost_motion(scene)
     values = writing.values(scene)
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
     return "".join(_lines(tree)).encode("ascii"), writing.told
+
+
+def _lost_motion(scene: Scene) -> list[str]:
+    """A line that names what moves vertices and nodes, if anything does."""
+    nodes = scene.nodes
+    meshes = {id(n.object): n.object for n in nodes if isinstance(n.object, Mesh)}.values()
+    lost = ["skins"] if any(node.skin is not None for node in nodes) else []
+    lost += ["morph targets"] if any(mesh.morph_targets for mesh in meshes) else []
+    lost += ["animations"] if scene.animations else []
+    return [f"scenes of engine3d hold no {', '.join(lost)}: glTF does"] if lost else []
 
 
 def _lines(tree: dict[str, Any]) -> Iterator[str]:
@@ -320,7 +332,7 @@ def _arrays(mesh: Mesh) -> dict[str, Any]:
     arrays = {
         name.removeprefix("_given_"): _array(array)
         for name, array in mesh._arrays.items()
-        if array is not None and (len(array) or name == "positions")
+        if name not in VERTEX_AXES and array is not None and (len(array) or name == "positions")
     }
     groups = {name: _array(faces) for name, faces in mesh.groups.items()}
     return {"arrays": arrays, **({"groups": groups} if groups else {})}

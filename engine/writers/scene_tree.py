@@ -28,13 +28,13 @@ from ..loaders.documents import (
 from ..loaders.tree_posing import local_pose
 from ..materials.colors import linear_color
 from ..materials.material import Material
-from ..scene.tree_records import FURTHER_PART, records
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight, PointLight, SpotLight
 from ..scene.nodes import Node
 from ..scene.placements import Placements
 from ..scene.scene import Scene
+from ..scene.tree_records import FURTHER_PART, records
 
 _LIGHTS = (DirectionalLight, PointLight, SpotLight)
 _IDENTITY = {"translation": (0.0, 0.0, 0.0), "rotation": (0.0, 0.0, 0.0, 1.0)}

@@ -292,3 +292,13 @@ def test_the_commands_open_scenes(tmp_path, monkeypatch, capsys):
     assert "a.e3d.json: e3d" in capsys.readouterr().out
     assert main(["render", "a.e3d.json", "-o", "a.png", "--resolution", "32x24"]) == 0
     assert e3d.load_texture("a.png").pixels[0, 0].tolist() == [255, 0, 0, 255]
+
+
+def test_what_moves_is_told_to_be_lost(folder):
+    scene = e3d.load_scene(FILES["moving.gltf"])
+    with pytest.warns(
+        e3d.Engine3DWarning, match="hold no skins, morph targets, animations: glTF does"
+    ):
+        e3d.save_scene(scene, folder / "a.e3d.json")
+    again = e3d.load_scene(folder / "a.e3d.json")
+    assert len(again.nodes) == len(scene.nodes) and again.nodes[0].object.joints is None

@@ -163,7 +163,8 @@ class Mesh(Closed):
         self.name = str(name)
         self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
         self.warnings = []
-        self._arrays: dict[str, np.ndarray | None] = {}
+        self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
+        self._morph_targets = ()
         self._derived: dict[str, tuple[list, np.ndarray]] = {}  # with what it was computed from
         self._materials = _check_materials(materials)
         self.positions = positions

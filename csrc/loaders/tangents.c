@@ -45,7 +45,8 @@ static turned find_turn(const e3d_mapped_surface *s, const int32_t corners[3])
     const float *a = s->uvs + 2 * (size_t)corners[0], *b = s->uvs + 2 * (size_t)corners[1], *c = s->uvs + 2 * (size_t)corners[2];
     const double du = (double)b[0] - a[0], dv = (double)b[1] - a[1], eu = (double)c[0] - a[0], ev = (double)c[1] - a[1];
     const double area = du * ev - eu * dv;
-    const int turn = area > 0 ? 1 : area < 0 ? -1 : 0;
+    const int turn = area > 0 ? 1 : area < 0 ? -1
+                                             : 0;
     const vector right = unit(scaled(minus(scaled(e, ev), scaled(f, dv)), turn));
     return (turned){right, dot(right, right) > 0 ? turn : 0};
 }
@@ -186,7 +187,7 @@ static void write_tangent(const double sum[3], int turn, float out[4])
 
 static bool add_groups(const e3d_mapped_surface *s, const turned *faces, size_t count, const int32_t *groups, float *tangents)
 {
-    double(*sums)[3] = calloc(count + 1, sizeof *sums);
+    double (*sums)[3] = calloc(count + 1, sizeof *sums);
     if (!sums)
         return false;
     for (size_t n = 0; n < 3 * s->face_count; n++)
@@ -199,7 +200,7 @@ static bool add_groups(const e3d_mapped_surface *s, const turned *faces, size_t 
 
 /* Not inlined, so that no arithmetic moves out of the floating-point environment. */
 __attribute__((noinline)) static bool find_tangents(const e3d_mapped_surface *s, turned *faces, sorted_side *sides, uint32_t *words,
-                                                     int32_t *groups, float *tangents, size_t *count)
+                                                    int32_t *groups, float *tangents, size_t *count)
 {
     uint32_t *other = words, *spare = words + 3 * s->face_count;
     for (size_t f = 0; f < s->face_count; f++)

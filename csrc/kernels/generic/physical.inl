@@ -315,7 +315,7 @@ static ALWAYS_INLINE void model_sums(e3d_map_batch *m, const chosen_lights *ligh
     }
 }
 
-/* All vectors; whether there are a coat and a sheen are constants for the compiler. */
+/* All vectors; that there are neither a coat nor a sheen is a constant for the compiler. */
 static ALWAYS_INLINE void physical_vectors(e3d_batch *batch, e3d_map_batch *m, const e3d_surface_model *model, const e3d_lighting *lighting,
                                            const environment_plan *plan, const chosen_lights *lights, int has_coat, int has_sheen)
 {
@@ -345,10 +345,8 @@ static void physical_some(e3d_batch *batch, e3d_map_batch *m, const e3d_surface_
 {
     if (model->has_coat || model->has_sheen)
         physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen);
-    else if (plan)
-        physical_vectors(batch, m, model, lighting, plan, lights, 0, 0);
     else
-        physical_vectors(batch, m, model, lighting, NULL, lights, 0, 0);
+        physical_vectors(batch, m, model, lighting, plan, lights, 0, 0);
 }
 
 static void kernel_physical(e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting, e3d_map_batch *m)

@@ -124,6 +124,7 @@ def static_libraries():
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/*.c"],
         "e3d_canvas": ["csrc/canvas/*.c"],
+        "e3d_environment": ["csrc/environment/*.c"],
         "e3d_images": ["csrc/images/*.c"],
         "e3d_navigation": ["csrc/navigation/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],

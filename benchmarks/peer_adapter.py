@@ -19,7 +19,7 @@ class Peer:
     """Draws one scene; `scene.view` is read anew for each frame."""
 
     split = False  # a frame is delivered as an array
-    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "blend", "glass"}
+    MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "pbr", "blend", "glass"}
 
     def __init__(self, scene):
         self.source = scene
@@ -60,29 +60,45 @@ class Peer:
 def drawable(draw, mode):
     """A mesh or instances, from the neutral description."""
     mesh = draw.mesh
-    material = e3d.Material()
-    if draw.texture is not None:
-        material.texture = e3d.Texture(draw.texture, filter="bilinear")
-    if mode in BLENDED:
-        material.color = (1.0, 1.0, 1.0, float(draw.alpha))
-        material.alpha_mode = "blend"
-        material.two_sided = mode == "glass"
     made = e3d.Mesh(
         mesh.pos,
         mesh.idx.astype(np.int32),
         normals=mesh.nrm,
         uvs=mesh.uv,
+        tangents=mesh.tan,
         colors=mesh.col,
-        materials=[material],
+        materials=[material(draw, mode)],
     )
     if draw.inst is None:
         return made
     return e3d.InstancedMesh(made, draw.inst, colors=draw.inst_col)
 
 
+def material(draw, mode):
+    """Physically based where the neutral description has maps for it, and blended where it says so."""
+    slots = {
+        "texture": draw.texture,
+        "normal_texture": draw.normal_map,
+        "metallic_roughness_texture": draw.rough_metal,
+    }
+    held = {
+        slot: e3d.Texture(pixels, filter="bilinear")
+        for slot, pixels in slots.items()
+        if pixels is not None
+    }
+    if draw.rough_metal is not None:
+        held.update(roughness=float(draw.roughness), metallic=float(draw.metallic))
+    if mode in BLENDED:
+        held.update(color=(1.0, 1.0, 1.0, float(draw.alpha)), alpha_mode="blend")
+        held.update(two_sided=mode == "glass")
+    return e3d.Material(**held)
+
+
 def lights(scene):
     """(light, position) pairs of the neutral description."""
-    if scene.light_pos is not None:
+    if scene.mode == "pbr":
+        yield from physical_lights(scene)
+    elif scene.light_pos is not None:
         for (x, y, z, radius), color in zip(scene.light_pos, scene.light_col, strict=True):
             color = tuple(map(float, color[:3]))
             light = e3d.PointLight(
@@ -93,3 +109,12 @@ def lights(scene):
         strength = 1.0 - float(scene.ambient)
         direction = tuple(-float(c) for c in scene.light_dir)
         yield e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0), None
+
+
+def physical_lights(scene):
+    """A sun and lamps, in units in which a white surface that faces 1 shows 1: pi lux."""
+    direction = tuple(-float(c) for c in scene.light_dir)
+    yield e3d.DirectionalLight(direction=direction, intensity=np.pi), None
+    for (x, y, z, _), color in zip(scene.light_pos, scene.light_col, strict=True):
+        color = tuple(map(float, color[:3]))
+        yield e3d.PointLight(color=color, intensity=np.pi), (float(x), float(y), float(z))

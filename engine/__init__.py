@@ -32,6 +32,7 @@ _PUBLIC = {
     "Material": "materials.material",
     "Texture": "materials.textures",
     "PlacedTexture": "materials.textures",
+    "Environment": "environments.environment",
     "InstancedMesh": "scene.instances",
     "box": "primitives",
     "cylinder": "primitives",

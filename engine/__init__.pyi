@@ -7,6 +7,7 @@ from . import linalg as linalg
 from . import loaders as loaders
 from . import primitives as primitives
 from .canvas import Canvas as Canvas
+from .environments.environment import Environment as Environment
 from .errors import BackendError as BackendError
 from .errors import DisplayError as DisplayError
 from .errors import Engine3DError as Engine3DError

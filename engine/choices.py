@@ -26,6 +26,9 @@ OutputMode = Literal[
     "world_normal",
     "uv",
     "barycentric",
+    "metallic_roughness",
+    "emissive",
+    "tangent",
     "instance_id",
     "material_id",
 ]
@@ -39,6 +42,7 @@ Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window", "gltf"]
 AlphaMode = Literal["opaque", "mask", "blend"]
+BuiltInEnvironment = Literal["studio", "sky", "hall"]
 ImageFormat = Literal["png", "jpg", "jpeg", "tga", "webp"]
 PixelFormat = Literal["rgba", "bgra"]
 PointerShape = Literal[

@@ -17,6 +17,7 @@ _NEIGHBOUR = Path(__file__).resolve().parents[1].parent / "shared"
 SHARED = Path(os.environ.get("ENGINE3D_SHARED") or _NEIGHBOUR)
 CONFORMANCE = SHARED / "conformance"
 MODELS = SHARED / "models"
+GLTF = SHARED / "gltf"
 
 needs_conformance = pytest.mark.skipif(
     not (CONFORMANCE / "expected.json").is_file(),
@@ -24,6 +25,10 @@ needs_conformance = pytest.mark.skipif(
 )
 needs_models = pytest.mark.skipif(
     not MODELS.is_dir(), reason="needs the models in ../shared (or ENGINE3D_SHARED)"
+)
+needs_gltf = pytest.mark.skipif(
+    not (GLTF / "expected.json").is_file(),
+    reason="needs the corpus in ../shared (or ENGINE3D_SHARED)",
 )
 
 

@@ -43,4 +43,12 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_LEAST_ALPHA 0x1p-24f /* R81: a blended sample with less shows nothing; so sums of alphas have a finite inverse */
 #define E3D_LEAST_LENGTH2 0x1p-126f /* R22: the least squared length whose root has a finite inverse */
 
+/* Of physically based materials: highlights as small as a pixel flicker, and what is at a grazing angle must not divide by 0. */
+#define E3D_LEAST_ROUGHNESS 0.045f
+#define E3D_LEAST_SHEEN_ROUGHNESS 0.07f
+#define E3D_LEAST_COSINE 0x1p-20f
+#define E3D_OVER_PI 0x1.45f306p-2f  /* 1 / pi */
+#define E3D_OVER_2PI 0x1.45f306p-3f /* 1 / (2 pi) */
+#define E3D_OVER_21 0x1.861862p-5f  /* 1 / 21 */
+
 #endif

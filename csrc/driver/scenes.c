@@ -141,6 +141,14 @@ static e3d_status add_mesh(scene *s, random_stream *r, int32_t index)
             poison(uvs, 2 * vertices, r, 10);
         desc.uvs = uvs;
     }
+    if (random_once_in(r, 2))
+        desc.uvs1 = random_floats(s, r, 2 * vertices, -1.5f, 2.5f);
+    if (random_once_in(r, 2)) {
+        float *tangents = random_floats(s, r, 4 * vertices, -1.0f, 1.0f);
+        if (random_once_in(r, 8))
+            poison(tangents, 4 * vertices, r, 10);
+        desc.tangents = tangents;
+    }
     int32_t colors = random_below(r, 3);
     if (colors == 1)
         desc.colors_u8 = random_bytes(s, r, 4 * vertices);
@@ -261,6 +269,37 @@ static e3d_status add_draws(scene *s, random_stream *r)
     return status;
 }
 
+static void add_texture_uses(scene *s, random_stream *r, e3d_material *material)
+{
+    for (int slot = 0; slot < E3D_TEXTURE_SLOTS; slot++) {
+        e3d_texture_use use = {.uv_set = random_below(r, 2), .is_moved = random_once_in(r, 3)};
+        if (random_once_in(r, 2))
+            use.texture = s->textures[random_below(r, SCENE_MAX_TEXTURES)];
+        for (int k = 0; k < 6; k++)
+            use.matrix[k] = use.is_moved ? random_float(r, -3.0f, 3.0f) : 0.0f;
+        e3d_material_set_texture(material, (e3d_texture_slot)slot, &use);
+    }
+}
+
+static void make_physical(random_stream *r, e3d_material *material)
+{
+    e3d_physical *p = &material->physical;
+    int coated = random_once_in(r, 2), fuzzy = random_once_in(r, 2), grey = random_once_in(r, 2);
+    p->metallic = random_float(r, 0.0f, 1.0f);
+    p->roughness = random_float(r, 0.0f, 1.0f);
+    p->occlusion_strength = random_float(r, 0.0f, 1.0f);
+    p->specular_intensity = random_float(r, 0.0f, 1.0f);
+    p->clearcoat = coated ? random_float(r, 0.0f, 1.0f) : 0.0f;
+    p->clearcoat_roughness = random_float(r, 0.0f, 1.0f);
+    p->clearcoat_normal_scale = random_float(r, -2.0f, 2.0f);
+    p->sheen_roughness = random_float(r, 0.0f, 1.0f);
+    for (int k = 0; k < 3; k++) {
+        p->reflectance[k] = grey ? 0.04f : random_float(r, 0.0f, 1.2f);
+        p->sheen_color[k] = fuzzy ? random_float(r, 0.0f, 1.0f) : 0.0f;
+    }
+    material->is_physical = 1;
+}
+
 static e3d_status add_materials(scene *s, random_stream *r)
 {
     for (int i = 0; i < SCENE_MAX_TEXTURES; i++) {
@@ -286,6 +325,13 @@ static e3d_status add_materials(scene *s, random_stream *r)
         material->id = 100 + i;
         material->two_sided = random_once_in(r, 3);
         material->flat = random_once_in(r, 3);
+        material->is_unlit = random_once_in(r, 8);
+        material->alpha = 1.0f;
+        material->normal_scale = random_float(r, -2.0f, 2.0f);
+        if (random_once_in(r, 2))
+            add_texture_uses(s, r, material);
+        if (random_once_in(r, 2))
+            make_physical(r, material);
     }
     s->frame.materials = s->materials;
     s->frame.material_count = SCENE_MAX_MATERIALS;
@@ -298,16 +344,19 @@ static void add_lights(scene *s, random_stream *r)
     s->frame.light_count = random_below(r, (random_once_in(r, 3) ? SCENE_MAX_LIGHTS : 4) + 1);
     for (int32_t i = 0; i < s->frame.light_count; i++) {
         e3d_light *light = &s->lights[i];
-        light->kind = (e3d_light_kind)random_below(r, 2);
-        light->falloff = (e3d_falloff)random_below(r, 2);
-        int endless = light->falloff == E3D_FALLOFF_INVERSE_SQUARE && random_once_in(r, 2);
+        light->kind = (e3d_light_kind)random_below(r, 3);
+        light->falloff = (e3d_falloff)random_below(r, 3);
+        int endless = light->falloff != E3D_FALLOFF_WINDOW && random_once_in(r, 2);
         light->range = endless ? INFINITY : random_float(r, 0.1f, 8.0f);
         for (int k = 0; k < 3; k++) {
             light->color[k] = random_float(r, 0.0f, 2.0f);
+            light->lux[k] = 3.0f * light->color[k];
             light->to_light[k] = random_float(r, -1.0f, 1.0f);
             light->position[k] = random_float(r, -3.0f, 3.0f);
         }
         normalize(light->to_light);
+        light->cone[0] = random_float(r, 0.0f, 0.95f);
+        light->cone[1] = 1.0f / random_float(r, 0.001f, 1.0f);
     }
 }
 
@@ -361,7 +410,7 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     int clamped = random_once_in(r, 3);
     frame->light_clamp[0] = clamped ? 0.1f : 0.0f;
     frame->light_clamp[1] = clamped ? 1.0f : INFINITY;
-    frame->exposure = 1.0f;
+    frame->exposure = random_once_in(r, 2) ? 1.0f : random_float(r, 0.1f, 4.0f);
 }
 
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)

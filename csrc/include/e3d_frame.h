@@ -6,6 +6,7 @@
 
 #include "e3d_options.h"
 #include "e3d_draw.h"
+#include "e3d_environment.h"
 #include "e3d_light.h"
 #include "e3d_material.h"
 
@@ -67,6 +68,8 @@ typedef struct e3d_frame {
     float line_width, point_size; /* output pixels, 0 < size <= 256 */
     float line_color[3];         /* display-ready: goes through the frame's encoder like any colour */
     float background[4];         /* rgb through the encoder; a is 0 or 1 */
+    e3d_backdrop backdrop;       /* lit and unlit only: the background, if it has an environment */
+    e3d_environment_light environment; /* lights physically based materials */
     int32_t encode_srgb;         /* lit and unlit only: encoder is sRGB, else floor(255 v + 1/2) */
     int32_t decode_srgb;         /* 8-bit vertex and instance colours are decoded from sRGB */
     int64_t view;                /* any number that tells this eye from others: the renderer remembers what each saw last */

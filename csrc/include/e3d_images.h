@@ -25,4 +25,18 @@ bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdif
 size_t e3d_tga_unpack(const uint8_t *data, size_t length, int32_t pixel_bytes, uint8_t *pixels,
                       size_t count);
 
+/* What ends the scan lines of a Radiance picture before all are there. */
+typedef enum e3d_rgbe_fault {
+    E3D_RGBE_WHOLE = 0, /* nothing does */
+    E3D_RGBE_CUT_SHORT,
+    E3D_RGBE_RUN_TOO_LONG,      /* or of no length: it doesn't fit its line */
+    E3D_RGBE_NOTHING_TO_REPEAT, /* a line begins with a repetition */
+    E3D_RGBE_OTHER_WIDTH        /* a line says that it has another width */
+} e3d_rgbe_fault;
+
+/* Unpacks lines of a Radiance picture into pixels[lines * width * 4]. Returns how many are whole; *used is
+ * where in the data the next one begins, or the fault is. */
+size_t e3d_rgbe_unpack(const uint8_t *data, size_t length, int32_t width, size_t lines,
+                       uint8_t *pixels, size_t *used, e3d_rgbe_fault *fault);
+
 #endif

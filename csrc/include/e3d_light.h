@@ -24,6 +24,7 @@ typedef struct e3d_light {
     float position[3];   /* point, spot: world space */
     float range;         /* point, spot: contributes exactly 0 at distance >= range; may be +inf
                           * (not with E3D_FALLOFF_WINDOW) */
+    float lux[3];        /* what physically based materials take for color: lux, of the others candela */
     float cone[2];       /* spot: the cosine of the outer angle, and 1 over what the inner one's is more */
 } e3d_light;
 

@@ -43,7 +43,7 @@ typedef enum e3d_alpha_mode { E3D_EACH_ALPHA_MODE(E3D_ENUMERATOR) } e3d_alpha_mo
 /* What a physically based material is made of beside its colours (docs/exactness.md, section 12). */
 typedef struct e3d_physical {
     float metallic, roughness; /* 0 .. 1 */
-    float normal_scale, occlusion_strength;
+    float occlusion_strength;
     float reflectance[3];      /* of what is no metal, seen from above; before specular_intensity */
     float specular_intensity;
     float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
@@ -58,6 +58,7 @@ typedef struct e3d_material {
     float specular[3];           /* Blinn-Phong Ks; all zero: no highlight is computed */
     float shininess;             /* Blinn-Phong Ns, > 0 */
     float emissive[3];
+    float normal_scale;          /* of normal_texture, along the surface */
 #define E3D_MATERIAL_TEXTURE(enumerator, name) e3d_texture_use name;
     E3D_EACH_TEXTURE_SLOT(E3D_MATERIAL_TEXTURE)
     int32_t id;                  /* what material_id outputs */

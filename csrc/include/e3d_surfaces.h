@@ -24,6 +24,18 @@ typedef struct e3d_surface {
  * the group; `block_faces` triangles are added up at a time, and their sums to the others. */
 e3d_sums_problem e3d_smooth_sums(const e3d_surface *surface, size_t block_faces, double *sums);
 
+/* Triangles that wear an image: (vertices, 3) positions and normals, (vertices, 2) coordinates whose origin is at the bottom left,
+ * and a number for each vertex, the same for those that are equal in all of these. */
+typedef struct e3d_mapped_surface {
+    const float *positions, *normals, *uvs;
+    const int32_t *faces, *points; /* in range */
+    size_t face_count;             /* below 2^30 */
+} e3d_mapped_surface;
+
+/* Finds which corners share a tangent, (faces, 3), and the tangents: (groups, 4), for which there is room for three a face. False
+ * if memory is out. */
+bool e3d_find_tangents(const e3d_mapped_surface *surface, int32_t *groups, float *tangents, size_t *group_count);
+
 /* The sides of triangles: side k of a face is from its vertex k to the next one. */
 typedef struct e3d_sides {
     const int32_t *faces;  /* [3 * face_count] */

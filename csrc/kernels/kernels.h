@@ -12,6 +12,8 @@
 #include "e3d_canvas.h"
 #include "kernels/types/alpha.h"
 #include "kernels/types/fragments.h"
+#include "kernels/types/lobe.h"
+#include "kernels/types/maps.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
@@ -89,10 +91,33 @@ typedef struct e3d_kernels {
     void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance);
     /* energy, and shine where shininess > 0 */
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
-    /* color = (color * energy + specular * shine) + emissive; specular may be NULL */
-    void (*combine)(e3d_batch *batch, const float specular[3], const float emissive[3]);
-    /* alpha (R80): base, times the texture's (which may be NULL), the vertices' and the instance's. */
-    void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, float base, int by_vertex,
+    /* color = ((color * energy + specular * shine) + emissive) * exposure; specular may be NULL */
+    void (*combine)(e3d_batch *batch, const float specular[3], const float emissive[3], float exposure);
+    /* Finds what maps need of surfaces that `surface` has worked on (R25, R47). */
+    void (*map_surfaces)(const e3d_surfaces *surfaces, const e3d_maps *maps, e3d_map_surfaces *out);
+    /* Finds coordinates, tangents and texels of a batch, whose weights are there, and its normals where there are tangents. */
+    void (*maps)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_maps *maps, const e3d_map_surfaces *map_surfaces,
+                 e3d_map_batch *out);
+    /* Keeps the normals of a batch, and maps them: those of the surface in place, the coat's to their own. */
+    void (*map_normals)(e3d_batch *batch, const e3d_normal_map *surface, const e3d_normal_map *coat, e3d_map_batch *maps);
+    /* Finds the numbers of a batch that a texture multiplies. */
+    void (*varying)(const e3d_varying *varying, int count, float *out);
+    /* color: what a physically based material shows, whose base colour it is. */
+    void (*physical)(e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting, e3d_map_batch *maps);
+    /* Finds the light of an environment along directions, at a level each. */
+    void (*environment)(const e3d_environment_light *light, const float *const direction[3], const float *level, int count,
+                        float *const color[3]);
+    /* Finds irradiance / pi at normals. */
+    void (*irradiance)(const e3d_environment_light *light, const float *const normal[3], int count, float *const color[3]);
+    /* Finds what surfaces reflect of light that is 1 all around. */
+    void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out);
+    /* Adds what a block of texels gathers of the light of cells. */
+    void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block);
+    /* Finds the clamped colours of an environment behind `count` pixels of a row, from (x, y) on. */
+    void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]);
+    /* alpha (R80): base, times the texture's (which may be NULL), the vertices' and the instance's. base: NULL where the product of
+     * these two is there already. */
+    void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const float *base, int by_vertex,
                   int by_instance);
     /* Lays the colours of a batch over the samples, each of which it has once (R84). */
     void (*lay)(const e3d_batch *batch, e3d_samples *samples);

@@ -8,15 +8,10 @@
 #include "e3d_surfaces.h"
 
 #include "core/fpenv.h"
+#include "loaders/corner_angles.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-#define PI 3.141592653589793
-
-typedef struct vector {
-    double x, y, z;
-} vector;
 
 static inline vector position_at(const e3d_surface *surface, size_t index)
 {
@@ -28,12 +23,6 @@ static inline vector position_at(const e3d_surface *surface, size_t index)
     return (vector){p[0], p[1], p[2]};
 }
 
-static inline vector minus(vector a, vector b) { return (vector){a.x - b.x, a.y - b.y, a.z - b.z}; }
-
-static inline double dot(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-static inline double length_of(vector v) { return sqrt(dot(v, v)); }
-
 static inline vector face_normal(vector ab, vector ac)
 {
     const vector area = {ab.y * ac.z - ab.z * ac.y, ab.z * ac.x - ab.x * ac.z,
@@ -42,19 +31,6 @@ static inline vector face_normal(vector ab, vector ac)
         return (vector){0, 0, 0};
     const double length = length_of(area), divisor = length == 0 ? 1 : length;
     return (vector){area.x / divisor, area.y / divisor, area.z / divisor};
-}
-
-/* acos(x) = sqrt(1 - x) * polynomial(x) for 0 <= x <= 1 to 2e-8 (Abramowitz and Stegun, 4.4.46). */
-static inline double arc_cosine(double x)
-{
-    static const double coefficients[] = {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046,
-                                          0.0889789874, -0.2145988016, 1.5707963050};
-    const double size = fabs(x) > 1 ? 1 : fabs(x);
-    double polynomial = -0.0012624911;
-    for (size_t k = 0; k < sizeof coefficients / sizeof *coefficients; k++)
-        polynomial = polynomial * size + coefficients[k];
-    const double angle = sqrt(1 - size) * polynomial;
-    return x < 0 ? PI - angle : angle;
 }
 
 static inline void add_triangle(const e3d_surface *surface, size_t face, double *sums)

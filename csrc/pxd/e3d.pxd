@@ -102,7 +102,6 @@ cdef extern from "e3d.h" nogil:
     ctypedef struct e3d_physical:
         float metallic
         float roughness
-        float normal_scale
         float occlusion_strength
         float reflectance[3]
         float specular_intensity
@@ -114,6 +113,44 @@ cdef extern from "e3d.h" nogil:
         float transmission
         float thickness
         float absorption[3]
+    ctypedef struct e3d_environment:
+        pass
+
+    enum:
+        E3D_ENVIRONMENT_LEVELS
+
+    ctypedef struct e3d_environment_level:
+        const float *texels
+        int32_t size
+
+    ctypedef struct e3d_environment_view:
+        e3d_environment_level levels[]
+
+    e3d_status e3d_environment_create(const float *pixels, int32_t width, int32_t height,
+                                      int threads, e3d_environment **out)
+    void e3d_environment_destroy(e3d_environment *environment)
+    const e3d_environment_view *e3d_environment_get_view(const e3d_environment *environment)
+
+    ctypedef struct e3d_environment_light:
+        const e3d_environment *environment
+        float cosine
+        float sine
+        float intensity
+
+    ctypedef struct e3d_backdrop:
+        e3d_environment_light light
+        float level
+        float ray[3]
+        float across[3]
+        float down[3]
+
+    ctypedef enum e3d_dfg:
+        E3D_DFG_TABLES
+
+    enum:
+        E3D_DFG_SIZE
+
+    const float E3D_DFG_TABLE[E3D_DFG_TABLES][E3D_DFG_SIZE * E3D_DFG_SIZE]
 
     ctypedef struct e3d_material:
         float color[3]
@@ -121,6 +158,7 @@ cdef extern from "e3d.h" nogil:
         float specular[3]
         float shininess
         float emissive[3]
+        float normal_scale
         int32_t id
         int32_t two_sided
         int32_t flat
@@ -152,6 +190,7 @@ cdef extern from "e3d.h" nogil:
         float position[3]
         float range
         float cone[2]
+        float lux[3]
 
     ctypedef enum e3d_pose_kind:
         E3D_POSE_NONE
@@ -215,6 +254,8 @@ cdef extern from "e3d.h" nogil:
         float point_size
         float line_color[3]
         float background[4]
+        e3d_backdrop backdrop
+        e3d_environment_light environment
         int32_t encode_srgb
         int32_t decode_srgb
         float depth_near

@@ -2,7 +2,7 @@
 
 from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
 
-from e3d cimport e3d_backend, e3d_filter, e3d_light, e3d_wrap
+from e3d cimport e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment_light, e3d_filter, e3d_light, e3d_wrap
 from e3d_clusters cimport e3d_cluster
 
 
@@ -127,6 +127,12 @@ cdef extern from "kernels/kernels.h" nogil:
     ctypedef struct e3d_batch:
         pass
 
+    ctypedef struct e3d_cell_group:
+        pass
+
+    ctypedef struct e3d_lobe_block:
+        pass
+
     ctypedef struct e3d_lighting:
         const e3d_light *lights
         int light_count
@@ -134,6 +140,8 @@ cdef extern from "kernels/kernels.h" nogil:
         float ambient[3]
         float clamp[2]
         float eye[4]
+        float exposure
+        const void *environment
 
     ctypedef struct e3d_pixel_rows:
         char *to
@@ -170,6 +178,30 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *emissive
         int srgb
         e3d_samples *samples
+
+    ctypedef struct e3d_map_batch:
+        pass
+
+    ctypedef struct e3d_varying:
+        const float *lanes
+        float factor
+
+    ctypedef struct e3d_surface_model:
+        e3d_varying metallic
+        e3d_varying roughness
+        e3d_varying occlusion
+        float occlusion_strength
+        e3d_varying reflectance[3]
+        e3d_varying specular
+        e3d_varying emissive[3]
+        e3d_varying coat
+        e3d_varying coat_roughness
+        e3d_varying sheen[3]
+        e3d_varying sheen_roughness
+        int has_coat
+        int has_sheen
+        int is_grey
+        int coat_is_mapped
 
     ctypedef struct e3d_kernels:
         uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float *clip,
@@ -215,13 +247,23 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float *base)
         void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
         void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
-        void (*combine)(e3d_batch *batch, const float *specular, const float *emissive)
+        void (*combine)(e3d_batch *batch, const float *specular, const float *emissive,
+                        float exposure)
+        void (*physical)(e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting,
+                         e3d_map_batch *maps)
+        void (*environment)(const e3d_environment_light *light, const float *const *direction, const float *level,
+                            int count, float *const *color)
+        void (*irradiance)(const e3d_environment_light *light, const float *const *normal, int count,
+                           float *const *color)
+        void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out)
+        void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block)
+        void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const *color)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)
         void (*keep)(const e3d_batch *batch, e3d_samples *samples)
         int32_t (*raster_alpha)(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out)
-        void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, float base,
+        void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const float *base,
                       int by_vertex, int by_instance)
         void (*lay)(const e3d_batch *batch, e3d_samples *samples)
         int (*blend)(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left)

@@ -115,6 +115,17 @@ cdef extern from "e3d_loaders.h" nogil:
     e3d_sums_problem e3d_smooth_sums(
         const e3d_surface *surface, size_t block_faces, double *sums)
 
+    ctypedef struct e3d_mapped_surface:
+        const float *positions
+        const float *normals
+        const float *uvs
+        const int32_t *faces
+        const int32_t *points
+        size_t face_count
+
+    bint e3d_find_tangents(
+        const e3d_mapped_surface *surface, int32_t *groups, float *tangents, size_t *group_count)
+
     ctypedef struct e3d_sides:
         const int32_t *faces
         const int32_t *points

@@ -39,6 +39,12 @@ static inline float ref_dot3(const float a[3], const float b[3])
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
+static inline void ref_cross(const float a[3], const float b[3], float out[3])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+}
+
 /* A vector whose length is zero, or too great for a float, becomes zero (R22), or no number if it was none. */
 static inline void ref_normalize(float v[3])
 {

@@ -7,13 +7,14 @@
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
-/* R31, R43: `x` is the squared distance over that of the range. */
-static float falloff(const e3d_light *light, float d2, float x)
+/* R31, R43, R51: `x` is the squared distance over that of the range, `i` one over the distance. */
+static float falloff(const e3d_light *light, float d2, float x, float i, int by_product)
 {
     float t = 1.0f - x;
     if (light->falloff == E3D_FALLOFF_WINDOW)
         return t * t;
-    return (light->falloff == E3D_FALLOFF_GLTF ? ref_max(1.0f - x * x, 0.0f) : 1.0f) / d2;
+    float window = light->falloff == E3D_FALLOFF_GLTF ? ref_max(1.0f - x * x, 0.0f) : 1.0f;
+    return by_product ? window * (i * i) : window / d2;
 }
 
 /* R43: how much of a spot light goes along l. */
@@ -24,7 +25,7 @@ static float cone(const e3d_light *light, const float l[3])
 }
 
 /* Unit vector towards the light and attenuation; returns 0 where the light is out of range. */
-int ref_light_reach(const e3d_light *light, const float p[3], float l[3], float *attenuation)
+int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation)
 {
     if (light->kind == E3D_LIGHT_DIRECTIONAL) {
         for (int c = 0; c < 3; c++)
@@ -41,13 +42,13 @@ int ref_light_reach(const e3d_light *light, const float p[3], float l[3], float 
     float i = 1.0f / sqrtf(d2);
     for (int c = 0; c < 3; c++)
         l[c] = d[c] * i;
-    *attenuation = falloff(light, d2, d2 * (1.0f / range2));
+    *attenuation = falloff(light, d2, d2 * (1.0f / range2), i, by_product);
     if (light->kind == E3D_LIGHT_SPOT)
         *attenuation = *attenuation * cone(light, l);
     return 1;
 }
 
-static void direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3])
+void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
     int perspective = frame->eye[3] == 1.0f;
     for (int c = 0; c < 3; c++)
@@ -60,7 +61,7 @@ static void direction_to_eye(const e3d_frame *frame, const ref_surface *surface,
 static float highlight(const e3d_frame *frame, const ref_surface *surface, const float l[3], float shininess)
 {
     float h[3];
-    direction_to_eye(frame, surface, h);
+    ref_direction_to_eye(frame, surface, h);
     for (int c = 0; c < 3; c++)
         h[c] = l[c] + h[c];
     ref_normalize(h);
@@ -78,7 +79,7 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
     for (int32_t n = 0; n < frame->light_count; n++) {
         const e3d_light *light = &frame->lights[n];
         float l[3], attenuation;
-        if (!ref_light_reach(light, surface->world_position, l, &attenuation))
+        if (!ref_light_reach(light, surface->world_position, 0, l, &attenuation))
             continue;
         float cosine = ref_dot3(surface->world_normal, l);
         cosine = cosine > 0.0f ? cosine : 0.0f;
@@ -91,7 +92,8 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
     }
     for (int c = 0; c < 3; c++) {
         float lit = surface->albedo[c] * ref_clamp(diffuse_sum[c], frame->light_clamp[0], frame->light_clamp[1]);
-        out[c] = shiny ? (lit + specular[c] * specular_sum[c]) + material->emissive[c]
-                       : lit + material->emissive[c];
+        out[c] = shiny ? (lit + specular[c] * specular_sum[c]) + surface->emissive[c]
+                       : lit + surface->emissive[c];
+        out[c] = out[c] * frame->exposure;
     }
 }

@@ -3,8 +3,8 @@
  * In:  what raster left at each sample.
  * Out: one row of pixels after another: colour averaged over a pixel's samples and encoded; every
  *      other output from the one sample of R35.
- * Rules: R32 (overdraw), R33 and R85 (average), R34 (encoding), R35 and R86 (outputs), R36 (what wireframe shows);
- *      R84 through alpha.c.
+ * Rules: R32 (overdraw), R33 and R85 (average), R34 (encoding), R35 and R86 (outputs), R36 (what wireframe shows), R63 (an environment as the
+ *      background); R84 through alpha.c.
  */
 #include <math.h>
 
@@ -46,6 +46,20 @@ static void overdraw_color(uint8_t layers, float out[3])
         out[c] = (float)color[c] * E3D_UNORM8;
 }
 
+static int shows_backdrop(const e3d_frame *frame)
+{
+    return frame->backdrop.light.environment && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
+}
+
+/* R63: of the pixel that a sample belongs to. */
+static void background_color(const e3d_frame *frame, int32_t x, int32_t y, float out[3])
+{
+    float color[3];
+    if (shows_backdrop(frame))
+        ref_backdrop(&frame->backdrop, x / frame->samples_axis, y / frame->samples_axis, color);
+    clamp_color(shows_backdrop(frame) ? color : frame->background, out);
+}
+
 /* The colour of what is kept at a sample, clamped; returns 0, and the background's colour, where nothing shows. */
 static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
 {
@@ -64,7 +78,7 @@ static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t
         return 1;
     }
     if (overdraw || !piece || (only_edges && piece->primitive.kind == REF_FACE)) {
-        clamp_color(frame->background, out);
+        background_color(frame, x, y, out);
         return 0;
     }
     ref_surface surface;
@@ -79,7 +93,7 @@ static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t
 /* The colour of a sample, multiplied by its alpha, which it returns. */
 static float sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
 {
-    float alpha = kept_color(scene, band, x, y, out) || scene->frame->background[3] != 0.0f ? 1.0f : 0.0f;
+    float alpha = kept_color(scene, band, x, y, out) || shows_backdrop(scene->frame) || scene->frame->background[3] != 0.0f ? 1.0f : 0.0f;
     size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
     for (int c = 0; c < 3 && alpha == 0.0f; c++)
         out[c] = 0.0f;
@@ -145,6 +159,12 @@ static void write_surface(const e3d_targets *targets, size_t pixel, const ref_su
     write_floats(targets->world_position, pixel, surface->world_position, 3);
     write_floats(targets->uv, pixel, surface->uv, 2);
     write_floats(targets->barycentric, pixel, surface->barycentric, 3);
+    int is_physical = primitive->kind == REF_FACE && primitive->material->is_physical;
+    const float metallic_roughness[2] = {is_physical ? surface->physical.metallic : 0.0f,
+                                         is_physical ? surface->physical.roughness : 1.0f};
+    write_floats(targets->metallic_roughness, pixel, metallic_roughness, 2);
+    write_floats(targets->emissive, pixel, surface->emissive, 3);
+    write_floats(targets->tangent, pixel, surface->view_tangent, 4);
 }
 
 /* R35 */

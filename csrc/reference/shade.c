@@ -1,7 +1,7 @@
 /* Shade: the colour of a surface in the frame's mode, not yet clamped or encoded.
  *
  * In:  a surface, the frame's mode. Out: three floats. Overdraw is not about surfaces: resolve.c.
- * Rules: R31 through light.c, R32.
+ * Rules: R31 through light.c, R49 … R57 through physical.c, R32, R44.
  */
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
@@ -63,8 +63,11 @@ void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
     default:
         break;
     }
-    if (frame->mode == E3D_MODE_LIT && primitive->kind == REF_FACE) {
-        ref_light(frame, surface, out);
+    if (frame->mode == E3D_MODE_LIT && primitive->kind == REF_FACE && !primitive->material->is_unlit) {
+        if (primitive->material->is_physical)
+            ref_light_physical(frame, surface, out);
+        else
+            ref_light(frame, surface, out);
         return;
     }
     for (int c = 0; c < 3; c++)

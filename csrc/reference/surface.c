@@ -2,7 +2,8 @@
  *
  * In:  a piece and a sample that it covers; everything is computed again from the mesh.
  * Out: ref_surface, in world and view space.
- * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv).
+ * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv);
+ *      what textures add to it is in maps.c.
  */
 #include "reference/arithmetic.h"
 #include "core/srgb_tables.h"
@@ -24,7 +25,7 @@ static void find_weights(ref_surface *s, int32_t x, int32_t y)
 }
 
 /* R20: of three values. */
-static float interpolate(const ref_surface *s, const float v[3]) { return ref_dot3(s->weight, v) * s->r; }
+float ref_interpolate(const ref_surface *s, const float v[3]) { return ref_dot3(s->weight, v) * s->r; }
 
 /* One component of a vertex attribute; a vertex that the primitive lacks counts as 0. */
 static float interpolate_attribute(const ref_surface *s, const float *values, int components, int c)
@@ -34,23 +35,23 @@ static float interpolate_attribute(const ref_surface *s, const float *values, in
         int32_t vertex = s->piece->primitive.vertices[k];
         v[k] = vertex < 0 ? 0.0f : values[(size_t)vertex * (size_t)components + (size_t)c];
     }
-    return interpolate(s, v);
+    return ref_interpolate(s, v);
 }
 
 /* R21 */
 static void find_position(const ref_scene *scene, ref_surface *s)
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
-    float corners[3][3] = {{0}};
     for (int k = 0; k < 3; k++) {
         int32_t vertex = s->piece->primitive.vertices[k];
+        float *corner = s->corner_position[k];
+        corner[0] = corner[1] = corner[2] = 0.0f;
         if (vertex >= 0 && mesh->components == 3)
-            ref_transform_point(s->instance->world_from_object, mesh->positions + 3 * (size_t)vertex,
-                                corners[k]);
+            ref_transform_point(s->instance->world_from_object, mesh->positions + 3 * (size_t)vertex, corner);
     }
     for (int c = 0; c < 3; c++) {
-        float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
-        s->world_position[c] = interpolate(s, v);
+        float v[3] = {s->corner_position[0][c], s->corner_position[1][c], s->corner_position[2][c]};
+        s->world_position[c] = ref_interpolate(s, v);
     }
     ref_transform_point(scene->view_from_world, s->world_position, s->view_position);
     s->metric_depth = 0.0f - s->view_position[2];
@@ -91,22 +92,16 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
     else if (primitive->kind == REF_FACE && mesh->normals)
         interpolate_normal(s);
     ref_normalize(n);
-    for (int r = 0; r < 3; r++)
-        s->view_normal[r] = ref_dot3(scene->view_from_world[r], n);
 }
 
 /* R25 */
 static void find_uv(ref_surface *s)
 {
-    const e3d_mesh_desc *mesh = s->instance->mesh;
-    for (size_t c = 0; c < 2; c++) {
-        float *v = s->uv_corner[c];
-        for (int k = 0; k < 3; k++) {
-            int32_t vertex = s->piece->primitive.vertices[k];
-            v[k] = mesh->uvs && vertex >= 0 ? mesh->uvs[2 * (size_t)vertex + c] : 0.0f;
-        }
-        s->uv[c] = interpolate(s, v);
-    }
+    static const e3d_texture_use PLAIN = {.uv_set = 0};
+    ref_coordinates at;
+    ref_slot_coordinates(&PLAIN, s, &at);
+    for (int c = 0; c < 2; c++)
+        s->uv[c] = at.uv[c];
 }
 
 /* R23, R80 */
@@ -130,7 +125,7 @@ static void vertex_color(const ref_scene *scene, const ref_surface *s, float out
     }
     for (int c = 0; c < 4; c++) {
         float v[3] = {corners[0][c], corners[1][c], corners[2][c]};
-        out[c] = mesh->colors_f32 ? interpolate_attribute(s, mesh->colors_f32, 4, c) : interpolate(s, v);
+        out[c] = mesh->colors_f32 ? interpolate_attribute(s, mesh->colors_f32, 4, c) : ref_interpolate(s, v);
     }
 }
 
@@ -152,9 +147,8 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     for (int c = 0; c < 3; c++)
         s->albedo[c] = primitive->material->color[c];
     s->alpha = primitive->material->alpha;
-    if (primitive->kind == REF_FACE && primitive->material->texture.texture && mesh->uvs) {
-        const e3d_texture_view *texture = e3d_texture_get_view(primitive->material->texture.texture);
-        float unit = ref_texture_sample(texture, s, factor);
+    if (ref_slot_counts(&primitive->material->texture, s)) {
+        float unit = ref_slot_sample(&primitive->material->texture, s, factor);
         for (int c = 0; c < 3; c++)
             s->albedo[c] = factor[c] * (s->albedo[c] * unit);
         s->alpha = factor[3] * (s->alpha * unit);
@@ -181,4 +175,5 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, i
     find_uv(out);
     find_albedo(scene, out);
     out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
+    ref_find_maps(scene, out);
 }

@@ -1,7 +1,7 @@
 /* Texture: filtered texels at a place, in 8-bit fixed-point weights.
  *
  * In:  a texture's levels (linear RGBA, top row first), uv and how they change over the piece.
- * Out: the red, green, blue and alpha of the texture there, and their unit.
+ * Out: the four channels of the texture there, and their unit.
  * Rules: R25 and R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
  */
 #include <string.h>
@@ -14,10 +14,9 @@ enum { CHANNELS = 4 };
 static float sum_of(const float v[3]) { return (v[0] + v[1]) + v[2]; }
 
 /* R25: texels that one coordinate passes from a sample to the next, along the row and down the column, before they are divided. */
-static void find_slopes(const ref_surface *s, int c, float size, float *along, float *down)
+static void find_slopes(const ref_surface *s, const float corners[3], float size, float *along, float *down)
 {
     const ref_piece *piece = s->piece;
-    const float *corners = s->uv_corner[c];
     float a0 = ref_dot3(piece->bary0, corners), s0 = sum_of(piece->bary0);
     float ax = ref_dot3(piece->bary_dx, corners), sx = sum_of(piece->bary_dx);
     float ay = ref_dot3(piece->bary_dy, corners), sy = sum_of(piece->bary_dy);
@@ -27,11 +26,11 @@ static void find_slopes(const ref_surface *s, int c, float size, float *along, f
 }
 
 /* R26, in 1/256 level. */
-static int32_t level_of_detail(const e3d_texture_view *texture, const ref_surface *s)
+static int32_t level_of_detail(const e3d_texture_view *texture, const ref_surface *s, const ref_coordinates *at)
 {
     float along[2], down[2];
-    find_slopes(s, 0, (float)texture->levels[0].width, &along[0], &down[0]);
-    find_slopes(s, 1, (float)texture->levels[0].height, &along[1], &down[1]);
+    find_slopes(s, at->corner[0], (float)texture->levels[0].width, &along[0], &down[0]);
+    find_slopes(s, at->corner[1], (float)texture->levels[0].height, &along[1], &down[1]);
     float longest = ref_max(along[0] * along[0] + along[1] * along[1], down[0] * down[0] + down[1] * down[1]);
     float q = ref_max((longest * (s->r * s->r)) * (s->r * s->r), 1.0f);
     int32_t coarsest = (texture->level_count - 1) * 256, bits;
@@ -130,16 +129,17 @@ static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float
         out[c] = out[c] + (coarser[c] - out[c]) * f;
 }
 
-float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, float out[CHANNELS])
+float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at,
+                         float out[CHANNELS])
 {
-    float s = wrap_coordinate(surface->uv[0], texture->wrap);
-    float t = wrap_coordinate(1.0f - surface->uv[1], texture->wrap);
+    float s = wrap_coordinate(at->uv[0], texture->wrap);
+    float t = wrap_coordinate(1.0f - at->uv[1], texture->wrap);
     if (texture->filter == E3D_NEAREST)
         sample_nearest(texture, &texture->levels[0], s, t, out);
     else if (texture->filter == E3D_BILINEAR)
         sample_bilinear(texture, &texture->levels[0], s, t, out);
     else
-        sample_trilinear(texture, level_of_detail(texture, surface), s, t, out);
+        sample_trilinear(texture, level_of_detail(texture, surface, at), s, t, out);
     int nearest = texture->filter == E3D_NEAREST;
     if (texture->channel_bits == 16)
         return nearest ? E3D_UNORM15 : E3D_UNORM15_BLENDED;

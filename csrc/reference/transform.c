@@ -59,6 +59,7 @@ static void make_normal_matrix(ref_instance *instance, const double m[16], const
         }
     double scale = (det < 0.0 ? -1.0 : 1.0) / big;
     int usable = finite && isfinite(scale);
+    instance->turned_round = det < 0.0;
     instance->mirrored = (det < 0.0) != (find_cofactors(view_from_world, of_view) < 0.0);
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)

@@ -171,7 +171,8 @@ cdef class NativeDrawList:
 
     def set_material(
         self, int index, color, specular, float shininess, emissive, dict textures not None, int32_t id,
-        bint two_sided, bint flat, bint unlit, float alpha, int alpha_mode, float alpha_cutoff,
+        bint two_sided, bint flat, bint unlit, float normal_scale, float alpha,
+        int alpha_mode, float alpha_cutoff,
     ):
         """Say what a material is, or the next one.
 
@@ -202,14 +203,14 @@ cdef class NativeDrawList:
         material.two_sided = two_sided
         material.flat = flat
         material.is_unlit = unlit
+        material.normal_scale = normal_scale
         material.alpha = alpha
         material.alpha_mode = <e3d_alpha_mode>alpha_mode
         material.alpha_cutoff = alpha_cutoff
         self.material_count = max(self.material_count, index + 1)
 
     def set_physical(
-        self, int index, *, float metallic, float roughness, float normal_scale,
-        float occlusion_strength, reflectance, float specular_intensity, float clearcoat,
+        self, int index, *, float metallic, float roughness, float occlusion_strength, reflectance, float specular_intensity, float clearcoat,
         float clearcoat_roughness, float clearcoat_normal_scale, sheen_color, float sheen_roughness,
         float transmission, float thickness, absorption,
     ):
@@ -219,7 +220,6 @@ cdef class NativeDrawList:
         cdef e3d_physical *physical = &self.materials[index].physical
         physical.metallic = metallic
         physical.roughness = roughness
-        physical.normal_scale = normal_scale
         physical.occlusion_strength = occlusion_strength
         copy_vector(physical.reflectance, reflectance, 3)
         physical.specular_intensity = specular_intensity
@@ -232,19 +232,21 @@ cdef class NativeDrawList:
         physical.thickness = thickness
         copy_vector(physical.absorption, absorption, 3)
 
-    def add_directional_light(self, color, to_light):
-        cdef e3d_light *light = self.new_light(E3D_LIGHT_DIRECTIONAL, color)
+    # `lux` is the colour times the intensity as physically based materials take it.
+
+    def add_directional_light(self, color, lux, to_light):
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_DIRECTIONAL, color, lux)
         copy_vector(light.to_light, to_light, 3)
 
-    def add_point_light(self, color, position, float range, int falloff):
-        cdef e3d_light *light = self.new_light(E3D_LIGHT_POINT, color)
+    def add_point_light(self, color, lux, position, float range, int falloff):
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_POINT, color, lux)
         copy_vector(light.position, position, 3)
         light.range = range
         light.falloff = <e3d_falloff>falloff
 
-    def add_spot_light(self, color, float range, float cone_cosine, float cone_scale):
+    def add_spot_light(self, color, lux, float range, float cone_cosine, float cone_scale):
         """A spot light, which is then moved and turned to where it is."""
-        cdef e3d_light *light = self.new_light(E3D_LIGHT_SPOT, color)
+        cdef e3d_light *light = self.new_light(E3D_LIGHT_SPOT, color, lux)
         light.range = range
         light.falloff = <e3d_falloff><int>FALLOFFS["gltf"]
         light.cone[0], light.cone[1] = cone_cosine, cone_scale
@@ -262,7 +264,7 @@ cdef class NativeDrawList:
         """Set where a point or spot light is."""
         copy_vector(self.light_at(number).position, position, 3)
 
-    cdef e3d_light *new_light(self, e3d_light_kind kind, color) except NULL:
+    cdef e3d_light *new_light(self, e3d_light_kind kind, color, lux) except NULL:
         self.lights = <e3d_light *>grown(
             self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light)
         )
@@ -271,5 +273,6 @@ cdef class NativeDrawList:
         light.kind = kind
         light.range = INFINITY
         copy_vector(light.color, color, 3)
+        copy_vector(light.lux, lux, 3)
         self.light_count += 1
         return light

@@ -13,6 +13,13 @@ from libc.stdlib cimport free
 from ..errors import InvalidArgumentError, OutOfMemoryError
 
 cdef int32_t MAX_SIDE = 16384
+cdef dict RGBE_FAULTS = {
+    E3D_RGBE_WHOLE: "",
+    E3D_RGBE_CUT_SHORT: "the file ends",
+    E3D_RGBE_RUN_TOO_LONG: "a run does not fit its line",
+    E3D_RGBE_NOTHING_TO_REPEAT: "a line begins with a repetition",
+    E3D_RGBE_OTHER_WIDTH: "a line has another width",
+}
 
 
 def encode_png(const uint8_t[:, :, :] pixels not None):
@@ -46,3 +53,20 @@ def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None
     with nogil:
         done = e3d_tga_unpack(&data[0], length, pixel_bytes, &pixels[0, 0], count)
     return done
+
+
+def unpack_rgbe(const uint8_t[::1] data not None, uint8_t[:, :, ::1] pixels not None):
+    """Unpack scan lines of a Radiance picture into (lines, width, 4) uint8.
+
+    Returns how many are whole, the place of the fault in the data, and what it is: "" for none.
+    """
+    cdef size_t length = data.shape[0], lines = pixels.shape[0], used = 0, done
+    cdef int32_t width = <int32_t>pixels.shape[1]
+    cdef e3d_rgbe_fault fault
+    cdef uint8_t none = 0
+    cdef const uint8_t *start = &data[0] if length else &none
+    if not (0 < pixels.shape[0] <= MAX_SIDE and 0 < pixels.shape[1] <= MAX_SIDE and pixels.shape[2] == 4):
+        raise InvalidArgumentError(f"pixels must be (lines, width, 4), each side from 1 to {MAX_SIDE}")
+    with nogil:
+        done = e3d_rgbe_unpack(start, length, width, lines, &pixels[0, 0, 0], &used, &fault)
+    return done, used, RGBE_FAULTS[fault]

@@ -90,7 +90,36 @@ cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] rea
     memcpy(lighting.ambient, &ambient[0], sizeof(lighting.ambient))
     memcpy(lighting.clamp, &clamp[0], sizeof(lighting.clamp))
     memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
+    lighting.exposure = 1.0
+    lighting.environment = NULL
     return lighting
+
+
+cdef int set_varying(e3d_varying *varying, const float[::1] values, int count) except -1:
+    """Constants of a model: a value each."""
+    if values.shape[0] != count:
+        raise ValueError(f"a model takes {count} values, not {values.shape[0]}")
+    for k in range(count):
+        varying[k].factor = values[k]
+    return 0
+
+
+cdef e3d_surface_model model_of(dict values):
+    """A physically based material without textures: arrays of float32 by name."""
+    cdef e3d_surface_model model
+    memset(&model, 0, sizeof(model))
+    set_varying(&model.metallic, values["metallic"], 1)
+    set_varying(&model.roughness, values["roughness"], 1)
+    set_varying(model.reflectance, values["reflectance"], 3)
+    set_varying(&model.specular, values["specular"], 1)
+    set_varying(model.emissive, values["emissive"], 3)
+    set_varying(&model.coat, values["coat"], 1)
+    set_varying(&model.coat_roughness, values["coat_roughness"], 1)
+    set_varying(model.sheen, values["sheen"], 3)
+    set_varying(&model.sheen_roughness, values["sheen_roughness"], 1)
+    model.has_coat = model.coat.factor != 0
+    model.has_sheen = model.sheen[0].factor != 0
+    return model
 
 
 cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,

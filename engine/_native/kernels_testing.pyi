@@ -18,6 +18,7 @@ def clusters_of(
     positions: _Floats, faces: _Integers, threads: int
 ) -> tuple[list[int], list[tuple], list[tuple]]: ...
 def jobs_alone(rates: _Doubles, passed: int, alone: _Bytes) -> None: ...
+def dfg_table(kind: int) -> list[list[float]]: ...
 def plan_rules() -> list[tuple[str, list[str], list[str]]]: ...
 def plan_items() -> list[tuple[str, str, bool]]: ...
 def float_control() -> int: ...
@@ -132,7 +133,58 @@ class Kernels:
         eye: _Floats,
         shininess: float,
     ) -> None: ...
-    def combine(self, batch: _Bytes, specular: _Floats | None, emissive: _Floats) -> None: ...
+    def combine(
+        self,
+        batch: _Bytes,
+        specular: _Floats | None,
+        emissive: _Floats,
+        exposure: float = 1.0,
+    ) -> None: ...
+    def physical(
+        self,
+        batch: _Bytes,
+        model: dict[str, _Floats],
+        lights: _Bytes,
+        reach: _Floats,
+        ambient: _Floats,
+        eye: _Floats,
+        maps: _Bytes,
+    ) -> None: ...
+    def environment(
+        self,
+        pixels: _Floats,
+        turn: tuple[float, float],
+        intensity: float,
+        direction: _Floats,
+        level: _Floats,
+        count: int,
+        color: _Floats,
+    ) -> None: ...
+    def irradiance(
+        self,
+        pixels: _Floats,
+        turn: tuple[float, float],
+        intensity: float,
+        normal: _Floats,
+        count: int,
+        color: _Floats,
+    ) -> None: ...
+    def backdrop(
+        self,
+        pixels: _Floats,
+        turn: tuple[float, float],
+        intensity: float,
+        level: float,
+        rays: _Floats,
+        x: int,
+        y: int,
+        count: int,
+        color: _Floats,
+    ) -> None: ...
+    def albedo(
+        self, kind: int, roughness: _Floats, cosine: _Floats, count: int, out: _Floats
+    ) -> None: ...
+    def lobe(self, group: _Bytes, block: _Bytes) -> None: ...
     def encode(
         self,
         red: _Floats,

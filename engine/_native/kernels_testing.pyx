@@ -8,11 +8,15 @@ Always: nothing but the sizes of structs is checked. What a kernel expects of it
      (csrc/kernels/kernels.h) is for the caller to keep: index out of range here, and it crashes.
 """
 
+from array import array
+
+from libc.math cimport INFINITY
 from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t, uint32_t, uint64_t
 from libc.string cimport memcpy, memset
 
 from e3d cimport (
-    E3D_OK, e3d_backend, e3d_filter, e3d_light, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_wrap
+    E3D_DFG_SIZE, E3D_DFG_TABLE, E3D_OK, e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment, e3d_environment_create,
+    e3d_environment_destroy, e3d_environment_light, e3d_filter, e3d_light, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_wrap
 )
 from e3d_clusters cimport *
 from e3d_helping cimport e3d_helping, e3d_helping_note, e3d_job_times
@@ -43,6 +47,9 @@ STRUCT_SIZES = {
     "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
     "light": sizeof(e3d_light),
+    "map_batch": sizeof(e3d_map_batch),
+    "cell_group": sizeof(e3d_cell_group),
+    "lobe_block": sizeof(e3d_lobe_block),
 }
 LIMITS = {
     "PAD": E3D_PAD,
@@ -88,6 +95,23 @@ def plan_items():
         )
         for k in range(E3D_PLAN_ITEMS)
     ]
+
+
+def dfg_table(int kind):
+    """A table of albedos: `E3D_DFG_SIZE` rows of as many numbers."""
+    return [[E3D_DFG_TABLE[kind][E3D_DFG_SIZE * i + j] for j in range(E3D_DFG_SIZE)] for i in range(E3D_DFG_SIZE)]
+
+
+cdef int fill_light(e3d_environment_light *light, const float[:, :, ::1] pixels, turn, float intensity) except -1:
+    """Makes the environment, which is the caller's to destroy."""
+    cdef e3d_environment *environment
+    if e3d_environment_create(&pixels[0, 0, 0], <int32_t>pixels.shape[1], <int32_t>pixels.shape[0], 1,
+                              &environment) != E3D_OK:
+        raise MemoryError()
+    light.environment = environment
+    light.cosine, light.sine = turn
+    light.intensity = intensity
+    return 0
 
 
 include "float_control.pxi"
@@ -407,14 +431,77 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)
 
-    def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive):
+    def combine(self, uint8_t[::1] batch, const float[::1] specular, const float[::1] emissive,
+                float exposure=1.0):
         """``specular`` may be None."""
         cdef const float *highlight = NULL
         check_size(batch, sizeof(e3d_batch))
         if specular is not None:
             highlight = &specular[0]
         for _ in range(self.rounds):
-            self.table.combine(<e3d_batch *>&batch[0], highlight, &emissive[0])
+            self.table.combine(<e3d_batch *>&batch[0], highlight, &emissive[0], exposure)
+
+    def physical(self, uint8_t[::1] batch, dict model, const uint8_t[::1] lights,
+                 const float[:, ::1] reach, const float[::1] ambient, const float[::1] eye,
+                 uint8_t[::1] maps):
+        """``model``: arrays of float32 by name; the coat's normals are in ``maps``."""
+        cdef float[::1] clamp = array("f", (0.0, INFINITY))
+        cdef e3d_lighting lighting = lighting_of(lights, reach, ambient, clamp, eye)
+        cdef e3d_surface_model surface = model_of(model)
+        check_size(batch, sizeof(e3d_batch))
+        check_size(maps, sizeof(e3d_map_batch))
+        for _ in range(self.rounds):
+            self.table.physical(<e3d_batch *>&batch[0], &surface, &lighting, <e3d_map_batch *>&maps[0])
+
+    def environment(self, const float[:, :, ::1] pixels, turn, float intensity, const float[:, ::1] direction,
+                    const float[::1] level, int count, float[:, ::1] color):
+        """Of an environment made of pixels; ``direction`` and ``color`` are three planes with a pad."""
+        cdef e3d_environment_light light
+        cdef const float *directions[3]
+        cdef float *colors[3]
+        fill_light(&light, pixels, turn, intensity)
+        for k in range(3):
+            directions[k], colors[k] = &direction[k, 0], &color[k, 0]
+        for _ in range(self.rounds):
+            self.table.environment(&light, directions, &level[0], count, colors)
+        e3d_environment_destroy(<e3d_environment *>light.environment)
+
+    def irradiance(self, const float[:, :, ::1] pixels, turn, float intensity, const float[:, ::1] normal,
+                   int count, float[:, ::1] color):
+        cdef e3d_environment_light light
+        cdef const float *normals[3]
+        cdef float *colors[3]
+        fill_light(&light, pixels, turn, intensity)
+        for k in range(3):
+            normals[k], colors[k] = &normal[k, 0], &color[k, 0]
+        for _ in range(self.rounds):
+            self.table.irradiance(&light, normals, count, colors)
+        e3d_environment_destroy(<e3d_environment *>light.environment)
+
+    def backdrop(self, const float[:, :, ::1] pixels, turn, float intensity, float level, const float[:, ::1] rays,
+                 int x, int y, int count, float[:, ::1] color):
+        """``rays``: the corner's, and what a pixel adds along the row and down the column."""
+        cdef e3d_backdrop backdrop
+        cdef float *colors[3]
+        fill_light(&backdrop.light, pixels, turn, intensity)
+        backdrop.level = level
+        for k in range(3):
+            backdrop.ray[k], backdrop.across[k], backdrop.down[k] = rays[0, k], rays[1, k], rays[2, k]
+            colors[k] = &color[k, 0]
+        for _ in range(self.rounds):
+            self.table.backdrop(&backdrop, x, y, count, colors)
+        e3d_environment_destroy(<e3d_environment *>backdrop.light.environment)
+
+    def albedo(self, int kind, const float[::1] roughness, const float[::1] cosine, int count, float[::1] out):
+        """``kind``: A, B or the sheen's."""
+        for _ in range(self.rounds):
+            self.table.albedo(<e3d_dfg>kind, &roughness[0], &cosine[0], count, &out[0])
+
+    def lobe(self, const uint8_t[::1] group, uint8_t[::1] block):
+        check_size(group, sizeof(e3d_cell_group))
+        check_size(block, sizeof(e3d_lobe_block))
+        for _ in range(self.rounds):
+            self.table.lobe(<const e3d_cell_group *>&group[0], <e3d_lobe_block *>&block[0])
 
     def encode(self, const float[::1] red, const float[::1] green, const float[::1] blue, int count,
                bint srgb, uint32_t[::1] rgba):
@@ -461,7 +548,7 @@ cdef class Kernels:
             view.is_opaque = opaque
         for _ in range(self.rounds):
             self.table.alpha(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
-                             NULL if texture is None else &view, base, by_vertex, by_instance)
+                             NULL if texture is None else &view, &base, by_vertex, by_instance)
 
     def lay(self, const uint8_t[::1] batch, float[:, ::1] samples):
         """``samples``: as for `keep`."""

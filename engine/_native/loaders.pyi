@@ -72,6 +72,13 @@ def rows_repeat(rows: NDArray[np.uint32], are_floats: bool) -> bool: ...
 def weld_facets(
     pieces: Iterable[tuple[int, memoryview]], offset: int, stride: int, facets: int
 ) -> tuple[NDArray[np.int32], NDArray[np.float32]]: ...
+def find_tangents(
+    positions: NDArray[np.float32],
+    normals: NDArray[np.float32],
+    uvs: NDArray[np.float32],
+    faces: NDArray[np.int32],
+    points: NDArray[np.int32],
+) -> tuple[NDArray[np.int32], NDArray[np.float32]]: ...
 def smooth_sums(
     positions: NDArray[np.floating],
     faces: NDArray[np.int32],

@@ -56,6 +56,13 @@ class NativeMesh:
 class NativeTexture:
     def __init__(self, pixels: _Bytes, decode_srgb: bool, filter: int, wrap: int) -> None: ...
 
+class NativeEnvironment:
+    def __init__(self, pixels: _Floats, threads: int) -> None: ...
+    def level(self, number: int) -> LevelTexels: ...
+
+class LevelTexels:
+    def __buffer__(self, flags: int, /) -> memoryview: ...
+
 class NativeDrawList:
     object_count: int
     material_count: int
@@ -98,6 +105,7 @@ class NativeDrawList:
         two_sided: bool,
         flat: bool,
         unlit: bool,
+        normal_scale: float,
         alpha: float,
         alpha_mode: int,
         alpha_cutoff: float,
@@ -108,7 +116,6 @@ class NativeDrawList:
         *,
         metallic: float,
         roughness: float,
-        normal_scale: float,
         occlusion_strength: float,
         reflectance: Sequence[float],
         specular_intensity: float,
@@ -122,17 +129,23 @@ class NativeDrawList:
         absorption: Sequence[float],
     ) -> None: ...
     def add_directional_light(
-        self, color: Sequence[float], to_light: Sequence[float] | _Doubles
+        self, color: Sequence[float], lux: Sequence[float], to_light: Sequence[float] | _Doubles
     ) -> None: ...
     def add_point_light(
         self,
         color: Sequence[float],
+        lux: Sequence[float],
         position: Sequence[float] | _Doubles,
         range: float,
         falloff: int,
     ) -> None: ...
     def add_spot_light(
-        self, color: Sequence[float], range: float, cone_cosine: float, cone_scale: float
+        self,
+        color: Sequence[float],
+        lux: Sequence[float],
+        range: float,
+        cone_cosine: float,
+        cone_scale: float,
     ) -> None: ...
     def turn_light(self, number: int, to_light: Sequence[float] | _Doubles) -> None: ...
     def move_light(self, number: int, position: Sequence[float] | _Doubles) -> None: ...
@@ -159,6 +172,12 @@ class NativeOptions:
         ambient: Sequence[float],
         light_clamp: Sequence[float],
         exposure: float,
+        environment: NativeEnvironment | None = None,
+        environment_turn: Sequence[float] = (1.0, 0.0),
+        environment_intensity: float = 1.0,
+        backdrop: NativeEnvironment | None = None,
+        backdrop_intensity: float = 1.0,
+        backdrop_level: float = 0.0,
     ) -> None: ...
 
 class NativeStats:
@@ -183,6 +202,7 @@ class NativeRenderer:
         depth_near: float,
         depth_far: float,
         frozen_clip_from_world: _Doubles | None = None,
+        rays: _Floats | None = None,
     ) -> NativeStats: ...
 
 def rasterize(

@@ -128,6 +128,7 @@ def same_objects(tuple some not None, tuple others not None):
 
 
 include "mesh_handles.pxi"
+include "environment_handles.pxi"
 include "draw_list.pxi"
 
 
@@ -165,6 +166,7 @@ cdef class NativeOptions:
     """How frames are drawn: all of a frame's settings but its size, its view and the scene."""
 
     cdef e3d_frame frame
+    cdef tuple held
 
     def __cinit__(
         self,
@@ -187,6 +189,12 @@ cdef class NativeOptions:
         ambient,
         light_clamp,
         float exposure,
+        NativeEnvironment environment=None,
+        environment_turn=(1.0, 0.0),
+        float environment_intensity=1.0,
+        NativeEnvironment backdrop=None,
+        float backdrop_intensity=1.0,
+        float backdrop_level=0.0,
     ):
         cdef e3d_frame *frame = &self.frame
         memset(frame, 0, sizeof(e3d_frame))
@@ -208,6 +216,10 @@ cdef class NativeOptions:
         copy_vector(frame.ambient, ambient, 3)
         copy_vector(frame.light_clamp, light_clamp, 2)
         frame.exposure = exposure
+        set_environment(&frame.environment, environment, environment_turn, environment_intensity)
+        set_environment(&frame.backdrop.light, backdrop, environment_turn, backdrop_intensity)
+        frame.backdrop.level = backdrop_level
+        self.held = environment, backdrop
 
 
 cdef class NativeStats:
@@ -311,12 +323,13 @@ cdef class NativeRenderer:
         float depth_near,
         float depth_far,
         const double[:, ::1] frozen_clip_from_world=None,
+        const float[:, ::1] rays=None,
     ):
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
         `number` tells the camera from others: the core remembers what each saw in its last frame.
         If a signal handler raises meanwhile, its exception is raised here and the targets are
-        partly written.
+        partly written. Where an environment is the background, `rays` has three rows: e3d_backdrop's.
         """
         cdef e3d_frame frame
         cdef e3d_targets outputs
@@ -334,6 +347,11 @@ cdef class NativeRenderer:
             require(frozen_clip_from_world.shape[0] == 4 and frozen_clip_from_world.shape[1] == 4,
                     "a matrix is 4x4")
             frame.frozen_clip_from_world = &frozen_clip_from_world[0, 0]
+        if rays is not None:
+            require(rays.shape[0] == 3 and rays.shape[1] == 3, "rays must be (3, 3)")
+            memcpy(frame.backdrop.ray, &rays[0, 0], 3 * sizeof(float))
+            memcpy(frame.backdrop.across, &rays[1, 0], 3 * sizeof(float))
+            memcpy(frame.backdrop.down, &rays[2, 0], 3 * sizeof(float))
         copy_vector(frame.eye, eye, 4)
         frame.view = number
         frame.depth_near = depth_near

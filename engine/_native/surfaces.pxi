@@ -39,6 +39,38 @@ def smooth_sums(positions, const int32_t[:, ::1] faces not None,
     return sums
 
 
+def find_tangents(const float[:, ::1] positions not None, const float[:, ::1] normals not None,
+                  const float[:, ::1] uvs not None, const int32_t[:, ::1] faces not None,
+                  const int32_t[::1] points not None):
+    """Find which corners share a tangent: their groups (F, 3) int32, and tangents (G, 4) float32.
+
+    ``points`` (V,) are the same for vertices that are equal in all of the three.
+    """
+    cdef size_t vertices = positions.shape[0], count = 0
+    cdef e3d_mapped_surface surface
+    cdef bint done
+    groups = np.zeros((faces.shape[0], 3), np.int32)
+    tangents = np.zeros((3 * faces.shape[0], 4), np.float32)
+    if faces.shape[0] == 0:
+        return groups, tangents
+    if not (normals.shape[0] == uvs.shape[0] == points.shape[0] == positions.shape[0] > 0) or (
+            positions.shape[1] != 3 or normals.shape[1] != 3 or uvs.shape[1] != 2 or faces.shape[1] != 3):
+        raise InvalidArgumentError("the triangles have no positions, normals or coordinates")
+    if np.min(faces) < 0 or np.max(faces) >= vertices:
+        raise InvalidArgumentError("a face holds an index that is out of range")
+    if faces.shape[0] >= 1 << 30:
+        raise OutOfMemoryError("no memory for the tangents of a mesh")
+    cdef int32_t[:, ::1] group_view = groups
+    cdef float[:, ::1] tangent_view = tangents
+    surface.positions, surface.normals, surface.uvs = &positions[0, 0], &normals[0, 0], &uvs[0, 0]
+    surface.faces, surface.points, surface.face_count = &faces[0, 0], &points[0], faces.shape[0]
+    with nogil:
+        done = e3d_find_tangents(&surface, &group_view[0, 0], &tangent_view[0, 0], &count)
+    if not done:
+        raise OutOfMemoryError("no memory for the tangents of a mesh")
+    return groups, tangents[:count].copy()
+
+
 def find_edges(const int32_t[:, ::1] faces not None, const int32_t[::1] points,
                const uint8_t[::1] wanted, size_t count):
     """Mark the first of all sides between two points: (3 F,) uint8.

@@ -9,7 +9,7 @@ import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-FILE_METAVARS = ("FILE", "MODEL", "IN", "OUT")
+FILE_METAVARS = ("FILE", "FILE|NAME", "MODEL", "IN", "OUT")
 
 
 @dataclass

@@ -23,6 +23,7 @@ from ..choices import (
     Wireframe,
 )
 from . import values
+from .environment_options import surroundings
 from .inputs import model_files
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
@@ -46,6 +47,7 @@ SIGNED_OPTIONS = frozenset(
         "--camera-view-up",
         "--camera-azimuth-angle",
         "--camera-elevation-angle",
+        "--environment-rotation",
     }
 )
 _SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]$|inf|nan)")
@@ -463,6 +465,7 @@ def settings(args: argparse.Namespace):
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,
         light_clamp=args.light_clamp,
+        surroundings=surroundings(args),
         textures=not args.no_texture,
         near=args.near,
         far=args.far,

@@ -22,7 +22,17 @@ from ..spatial.colliders import MeshCollider
 from .contents import contents, kept, put_contents, same
 from .selection import topmost
 
-_SCENE_VALUES = ("background", "ambient", "light_clamp", "exposure", "warnings")
+_SCENE_VALUES = (
+    "background",
+    "ambient",
+    "light_clamp",
+    "exposure",
+    "environment",
+    "environment_intensity",
+    "environment_rotation",
+    "background_blur",
+    "warnings",
+)
 
 
 class SceneState:

@@ -263,6 +263,34 @@ class Mesh(Closed):
             meshes = placed(cls, meshes, poses)
         return concatenate(cls, meshes, name)
 
+    def with_tangents(self, uv_set: int = 0) -> Mesh:
+        """Return the mesh with tangents computed from normals and texture coordinates.
+
+        Parameters
+        ----------
+        uv_set : {0, 1}
+            Of ``uvs`` or ``uvs1``: those of the normal map.
+
+        Returns
+        -------
+        mesh : Mesh
+            Faces in the same order; vertices are split where the image is mirrored, or goes two
+            ways.
+
+        Raises
+        ------
+        InvalidArgumentError
+            There are no such texture coordinates.
+
+        Notes
+        -----
+        Method: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008, which normal maps are
+        baked for (MikkTSpace). Without tangents, faces use a direction of their own.
+        """
+        from .tangents import mesh_with_tangents
+
+        return mesh_with_tangents(self, uv_set)
+
     @classmethod
     def from_trimesh(cls, geometry: Any) -> Mesh:
         """Return the mesh of what the package trimesh holds.

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
 from .json_values import JsonValue
@@ -100,6 +101,8 @@ class SceneRecord:
         Of each node; -1: none.
     children : dict of int to list of int
         Of each node that has some, in their order.
+    environments : list of Environment or None
+        None stands for one whose file cannot be read.
     """
 
     values: JsonValue
@@ -110,6 +113,7 @@ class SceneRecord:
     places: list[dict[str, list]]
     parents: list[int]
     children: dict[int, list[int]]
+    environments: list[Environment | None] = field(default_factory=list)
 
 
 @dataclass

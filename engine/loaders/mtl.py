@@ -1,9 +1,10 @@
 """Wavefront MTL: the material libraries that OBJ files name.
 
 In: the bytes of a library. Out: materials by name. Colours are linear light, as the numbers are
-floats. What a `Material` has no place for (Ka, illum, the physically based parameters, all
-maps with their options), and d and Tr, is kept in its ``extras`` under the file's own keys. A line
-that makes no sense is a warning; a library never fails as a whole unless it is no text.
+floats. What physically based materials and maps of normals are is in mtl_physical.py. Whatever
+else a file says, and all maps with their options, is kept in the material's ``extras`` under the
+file's own keys. A line that makes no sense is a warning; a library never fails as a whole unless it
+is no text.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from ..materials.textures import Texture
 from .linked_files import LinkedFileError
 from .linked_textures import TextureCache
 from .mtl_alpha import OPACITY_MAPS, set_alpha
+from .mtl_physical import PHYSICAL_MAPS, physical_fields
 from .sources import Source
 from .text import decoded, shown, text_lines
 from .warning_list import WarningList
@@ -24,14 +26,9 @@ _COLORS = {"Ka", "Kd", "Ks", "Ke", "Tf"}
 _SCALARS = {"Ns", "Ni", "d", "Tr", "illum", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr"}
 _SCALARS |= {"aniso", "anisor", "Pcor"}
 _MAPS = {"bump", "disp", "decal", "refl", "norm"}
-_PHYSICAL = ("Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor")
+_UNDRAWN_NUMBERS = ("aniso", "anisor")
 # What is said of maps that are not drawn, by their keywords in lower case.
 _UNDRAWN_MAPS = {
-    "norm": "normal map",
-    "map_norm": "normal map",
-    "map_kn": "normal map",
-    "bump": "bump map",
-    "map_bump": "bump map",
     "disp": "displacement",
     "map_disp": "displacement",
     "decal": "decal",
@@ -42,9 +39,8 @@ _UNDRAWN_MAPS = {
     "map_ks": "specular map",
     "map_ns": "specular map",
     "map_ao": "occlusion",
-    **{f"map_{key.lower()}": "physical" for key in _PHYSICAL},
-    "map_rma": "physical",
-    "map_orm": "physical",
+    "map_aniso": "anisotropy",
+    "map_anisor": "anisotropy",
 }
 # Keys of ``extras`` that are ours: no statement's.
 _RESERVED = {"maps", "opacity"}
@@ -199,7 +195,11 @@ def _finish(current, materials, textures, warnings, source) -> None:
     if current is None or current["name"] in materials:
         return
     values, maps = current["values"], current["maps"]
-    texture = _texture(maps.get("map_Kd"), textures, warnings, source)
+
+    def load(entry):
+        return _texture(entry, textures, warnings, source)
+
+    texture = load(maps.get("map_Kd"))
     color = values.get("Kd", (1.0, 1.0, 1.0))
     if texture is not None and not any(color):
         # Exporters that know nothing but the image write Kd 0 0 0 beside it.
@@ -221,6 +221,7 @@ def _finish(current, materials, textures, warnings, source) -> None:
         # Where an image says what gives off light, all of it would be too much.
         "emissive": None if "map_Ke" in maps else values.get("Ke"),
         "extras": extras or None,
+        **physical_fields(values, maps, load, _scale_and_offset),
     }
     for name, value in given.items():
         if value is not None:
@@ -263,18 +264,23 @@ def undrawn_kinds(material: Material) -> set[str]:
     """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
     extras = material.extras
     maps = extras.get("maps", {})
-    kinds = {_UNDRAWN_MAPS[key.lower()] for key in maps if key.lower() in _UNDRAWN_MAPS}
+    drawn = PHYSICAL_MAPS if material.is_physical else ()
+    undrawn = (key.lower() for key in maps if key not in drawn)
+    kinds = {_UNDRAWN_MAPS[key] for key in undrawn if key in _UNDRAWN_MAPS}
     # Most exporters name the image of the colour here, too.
     if maps.get("map_Ka", {}).get("name") not in (None, maps.get("map_Kd", {}).get("name")):
         kinds.add("ambient map")
-    if any(extras.get(key) for key in _PHYSICAL):
-        kinds.add("physical")
+    if any(extras.get(key) for key in _UNDRAWN_NUMBERS):
+        kinds.add("anisotropy")
     return kinds
 
 
 def uv_transform(material: Material) -> tuple[float, float, float, float]:
     """Return scale u, scale v, offset u, offset v of a material's ``map_Kd``."""
-    entry = material.extras.get("maps", {}).get("map_Kd", {})
+    return _scale_and_offset(material.extras.get("maps", {}).get("map_Kd", {}))
+
+
+def _scale_and_offset(entry: dict) -> tuple[float, float, float, float]:
     scale = _pair(entry.get("s", []), 1.0)
     offset = _pair(entry.get("o", []), 0.0)
     transform = (*scale, *offset)

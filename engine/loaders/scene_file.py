@@ -18,6 +18,12 @@ from typing import Any
 import numpy as np
 
 from .. import primitives
+from ..environments.environment import (
+    BUILT_IN,
+    Environment,
+    environment_of,
+    named_environment,
+)
 from ..errors import FileFormatError, InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..geometry.origins import FileOrigin, remember_origin
@@ -38,7 +44,7 @@ from .warning_list import WarningList
 FORMAT = "engine3d scene"
 VERSION = 1
 #: Keys of a file, but for ``format`` and ``version``.
-LISTS = ("textures", "materials", "objects", "nodes")
+LISTS = ("environments", "textures", "materials", "objects", "nodes")
 
 # A node takes about a kilobyte, however little the file says of it.
 _NODES, _BYTES_OF_A_NODE = 20_000, 32
@@ -109,6 +115,7 @@ class _Reading:
 
     def record(self) -> SceneRecord:
         root = self._root
+        environments = [self._environment(entry) for entry in root.entries("environments")]
         self._textures = [self._texture(entry) for entry in root.entries("textures")]
         self._materials = [self._material(entry) for entry in root.entries("materials")]
         objects = root.entries("objects")
@@ -128,7 +135,28 @@ class _Reading:
             nodes,
             [pose_parts(node) for node in nodes],
             *links_of(nodes),
+            environments,
         )
+
+    def _environment(self, entry: JsonValue) -> Environment | None:
+        """None, with a warning, for that of a file which can't be read."""
+        if (name := entry.get("built_in")) is not None:
+            if name.text() not in BUILT_IN:
+                raise name.wrong(f"one of {', '.join(BUILT_IN)}")
+            return named_environment(name.text())
+        if (file := entry.get("file")) is not None:
+            try:
+                with self._files.read(self._files.find(file.text())) as source:
+                    return environment_of(source)
+            except (LinkedFileError, FileFormatError, OSError) as error:
+                left_out = f"environment {shown(file.text())} is left out: {error}"
+                self._warnings.add(f"{file.where}: {left_out}")
+                return None
+        pixels, name = entry.need("pixels"), entry.get("name")
+        try:
+            return Environment(pixels.array(), name="" if name is None else name.text())
+        except InvalidArgumentError as error:
+            raise pixels.error(str(error)) from None
 
     def _texture(self, entry: JsonValue) -> Texture:
         held = entry.members()

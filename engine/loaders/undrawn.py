@@ -24,6 +24,7 @@ KINDS = {
         "have physically based values or maps",
         "drawn as a matt surface",
     ),
+    "anisotropy": ("is anisotropic", "are anisotropic", "drawn as if alike in all directions"),
     "occlusion": ("has an occlusion map", "have occlusion maps", "drawn without"),
     "reflection": ("has a reflection map", "have reflection maps", "drawn without"),
     "specular map": ("has a map of its highlight", "have maps of their highlights", "left out"),

@@ -10,14 +10,28 @@ import math
 from collections.abc import Iterable
 from dataclasses import fields
 
+from .. import linalg
 from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
+from ..environments.environment import Environment
 from ..materials.display_colors import display_color, shading_color
 from ..scene.scene import Scene
-from ._native_handles import MeshNeeds
+from ._native_handles import MeshNeeds, native_environment
 from .options import RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
+_MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
+# What a frame's options take from a scene.
+_SCENE_VALUES = (
+    "background",
+    "ambient",
+    "light_clamp",
+    "exposure",
+    "environment",
+    "environment_intensity",
+    "environment_rotation",
+    "background_blur",
+)
 #: The keyword arguments of a frame that name options, without the outputs.
 KEYWORDS = tuple(one.name for one in fields(RenderOptions) if one.name != "outputs")
 _MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
@@ -31,7 +45,9 @@ class FrameOptions:
     Parameters
     ----------
     scene : Scene
-        Its background, ambient light and limits of light count as options.
+        Its background, ambient light, environment and limits of light count as options.
+    threads : int
+        That prepare environments; 0: all.
     color_space : {"srgb", "linear"}
     options : RenderOptions
 
@@ -40,19 +56,32 @@ class FrameOptions:
     native : NativeOptions
     headlight_color : tuple of 3 float
         Of the light of scenes without lights; with the ambient it adds up to white.
+    has_backdrop : bool
+        Whether an environment shows as the background.
     mark_size : float
         Pixels; lines and points reach less than half of this beyond where they are.
     """
 
-    def __init__(self, scene: Scene, color_space: str, options: RenderOptions) -> None:
+    def __init__(
+        self, scene: Scene, color_space: str, options: RenderOptions, threads: int
+    ) -> None:
         self._options = options
         self._needs: dict[tuple[str, ...], MeshNeeds] = {}
         encoded = options.mode in _ENCODED_MODES and color_space == "srgb"
         convert = shading_color if encoded else display_color
-        if scene.background is None:
+        backdrop = None
+        if isinstance(scene.background, Environment):
+            background = (0.0, 0.0, 0.0, 1.0)
+            if options.mode in _ENCODED_MODES:
+                backdrop = native_environment(scene.background, threads)
+        elif scene.background is None:
             background = (0.0, 0.0, 0.0, 0.0)
         else:
             background = (*convert(scene.background, color_space), 1.0)
+        environment = None
+        if scene.environment is not None and options.mode == "lit":
+            environment = native_environment(scene.environment, threads)
+        turn = scene.environment_rotation
         ambient = shading_color(scene.ambient, color_space)
         self.headlight_color = tuple(max(0.0, 1.0 - component) for component in ambient)
         self.native = _native.NativeOptions(
@@ -74,7 +103,14 @@ class FrameOptions:
             ambient=ambient,
             light_clamp=scene.light_clamp or _NO_CLAMP,
             exposure=2.0**scene.exposure,
+            environment=environment,
+            environment_turn=(linalg.cos(turn), linalg.sin(turn)),
+            environment_intensity=scene.environment_intensity,
+            backdrop=backdrop,
+            backdrop_intensity=scene.environment_intensity * 2.0**scene.exposure,
+            backdrop_level=scene.background_blur * _MOST_BLURRED,
         )
+        self.has_backdrop = backdrop is not None
         # Twice as far from its middle as the widest line or point reaches, and for rounding.
         self.mark_size = 2.0 * (max(options.line_width, options.point_size) + 2.0)
 
@@ -100,8 +136,9 @@ class OptionsCache:
     colour. What is compared cannot change in place: a colour that could is not kept.
     """
 
-    def __init__(self, color_space: str) -> None:
+    def __init__(self, color_space: str, threads: int) -> None:
         self._color_space = color_space
+        self._threads = threads
         # By outputs: the other keyword arguments, and what they name.
         self._named: dict[tuple, tuple[tuple, RenderOptions]] = {}
         # By the identity of options: these, the scene's colours, and what they are together.
@@ -135,10 +172,10 @@ class OptionsCache:
 
     def get(self, scene: Scene, options: RenderOptions) -> FrameOptions:
         """Return what the options are for a scene as it is now."""
-        seen = options, scene.background, scene.ambient, scene.light_clamp, scene.exposure
+        seen = options, *(getattr(scene, name) for name in _SCENE_VALUES)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
-            known = seen, FrameOptions(scene, self._color_space, options)
+            known = seen, FrameOptions(scene, self._color_space, options, self._threads)
             _keep(self._found, id(options), known)
         return known[1]
 

@@ -6,6 +6,8 @@ Python looks at every light that moved, and at the others' versions only.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .._native.rasterizer import FALLOFFS, NativeDrawList
@@ -55,7 +57,8 @@ class LightList:
         elif not same:
             self._native.clear_lights()
             if towards is not None:
-                self._native.add_directional_light(color, towards)
+                shown = [math.pi * component for component in color]
+                self._native.add_directional_light(color, shown, towards)
         elif towards is not None:
             self._native.turn_light(0, towards)
         self._listed = listed
@@ -93,14 +96,14 @@ class LightList:
         color = shading_color(light.color, self._color_space)
         color = [component * light.intensity for component in color]
         if isinstance(light, DirectionalLight):
-            self._native.add_directional_light(color, (0.0, 0.0, 1.0))
+            self._native.add_directional_light(color, color, (0.0, 0.0, 1.0))
         elif isinstance(light, SpotLight):
             light.check()
-            self._native.add_spot_light(color, light.range, *light.cone())
+            self._native.add_spot_light(color, color, light.range, *light.cone())
         else:
             light.check()
             falloff = FALLOFFS[light.falloff]
-            self._native.add_point_light(color, (0.0, 0.0, 0.0), light.range, falloff)
+            self._native.add_point_light(color, color, (0.0, 0.0, 0.0), light.range, falloff)
 
     def _place(self, number: int, light, pose: list[float]) -> None:
         """Put a light where the first three rows of its world pose say."""

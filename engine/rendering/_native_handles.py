@@ -1,8 +1,8 @@
-"""The core's side of meshes and textures, made when a picture first needs it and kept.
+"""The core's side of meshes, textures and environments, made when first needed and kept.
 
-In: `Mesh` and `Texture`. Out: their native handles, made anew when arrays are others (and one for
-each way to decode a texture), forgotten with the object. The arrays that only some pictures need
-(normals, edges) are added to a mesh's handle when one does.
+In: `Mesh`, `Texture`, `Environment`. Out: their native handles, made anew when arrays are others
+(and one for each way to decode a texture), forgotten with the object. The arrays that only some
+pictures need (normals, edges) are added to a mesh's handle when one does.
 """
 
 from __future__ import annotations
@@ -13,7 +13,15 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from .._native.rasterizer import FILTERS, VERTEX_ATTRIBUTES, WRAPS, NativeMesh, NativeTexture
+from .._native.rasterizer import (
+    FILTERS,
+    VERTEX_ATTRIBUTES,
+    WRAPS,
+    NativeEnvironment,
+    NativeMesh,
+    NativeTexture,
+)
+from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..geometry.vertex_attributes import vertex_attributes
 from ..materials.textures import Texture
@@ -28,6 +36,7 @@ class MeshNeeds(NamedTuple):
 
 
 _meshes: WeakKeyDictionary[Mesh, tuple[dict, NativeMesh]] = WeakKeyDictionary()
+_environments: WeakKeyDictionary[Environment, NativeEnvironment] = WeakKeyDictionary()
 _textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple, NativeTexture]]] = WeakKeyDictionary()
 
 
@@ -78,4 +87,12 @@ def native_texture(texture: Texture, color_space: str) -> NativeTexture:
     if made_of is None or made_of[0] is not pixels or made_of[1:] != (filter, wrap):
         native = NativeTexture(pixels, decode, FILTERS[filter], WRAPS[wrap])
         natives[decode] = (pixels, filter, wrap), native
+    return native
+
+
+def native_environment(environment: Environment, threads: int) -> NativeEnvironment:
+    """Return the handle of an environment, blurred for each roughness; 0 threads are all."""
+    native = _environments.get(environment)
+    if native is None:
+        native = _environments[environment] = NativeEnvironment(environment.pixels, threads)
     return native

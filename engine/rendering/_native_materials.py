@@ -54,6 +54,7 @@ def set_material(
         material.two_sided,
         material.flat_shading,
         material.unlit,
+        material.normal_scale,
         material.alpha,
         ALPHA_MODES[material.alpha_mode],
         material.alpha_cutoff,
@@ -80,7 +81,6 @@ def _physical(material: Material, color_space: str) -> dict[str, Any]:
     return {
         "metallic": 1.0 if material.metallic is None else material.metallic,
         "roughness": 1.0 if material.roughness is None else material.roughness,
-        "normal_scale": material.normal_scale,
         "occlusion_strength": material.occlusion_strength,
         "reflectance": tuple(root * root * component for component in tint),
         "specular_intensity": material.specular_intensity,

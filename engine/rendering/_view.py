@@ -6,6 +6,7 @@ in C (csrc/scene/view.c), in float64 and a fixed order of operations: the same b
 
 from __future__ import annotations
 
+import functools
 from typing import TypeAlias
 
 import numpy as np
@@ -58,6 +59,26 @@ class View:
         if look is None:
             raise InvalidArgumentError("the camera's pose has no inverse: it is singular")
         self.towards_viewer, self.eye = look
+
+    @functools.cached_property
+    def rays(self) -> NDArray[np.float32]:
+        """Where the picture's pixels look, in world space, as the core takes it: three vectors.
+
+        Pixel (x, y) looks along ``rays[0] + (x + 0.5) * rays[1] + (y + 0.5) * rays[2]``.
+        """
+        view_from_clip = linalg.inverse(self.projection)
+        if self.eye[3] == 0.0:
+            rows = [np.negative(self.towards_viewer), np.zeros(3), np.zeros(3)]
+        else:
+            world_from_view = linalg.inverse(self.view_from_world)[:3, :3]
+            right, up, _, far = view_from_clip[:3].T
+            middle = view_from_clip[:3, 2] + far  # on the far plane
+            corner, across, down = middle - right + up, right * 2.0, up * -2.0
+            _, _, width, height = self._lens
+            scaled = np.stack([corner, across / width, down / height])
+            scaled /= float(linalg.length(middle))
+            rows = [linalg.dot(world_from_view, row) for row in scaled]
+        return np.ascontiguousarray(np.stack(rows), np.float32)
 
     def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
         """Whether the view is still that of this camera, pose and image."""

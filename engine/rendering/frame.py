@@ -42,6 +42,9 @@ Output = Literal[
     "world_position",
     "uv",
     "barycentric",
+    "metallic_roughness",
+    "emissive",
+    "tangent",
 ]
 # Their dtypes and numbers of channels (0: no third axis), as the core lists them.
 OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
@@ -147,6 +150,18 @@ class Frame:
     )
     barycentric: _Output[np.float32] = _Output(
         "(H, W, 3) float32: perspective-correct weights; 0 = background."
+    )
+    metallic_roughness: _Output[np.float32] = _Output(
+        "(H, W, 2) float32: metallic and roughness, of what is not physically based 0 and 1; "
+        "0 = background."
+    )
+    emissive: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: linear light that the surface gives off; 0 = background."
+    )
+    tangent: _Output[np.float32] = _Output(
+        "(H, W, 4) float32: unit vector in view space to the right in the image of normal maps, "
+        "and 1 or -1: up is this times cross(normal, tangent), the normal before it is mapped; "
+        "0 = none, background."
     )
 
     def __init__(self, width: int, height: int, outputs: dict[Output, NDArray[Any]]) -> None:

@@ -101,7 +101,7 @@ class Renderer(Closed):
         threads = resolve_threads(threads)
         self._native = _native.NativeRenderer(number, threads)
         self._draw_list = DrawList(self._color_space, threads)
-        self._options = OptionsCache(self._color_space)
+        self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
         self._asked, self._wanted = (), {}
         self._view: View | None = None
@@ -363,6 +363,7 @@ class Renderer(Closed):
             near,
             far,
             chosen,
+            view.rays if frame_options.has_backdrop else None,
         )
         self._turn.check()
         frame._seen = view, options.cull

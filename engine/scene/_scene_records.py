@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
 from ..loaders.documents import SceneRecord
 from ..loaders.json_values import JsonValue
@@ -18,6 +19,8 @@ from .nodes import Node
 from .object_kinds import KINDS
 from .scene import Scene
 
+_SCENE_KEYS = {"background", "ambient", "light_clamp", "environment", "environment_intensity"}
+_SCENE_KEYS |= {"environment_rotation", "background_blur", "exposure"}
 _NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
 _NODE_KEYS |= {"collider", "children"}
 
@@ -25,9 +28,14 @@ _NODE_KEYS |= {"collider", "children"}
 def fill_scene(scene: Scene, record: SceneRecord) -> None:
     """Add the nodes of a record to an empty scene, and take over its background and light."""
     for key, value in record.values.members().items():
-        if key not in ("background", "ambient", "light_clamp", "exposure"):
+        if key not in _SCENE_KEYS:
             raise value.error("is no property of a scene")
-        _try(value, lambda key=key, value=value: setattr(scene, key, value.value))
+        held: Any = value.value
+        if key == "environment" and held is not None:
+            held = _environment(record, value)
+        if key == "background" and isinstance(held, dict):
+            held = _environment(record, value.need("environment")) or (0, 0, 0)
+        _try(value, lambda key=key, held=held: setattr(scene, key, held))
     objects = [_object(record, number) for number in range(len(record.objects))]
     pairs = zip(record.nodes, record.places, strict=True)
     nodes = [_node(scene, objects, entry, place) for entry, place in pairs]
@@ -37,6 +45,10 @@ def fill_scene(scene: Scene, record: SceneRecord) -> None:
     for node, entry in zip(nodes, record.nodes, strict=True):
         if (collider := entry.get("collider")) is not None:
             _try(collider, lambda n=node, c=collider: setattr(n, "collider", _collider(record, c)))
+
+
+def _environment(record: SceneRecord, number: JsonValue) -> Environment | None:
+    return record.environments[number.index(len(record.environments), "environments")]
 
 
 def _try(place: JsonValue, do) -> Any:

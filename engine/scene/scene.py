@@ -19,8 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from .. import linalg
 from .._native.scene_graph import OBJECT_BOX, union
 from .._support.numbers import real, shown
-from .._support.validation import Closed, vector3
+from .._support.validation import Closed, finite, not_negative, vector3
 from ..choices import Color, ColorLike, Cull
+from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import check_color
@@ -48,8 +49,9 @@ class Scene(Closed):
 
     Parameters
     ----------
-    background : sequence of 3 numbers, or None
-        Colour behind everything; None is transparent black (alpha 0).
+    background : sequence of 3 numbers, Environment or None
+        What is behind everything: a colour, or the environment as the camera sees it; None is
+        transparent black (alpha 0).
     ambient : sequence of 3 numbers
         Light that reaches every surface from all sides; to physical materials, surroundings that
         look so everywhere.
@@ -63,6 +65,14 @@ class Scene(Closed):
     ----------
     background, ambient, light_clamp, exposure
         As above; assign at any time.
+    environment : Environment or None
+        Light from all around; physically based materials reflect it.
+    environment_intensity : float
+        Factor of the environment's radiance, 1 by default; as a background, too.
+    environment_rotation : float
+        Radians about +Y, counter-clockwise seen from above; as a background, too.
+    background_blur : float
+        0..1: how blurred an environment is as the background, 1 most.
     warnings : list of str
         What was left out or replaced where the scene was made from a file.
 
@@ -75,7 +85,7 @@ class Scene(Closed):
 
     def __init__(
         self,
-        background: ColorLike | None = (0, 0, 0),
+        background: ColorLike | Environment | None = (0, 0, 0),
         ambient: ColorLike = (0.1, 0.1, 0.1),
         light_clamp: Sequence[float] | None = None,
         exposure: float = 0.0,
@@ -99,14 +109,60 @@ class Scene(Closed):
         self.ambient = ambient
         self.light_clamp = light_clamp
         self.exposure = exposure
+        self.environment = None
+        self.environment_intensity = 1.0
+        self.environment_rotation = 0.0
+        self.background_blur = 0.0
 
     @property
-    def background(self) -> Color | None:
+    def background(self) -> Color | Environment | None:
         return self._background
 
     @background.setter
-    def background(self, value: ColorLike | None) -> None:
-        self._background = None if value is None else check_color(value, "background")
+    def background(self, value: ColorLike | Environment | None) -> None:
+        if value is not None and not isinstance(value, Environment):
+            value = check_color(value, "background")
+        self._background = value
+
+    @property
+    def environment(self) -> Environment | None:
+        return self._environment
+
+    @environment.setter
+    def environment(self, value: Environment | None) -> None:
+        if value is not None and not isinstance(value, Environment):
+            raise InvalidArgumentError(
+                "environment must be an Environment, such as Environment.studio(), or None, "
+                f"not {value!r}"
+            )
+        self._environment = value
+
+    @property
+    def environment_intensity(self) -> float:
+        return self._environment_intensity
+
+    @environment_intensity.setter
+    def environment_intensity(self, value: float) -> None:
+        self._environment_intensity = not_negative(value, "environment_intensity")
+
+    @property
+    def environment_rotation(self) -> float:
+        return self._environment_rotation
+
+    @environment_rotation.setter
+    def environment_rotation(self, value: float) -> None:
+        self._environment_rotation = finite(value, "environment_rotation")
+
+    @property
+    def background_blur(self) -> float:
+        return self._background_blur
+
+    @background_blur.setter
+    def background_blur(self, value: float) -> None:
+        blur = finite(value, "background_blur")
+        if not 0 <= blur <= 1:
+            raise InvalidArgumentError(f"background_blur must be in 0..1, not {value!r}")
+        self._background_blur = blur
 
     @property
     def ambient(self) -> Color:

@@ -11,6 +11,7 @@ from typing import get_args
 
 from .. import linalg
 from ..choices import Cull, Culling, HiddenSurfaces, Mode, OutputMode, Wireframe
+from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
 from ..scene.instances import InstancedMesh
@@ -57,7 +58,7 @@ class Appearance:
 
         Parameters
         ----------
-        background : (3,) sequence or None
+        background : (3,) sequence, Environment or None
             The scene's.
         point_size : float
             What suits the scene and the picture.
@@ -75,7 +76,7 @@ class Appearance:
 
 def contrasting(background) -> tuple[int, int, int]:
     """Return a dark or a light colour, whichever is seen better before a background."""
-    if background is None:
+    if background is None or isinstance(background, Environment):
         return LIGHT
     here, dark, light = (
         float(linalg.dot(linear_color(color), _LUMINANCE)) + 0.05

@@ -5,8 +5,9 @@ Plain data: the command line fills it in, `ViewRenderer` applies it to each scen
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from .surroundings import Surroundings
 from .theme import DARK, Theme
 
 
@@ -30,6 +31,8 @@ class Settings:
         The way the only light travels, in world space.
     light_clamp : (float, float) or None
         See `Scene`.
+    surroundings : Surroundings
+        The environment.
     textures : bool
         Whether materials show their textures.
     near, far : float or None
@@ -55,6 +58,7 @@ class Settings:
     light_intensity: float | None = None
     light_direction: tuple[float, float, float] | None = None
     light_clamp: tuple[float, float] | None = None
+    surroundings: Surroundings = field(default_factory=Surroundings)
     textures: bool = True
     near: float | None = None
     far: float | None = None

@@ -135,6 +135,7 @@ class ViewRenderer:
             viewed.scene.background = settings.background
         elif viewed.themed:
             viewed.scene.background = self.theme.background
+        settings.surroundings.put(viewed.scene)
         self.lighting = self._light()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
@@ -196,7 +197,8 @@ class ViewRenderer:
     @theme.setter
     def theme(self, theme: Theme) -> None:
         self.settings.theme = theme
-        if self.viewed.themed and self.settings.background is None and not self._transparent:
+        kept = self._transparent or self.settings.background or self.settings.surroundings.shows
+        if self.viewed.themed and not kept:
             self.viewed.scene.background = theme.background
 
     def show_grid(self, shown: bool) -> None:

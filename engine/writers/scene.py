@@ -1,8 +1,9 @@
 """Scenes written as JSON: the tree of nodes, and what they hold.
 
-In: a scene and a path. Out: one file. Meshes and images of files in the folder of the scene, or
-below it, are named; those of primitives are told by their arguments; all others are in the file
-as base64, so that nothing is lost. docs/formats.md has the format, loaders/scene_file.py reads it.
+In: a scene and a path. Out: one file. Meshes, images and environments of files in the folder of
+the scene, or below it, are named; those of primitives are told by their arguments; all others are
+in the file as base64, so that nothing is lost. docs/formats.md has the format, and
+loaders/scene_file.py reads it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 
 from .._native.images import encode_png
 from .._support.numbers import shown
+from ..environments.environment import Environment
 from ..errors import InvalidArgumentError, located, warn
 from ..files.atomic_write import atomic_write, checked_path
 from ..geometry.mesh import Mesh
@@ -32,6 +34,11 @@ from ..scene.placements import Placements
 from ..scene.scene import Scene
 from ..spatial.colliders import BoxCollider, MeshCollider, SphereCollider
 
+_ENVIRONMENT_VALUES = {
+    "environment_intensity": 1.0,
+    "environment_rotation": 0.0,
+    "background_blur": 0.0,
+}
 _IDENTITY = {"translation": np.zeros(3), "rotation": np.eye(4)[3], "scale": np.ones(3)}
 
 
@@ -42,10 +49,10 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     ----------
     scene : Scene
     path : str or path-like
-        By custom it ends in ``.e3d.json``; `load_scene` tells it by its content. Meshes and
-        textures that were loaded from files in its folder, or below it, are named by their
-        relative paths; all others become a part of the file. What cannot be written is warned of
-        as `Engine3DWarning`.
+        By custom it ends in ``.e3d.json``; `load_scene` tells it by its content. Meshes,
+        textures and environments that were loaded from files in its folder, or below it, are named
+        by their relative paths; all others become a part of the file. What cannot be written is
+        warned of as `Engine3DWarning`.
 
     Raises
     ------
@@ -68,11 +75,7 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     """Return a scene's file for a folder, and a line for each thing that it does not hold."""
     writing = _Writing(folder)
     writing.nodes(scene)
-    values = {name: plain(getattr(scene, name)) for name in ("background", "ambient")}
-    if scene.light_clamp is not None:
-        values["light_clamp"] = plain(scene.light_clamp)
-    if scene.exposure:
-        values["exposure"] = scene.exposure
+    values = writing.values(scene)
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
     return "".join(_lines(tree)).encode("ascii"), writing.told
 
@@ -127,6 +130,34 @@ class _Writing:
             if children := node.children:
                 entry["children"] = [numbers[child] for child in children]
             self.lists["nodes"].append(entry)
+
+    def values(self, scene: Scene) -> dict[str, Any]:
+        """Write what the scene itself is: the values of environments only where they are others."""
+        values = {name: plain(getattr(scene, name)) for name in ("background", "ambient")}
+        if isinstance(scene.background, Environment):
+            number = self._number("environments", scene.background, self._environment)
+            values["background"] = {"environment": number}
+        if scene.light_clamp is not None:
+            values["light_clamp"] = plain(scene.light_clamp)
+        if scene.exposure:
+            values["exposure"] = scene.exposure
+        if scene.environment is not None:
+            number = self._number("environments", scene.environment, self._environment)
+            values["environment"] = number
+        for name, usual in _ENVIRONMENT_VALUES.items():
+            if getattr(scene, name) != usual:
+                values[name] = getattr(scene, name)
+        return values
+
+    def _environment(self, environment: Environment) -> dict[str, Any]:
+        if environment.built_in is not None:
+            return {"built_in": environment.built_in}
+        path = environment.path
+        file = None if path is None else self._relative(path)
+        if file is not None:
+            return {"file": file}
+        name = {"name": environment.name} if environment.name else {}
+        return {**name, "pixels": _array(environment.pixels)}
 
     def _number(self, where: str, thing: Any, entry_of) -> int:
         """The number of a thing in its list, to which it is added if it is new there."""

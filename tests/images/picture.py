@@ -13,6 +13,7 @@ import engine3d as e3d
 from engine3d.rendering.frame import OUTPUTS
 
 SCENES = {}
+_MAPS = ("metallic_roughness", "emissive", "tangent")
 SIZE = (150, 106)  # six tiles, the last column and row of which are not whole
 
 
@@ -64,6 +65,11 @@ def digest(arrays):
 
 
 def digests(frame):
-    """What the golden file keeps of a frame: a hash of its colours, and one of all else."""
-    others = [getattr(frame, name) for name in frame.outputs if name != "color"]
-    return {"color": digest([frame.color]), "others": digest(others)}
+    """What the golden file keeps of a frame: a hash of its colours, one of all else; where there
+    are physically based materials, another of what these add.
+    """
+    others = [getattr(frame, name) for name in frame.outputs if name not in ("color", *_MAPS)]
+    kept = {"color": digest([frame.color]), "others": digest(others)}
+    if (frame.metallic_roughness % 1).any():
+        kept["maps"] = digest([getattr(frame, name) for name in _MAPS])
+    return kept

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from engine3d._native.rasterizer import TEXTURE_SLOTS
+
 kernels_testing = pytest.importorskip(
     "engine3d._native.kernels_testing", reason='it is built in place only: pip install -e ".[test]"'
 )
@@ -144,6 +146,14 @@ BATCH_RECORD = np.dtype(
         ("count", "i4"),
     ]
 )
+_PLACES, _SLOTS = len(TEXTURE_SLOTS) + 1, len(TEXTURE_SLOTS)
+MAP_BATCH = np.dtype(
+    [("uv", "f4", (_PLACES, 2, _LANES)), ("lod", "i4", (_PLACES, _LANES))]
+    + [("texel", "f4", (_SLOTS, 4, _LANES)), ("tangent", "f4", (4, _LANES))]
+    + [("shading_normal", "f4", (3, _LANES)), ("coat_normal", "f4", (3, _LANES))]
+    + [("metallic_roughness", "f4", (2, _LANES)), ("emissive", "f4", (3, _LANES))]
+    + [("direct", "f4", (3, _LANES)), ("coat", "f4", (3, _LANES)), ("fuzz", "f4", (3, _LANES))]
+)
 LIGHT = np.dtype(
     [
         ("kind", "i4"),
@@ -152,9 +162,28 @@ LIGHT = np.dtype(
         ("to_light", "f4", 3),
         ("position", "f4", 3),
         ("range", "f4"),
+        ("lux", "f4", 3),
         ("cone", "f4", 2),
     ]
 )
+CELLS, LOBE_TEXELS = 4, 16
+CELL_GROUP = np.dtype(
+    [
+        ("direction", "f4", (3, CELLS)),
+        ("weight", "f4", CELLS),
+        ("light", "f4", (3, CELLS)),
+        ("middle", "f4", 3),
+    ]
+)
+LOBE_BLOCK = np.dtype(
+    [
+        ("normal", "f4", (3, LOBE_TEXELS)),
+        ("sums", "f4", (4, LOBE_TEXELS)),
+        ("square", "f4"),
+        ("rest", "f4"),
+    ]
+)
+
 STRUCTS = {
     "cluster": CLUSTER,
     "facing": FACING,
@@ -176,6 +205,9 @@ STRUCTS = {
     "surfaces": SURFACES,
     "batch": BATCH_RECORD,
     "light": LIGHT,
+    "map_batch": MAP_BATCH,
+    "cell_group": CELL_GROUP,
+    "lobe_block": LOBE_BLOCK,
 }
 
 

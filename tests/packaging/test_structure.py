@@ -24,6 +24,7 @@ FOLDERS = {
     "canvas": {"include"},
     "core": {"include"},
     "driver": {"include"},
+    "environment": {"core", "include", "kernels"},
     "fuzz": {"driver", "images", "include", "loaders"},
     "images": {"core", "include"},
     "include": set(),

@@ -179,7 +179,8 @@ static ALWAYS_INLINE vf32 alpha_read(const texture_plan *plan, int filter, int b
 
 static ALWAYS_INLINE void alpha_filter(texture_plan *plan, int filter, int bits, e3d_batch *batch, float scale)
 {
-    texture_find_all(plan, filter, bits, batch);
+    const texture_source from = {batch->uv[0], batch->uv[1], batch->lod, batch->count};
+    texture_find_all(plan, filter, bits, &from);
     for (int i = 0; i < batch->count; i += V_LANES)
         v_storef(batch->alpha + i, v_mul(alpha_read(plan, filter, bits, i), v_setf(scale)));
 }
@@ -219,15 +220,22 @@ static ALWAYS_INLINE void stage_instance_alpha(e3d_batch *batch, const sample_ve
     v_storef(batch->alpha + v->i, v_mul(v_loadf(batch->alpha + v->i), take(v->s->instance_alpha, &v->elements, v->same)));
 }
 
-static void kernel_alpha(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *view, float base, int by_vertex,
-                         int by_instance)
+/* The material's alpha times the texture's. */
+static inline void alpha_base(e3d_batch *batch, const e3d_texture_view *view, float base)
 {
     int varies = view && !view->is_opaque;
-    float constant = view ? alpha_of_opaque(view) * (base * texture_unit(view)) : base;
+    float constant = view ? alpha_of_opaque(view) * (base * e3d_texture_unit(view)) : base;
     if (varies)
         alpha_texture(batch, view, base);
     for (int i = 0; i < batch->count && !varies; i += V_LANES)
         v_storef(batch->alpha + i, v_setf(constant));
+}
+
+static void kernel_alpha(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *view, const float *base, int by_vertex,
+                         int by_instance)
+{
+    if (base)
+        alpha_base(batch, view, *base);
     if (by_vertex)
         each_vector(batch, surfaces, stage_vertex_alpha, NULL);
     if (by_instance)

@@ -89,19 +89,19 @@ static ALWAYS_INLINE void keep_weights(e3d_batch *batch, int i, const weight_lan
 }
 
 /* R26: the bits of a float are its logarithm, straight between powers of two. */
-static ALWAYS_INLINE void interpolate_level(e3d_batch *batch, const weight_lanes *weights, const sample_vector *v)
+static ALWAYS_INLINE vi32 level_of(const e3d_surface_floats slopes[2][3], const weight_lanes *weights, const sample_vector *v)
 {
     vf32 along[2], down[2], r2 = v_mul(weights->r, weights->r);
     for (int k = 0; k < 2; k++) {
         vf32 slope[3];
-        take_three(v->s->slope[k], &v->elements, v->same, slope);
+        take_three(slopes[k], &v->elements, v->same, slope);
         along[k] = v_add(slope[0], v_mul(weights->dy, slope[2]));
         down[k] = v_sub(slope[1], v_mul(weights->dx, slope[2]));
     }
     vf32 longest = v_max(v_add(v_mul(along[0], along[0]), v_mul(along[1], along[1])),
                          v_add(v_mul(down[0], down[0]), v_mul(down[1], down[1])));
     vf32 one = v_setf(1.0f), q = v_max(v_mul(v_mul(longest, r2), r2), one);
-    v_storei(batch->lod + v->i, v_shr(v_subi(v_asi(q), v_asi(one)), 16));
+    return v_shr(v_subi(v_asi(q), v_asi(one)), 16);
 }
 
 /* R22 */
@@ -130,7 +130,7 @@ static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vecto
     if (wanted & E3D_WANT_UV)
         interpolate_into(batch->uv, 2, v->s->uv, &weights, v);
     if (wanted & E3D_WANT_LEVEL)
-        interpolate_level(batch, &weights, v);
+        v_storei(batch->lod + v->i, level_of(v->s->slope, &weights, v));
     if (wanted & E3D_WANT_POSITION)
         interpolate_into(batch->position, 3, v->s->position, &weights, v);
     if (wanted & E3D_WANT_NORMAL)

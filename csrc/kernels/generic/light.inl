@@ -15,11 +15,11 @@ typedef struct lit_lanes {
     vf32 energy[3], shine[3];
 } lit_lanes;
 
-/* R43: what of a light's range is left, over the squared distance. */
-static inline vf32 light_gltf_falloff(vf32 d2, float over_range2)
+/* R43: what of a light's range is left. */
+static inline vf32 light_gltf_window(vf32 d2, float over_range2)
 {
     vf32 x = v_mul(d2, v_setf(over_range2)), one = v_setf(1.0f);
-    return v_div(v_max(v_sub(one, v_mul(x, x)), v_setf(0.0f)), d2);
+    return v_max(v_sub(one, v_mul(x, x)), v_setf(0.0f));
 }
 
 /* R43: how much of a spot light goes this way. */
@@ -31,9 +31,10 @@ static inline vf32 light_cone(const e3d_light *light, const vf32 l[3])
     return v_mul(t, t);
 }
 
-/* Finds the unit vector towards a point or spot light and its attenuation; returns the lanes within its range. */
-static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], vf32 l[3],
-                                  vf32 *attenuation)
+/* Finds the unit vector towards a point or spot light and its attenuation, in the way of R51 if by_product; returns the lanes within
+ * its range. */
+static ALWAYS_INLINE vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], int by_product, vf32 l[3],
+                                         vf32 *attenuation)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 one = v_setf(1.0f);
@@ -48,10 +49,9 @@ static inline vmask light_towards(const e3d_lighting *lighting, int n, const vf3
     if (light->falloff == E3D_FALLOFF_WINDOW) {
         vf32 t = v_sub(one, v_mul(d2, v_setf(lighting->reach[4][n])));
         *attenuation = v_mul(t, t);
-    } else if (light->falloff == E3D_FALLOFF_GLTF) {
-        *attenuation = light_gltf_falloff(d2, lighting->reach[4][n]);
     } else {
-        *attenuation = v_div(one, d2);
+        vf32 window = light->falloff == E3D_FALLOFF_GLTF ? light_gltf_window(d2, lighting->reach[4][n]) : one;
+        *attenuation = by_product ? v_mul(window, v_mul(inverse, inverse)) : v_div(window, d2);
     }
     if (light->kind == E3D_LIGHT_SPOT)
         *attenuation = v_mul(*attenuation, light_cone(light, l));
@@ -102,7 +102,7 @@ static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, float s
         light_from(light, l, attenuation, NULL, shininess, lit);
         return;
     }
-    vmask near = light_towards(lighting, n, lit->position, l, &attenuation);
+    vmask near = light_towards(lighting, n, lit->position, 0, l, &attenuation);
     if (v_any(near))
         light_from(light, l, attenuation, &near, shininess, lit);
 }
@@ -246,9 +246,9 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
             v_storef(batch->energy[k] + i, light_clamp(lighting, v_loadf(batch->energy[k] + i)));
 }
 
-/* R31: color = (color * energy + specular * shine) + emissive; what is NULL is 0. */
+/* R31, R44: color = ((color * energy + specular * shine) + emissive) * exposure; what is NULL is 0. */
 static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
-                                         const float emissive[3], vf32 color[3])
+                                         const float emissive[3], float exposure, vf32 color[3])
 {
     for (int k = 0; k < 3; k++) {
         color[k] = v_mul(color[k], energy[k]);
@@ -256,10 +256,12 @@ static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[
             color[k] = v_add(color[k], v_mul(v_setf(specular[k]), shine[k]));
         if (emissive)
             color[k] = v_add(color[k], v_setf(emissive[k]));
+        if (exposure != 1.0f)
+            color[k] = v_mul(color[k], v_setf(exposure));
     }
 }
 
-static void kernel_combine(e3d_batch *batch, const float specular[3], const float emissive[3])
+static void kernel_combine(e3d_batch *batch, const float specular[3], const float emissive[3], float exposure)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3], energy[3], shine[3];
@@ -268,7 +270,7 @@ static void kernel_combine(e3d_batch *batch, const float specular[3], const floa
             energy[k] = v_loadf(batch->energy[k] + i);
             shine[k] = v_loadf(batch->shine[k] + i);
         }
-        combine_vector(energy, shine, specular, emissive, color);
+        combine_vector(energy, shine, specular, emissive, exposure, color);
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }

@@ -24,7 +24,7 @@ static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_p
         light_one(lighting, n, shininess, &lit);
     for (int k = 0; k < 3; k++)
         lit.energy[k] = light_clamp(lighting, lit.energy[k]);
-    combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, color);
+    combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, lighting->exposure, color);
 }
 
 /* ---- albedo ---- */

@@ -123,6 +123,14 @@ static inline vf32 dot_three(const vf32 a[3], const vf32 b[3])
     return v_add(v_add(v_mul(a[0], b[0]), v_mul(a[1], b[1])), v_mul(a[2], b[2]));
 }
 
+static inline void cross_three(const vf32 a[3], const vf32 b[3], vf32 out[3])
+{
+    for (int c = 0; c < 3; c++) {
+        int d = (c + 1) % 3, e = (c + 2) % 3;
+        out[c] = v_sub(v_mul(a[d], b[e]), v_mul(a[e], b[d]));
+    }
+}
+
 /* R22: negates the normals of faces that look away, and leaves no -0. */
 static inline void surface_turn(e3d_surfaces *s, int vertices, int n)
 {
@@ -163,23 +171,27 @@ static inline void surface_load(const e3d_surface_floats rows[3], int n, vf32 ou
         out[k] = v_loadf(rows[k] + n);
 }
 
-static inline void surface_slopes(e3d_surfaces *s, int n)
+/* Of one coordinate, by its values at the corners. */
+static inline void slopes_of(const e3d_surfaces *s, const e3d_surface_floats corners[3], float texels, e3d_surface_floats slope[3], int n)
 {
-    vf32 plane[3][3], sum[3], a[3];
+    vf32 plane[3][3], sum[3], a[3], corner[3], size = v_setf(texels);
     surface_load(s->p, n, plane[0]);
     surface_load(s->px, n, plane[1]);
     surface_load(s->py, n, plane[2]);
-    for (int row = 0; row < 3; row++)
+    surface_load(corners, n, corner);
+    for (int row = 0; row < 3; row++) {
         sum[row] = v_add(v_add(plane[row][0], plane[row][1]), plane[row][2]);
-    for (int k = 0; k < 2; k++) {
-        vf32 corner[3], size = v_setf(s->texels[k]);
-        surface_load(s->uv[k], n, corner);
-        for (int row = 0; row < 3; row++)
-            a[row] = dot_three(plane[row], corner);
-        v_storef(s->slope[k][0] + n, v_mul(v_sub(v_mul(a[1], sum[0]), v_mul(a[0], sum[1])), size));
-        v_storef(s->slope[k][1] + n, v_mul(v_sub(v_mul(a[2], sum[0]), v_mul(a[0], sum[2])), size));
-        v_storef(s->slope[k][2] + n, v_mul(v_sub(v_mul(a[1], sum[2]), v_mul(a[2], sum[1])), size));
+        a[row] = dot_three(plane[row], corner);
     }
+    v_storef(slope[0] + n, v_mul(v_sub(v_mul(a[1], sum[0]), v_mul(a[0], sum[1])), size));
+    v_storef(slope[1] + n, v_mul(v_sub(v_mul(a[2], sum[0]), v_mul(a[0], sum[2])), size));
+    v_storef(slope[2] + n, v_mul(v_sub(v_mul(a[1], sum[2]), v_mul(a[2], sum[1])), size));
+}
+
+static inline void surface_slopes(e3d_surfaces *s, int n)
+{
+    for (int k = 0; k < 2; k++)
+        slopes_of(s, s->uv[k], s->texels[k], s->slope[k], n);
 }
 
 static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)

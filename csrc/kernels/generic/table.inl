@@ -20,6 +20,11 @@
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
+#include "kernels/generic/albedo.inl"
+#include "kernels/generic/lobe.inl"
+#include "kernels/generic/environment.inl"
+#include "kernels/generic/maps.inl"
+#include "kernels/generic/physical.inl"
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
 #include "kernels/generic/alpha.inl"
@@ -58,6 +63,16 @@ const e3d_kernels E3D_TABLE = {
     .tint = kernel_tint,
     .light = kernel_light,
     .combine = kernel_combine,
+    .map_surfaces = kernel_map_surfaces,
+    .maps = kernel_maps,
+    .map_normals = kernel_map_normals,
+    .varying = kernel_varying,
+    .physical = kernel_physical,
+    .environment = kernel_environment,
+    .irradiance = kernel_irradiance,
+    .albedo = kernel_albedo,
+    .lobe = kernel_lobe,
+    .backdrop = kernel_backdrop,
     .alpha = kernel_alpha,
     .lay = kernel_lay,
     .blend = kernel_blend,

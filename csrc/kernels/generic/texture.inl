@@ -62,17 +62,10 @@ static ALWAYS_INLINE void texture_place(const level_lanes *level, int bits, vf32
     v_storei(places->down + i, y.weight);
 }
 
-/* Channels of one vector of texels, in units of texture_unit. */
+/* Channels of one vector of texels, in units of e3d_texture_unit. */
 typedef struct texel_lanes {
     vf32 c[3];
 } texel_lanes;
-
-static inline float texture_unit(const e3d_texture_view *view)
-{
-    if (view->filter == E3D_NEAREST)
-        return view->channel_bits == 16 ? E3D_UNORM15 : E3D_UNORM8;
-    return view->channel_bits == 16 ? E3D_UNORM15_BLENDED : E3D_UNORM8_BLENDED;
-}
 
 /* Blends texels of 16 bits. They use 15, so that their differences have a sign: rows are blended first, to 15 bits again. */
 static ALWAYS_INLINE texel_lanes texture_mix16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 across, vi32 down)
@@ -163,10 +156,10 @@ static inline texel_lanes texture_take(const void *texels, int bits, vi32 at)
 
 /* The levels of a vector's samples, limited to the texture's. Lanes past the last sample may hold a level of an earlier batch,
  * whose texture had more: it would index past the table. Their coordinates need no limit, since they are wrapped. */
-static inline vi32 load_level(const e3d_batch *batch, int i, int level_count)
+static inline vi32 load_level(const int32_t *lod, int i, int level_count)
 {
     vi32 last = v_seti((level_count - 1) * 256);
-    return v_mini(v_maxi(v_loadi(batch->lod + i), v_seti(0)), last);
+    return v_mini(v_maxi(v_loadi(lod + i), v_seti(0)), last);
 }
 
 /* ---- every filter in three steps: find all places, prefetch their texels, then read them ---- */
@@ -184,7 +177,7 @@ static inline void texture_begin(texture_plan *plan, const e3d_texture_view *vie
 {
     plan->view = view;
     for (int k = 0; k < 3; k++)
-        plan->scale[k] = base[k] * texture_unit(view);
+        plan->scale[k] = base[k] * e3d_texture_unit(view);
     texture_tabulate(view, &plan->levels);
 }
 
@@ -217,11 +210,18 @@ static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int bits,
     }
 }
 
-static ALWAYS_INLINE void texture_find_all(texture_plan *plan, int filter, int bits, const e3d_batch *batch)
+/* Where samples read a texture: their coordinates, and R26's lod. */
+typedef struct texture_source {
+    const float *u, *v;
+    const int32_t *lod;
+    int count;
+} texture_source;
+
+static ALWAYS_INLINE void texture_find_all(texture_plan *plan, int filter, int bits, const texture_source *from)
 {
-    for (int i = 0; i < batch->count; i += V_LANES)
-        texture_find(plan, filter, bits, i, v_loadf(batch->uv[0] + i), v_loadf(batch->uv[1] + i),
-                     filter == E3D_TRILINEAR ? load_level(batch, i, plan->view->level_count) : v_seti(0));
+    for (int i = 0; i < from->count; i += V_LANES)
+        texture_find(plan, filter, bits, i, v_loadf(from->u + i), v_loadf(from->v + i),
+                     filter == E3D_TRILINEAR ? load_level(from->lod, i, plan->view->level_count) : v_seti(0));
 }
 
 static ALWAYS_INLINE void texture_ask(const texture_plan *plan, int filter, int bits, const texture_places *places, int i)
@@ -273,7 +273,8 @@ static ALWAYS_INLINE texel_lanes texture_read(const texture_plan *plan, int filt
 /* All three steps. */
 static ALWAYS_INLINE void texture_filter(texture_plan *plan, int filter, int bits, e3d_batch *batch)
 {
-    texture_find_all(plan, filter, bits, batch);
+    const texture_source from = {batch->uv[0], batch->uv[1], batch->lod, batch->count};
+    texture_find_all(plan, filter, bits, &from);
     texture_ask_all(plan, filter, bits, batch->count);
     for (int i = 0; i < batch->count; i += V_LANES) {
         texel_lanes texel = texture_read(plan, filter, bits, i);

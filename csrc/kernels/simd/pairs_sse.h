@@ -28,6 +28,18 @@ static inline __m128i fetch_four(const int32_t *table, const int32_t *at)
     return _mm_setr_epi32(table[index_first(low)], table[index_second(low)], table[index_first(high)], table[index_second(high)]);
 }
 
+/* Loads two neighbouring floats of each of four lanes. */
+static inline void floats_four(const float *base, const int32_t *at, __m128 *first, __m128 *second)
+{
+    uint64_t low = index_two(at), high = index_two(at + 2);
+    __m128 a = _mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)(base + index_first(low)));
+    __m128 b = _mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)(base + index_first(high)));
+    a = _mm_loadh_pi(a, (const __m64 *)(base + index_second(low)));
+    b = _mm_loadh_pi(b, (const __m64 *)(base + index_second(high)));
+    *first = _mm_shuffle_ps(a, b, PAIRS_EVEN);
+    *second = _mm_shuffle_ps(a, b, PAIRS_ODD);
+}
+
 /* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
 static inline __m128i pairs_quad(void)
 {

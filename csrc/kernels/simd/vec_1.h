@@ -147,6 +147,12 @@ typedef int32_t vpick;
 static inline vpick v_picker(vi32 index) { return index; }
 static inline vf32 v_pick(const void *base, vpick p) { float v; memcpy(&v, (const char *)base + 4 * p, 4); return v; }
 
+/* base[at[lane]], and the number after it. */
+static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *first, vf32 *second) {
+    *first = base[at[0]];
+    *second = base[at[0] + 1];
+}
+
 /* Of the lanes of a, then b: the first, third and so on; the others. */
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) { *even = a; *odd = b; }
 

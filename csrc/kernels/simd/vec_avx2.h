@@ -115,4 +115,11 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_EVEN));
     *odd = quarters_in_order(_mm256_shuffle_ps(a, b, PAIRS_ODD));
 }
+static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *first, vf32 *second) {
+    __m128 a[2], b[2];
+    for (int half = 0; half < 2; half++)
+        floats_four(base, at + 4 * half, &a[half], &b[half]);
+    *first = _mm256_set_m128(a[1], a[0]);
+    *second = _mm256_set_m128(b[1], b[0]);
+}
 #endif

@@ -237,4 +237,15 @@ static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const
     channels_apart(q, out);
 }
 
+static inline vf32 quarters_join(const __m128 q[4]) {
+    __m512 low = _mm512_insertf32x4(_mm512_castps128_ps512(q[0]), q[1], 1);
+    return _mm512_insertf32x8(low, _mm256_set_m128(q[3], q[2]), 1);
+}
+static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *first, vf32 *second) {
+    __m128 a[4], b[4];
+    for (int quarter = 0; quarter < 4; quarter++)
+        floats_four(base, at + 4 * quarter, &a[quarter], &b[quarter]);
+    *first = quarters_join(a);
+    *second = quarters_join(b);
+}
 #endif

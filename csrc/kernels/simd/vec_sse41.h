@@ -116,4 +116,7 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = _mm_shuffle_ps(a, b, PAIRS_EVEN);
     *odd = _mm_shuffle_ps(a, b, PAIRS_ODD);
 }
+static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *first, vf32 *second) {
+    floats_four(base, at, first, second);
+}
 #endif

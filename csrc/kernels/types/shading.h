@@ -40,6 +40,14 @@ typedef struct e3d_surfaces {
     float texels[2];               /* the size of the texture, for E3D_WANT_LEVEL */
 } e3d_surfaces;
 
+/* R30: what texels are counted in. */
+static inline float e3d_texture_unit(const e3d_texture_view *view)
+{
+    if (view->filter == E3D_NEAREST)
+        return view->channel_bits == 16 ? E3D_UNORM15 : E3D_UNORM8;
+    return view->channel_bits == 16 ? E3D_UNORM15_BLENDED : E3D_UNORM8_BLENDED;
+}
+
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 
 /* Samples of one material on their way to a colour, in the order of their surfaces: each is of the same surface as the one before,
@@ -73,7 +81,8 @@ typedef struct e3d_lighting {
     const e3d_light *lights;
     int light_count;
     const float *reach[5];
-    float ambient[3], clamp[2], eye[4];
+    float ambient[3], clamp[2], eye[4], exposure;
+    const e3d_environment_light *environment; /* NULL where there is none */
 } e3d_lighting;
 
 /* A tile's samples, where there are several a pixel, or where blended ones are laid over them. */

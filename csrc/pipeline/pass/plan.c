@@ -15,7 +15,15 @@ static int has_local_light(const e3d_frame *frame)
         if (frame->lights[n].kind != E3D_LIGHT_DIRECTIONAL)
             return 1;
     for (int32_t m = 0; m < frame->material_count; m++)
-        if (e3d_adds(frame->materials[m].specular))
+        if (e3d_adds(frame->materials[m].specular) || frame->materials[m].is_physical)
+            return 1;
+    return 0;
+}
+
+static int has_mapped_normals(const e3d_frame *frame)
+{
+    for (int32_t m = 0; m < frame->material_count; m++)
+        if (frame->materials[m].normal_texture.texture)
             return 1;
     return 0;
 }
@@ -80,11 +88,11 @@ static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
 {
     int64_t samples = (int64_t)f->width * f->height * f->samples_axis * f->samples_axis;
     return asked_outputs(targets) | asked_mode(f) | asked_wireframe(f) | asked_if(f->hidden == E3D_HIDDEN_ZBUFFER, E3D_ASKED_ZBUFFER) |
-           asked_if(f->shading == E3D_SHADING_FORWARD, E3D_ASKED_FORWARD) | asked_if(f->encode_srgb, E3D_ASKED_SRGB) |
+           asked_if(has_mapped_normals(f), E3D_ASKED_MAPPED_NORMALS) | asked_if(f->shading == E3D_SHADING_FORWARD, E3D_ASKED_FORWARD) | asked_if(f->encode_srgb, E3D_ASKED_SRGB) |
            asked_if(f->culling == E3D_CULLING_ALL || f->culling == E3D_CULLING_ALWAYS, E3D_ASKED_OCCLUSION) |
            asked_if(has_alpha(f), E3D_ASKED_ALPHA) | asked_if(f->transparent_outputs, E3D_ASKED_TRANSPARENT_OUTPUTS) |
            asked_if(f->frozen_clip_from_world != NULL, E3D_ASKED_OTHER_FRUSTUM) |
-           asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
+           asked_if(f->backdrop.light.environment != NULL, E3D_ASKED_BACKDROP) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
 }
 
 /* ---- what is done about it ---- */
@@ -96,6 +104,8 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_OUTPUTS, ASKED(UVS), 0},
     {E3D_PLAN_OUTPUTS, ASKED(ALBEDO), 0},
     {E3D_PLAN_OUTPUTS, ASKED(IDENTITIES), 0},
+    {E3D_PLAN_OUTPUTS, ASKED(MATERIALS), 0},
+    {E3D_PLAN_OUTPUTS, ASKED(TANGENTS), 0},
     {E3D_PLAN_SHADES, PLAN(COLORS), 0},
     {E3D_PLAN_SHADES, PLAN(OUTPUTS), 0},
     {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(LIT) | ASKED(LOCAL_LIGHT), 0},
@@ -104,6 +114,9 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_NORMAL, PLAN(COLORS) | ASKED(LIT), 0},
     {E3D_PLAN_NORMAL, PLAN(COLORS) | ASKED(NORMAL_MODE), 0},
     {E3D_PLAN_NORMAL, ASKED(NORMALS), 0},
+    {E3D_PLAN_NORMAL, ASKED(TANGENTS), 0},
+    {E3D_PLAN_POSITION, ASKED(TANGENTS), 0}, /* by which a face's tangent is found */
+    {E3D_PLAN_POSITION, PLAN(NORMAL) | ASKED(MAPPED_NORMALS), 0},
     {E3D_PLAN_UV, ASKED(UVS), 0},
     {E3D_PLAN_BASE_COLOR, PLAN(COLORS) | ASKED(LIT), 0},
     {E3D_PLAN_BASE_COLOR, PLAN(COLORS) | ASKED(UNLIT), 0},
@@ -137,6 +150,8 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_EDGES, ASKED(COLOR) | ASKED(WIREFRAME), 0},
     {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER), ASKED(WIRE_ONLY)},
     {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER) | ASKED(HIDDEN_LINES), 0},
+    {E3D_PLAN_BACKDROP, PLAN(COLORS) | ASKED(BACKDROP) | ASKED(LIT), 0},
+    {E3D_PLAN_BACKDROP, PLAN(COLORS) | ASKED(BACKDROP) | ASKED(UNLIT), 0},
     {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(LIT), 0},
     {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(UNLIT), 0},
 };

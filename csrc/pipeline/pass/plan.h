@@ -18,12 +18,15 @@
     X(UVS, "the output uv")                                                            \
     X(ALBEDO, "the output albedo")                                                     \
     X(IDENTITIES, "an output of IDs or barycentric coordinates")                       \
+    X(MATERIALS, "the outputs metallic_roughness or emissive")                         \
+    X(TANGENTS, "the output tangent")                                                  \
     X(LIT, "mode lit")                                                                 \
     X(UNLIT, "mode unlit")                                                             \
     X(DEPTH_MODE, "mode depth")                                                        \
     X(NORMAL_MODE, "mode normal")                                                      \
     X(OVERDRAW_MODE, "mode overdraw")                                                  \
     X(LOCAL_LIGHT, "light that depends on the position: point lights or highlights")   \
+    X(MAPPED_NORMALS, "a texture of normals")                                          \
     X(MANY_LIGHTS, "more than 4 lights")                                               \
     X(WIREFRAME, "a wireframe, with or without the faces")                             \
     X(WIRE_ONLY, "a wireframe without the faces")                                      \
@@ -36,6 +39,7 @@
     X(ALPHA, "materials that are masked or blended")                                   \
     X(TRANSPARENT_OUTPUTS, "other outputs of the nearest surface, blended or not")      \
     X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
+    X(BACKDROP, "an environment as the background")                                    \
     X(HUGE, "more samples than tiles are kept for")
 
 /* What is done about it: X(name, what that is). */
@@ -64,6 +68,7 @@
     X(COUNTS_OVERDRAW, "faces are counted, sample by sample")                            \
     X(EDGES, "the edges of faces are drawn")                                             \
     X(EDGE_DEPTHS, "edges are tested against the depths of faces")                       \
+    X(BACKDROP, "the background is looked up in an environment, pixel by pixel")         \
     X(ENCODES_SRGB, "colours go through the sRGB encoder")
 
 #define E3D_ASKED_NAME(name, text) E3D_ASKED_##name,

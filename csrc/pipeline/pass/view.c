@@ -60,6 +60,8 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     memcpy(lighting->ambient, frame->ambient, sizeof frame->ambient);
     memcpy(lighting->clamp, frame->light_clamp, sizeof frame->light_clamp);
     memcpy(lighting->eye, frame->eye, sizeof frame->eye);
+    lighting->exposure = frame->exposure;
+    lighting->environment = frame->environment.environment ? &frame->environment : NULL;
     return 1;
 }
 

@@ -5,6 +5,7 @@
 #include "kernels/types/shading.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/alpha.h"
+#include "pipeline/shade/maps.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 
@@ -18,6 +19,8 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
     int wanted = bucket->by_vertex || bucket->by_instance ? E3D_WANT_ALPHA | E3D_WANT_SURFACE : 0;
     if (bucket->by_vertex)
         wanted |= E3D_WANT_WEIGHTS;
+    if (bucket->mapped)
+        return wanted | E3D_WANT_WEIGHTS | E3D_WANT_SURFACE;
     if (bucket->textured && !e3d_texture_get_view(bucket->material->texture.texture)->is_opaque) {
         wanted |= E3D_WANT_UV | E3D_WANT_SURFACE;
         if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
@@ -79,8 +82,10 @@ void e3d_alpha_batch(const e3d_prepared *pass, const e3d_bucket *bucket, const e
     const e3d_material *m = bucket->material;
     e3d_batch *batch = &out->memory->batch;
     int hidden = bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY;
-    pass->kernels->alpha(batch, &out->memory->surfaces, bucket->textured ? e3d_texture_get_view(m->texture.texture) : NULL, m->alpha,
-                         bucket->by_vertex, bucket->by_instance);
+    if (bucket->mapped)
+        e3d_find_map_alpha(pass->kernels, bucket, out->memory);
+    pass->kernels->alpha(batch, &out->memory->surfaces, bucket->textured ? e3d_texture_get_view(m->texture.texture) : NULL,
+                         bucket->mapped ? NULL : &m->alpha, bucket->by_vertex, bucket->by_instance);
     if (out->alpha->use == E3D_ALPHA_TEST)
         test(out->memory, out->alpha);
     else if (out->alpha->use == E3D_ALPHA_KEEP)

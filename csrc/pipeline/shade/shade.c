@@ -11,6 +11,7 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/alpha.h"
+#include "pipeline/shade/maps.h"
 #include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
@@ -114,14 +115,16 @@ static void light(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_batch 
     const e3d_material *m = bucket->material;
     int shiny = e3d_adds(m->specular);
     pass->kernels->light(batch, &pass->view->lighting, shiny ? m->shininess : 0.0f);
-    pass->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive);
+    pass->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive, pass->view->lighting.exposure);
 }
 
 static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
     switch (pass->frame->mode) {
     case E3D_MODE_LIT:
-        if (bucket->face)
+        if (bucket->face && bucket->material->is_physical && !bucket->material->is_unlit)
+            e3d_light_physical(pass, bucket, memory);
+        else if (bucket->face && !bucket->material->is_unlit)
             light(pass, bucket, &memory->batch);
         break;
     case E3D_MODE_DEPTH: show_depth(pass, &memory->batch); break;
@@ -140,7 +143,9 @@ static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_
 static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
     int wanted = e3d_plan_inputs(pass->plan), colored = e3d_plans(pass, E3D_PLAN_BASE_COLOR);
-    if (bucket->textured && colored) {
+    if (bucket->mapped)
+        wanted |= E3D_WANT_WEIGHTS;
+    else if (bucket->textured && colored) {
         wanted |= E3D_WANT_UV;
         if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
             wanted |= E3D_WANT_LEVEL;
@@ -162,13 +167,13 @@ static int wanted_of(const e3d_prepared *pass, const e3d_bucket *bucket, const e
 /* Whether samples go straight to where colours are kept. */
 static int is_painted(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
-    return e3d_plans(pass, E3D_PLAN_PAINTS) && !(bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY);
+    return e3d_plans(pass, E3D_PLAN_PAINTS) && !bucket->mapped && !(bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY);
 }
 
 static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, const e3d_shade_out *out)
 {
     const e3d_material *m = bucket->material;
-    int lit = pass->frame->mode == E3D_MODE_LIT && bucket->face, shiny = e3d_adds(m->specular);
+    int lit = pass->frame->mode == E3D_MODE_LIT && bucket->face && !m->is_unlit, shiny = e3d_adds(m->specular);
     const e3d_paint paint = {
         .wanted = wanted,
         .texture = bucket->textured ? e3d_texture_get_view(m->texture.texture) : NULL,
@@ -193,10 +198,12 @@ static void shade_alpha(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     e3d_alpha_use use = out->alpha->use;
     if (wanted & E3D_WANT_SURFACE)
         pass->kernels->interpolate(&memory->batch, &memory->surfaces, wanted);
-    if (use != E3D_ALPHA_TEST && e3d_plans(pass, E3D_PLAN_BASE_COLOR))
+    if (bucket->mapped)
+        e3d_find_map_batch(pass, bucket, memory);
+    else if (use != E3D_ALPHA_TEST && e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_albedo(pass->kernels, bucket, memory);
     if (use == E3D_ALPHA_OUTPUTS) {
-        e3d_outputs_batch(in->store, memory, out->pixels);
+        e3d_outputs_batch(in->store, bucket, memory, out->pixels);
         return;
     }
     if (use != E3D_ALPHA_TEST) {
@@ -222,10 +229,12 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     }
     if (wanted & E3D_WANT_SURFACE)
         pass->kernels->interpolate(batch, &out->memory->surfaces, wanted);
-    if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
+    if (bucket->mapped)
+        e3d_find_map_batch(pass, bucket, out->memory);
+    else if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_albedo(pass->kernels, bucket, out->memory);
     if (e3d_plans(pass, E3D_PLAN_OUTPUTS))
-        e3d_outputs_batch(in->store, out->memory, out->pixels);
+        e3d_outputs_batch(in->store, bucket, out->memory, out->pixels);
     int hidden = bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY;
     if (!e3d_plans(pass, E3D_PLAN_COLORS))
         return;
@@ -295,7 +304,7 @@ static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d
     for (int32_t first = bucket->first, end; first >= 0; first = end) {
         end = e3d_add_surfaces(in, bucket, first, wanted, out->memory);
         if (wanted & E3D_WANT_SURFACE)
-            e3d_find_surfaces(in->pass, tile, wanted, out->memory);
+            e3d_find_surfaces(in->pass, tile, bucket, wanted, out->memory);
         shade_pieces(in, bucket, first, end, wanted, out);
     }
 }

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/grow.h"
+#include "kernels/types/maps.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
@@ -25,12 +26,20 @@ typedef struct e3d_shade_in {
     float unorm8[256];    /* values of 8-bit vertex and instance colours (R23) */
 } e3d_shade_in;
 
+/* Of materials of more than a base colour. */
+typedef struct e3d_map_memory {
+    e3d_maps maps; /* of the bucket */
+    _Alignas(64) e3d_map_surfaces surfaces;
+    _Alignas(64) e3d_map_batch batch;
+} e3d_map_memory;
+
 /* A thread's memory, of one tile. */
 typedef struct e3d_shade_memory {
     e3d_runs_memory runs;
     _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
     _Alignas(64) e3d_surfaces surfaces; /* of the batch and its neighbours */
+    e3d_map_memory maps;
     e3d_array pieces;                   /* e3d_visible_primitive */
     e3d_array buckets;                  /* e3d_bucket */
     int64_t shaded;                     /* samples, of all tiles */

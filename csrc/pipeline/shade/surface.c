@@ -14,6 +14,7 @@
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/maps.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 
@@ -93,8 +94,9 @@ static int32_t bucket_id_of(const e3d_visible_primitive *piece)
     return face < 0 ? -1 : piece->draw->mesh->material_most ? mesh->material_ids[face] : 0;
 }
 
-static e3d_bucket bucket_of(const e3d_frame *frame, const e3d_draw_state *state, int32_t id)
+static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *state, int32_t id)
 {
+    const e3d_frame *frame = pass->frame;
     const e3d_draw *draw = state->draw;
     const e3d_mesh_desc *mesh = &state->mesh->desc;
     e3d_bucket g = {.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)],
@@ -104,7 +106,11 @@ static e3d_bucket bucket_of(const e3d_frame *frame, const e3d_draw_state *state,
     int flat = frame->normals == E3D_NORMALS_FLAT ||
                (frame->normals == E3D_NORMALS_AUTO && g.material->flat);
     g.flat = g.face && flat && mesh->face_normals;
+    g.mapped = g.face && e3d_needs_maps(g.material, pass->targets);
     g.textured = g.face && g.material->texture.texture && mesh->uvs;
+    g.has_uvs = g.mapped && mesh->uvs;
+    g.has_uvs1 = g.mapped && mesh->uvs1;
+    g.has_tangents = g.mapped && mesh->tangents;
     g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
     g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
     return g;
@@ -114,7 +120,8 @@ static int same_bucket(const e3d_bucket *a, const e3d_bucket *b)
 {
     return a->material == b->material && a->face == b->face && a->flat == b->flat &&
            a->textured == b->textured && a->by_vertex == b->by_vertex &&
-           a->by_instance == b->by_instance;
+           a->by_instance == b->by_instance && a->mapped == b->mapped && a->has_uvs == b->has_uvs &&
+           a->has_uvs1 == b->has_uvs1 && a->has_tangents == b->has_tangents;
 }
 
 /* The bucket's number, or -1 when memory is out. */
@@ -140,12 +147,12 @@ typedef struct bucket_finder {
 } bucket_finder;
 
 /* The bucket of a piece, whose last it becomes; 0 when memory is out. */
-static ALWAYS_INLINE int join_bucket(const e3d_frame *frame, e3d_shade_memory *memory, int32_t number, bucket_finder *finder)
+static ALWAYS_INLINE int join_bucket(const e3d_prepared *pass, e3d_shade_memory *memory, int32_t number, bucket_finder *finder)
 {
     e3d_visible_primitive *pieces = memory->pieces.data, *piece = &pieces[number];
     int32_t id = bucket_id_of(piece);
     if (piece->draw != finder->draw || id != finder->id) {
-        e3d_bucket bucket = bucket_of(frame, piece->draw, id);
+        e3d_bucket bucket = bucket_of(pass, piece->draw, id);
         *finder = (bucket_finder){piece->draw, id, number_bucket(memory, &bucket)};
         if (finder->bucket < 0)
             return 0;
@@ -197,13 +204,13 @@ static void find_primitives(const e3d_shade_in *in, const e3d_shown_piece *of, p
 }
 
 /* 0 when memory is out. */
-static int find_buckets(const e3d_frame *frame, e3d_shade_memory *memory, piece_range range, bucket_finder *finder)
+static int find_buckets(const e3d_prepared *pass, e3d_shade_memory *memory, piece_range range, bucket_finder *finder)
 {
     e3d_visible_primitive *pieces = memory->pieces.data;
     for (int32_t n = range.first; n < range.end; n++)
         find_vertices(&pieces[n]);
     for (int32_t n = range.first; n < range.end; n++)
-        if (!join_bucket(frame, memory, n, finder))
+        if (!join_bucket(pass, memory, n, finder))
             return 0;
     return 1;
 }
@@ -218,7 +225,6 @@ static piece_range range_of(int32_t first, int32_t count, int32_t all)
 int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
 {
     enum { SOME = 32 };
-    const e3d_frame *frame = in->pass->frame;
     const e3d_record_table *table = in->table;
     e3d_shown *shown = &memory->shown;
     instance_finder instance = {0};
@@ -232,7 +238,7 @@ int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
     for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
         find_named(table, shown->piece, range_of(n, SOME, all), pieces);
         find_primitives(in, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
-        if (!find_buckets(frame, memory, range_of(n - 2 * SOME, SOME, all), &bucket))
+        if (!find_buckets(in->pass, memory, range_of(n - 2 * SOME, SOME, all), &bucket))
             return 0;
     }
     memory->pieces.count = (size_t)all;
@@ -398,6 +404,8 @@ int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
     s->count = s->matrices = s->irregular = s->projected = 0;
     if (wanted & E3D_WANT_LEVEL)
         set_texels(bucket, s);
+    if (bucket->mapped)
+        e3d_find_maps(in->pass, bucket, &memory->maps.maps);
     for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
         s->piece[s->count] = p;
         if (!(wanted & E3D_WANT_SURFACE)) {
@@ -406,6 +414,8 @@ int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
         }
         if (p <= last)
             fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
+        if (bucket->mapped)
+            e3d_add_map_surface(in->pass, &pieces[p], &memory->maps.maps, &memory->maps.surfaces, s->count);
         add_surface(in, &pieces[p], bucket, wanted, s);
     }
     return p;
@@ -464,7 +474,7 @@ static void clear_positions(e3d_surfaces *s, int32_t n, int first)
             s->position[c][v][n] = 0.0f;
 }
 
-void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, int wanted, e3d_shade_memory *memory)
+void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory)
 {
     const e3d_visible_primitive *pieces = memory->pieces.data;
     e3d_surfaces *s = &memory->surfaces;
@@ -485,4 +495,6 @@ void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, int wante
         else if (e3d_face_of(piece) < 0)
             clear_positions(s, n, corners_count(piece));
     }
+    if (bucket->mapped)
+        pass->kernels->map_surfaces(s, &memory->maps.maps, &memory->maps.surfaces);
 }

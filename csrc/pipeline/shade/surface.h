@@ -14,6 +14,8 @@
 typedef struct e3d_bucket {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance;
+    int8_t mapped;                          /* by more than a texture of the base colour at the mesh's own coordinates: maps.h */
+    int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int32_t first, last; /* of its visible pieces */
 } e3d_bucket;
 
@@ -33,7 +35,7 @@ typedef struct e3d_visible_primitive {
 int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory);
 /* The surfaces of pieces of a bucket from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
 int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory);
-void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, int wanted, e3d_shade_memory *memory);
+void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory);
 int32_t e3d_face_of(const e3d_visible_primitive *piece);
 
 #endif

@@ -3,6 +3,7 @@
  */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "core/limits.h"
 #include "e3d.h"
@@ -49,7 +50,7 @@ static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_a
     float *pixels = e3d_outputs_gathered(place->store, place->out, kind);
     const int32_t *at = place->at;
     int count = place->batch->count, channels = e3d_output_channels(kind);
-    e3d_lane_array finite[3];
+    e3d_lane_array finite[4];
     if (!pixels)
         return;
     for (int k = 0; k < channels; k++)
@@ -62,6 +63,9 @@ static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_a
     for (int i = 0; i < count && channels == 3; i++)
         for (int k = 0; k < 3; k++)
             pixels[3 * at[i] + k] = finite[k][i];
+    for (int i = 0; i < count && channels == 4; i++)
+        for (int k = 0; k < 4; k++)
+            pixels[4 * at[i] + k] = finite[k][i];
 }
 
 /* Rows of view_from_world applied to positions (w = 1) or directions (w = 0). */
@@ -92,6 +96,42 @@ static void put_view(const batch_place *place)
         for (int i = 0; i < batch->count; i++)
             v[2][i] = 0.0f - v[2][i];
         put(place, E3D_OUTPUT_DEPTH, v + 2);
+    }
+}
+
+static void fill(float value, int count, float *out)
+{
+    for (int i = 0; i < count; i++)
+        out[i] = value;
+}
+
+/* R58 of what has no maps. */
+static void fill_listed(const e3d_material *material, int count, e3d_map_batch *out)
+{
+    fill(0.0f, count, out->metallic_roughness[0]);
+    fill(1.0f, count, out->metallic_roughness[1]);
+    for (int k = 0; k < 3; k++)
+        fill(material->emissive[k], count, out->emissive[k]);
+    for (int k = 0; k < 4; k++)
+        fill(0.0f, count, out->tangent[k]);
+}
+
+/* R58 */
+static void put_maps(const batch_place *place, const e3d_bucket *bucket, e3d_map_batch *maps)
+{
+    const e3d_targets *t = place->store->pass->targets;
+    int count = place->batch->count;
+    if (!t->metallic_roughness && !t->emissive && !t->tangent)
+        return;
+    if (!bucket->mapped)
+        fill_listed(bucket->material, count, maps);
+    put(place, E3D_OUTPUT_METALLIC_ROUGHNESS, maps->metallic_roughness);
+    put(place, E3D_OUTPUT_EMISSIVE, maps->emissive);
+    if (t->tangent) {
+        e3d_lane_array v[4];
+        to_view(place->store->pass->view, place->batch, maps->tangent, 0, v);
+        memcpy(v[3], maps->tangent[3], sizeof v[3]);
+        put(place, E3D_OUTPUT_TANGENT, v);
     }
 }
 
@@ -143,7 +183,7 @@ static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
     }
 }
 
-void e3d_outputs_batch(const e3d_store *store, const e3d_shade_memory *memory, e3d_store_memory *out)
+void e3d_outputs_batch(const e3d_store *store, const e3d_bucket *bucket, e3d_shade_memory *memory, e3d_store_memory *out)
 {
     const e3d_batch *batch = &memory->batch;
     int32_t room[E3D_BATCH];
@@ -155,4 +195,5 @@ void e3d_outputs_batch(const e3d_store *store, const e3d_shade_memory *memory, e
     put(&place, E3D_OUTPUT_WORLD_POSITION, batch->position);
     put(&place, E3D_OUTPUT_UV, batch->uv);
     put_barycentric(&place);
+    put_maps(&place, bucket, &memory->maps.batch);
 }

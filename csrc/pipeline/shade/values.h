@@ -3,8 +3,9 @@
 #define E3D_VALUES_H
 
 #include "pipeline/shade/shade.h"
+#include "pipeline/shade/surface.h"
 #include "pipeline/store/store.h"
 
-void e3d_outputs_batch(const e3d_store *store, const e3d_shade_memory *memory, e3d_store_memory *out);
+void e3d_outputs_batch(const e3d_store *store, const e3d_bucket *bucket, e3d_shade_memory *memory, e3d_store_memory *out);
 
 #endif

@@ -86,7 +86,7 @@ void e3d_outputs_end(const e3d_store *store, const e3d_visible_tile *visible, co
 void e3d_outputs_blank(const e3d_store *store, const e3d_tile *tile)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        int32_t row[3 * E3D_TILE];
+        int32_t row[4 * E3D_TILE]; /* as many channels as any has */
         if (!store->outputs[k].target)
             continue;
         for (int i = 0; i < KINDS[k].channels * E3D_TILE; i++)

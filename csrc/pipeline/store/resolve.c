@@ -4,8 +4,10 @@
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/visible.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/store/backdrop.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
 #include "pipeline/store/resolve.h"
@@ -19,15 +21,6 @@ static uint32_t encode_one(const e3d_prepared *pass, const float color[3], float
         planes[k][0] = color[k];
     pass->kernels->encode(planes[0], planes[1], planes[2], 1, e3d_plans(pass, E3D_PLAN_ENCODES_SRGB), rgba);
     return (rgba[0] & 0xFFFFFFu) | (alpha > 0.5f ? 0xFF000000u : 0);
-}
-
-/* R33 of a pixel whose samples are alike. */
-static float mean_of(float value, int count)
-{
-    float sum = 0.0f;
-    for (int i = 0; i < count; i++)
-        sum = sum + value;
-    return sum * (1.0f / (float)count);
 }
 
 static float unit(float v)
@@ -49,7 +42,7 @@ void e3d_resolve_prepare(const e3d_prepared *pass, e3d_store *out)
         background->color[k] = unit(frame->background[k]);
         background->sample[k] = opaque ? background->color[k] : 0.0f;
         line->sample[k] = unit(frame->line_color[k]);
-        pixel[k] = opaque ? mean_of(background->color[k], frame->samples_axis * frame->samples_axis) : background->color[k];
+        pixel[k] = opaque ? e3d_mean_of(background->color[k], frame->samples_axis * frame->samples_axis) : background->color[k];
     }
     background->sample[3] = opaque;
     line->sample[3] = 1.0f;
@@ -72,6 +65,10 @@ void e3d_resolve_begin(const e3d_store *store, e3d_store_memory *memory)
     e3d_outputs_begin(store, memory);
     if (!store->pass->targets->color)
         return;
+    if (e3d_plans(store->pass, E3D_PLAN_BACKDROP)) {
+        e3d_backdrop_fill(store, memory);
+        return;
+    }
     if (memory->sampled) {
         fill_samples(store, &memory->samples);
         return;
@@ -101,6 +98,10 @@ static void set_sample(e3d_store_memory *memory, int at, const float sample[4], 
 
 void e3d_resolve_hidden(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory)
 {
+    if (e3d_plans(store->pass, E3D_PLAN_BACKDROP)) {
+        e3d_backdrop_batch(store, batch, memory);
+        return;
+    }
     for (int i = 0; i < batch->count; i++)
         set_sample(memory, batch->sample[i], store->background.sample, store->background.rgba);
 }

@@ -10,6 +10,7 @@
 #include "e3d_targets.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 
 /* What is drawn in one colour: a sample of it and whether it counts (e3d_samples), and a pixel of nothing else. */
 typedef struct e3d_ink {
@@ -40,10 +41,20 @@ typedef struct e3d_store {
 
 /* A thread's memory: the pixels of one tile. */
 typedef struct e3d_store_memory {
+    e3d_tile tile;                             /* that is drawn */
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
     e3d_samples samples;                       /* of several, or with what is laid over them */
     int sampled;                               /* whether the tile's colours go there */
     e3d_array words;                           /* int32_t or float: one output beside colour after the other */
 } e3d_store_memory;
+
+/* R33 of a pixel whose samples are alike. */
+static inline float e3d_mean_of(float value, int samples)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < samples; i++)
+        sum = sum + value;
+    return sum * (1.0f / (float)samples);
+}
 
 #endif

@@ -236,6 +236,7 @@ static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory
                               .blended = blended};
     memory->pixels.sampled = in->pass->frame->samples_axis > 1 || blended;
     int64_t before = memory->shade.shaded;
+    memory->pixels.tile = job.tile;
     if (!draw_job(&job))
         return 0;
     int64_t shaded = memory->shade.shaded - before;

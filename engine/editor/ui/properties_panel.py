@@ -111,7 +111,7 @@ class PropertiesPanel:
         scene = self._workspace.scene
         imgui.text_disabled(f"{len(scene.nodes):,} nodes")
         if imgui.collapsing_header("Scene", imgui.TreeNodeFlags_.default_open):
-            if scene.background is not None:
+            if isinstance(scene.background, tuple):
                 self._color(scene, "background", "Background")
             self._color(scene, "ambient", "Ambient")
 

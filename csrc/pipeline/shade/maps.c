@@ -1,0 +1,258 @@
+/* shade: materials of more than a base colour (R45-R49). Which textures count is found once for each bucket. */
+#include "pipeline/shade/maps.h"
+
+#include <string.h>
+
+#include "core/limits.h"
+#include "kernels/kernels.h"
+#include "pipeline/pass/draws.h"
+#include "pipeline/pass/plan.h"
+#include "pipeline/pass/view.h"
+
+int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets)
+{
+    const e3d_texture_use *base = &material->texture;
+    int is_placed = base->texture && (base->uv_set || base->is_moved);
+    return material->is_physical || material->normal_texture.texture || is_placed || targets->tangent;
+}
+
+int e3d_map_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
+{
+    return bucket->face && use->texture && (use->uv_set ? bucket->has_uvs1 : bucket->has_uvs);
+}
+
+/* ---- the textures of a bucket ---- */
+
+static int is_lit(const e3d_prepared *pass, const e3d_bucket *bucket)
+{
+    return e3d_plans(pass, E3D_PLAN_COLORS) && pass->frame->mode == E3D_MODE_LIT && !bucket->material->is_unlit;
+}
+
+/* Whether the fourth channel of a slot counts. */
+static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
+{
+    return slot == E3D_SLOT_SPECULAR || slot == E3D_SLOT_SHEEN_ROUGHNESS || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
+}
+
+/* Whether a slot is read for what the frame asks for. */
+static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot)
+{
+    const e3d_material *m = bucket->material;
+    int lit = m->is_physical && is_lit(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_ASKED_MATERIALS);
+    switch (slot) {
+    case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR) || m->alpha_mode != E3D_ALPHA_OPAQUE;
+    case E3D_SLOT_NORMAL: return e3d_plans(pass, E3D_PLAN_NORMAL);
+    case E3D_SLOT_METALLIC_ROUGHNESS:
+    case E3D_SLOT_EMISSIVE: return lit || listed;
+    case E3D_SLOT_OCCLUSION:
+    case E3D_SLOT_SPECULAR:
+    case E3D_SLOT_SPECULAR_COLOR: return lit;
+    case E3D_SLOT_CLEARCOAT:
+    case E3D_SLOT_CLEARCOAT_ROUGHNESS:
+    case E3D_SLOT_CLEARCOAT_NORMAL: return lit && m->physical.clearcoat != 0.0f;
+    case E3D_SLOT_SHEEN_COLOR:
+    case E3D_SLOT_SHEEN_ROUGHNESS: return lit && e3d_adds(m->physical.sheen_color);
+    case E3D_SLOT_TRANSMISSION:
+    case E3D_SLOT_THICKNESS:
+    case E3D_TEXTURE_SLOTS: break;
+    }
+    return 0;
+}
+
+static int same_place(const e3d_map_place *a, const e3d_map_place *b)
+{
+    return a->uv_set == b->uv_set && a->is_moved == b->is_moved && !memcmp(a->matrix, b->matrix, sizeof a->matrix) &&
+           a->texels[0] == b->texels[0] && a->texels[1] == b->texels[1];
+}
+
+/* The number of the place of a slot's texture, or of no texture. */
+static int32_t find_place(e3d_maps *maps, const e3d_texture_use *use, const e3d_texture_view *view)
+{
+    e3d_map_place place = {.uv_set = use->uv_set, .is_moved = use->is_moved};
+    int32_t number = 0;
+    if (use->is_moved)
+        memcpy(place.matrix, use->matrix, sizeof place.matrix);
+    if (view) {
+        place.texels[0] = (float)view->levels[0].width;
+        place.texels[1] = (float)view->levels[0].height;
+    }
+    while (number < maps->place_count && !same_place(&maps->places[number], &place))
+        number++;
+    if (number == maps->place_count)
+        maps->places[maps->place_count++] = place;
+    maps->places[number].has_level |= view && view->filter == E3D_TRILINEAR;
+    return number;
+}
+
+static int32_t find_map(e3d_maps *maps, const e3d_texture_use *use, int has_alpha)
+{
+    const e3d_texture_view *view = e3d_texture_get_view(use->texture);
+    e3d_map map = {.view = view, .place = find_place(maps, use, view)};
+    int32_t number = 0;
+    while (number < maps->count && (maps->maps[number].view != view || maps->maps[number].place != map.place))
+        number++;
+    if (number == maps->count)
+        maps->maps[maps->count++] = map;
+    maps->maps[number].has_alpha |= has_alpha;
+    return number;
+}
+
+/* R47: the place of the texture whose coordinates tell what is right. */
+static void find_tangent_place(const e3d_bucket *bucket, e3d_maps *out)
+{
+    const e3d_material *m = bucket->material;
+    int by_coat = m->is_physical && !m->normal_texture.texture;
+    const e3d_texture_use *slot = by_coat ? &m->clearcoat_normal_texture : &m->normal_texture;
+    out->vertex_tangents = bucket->has_tangents && !bucket->flat;
+    if (out->vertex_tangents)
+        out->tangent_place = 0;
+    else if (slot->uv_set ? bucket->has_uvs1 : bucket->has_uvs)
+        out->tangent_place = find_place(out, slot, slot->texture ? e3d_texture_get_view(slot->texture) : NULL);
+}
+
+void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_maps *out)
+{
+    const e3d_material *m = bucket->material;
+    out->place_count = out->count = 0;
+    out->tangent_place = -1;
+#define FIND(slot, name) \
+    out->of_slot[slot] = -1; \
+    if (is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
+        out->of_slot[slot] = find_map(out, &m->name, reads_alpha(m, slot));
+    E3D_EACH_TEXTURE_SLOT(FIND)
+    if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 || pass->targets->tangent)
+        find_tangent_place(bucket, out);
+}
+
+/* ---- what a piece brings ---- */
+
+static void add_place(const e3d_map_place *place, const e3d_mesh_desc *mesh, const int32_t vertex[3], e3d_surface_floats uv[2][3], int32_t n)
+{
+    const float *uvs = place->uv_set ? mesh->uvs1 : mesh->uvs, *m = place->matrix;
+    for (int k = 0; k < 3; k++) {
+        float u = uvs[2 * (size_t)vertex[k]], v = uvs[2 * (size_t)vertex[k] + 1];
+        uv[0][k][n] = place->is_moved ? (m[0] * u + m[1] * v) + m[2] : u;
+        uv[1][k][n] = place->is_moved ? (m[3] * u + m[4] * v) + m[5] : v;
+    }
+}
+
+void e3d_add_map_surface(const e3d_prepared *pass, const e3d_visible_primitive *piece, const e3d_maps *maps, e3d_map_surfaces *out, int32_t n)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    for (int p = 0; p < maps->place_count; p++)
+        add_place(&maps->places[p], mesh, piece->vertex, out->uv[p], n);
+    if (maps->tangent_place < 0)
+        return;
+    int32_t instance = (int32_t)piece->draw->instance_base + piece->instance;
+    out->turned_round[n] = pass->view->instances[instance].mirrored != pass->view->mirrors;
+    if (!maps->vertex_tangents)
+        return;
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 3; c++)
+            out->tangent[c][k][n] = mesh->tangents[4 * (size_t)piece->vertex[k] + c];
+    out->sign[n] = mesh->tangents[4 * (size_t)piece->vertex[0] + 3];
+}
+
+/* ---- what maps say of a batch ---- */
+
+/* A channel of a slot's texture times a factor, or the factor. */
+static e3d_varying varying_of(const e3d_map_memory *memory, e3d_texture_slot slot, int channel, float factor)
+{
+    int32_t map = memory->maps.of_slot[slot];
+    if (map < 0)
+        return (e3d_varying){NULL, factor};
+    return (e3d_varying){memory->batch.texel[map][channel], factor * e3d_texture_unit(memory->maps.maps[map].view)};
+}
+
+static e3d_normal_map normals_of(const e3d_map_memory *memory, e3d_texture_slot slot, float scale)
+{
+    int32_t map = memory->maps.of_slot[slot];
+    if (map < 0)
+        return (e3d_normal_map){NULL, 0.0f, 0.0f};
+    return (e3d_normal_map){memory->batch.texel[map], e3d_texture_unit(memory->maps.maps[map].view), scale};
+}
+
+static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, const e3d_surfaces *surfaces, const e3d_map_memory *maps,
+                      e3d_batch *batch)
+{
+    for (int k = 0; k < 3; k++) {
+        e3d_varying base = varying_of(maps, E3D_SLOT_TEXTURE, k, bucket->material->color[k]);
+        kernels->varying(&base, batch->count, batch->color[k]);
+    }
+    if (bucket->by_vertex || bucket->by_instance)
+        kernels->tint(batch, surfaces, bucket->by_vertex, bucket->by_instance);
+}
+
+/* R58 */
+static void find_listed(const e3d_kernels *kernels, const e3d_bucket *bucket, int count, e3d_map_memory *maps)
+{
+    const e3d_material *m = bucket->material;
+    e3d_varying metallic = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->is_physical ? m->physical.metallic : 0.0f);
+    e3d_varying roughness = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->is_physical ? m->physical.roughness : 1.0f);
+    kernels->varying(&metallic, count, maps->batch.metallic_roughness[0]);
+    kernels->varying(&roughness, count, maps->batch.metallic_roughness[1]);
+    for (int k = 0; k < 3; k++) {
+        e3d_varying emissive = varying_of(maps, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
+        kernels->varying(&emissive, count, maps->batch.emissive[k]);
+    }
+}
+
+void e3d_find_map_alpha(const e3d_kernels *kernels, const e3d_bucket *bucket, e3d_shade_memory *memory)
+{
+    e3d_varying alpha = varying_of(&memory->maps, E3D_SLOT_TEXTURE, 3, bucket->material->alpha);
+    kernels->varying(&alpha, memory->batch.count, memory->batch.alpha);
+}
+
+void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+{
+    const e3d_kernels *kernels = pass->kernels;
+    const e3d_material *m = bucket->material;
+    e3d_map_memory *maps = &memory->maps;
+    e3d_batch *batch = &memory->batch;
+    if (maps->maps.tangent_place < 0)
+        memset(maps->batch.tangent, 0, sizeof maps->batch.tangent);
+    kernels->maps(batch, &memory->surfaces, &maps->maps, &maps->surfaces, &maps->batch);
+    if (e3d_plans(pass, E3D_PLAN_NORMAL)) {
+        e3d_normal_map surface = normals_of(maps, E3D_SLOT_NORMAL, m->normal_scale);
+        e3d_normal_map coat = normals_of(maps, E3D_SLOT_CLEARCOAT_NORMAL, m->physical.clearcoat_normal_scale);
+        kernels->map_normals(batch, &surface, &coat, &maps->batch);
+    }
+    if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
+        find_base(kernels, bucket, &memory->surfaces, maps, batch);
+    if (e3d_plans(pass, E3D_ASKED_MATERIALS))
+        find_listed(kernels, bucket, batch->count, maps);
+}
+
+/* ---- light ---- */
+
+static e3d_surface_model model_of(const e3d_material *m, const e3d_map_memory *maps)
+{
+    const e3d_physical *p = &m->physical;
+    e3d_surface_model model = {
+        .metallic = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 2, p->metallic),
+        .roughness = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 1, p->roughness),
+        .occlusion = varying_of(maps, E3D_SLOT_OCCLUSION, 0, 1.0f),
+        .occlusion_strength = p->occlusion_strength,
+        .specular = varying_of(maps, E3D_SLOT_SPECULAR, 3, p->specular_intensity),
+        .coat = varying_of(maps, E3D_SLOT_CLEARCOAT, 0, p->clearcoat),
+        .coat_roughness = varying_of(maps, E3D_SLOT_CLEARCOAT_ROUGHNESS, 1, p->clearcoat_roughness),
+        .sheen_roughness = varying_of(maps, E3D_SLOT_SHEEN_ROUGHNESS, 3, p->sheen_roughness),
+        .has_coat = p->clearcoat != 0.0f,
+        .has_sheen = e3d_adds(p->sheen_color),
+        .is_grey = maps->maps.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
+                   p->reflectance[1] == p->reflectance[2],
+        .coat_is_mapped = maps->maps.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
+    };
+    for (int k = 0; k < 3; k++) {
+        model.reflectance[k] = varying_of(maps, E3D_SLOT_SPECULAR_COLOR, k, p->reflectance[k]);
+        model.emissive[k] = varying_of(maps, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
+        model.sheen[k] = varying_of(maps, E3D_SLOT_SHEEN_COLOR, k, p->sheen_color[k]);
+    }
+    return model;
+}
+
+void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+{
+    const e3d_surface_model model = model_of(bucket->material, &memory->maps);
+    pass->kernels->physical(&memory->batch, &model, &pass->view->lighting, &memory->maps.batch);
+}

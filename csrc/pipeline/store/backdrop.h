@@ -1,0 +1,19 @@
+/* An environment as the background (R63). */
+#ifndef E3D_STORE_BACKDROP_H
+#define E3D_STORE_BACKDROP_H
+
+#include <stdint.h>
+
+#include "core/limits.h"
+#include "kernels/types/shading.h"
+#include "pipeline/pass/view.h"
+#include "pipeline/store/store.h"
+
+/* Fills the memory of the tile that is drawn. */
+void e3d_backdrop_fill(const e3d_store *store, e3d_store_memory *memory);
+/* Puts it where the samples of a batch are. */
+void e3d_backdrop_batch(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory);
+/* The pixels of a tile that nothing else shows in, E3D_TILE apart from row to row; E3D_PAD more are written. */
+void e3d_backdrop_pixels(const e3d_store *store, const e3d_tile *tile, uint32_t *rgba);
+
+#endif

@@ -1,0 +1,227 @@
+/* Physical: light on physically based materials, as glTF 2.0 has it.
+ *
+ * In:  a surface with what its maps say, the frame's lights, ambient and environment.
+ * Out: its linear colour, not yet clamped.
+ * Rules: R49 (what a sample is made of), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
+ *      R56 and R57 (sums). Sources: glTF 2.0, appendix B; Walter et al. 2007 (GGX); Heitz 2014 (Smith); Schlick 1994;
+ *      Estevez and Kulla 2017 (sheen); Fdez-Aguera 2019 (multiple scattering).
+ */
+#include "reference/arithmetic.h"
+#include "reference/stages.h"
+
+/* A lobe of GGX about a normal. */
+typedef struct lobe {
+    float normal[3], facing; /* facing: n . v, of either sign */
+    float nv, roughness, A, root;
+} lobe;
+
+/* R49: all that doesn't depend on the light. */
+typedef struct sample {
+    float view[3];
+    lobe base, coat;
+    float specular, top, diffuse[3], f0[3], f90;
+    float sheen_power; /* 1 / alpha of the sheen */
+} sample;
+
+/* Of a light at a sample, in terms of h = l + v. */
+typedef struct half_vector {
+    float h[3], square;
+} half_vector;
+
+/* What lights add up to. */
+typedef struct sums {
+    float direct[3], coat[3], fuzz[3];
+} sums;
+
+static lobe make_lobe(const float normal[3], const float view[3], float roughness)
+{
+    lobe out = {.roughness = ref_clamp(roughness, E3D_LEAST_ROUGHNESS, 1.0f)};
+    for (int c = 0; c < 3; c++)
+        out.normal[c] = normal[c];
+    float alpha = out.roughness * out.roughness;
+    out.A = alpha * alpha;
+    out.facing = ref_dot3(normal, view);
+    out.nv = ref_max(fabsf(out.facing), E3D_LEAST_COSINE);
+    out.root = sqrtf(out.A + (1.0f - out.A) * (out.nv * out.nv));
+    return out;
+}
+
+/* R50: D times V. */
+static float reflect(const lobe *lobe, const half_vector *h, float nl)
+{
+    float k[3], nh = nl + lobe->facing;
+    ref_cross(lobe->normal, h->h, k);
+    float t = ref_dot3(k, k) + lobe->A * (nh * nh);
+    float u = lobe->nv * sqrtf(lobe->A + (1.0f - lobe->A) * (nl * nl)) + nl * lobe->root;
+    return nh > 0.0f ? ((lobe->A * E3D_OVER_2PI) * (h->square * h->square)) / ((t * t) * u) : 0.0f;
+}
+
+static float fifth_power(float w)
+{
+    float w2 = w * w;
+    return (w2 * w2) * w;
+}
+
+static sample find_sample(const e3d_frame *frame, const ref_surface *s)
+{
+    const ref_physical *p = &s->physical;
+    sample out = {.specular = p->specular};
+    float m = p->metallic;
+    ref_direction_to_eye(frame, s, out.view);
+    out.base = make_lobe(s->world_normal, out.view, p->roughness);
+    out.coat = make_lobe(p->coat_normal, out.view, p->coat_roughness);
+    for (int c = 0; c < 3; c++) {
+        out.f0[c] = p->reflectance[c] + (s->albedo[c] - p->reflectance[c]) * m;
+        out.diffuse[c] = (s->albedo[c] * (1.0f - m)) * E3D_OVER_PI;
+    }
+    out.f90 = p->specular + (1.0f - p->specular) * m;
+    out.top = ref_max(ref_max(p->reflectance[0], p->reflectance[1]), p->reflectance[2]);
+    float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f);
+    out.sheen_power = 1.0f / (rough * rough);
+    return out;
+}
+
+/* R53: D times V of the sheen. */
+static float reflect_fuzz(const sample *at, const half_vector *h, float nl)
+{
+    float k[3], nv = ref_min(at->base.nv, 1.0f), i = at->sheen_power;
+    ref_cross(at->base.normal, h->h, k);
+    float x = ref_dot3(k, k) / h->square;
+    float d = ((2.0f + i) * E3D_OVER_2PI) * ref_pow(x, i * 0.5f);
+    return d * (1.0f / (4.0f * ((nl + nv) - nl * nv)));
+}
+
+static int has_sheen(const e3d_material *m) { return m->physical.sheen_color[0] != 0.0f || m->physical.sheen_color[1] != 0.0f ||
+                                                     m->physical.sheen_color[2] != 0.0f; }
+
+/* R51 */
+static void add_light(const e3d_light *light, const ref_surface *s, const sample *at, sums *out)
+{
+    const e3d_material *material = s->piece->primitive.material;
+    float l[3], attenuation;
+    if (!ref_light_reach(light, s->world_position, 1, l, &attenuation))
+        return;
+    float nl = ref_dot3(at->base.normal, l);
+    if (!(nl > 0.0f))
+        return;
+    half_vector h;
+    for (int c = 0; c < 3; c++)
+        h.h[c] = l[c] + at->view[c];
+    h.square = ref_dot3(h.h, h.h);
+    float w5 = fifth_power(ref_max(1.0f - sqrtf(h.square) * 0.5f, 0.0f)), e = attenuation * nl;
+    float keep = (1.0f - (at->top + (at->specular - at->top) * w5)) * e, d = reflect(&at->base, &h, nl) * e;
+    for (int c = 0; c < 3; c++)
+        out->direct[c] = out->direct[c] +
+                         light->lux[c] * (at->diffuse[c] * keep + d * (at->f0[c] + (at->f90 - at->f0[c]) * w5));
+    float coat_nl = ref_dot3(at->coat.normal, l);
+    if (material->physical.clearcoat != 0.0f && coat_nl > 0.0f) {
+        float coat = reflect(&at->coat, &h, coat_nl) * (attenuation * coat_nl);
+        for (int c = 0; c < 3; c++)
+            out->coat[c] = out->coat[c] + light->lux[c] * coat;
+    }
+    if (has_sheen(material)) {
+        float fuzz = reflect_fuzz(at, &h, nl) * e;
+        for (int c = 0; c < 3; c++)
+            out->fuzz[c] = out->fuzz[c] + light->lux[c] * fuzz;
+    }
+}
+
+/* ---- light from all around ---- */
+
+/* R54: what arrives at a normal. */
+static void find_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
+{
+    float more[3];
+    for (int c = 0; c < 3; c++)
+        out[c] = frame->ambient[c];
+    if (!frame->environment.environment)
+        return;
+    ref_environment_irradiance(&frame->environment, normal, more);
+    for (int c = 0; c < 3; c++)
+        out[c] = out[c] + more[c];
+}
+
+/* R54: what a lobe mirrors. */
+static void find_radiance(const e3d_frame *frame, const lobe *lobe, const float view[3], float out[3])
+{
+    float mirrored[3], more[3];
+    for (int c = 0; c < 3; c++)
+        out[c] = frame->ambient[c];
+    if (!frame->environment.environment)
+        return;
+    for (int c = 0; c < 3; c++)
+        mirrored[c] = lobe->normal[c] * (lobe->facing + lobe->facing) - view[c];
+    ref_environment_specular(&frame->environment, mirrored, lobe->roughness, more);
+    for (int c = 0; c < 3; c++)
+        out[c] = out[c] + more[c];
+}
+
+/* R55: a lobe under light that is 1 all around: once is what it reflects once, twice a factor of what it reflects more often. */
+typedef struct scattering {
+    float once, twice, q;
+} scattering;
+
+static scattering scatter(float f0, float f90, float a, float b)
+{
+    float y = f0 + (f90 - f0) * E3D_OVER_21, rest = 1.0f - (a + b), x = f0 * a + f90 * b;
+    return (scattering){x, x * y, 1.0f - rest * y};
+}
+
+static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sample *at, const float irradiance[3], float out[3])
+{
+    const ref_physical *p = &s->physical;
+    float radiance[3], a = ref_albedo(E3D_DFG_A, at->base.roughness, at->base.nv), b = ref_albedo(E3D_DFG_B, at->base.roughness, at->base.nv);
+    float rest = 1.0f - (a + b);
+    find_radiance(frame, &at->base, at->view, radiance);
+    for (int c = 0; c < 3; c++) {
+        float albedo = s->albedo[c];
+        scattering metal = scatter(albedo, 1.0f, a, b), other = scatter(p->reflectance[c], p->specular, a, b);
+        float r = 1.0f / (metal.q * other.q), zt = (metal.twice * (r * other.q)) * rest, zd = (other.twice * (r * metal.q)) * rest;
+        float t = radiance[c] * metal.once + irradiance[c] * zt;
+        float d = (radiance[c] * other.once + irradiance[c] * zd) + irradiance[c] * (albedo * (1.0f - (other.once + zd)));
+        out[c] = d + (t - d) * p->metallic;
+    }
+}
+
+/* ---- all of it ---- */
+
+/* R56 */
+static void add_sheen(const ref_surface *s, const sample *at, const float irradiance[3], const sums *lights, float color[3])
+{
+    const ref_physical *p = &s->physical;
+    float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f);
+    float e = ref_albedo(E3D_DFG_SHEEN, rough, at->base.nv), most = ref_max(ref_max(p->sheen[0], p->sheen[1]), p->sheen[2]);
+    for (int c = 0; c < 3; c++)
+        color[c] = color[c] * (1.0f - most * e) + p->sheen[c] * (lights->fuzz[c] + (irradiance[c] * e) * p->occlusion);
+}
+
+/* R52 and R57 */
+static void add_coat(const e3d_frame *frame, const ref_surface *s, const sample *at, const sums *lights, float color[3])
+{
+    float radiance[3], w5 = fifth_power(1.0f - ref_min(at->coat.nv, 1.0f)), fc = s->physical.coat * (0.04f + 0.96f * w5);
+    find_radiance(frame, &at->coat, at->view, radiance);
+    for (int c = 0; c < 3; c++)
+        color[c] = color[c] * (1.0f - fc) + fc * (lights->coat[c] + radiance[c] * s->physical.occlusion);
+}
+
+void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    const e3d_material *material = surface->piece->primitive.material;
+    sample at = find_sample(frame, surface);
+    sums lights = {.direct = {0.0f}};
+    float irradiance[3], indirect[3];
+    for (int32_t n = 0; n < frame->light_count; n++)
+        add_light(&frame->lights[n], surface, &at, &lights);
+    find_irradiance(frame, surface->world_normal, irradiance);
+    find_indirect(frame, surface, &at, irradiance, indirect);
+    for (int c = 0; c < 3; c++)
+        out[c] = lights.direct[c] + indirect[c] * surface->physical.occlusion;
+    if (has_sheen(material))
+        add_sheen(surface, &at, irradiance, &lights, out);
+    for (int c = 0; c < 3; c++)
+        out[c] = out[c] + surface->emissive[c];
+    if (material->physical.clearcoat != 0.0f)
+        add_coat(frame, surface, &at, &lights, out);
+    for (int c = 0; c < 3; c++)
+        out[c] = out[c] * frame->exposure;
+}

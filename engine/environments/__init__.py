@@ -1,0 +1,1 @@
+"""Environments: pictures of everything around, as light and as background."""

@@ -75,7 +75,7 @@ def drawable(draw, mode):
 
 
 def material(draw, mode):
-    """Physically based where the neutral description has maps for it, and blended where it says so."""
+    """Physically based where the neutral description has maps for it, and blended by its mode."""
     slots = {
         "texture": draw.texture,
         "normal_texture": draw.normal_map,

@@ -124,7 +124,7 @@ def new_drawable(draw, mode):
 
 
 def material(draw, mode):
-    """Transparent where the mode says so; physically based where the neutral description has maps for it."""
+    """Physically based where the neutral description has maps for it, and blended by its mode."""
     slots = {
         "texture": draw.texture,
         "normal_texture": draw.normal_map,

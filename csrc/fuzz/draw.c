@@ -27,7 +27,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     plan.most_side = (how >> 1 & 15) == 5 ? LARGE : SMALL;
     plan.backends[E3D_BACKEND_SCALAR] = plan.backends[chosen_backend(take_byte(&in))] = 1;
     const random_stream r = {.bytes = in.at, .byte_count = in.left};
-    if (how >> 5)
+    if (how >> 5 & 1)
+        CLAIM(compare_alpha(r, &plan, "alpha").agrees);
+    else if (how >> 5)
         CLAIM(compare_scene(r, &plan, "scene").agrees);
     else
         CLAIM(compare_rasterize(r, &plan, "rasterize").agrees);

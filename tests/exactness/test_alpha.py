@@ -226,22 +226,26 @@ def _random_stack(rng):
     corners = centre + rng.uniform(-1, 1, (count, 3, 3)) * rng.choice(
         [0.02, 0.3, 1.5], (count, 1, 1)
     )
-    modes = ["blend", "mask", "blend", "opaque"]
+    modes = ["blend", "mask", "blend", "opaque", "mask", "blend"]
     pixels = rng.integers(0, 256, (16, 16, 4)).astype(np.uint8)
     texture = e3d.Texture(pixels, filter=str(rng.choice(["nearest", "bilinear", "trilinear"])))
+    placed = e3d.PlacedTexture(texture, uv_set=1, offset=(0.2, 0.1), rotation=0.3, scale=(1.5, 0.7))
+    slots = [None, texture, placed, None, placed, texture]
     materials = [
         e3d.Material(
             color=tuple(map(float, rng.random(4))),
             alpha_mode=mode,
-            texture=texture if k % 2 else None,
+            texture=slot,
             two_sided=True,
+            roughness=0.4 if k > 3 else None,
         )
-        for k, mode in enumerate(modes)
+        for k, (mode, slot) in enumerate(zip(modes, slots, strict=True))
     ]
     return e3d.Mesh(
         corners.reshape(-1, 3),
         np.arange(3 * count).reshape(-1, 3),
         uvs=rng.uniform(-1, 2, (3 * count, 2)),
+        uvs1=rng.uniform(-1, 2, (3 * count, 2)),
         materials=materials,
         material_ids=rng.integers(0, len(modes), count),
     )

@@ -28,6 +28,12 @@ static int is_lit(const e3d_prepared *pass, const e3d_bucket *bucket)
     return e3d_plans(pass, E3D_PLAN_COLORS) && pass->frame->mode == E3D_MODE_LIT && !bucket->material->is_unlit;
 }
 
+/* Whether the fourth channel of a slot counts. */
+static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
+{
+    return slot == E3D_SLOT_SPECULAR || slot == E3D_SLOT_SHEEN_ROUGHNESS || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
+}
+
 /* Whether a slot is read for what the frame asks for. */
 static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot)
 {
@@ -104,12 +110,6 @@ static void find_tangent_place(const e3d_bucket *bucket, e3d_maps *out)
         out->tangent_place = find_place(out, slot, slot->texture ? e3d_texture_get_view(slot->texture) : NULL);
 }
 
-/* Whether the fourth channel of a slot's texture is read. */
-static int has_alpha(const e3d_material *m, e3d_texture_slot slot)
-{
-    return slot == E3D_SLOT_SPECULAR || slot == E3D_SLOT_SHEEN_ROUGHNESS || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
-}
-
 void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_maps *out)
 {
     const e3d_material *m = bucket->material;
@@ -119,7 +119,7 @@ void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wante
 #define FIND(slot, name) \
     out->of_slot[slot] = -1; \
     if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
-        out->of_slot[slot] = find_map(out, &m->name, has_alpha(m, slot));
+        out->of_slot[slot] = find_map(out, &m->name, reads_alpha(m, slot));
     E3D_EACH_TEXTURE_SLOT(FIND)
     if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
         (all && pass->targets->tangent))

@@ -3,6 +3,7 @@
 #define E3D_SHADE_MAPS_H
 
 #include "e3d.h"
+#include "kernels/kernels.h"
 #include "kernels/types/maps.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/shade.h"

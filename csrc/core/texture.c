@@ -104,14 +104,14 @@ static void fill_border(const e3d_texture *texture, const e3d_level *level)
 {
     size_t texel = texel_bytes(texture), row_bytes = ((size_t)level->width + 2) * texel;
     int32_t last = level->height - 1;
-    int repeat = texture->view.wrap == E3D_REPEAT;
+    int along_u = texture->view.wrap[0] == E3D_REPEAT, along_v = texture->view.wrap[1] == E3D_REPEAT;
     for (int32_t y = 0; y <= last; y++) {
         uint8_t *first = row_of(texture, level, y), *end = first + (size_t)level->width * texel;
-        memcpy(first - texel, repeat ? end - texel : first, texel);
-        memcpy(end, repeat ? first : end - texel, texel);
+        memcpy(first - texel, along_u ? end - texel : first, texel);
+        memcpy(end, along_u ? first : end - texel, texel);
     }
-    memcpy(row_of(texture, level, -1) - texel, row_of(texture, level, repeat ? last : 0) - texel, row_bytes);
-    memcpy(row_of(texture, level, last + 1) - texel, row_of(texture, level, repeat ? 0 : last) - texel,
+    memcpy(row_of(texture, level, -1) - texel, row_of(texture, level, along_v ? last : 0) - texel, row_bytes);
+    memcpy(row_of(texture, level, last + 1) - texel, row_of(texture, level, along_v ? 0 : last) - texel,
            row_bytes);
 }
 
@@ -141,12 +141,12 @@ static void make_signed(e3d_texture *texture, size_t bytes)
 }
 
 e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height, int decode_srgb,
-                              e3d_filter filter, e3d_wrap wrap, e3d_texture **out)
+                              e3d_filter filter, const e3d_wrap wrap[2], e3d_texture **out)
 {
     *out = NULL;
     if (!pixels || width < 1 || height < 1 || width > E3D_MAX_TEXTURE_SIZE ||
         height > E3D_MAX_TEXTURE_SIZE || (unsigned)filter > E3D_TRILINEAR ||
-        (unsigned)wrap > E3D_MIRROR)
+        (unsigned)wrap[0] > E3D_MIRROR || (unsigned)wrap[1] > E3D_MIRROR)
         return E3D_INVALID_ARGUMENT;
     int levels = filter == E3D_TRILINEAR ? chain_levels(width, height) : 1;
     e3d_texture *texture = calloc(1, sizeof *texture);
@@ -155,7 +155,8 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     texture->view.level_count = levels;
     texture->view.channel_bits = decode_srgb || levels > 1 ? 16 : 8;
     texture->view.filter = filter;
-    texture->view.wrap = wrap;
+    texture->view.wrap[0] = wrap[0];
+    texture->view.wrap[1] = wrap[1];
     texture->view.is_opaque = is_opaque(pixels, (size_t)width * (size_t)height);
     size_t bytes = chain_texels(width, height, levels) * texel_bytes(texture);
     texture->texels = malloc(bytes + PAST);

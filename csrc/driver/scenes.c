@@ -267,7 +267,7 @@ static e3d_status add_materials(scene *s, random_stream *r)
         int32_t width = 1 + random_below(r, 33), height = 1 + random_below(r, 33);
         uint8_t *pixels = random_bytes(s, r, 4 * width * height);
         e3d_filter filter = (e3d_filter)random_below(r, 3);
-        e3d_wrap wrap = (e3d_wrap)random_below(r, 3);
+        const e3d_wrap wrap[2] = {(e3d_wrap)random_below(r, 3), (e3d_wrap)random_below(r, 3)};
         e3d_status status = e3d_texture_create(pixels, width, height, random_below(r, 2), filter,
                                                wrap, &s->textures[i]);
         if (status != E3D_OK)

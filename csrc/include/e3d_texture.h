@@ -19,8 +19,8 @@ typedef enum e3d_filter { E3D_EACH_FILTER(E3D_ENUMERATOR) } e3d_filter;
 #define E3D_EACH_WRAP(X) X(E3D_REPEAT, repeat) X(E3D_CLAMP, clamp) X(E3D_MIRROR, mirror)
 typedef enum e3d_wrap { E3D_EACH_WRAP(E3D_ENUMERATOR) } e3d_wrap;
 
-/* One mip level: linear RGBA texels, top row first, within a border of one texel: the other side's where the wrap is
- * E3D_REPEAT, else the nearest. */
+/* One mip level: linear RGBA texels, top row first, within a border of one texel: the other side's where the wrap
+ * along that axis is E3D_REPEAT, else the nearest. */
 typedef struct e3d_level {
     const void *texels; /* (height + 2, width + 2, 4), of channel_bits 16: int16, at least 0; of 8: int8, c - 128 */
     int32_t width, height;
@@ -34,12 +34,13 @@ typedef struct e3d_texture_view {
     int32_t channel_bits;
     int32_t is_opaque;   /* every alpha is 255 */
     e3d_filter filter;
-    e3d_wrap wrap;
+    e3d_wrap wrap[2]; /* along u, along v */
 } e3d_texture_view;
 
-/* pixels: (height, width, 4) uint8, top row first, copied. decode_srgb: 0 takes 8-bit values as they are. */
+/* pixels: (height, width, 4) uint8, top row first, copied. decode_srgb: 0 takes 8-bit values as they are.
+ * wrap: along u, along v. */
 e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height, int decode_srgb,
-                              e3d_filter filter, e3d_wrap wrap, e3d_texture **out);
+                              e3d_filter filter, const e3d_wrap wrap[2], e3d_texture **out);
 void e3d_texture_destroy(e3d_texture *texture);
 const e3d_texture_view *e3d_texture_get_view(const e3d_texture *texture);
 

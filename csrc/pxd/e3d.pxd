@@ -87,7 +87,7 @@ cdef extern from "e3d.h" nogil:
         pass
 
     e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height,
-                                  int decode_srgb, e3d_filter filter, e3d_wrap wrap,
+                                  int decode_srgb, e3d_filter filter, const e3d_wrap *wrap,
                                   e3d_texture **out)
     void e3d_texture_destroy(e3d_texture *texture)
 

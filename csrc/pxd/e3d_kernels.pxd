@@ -36,7 +36,7 @@ cdef extern from "kernels/kernels.h" nogil:
         int32_t channel_bits
         int32_t is_opaque
         e3d_filter filter
-        e3d_wrap wrap
+        e3d_wrap wrap[2]
 
     ctypedef struct e3d_viewport:
         int32_t width

@@ -109,8 +109,8 @@ static int32_t blend15(const int32_t t[2][2], int32_t fx, int32_t fy)
 static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *level, float s, float t,
                             float out[CHANNELS])
 {
-    neighbours x = find_neighbours(s, level->width, texture->wrap);
-    neighbours y = find_neighbours(t, level->height, texture->wrap);
+    neighbours x = find_neighbours(s, level->width, texture->wrap[0]);
+    neighbours y = find_neighbours(t, level->height, texture->wrap[1]);
     for (int c = 0; c < CHANNELS; c++) {
         const int32_t t[2][2] = {
             {texel(texture, level, x.first, y.first, c), texel(texture, level, x.second, y.first, c)},
@@ -132,8 +132,8 @@ static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float
 float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at,
                          float out[CHANNELS])
 {
-    float s = wrap_coordinate(at->uv[0], texture->wrap);
-    float t = wrap_coordinate(1.0f - at->uv[1], texture->wrap);
+    float s = wrap_coordinate(at->uv[0], texture->wrap[0]);
+    float t = wrap_coordinate(1.0f - at->uv[1], texture->wrap[1]);
     if (texture->filter == E3D_NEAREST)
         sample_nearest(texture, &texture->levels[0], s, t, out);
     else if (texture->filter == E3D_BILINEAR)

@@ -123,15 +123,19 @@ cdef e3d_surface_model model_of(dict values):
 
 
 cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
-                                   const int32_t[:, ::1] sizes, int filter, int wrap):
-    """The levels lie one after the other in `texels`; `sizes` is (levels, 2): width and height."""
+                                   const int32_t[:, ::1] sizes, int filter, wrap):
+    """The levels lie one after the other in `texels`; `sizes` is (levels, 2): width and height.
+
+    `wrap`: along u, along v.
+    """
     cdef e3d_texture_view view
     cdef Py_ssize_t start = 0, level
     view.level_count = <int32_t>sizes.shape[0]
     view.channel_bits = channel_bits
     view.is_opaque = 0
     view.filter = <e3d_filter>filter
-    view.wrap = <e3d_wrap>wrap
+    view.wrap[0] = <e3d_wrap><int>wrap[0]
+    view.wrap[1] = <e3d_wrap><int>wrap[1]
     for level in range(sizes.shape[0]):
         view.levels[level].texels = &texels[start]
         view.levels[level].width = sizes[level, 0]

@@ -410,7 +410,7 @@ cdef class Kernels:
             self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], wanted)
 
     def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int channel_bits,
-                const int32_t[:, ::1] sizes, int filter, int wrap, const float[::1] base):
+                const int32_t[:, ::1] sizes, int filter, wrap, const float[::1] base):
         """``texels``: the levels with their borders, and 16 bytes more."""
         cdef e3d_texture_view view = texture_view(texels, channel_bits, sizes, filter, wrap)
         check_size(batch, sizeof(e3d_batch))

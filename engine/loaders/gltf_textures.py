@@ -135,18 +135,15 @@ class GltfTextures:
         self._sources[index] = image
         return image
 
-    def _sampling(self, entry: dict, where: str) -> tuple[str, str]:
+    def _sampling(self, entry: dict, where: str) -> tuple[tuple[str, ...], str]:
         sampler = {}
         if "sampler" in entry:
             sampler = self._file.entry("samplers", entry["sampler"], where)
-        wraps = [_wrap(sampler.get(name, _REPEAT)) for name in ("wrapS", "wrapT")]
-        if wraps[0] != wraps[1]:
-            message = f"{where} wraps differently along its sides: as along u along both"
-            self._warnings.add_once(message)
+        wraps = tuple(_wrap(sampler.get(name, _REPEAT)) for name in ("wrapS", "wrapT"))
         if sampler.get("magFilter") == _NEAREST:
-            return wraps[0], "nearest"
+            return wraps, "nearest"
         has_levels = sampler.get("minFilter") not in (_NEAREST, _LINEAR)
-        return wraps[0], "trilinear" if has_levels else "bilinear"
+        return wraps, "trilinear" if has_levels else "bilinear"
 
     def _decoded(self, image: int) -> Texture | str:
         """The image as a texture, or why there is none."""

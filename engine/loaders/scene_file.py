@@ -161,7 +161,9 @@ class _Reading:
 
     def _texture(self, entry: JsonValue) -> Texture:
         held = entry.members()
-        options = {key: held[key].text() for key in held if key not in ("file", "png")}
+        names = [key for key in held if key not in ("file", "png")]
+        # A wrap may be two words.
+        options = {key: held[key].value if key == "wrap" else held[key].text() for key in names}
         png = entry.get("png")
         try:
             if png is None:
@@ -175,7 +177,7 @@ class _Reading:
         except (InvalidArgumentError, TypeError) as error:
             raise entry.error(str(error)) from None
 
-    def _texture_of_file(self, file: JsonValue, options: dict[str, str]) -> Texture:
+    def _texture_of_file(self, file: JsonValue, options: dict[str, Any]) -> Texture:
         name = file.text()
         if name not in self._images:
             self._images[name] = self._image(name, file)

@@ -30,11 +30,6 @@ KINDS = {
     "ambient map": ("has an ambient map", "have ambient maps", "drawn without"),
     "decal": ("has a decal", "have decals", "drawn without"),
     "unlit": ("is to be drawn unlit", "are to be drawn unlit", "lit like others"),
-    "wraps": (
-        "has an image that wraps differently along its sides",
-        "have images that wrap differently along their sides",
-        "wrapped as along u",
-    ),
 }
 
 

@@ -12,14 +12,14 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypedDict, get_args
+from typing import TypeAlias, TypedDict, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._support.dirty_tracking import renew
 from .._support.numbers import as_array, real, shown
-from .._support.validation import CheckedAttribute, Closed, one_of
+from .._support.validation import CheckedAttribute, Closed, choose, one_of
 from ..choices import ColorSpace, Filter, Wrap
 from ..errors import InvalidArgumentError
 from ..linalg import cos, sin
@@ -30,12 +30,31 @@ WRAPS: tuple[Wrap, ...] = get_args(Wrap)
 MAX_SIDE = 16384
 
 
+Wraps: TypeAlias = Wrap | tuple[Wrap, Wrap]  # along both sides, or along u and along v
+
+
+def check_wrap(value: Wraps, what: str) -> Wraps:
+    """Return one wrap, or two that differ."""
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        return choose(value, WRAPS, what)
+    if len(value) != 2:
+        raise InvalidArgumentError(f"{what} must be one or two of {WRAPS}, not {shown(value)}")
+    along_u, along_v = (choose(each, WRAPS, what) for each in value)
+    return along_u if along_u == along_v else (along_u, along_v)
+
+
+def wraps_of(texture: Texture) -> tuple[Wrap, Wrap]:
+    """Return how a texture wraps along u and along v."""
+    wrap = texture.wrap
+    return (wrap, wrap) if isinstance(wrap, str) else wrap
+
+
 class TextureOptions(TypedDict, total=False):
     """The keyword arguments of `Texture`, for functions that pass them on."""
 
     color_space: ColorSpace
     filter: Filter
-    wrap: Wrap
+    wrap: Wraps
     name: str
 
 
@@ -50,7 +69,8 @@ class Texture(Closed):
     color_space : {"srgb", "linear"}
         How the RGB bytes encode light; alpha is always linear.
     filter : {"trilinear", "bilinear", "nearest"}
-    wrap : {"repeat", "clamp", "mirror"}
+    wrap : {"repeat", "clamp", "mirror"}, or two of them
+        Two are along u and along v; they are kept as one where they are the same.
     name : str
 
     Attributes
@@ -72,7 +92,7 @@ class Texture(Closed):
     _is_missing = False  # whether that file is not there, and these pixels take its place
     color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
     filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
-    wrap: CheckedAttribute[Wrap, Wrap] = CheckedAttribute(one_of(WRAPS))
+    wrap: CheckedAttribute[Wraps, Wraps] = CheckedAttribute(check_wrap)
 
     def __init__(
         self,
@@ -80,7 +100,7 @@ class Texture(Closed):
         *,
         color_space: ColorSpace = "srgb",
         filter: Filter = "trilinear",
-        wrap: Wrap = "repeat",
+        wrap: Wraps = "repeat",
         name: str = "",
     ) -> None:
         self.pixels = pixels

@@ -95,8 +95,8 @@ class DrawList:
             Which derived arrays the picture reads; which of the two kinds of normals a mesh needs
             is decided for each mesh.
         normals : {"auto", "smooth", "flat"}
-        headlight : tuple of two vectors, or None
-            Colour and direction towards the light, for a scene that has no light.
+        headlight : tuple of three vectors, or None
+            Colour, lux and direction towards the light, for a scene that has no light.
         frustum : (4, 4) float64 or None
             clip_from_world of a camera: nodes outside of what it shows are left out.
         marks : float

@@ -54,8 +54,10 @@ class FrameOptions:
     Attributes
     ----------
     native : NativeOptions
-    headlight_color : tuple of 3 float
-        Of the light of scenes without lights; with the ambient it adds up to white.
+    headlight : tuple of two tuples of 3 float
+        The light of scenes without lights, on surfaces that are not physically based and on those
+        that are, in lux. With the ambient it adds up to white; an environment takes its place on
+        what it lights.
     has_backdrop : bool
         Whether an environment shows as the background.
     mark_size : float
@@ -83,7 +85,9 @@ class FrameOptions:
             environment = native_environment(scene.environment, threads)
         turn = scene.environment_rotation
         ambient = shading_color(scene.ambient, color_space)
-        self.headlight_color = tuple(max(0.0, 1.0 - component) for component in ambient)
+        color = tuple(max(0.0, 1.0 - component) for component in ambient)
+        lux = math.pi if environment is None else 0.0
+        self.headlight = color, tuple(lux * component for component in color)
         self.native = _native.NativeOptions(
             mode=_native.MODES[options.mode],
             cull=_native.CULLS[options.cull],

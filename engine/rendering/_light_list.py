@@ -46,8 +46,9 @@ class LightList:
     def update(self, scene: Scene, headlight) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
         self._find_slots(scene)
-        color, towards = (None, None) if self._lights else headlight or (None, None)
-        listed = self._slots_of, [light.version for light in self._lights], color
+        none = None, None, None
+        color, lux, towards = none if self._lights else headlight or none
+        listed = self._slots_of, [light.version for light in self._lights], color, lux
         same, self._listed = self._listed == listed, None  # for if anything below raises
         if self._lights:
             changes = scene._arrays.updated
@@ -57,8 +58,7 @@ class LightList:
         elif not same:
             self._native.clear_lights()
             if towards is not None:
-                shown = [math.pi * component for component in color]
-                self._native.add_directional_light(color, shown, towards)
+                self._native.add_directional_light(color, lux, towards)
         elif towards is not None:
             self._native.turn_light(0, towards)
         self._listed = listed

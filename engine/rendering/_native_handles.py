@@ -21,7 +21,7 @@ from .._native.rasterizer import (
 from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..geometry.native_meshes import make_native_mesh
-from ..materials.textures import Texture
+from ..materials.textures import Texture, wraps_of
 
 
 class MeshNeeds(NamedTuple):
@@ -63,7 +63,8 @@ def native_texture(texture: Texture, color_space: str) -> NativeTexture:
     natives = _textures.setdefault(texture, {})
     made_of, native = natives.get(decode, (None, None))
     if made_of is None or made_of[0] is not pixels or made_of[1:] != (filter, wrap):
-        native = NativeTexture(pixels, decode, FILTERS[filter], WRAPS[wrap])
+        along_u, along_v = (WRAPS[each] for each in wraps_of(texture))
+        native = NativeTexture(pixels, decode, FILTERS[filter], along_u, along_v)
         natives[decode] = (pixels, filter, wrap), native
     return native
 

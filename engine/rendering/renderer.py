@@ -186,7 +186,7 @@ class Renderer(Closed):
             )
             options = either(options, keywords)
             frame_options = self._options.get(scene, options)
-            headlight = frame_options.headlight_color, (0.0, 0.0, 1.0)
+            headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
             needs = frame_options.needs(options.outputs)
             census = scene._census()
             try:
@@ -331,7 +331,7 @@ class Renderer(Closed):
         census = scene._census()
         try:
             view = self._look(scene, camera)
-            headlight = frame_options.headlight_color, view.towards_viewer
+            headlight = (*frame_options.headlight, view.towards_viewer)
             chosen = None
             if culling_camera is not None:
                 chosen = self._clip_from_world(scene, culling_camera)

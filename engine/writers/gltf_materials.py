@@ -15,7 +15,7 @@ from .._native.images import encode_png
 from ..loaders.gltf_materials import PARTS, Map, Numbers
 from ..materials.colors import linear_color
 from ..materials.material import Material
-from ..materials.textures import PlacedTexture, Texture
+from ..materials.textures import PlacedTexture, Texture, wraps_of
 from .gltf_arrays import GltfArrays
 
 _WRAPS = {"clamp": 33071, "mirror": 33648, "repeat": 10497}
@@ -154,8 +154,8 @@ class GltfMaterialList:
 
     def _sampler(self, texture: Texture) -> int:
         magnified, reduced = _FILTERS[texture.filter]
-        wrap = _WRAPS[texture.wrap]
-        entry = {"magFilter": magnified, "minFilter": reduced, "wrapS": wrap, "wrapT": wrap}
+        along_u, along_v = (_WRAPS[wrap] for wrap in wraps_of(texture))
+        entry = {"magFilter": magnified, "minFilter": reduced, "wrapS": along_u, "wrapT": along_v}
         return _number_of(self.samplers, entry)
 
     def _image(self, texture: Texture) -> tuple[int, str | None]:

@@ -71,7 +71,8 @@ def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
         things.append("alpha_cutoff")
     texture = textures_of(material).get("texture")
     if texture is not None:
-        things += ["the texture's wrap 'mirror'"] if texture.wrap == "mirror" else []
+        is_held = texture.wrap in ("repeat", "clamp")
+        things += [] if is_held else [f"the texture's wrap {texture.wrap!r}"]
         is_usual = texture.filter == "trilinear"
         things += [] if is_usual else [f"the texture's filter {texture.filter!r}"]
         is_srgb = texture.color_space == "srgb"

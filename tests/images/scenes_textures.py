@@ -24,6 +24,8 @@ def floor_and_wall(filter_name, wrap):
 for _filter in FILTERS:
     for _wrap in WRAPS:
         variant(f"texture_{_filter}_{_wrap}", floor_and_wall, _filter, _wrap)
+    for _wrap in (("repeat", "clamp"), ("clamp", "mirror"), ("mirror", "repeat")):
+        variant(f"texture_{_filter}_{'_'.join(_wrap)}", floor_and_wall, _filter, _wrap)
 
 
 def one_to_one(filter_name, color_space):

@@ -10,9 +10,18 @@ from kernels.surfaces import LANES, at, bytes_of, fill, planes, random_batches, 
 from kernels.test_interpolate import dot
 from kernels.test_paint import SAMPLES, random_samples
 from kernels.test_raster import BEYOND_FAR, depth_plane, random_corners, random_tile
-from kernels.test_texture import SIZES, UNITS, chain_sizes, random_coordinates, sampled, stored
+from kernels.test_texture import (
+    SIZES,
+    UNITS,
+    WRAP_PAIRS,
+    chain_sizes,
+    numbers_of,
+    random_coordinates,
+    sampled,
+    stored,
+)
 
-from engine3d._native.rasterizer import FILTERS, WRAPS
+from engine3d._native.rasterizer import FILTERS
 
 LEAST_ALPHA = np.float32(2.0**-24)
 NEARBY, AT, SLOT = 5, 7, 6  # IDs before and behind a piece's own, which has the same order
@@ -88,7 +97,7 @@ def test_alpha_without_a_texture(kernels, by_vertex, by_instance):
 
 @all_backends
 @pytest.mark.parametrize("opaque", [False, True])
-@pytest.mark.parametrize("wrap", WRAPS)
+@pytest.mark.parametrize("wrap", WRAP_PAIRS)
 @pytest.mark.parametrize(
     ("filter_name", "width"),
     [("nearest", 8), ("bilinear", 8), ("nearest", 16), ("bilinear", 16), ("trilinear", 16)],
@@ -111,7 +120,7 @@ def test_alpha_of_a_texture(kernels, filter_name, width, wrap, opaque):
         batches.fields["lod"] = lod
         base = np.float32(rng.random())
         given = stored(texels, sizes, wrap, width)
-        texture = given, width, sizes, FILTERS[filter_name], WRAPS[wrap], opaque
+        texture = given, width, sizes, FILTERS[filter_name], numbers_of(wrap), opaque
         for row in batches.rows:
             kernels.alpha(row, bytes_of(random_surfaces(rng)), texture, base, False, False)
         alpha_first = np.roll(texels, 1, axis=1)

@@ -23,9 +23,9 @@ from kernels.layouts import (
 from kernels.surfaces import bytes_of, random_batches, random_surfaces
 from kernels.test_encode import expected_bytes
 from kernels.test_light import random_lights, reach_of
-from kernels.test_texture import chain_sizes, stored
+from kernels.test_texture import WRAP_PAIRS, chain_sizes, numbers_of, stored
 
-from engine3d._native.rasterizer import FILTERS, WRAPS
+from engine3d._native.rasterizer import FILTERS
 
 UNTOUCHED = 0x12345678
 SAMPLES = TILE * TILE
@@ -57,8 +57,8 @@ def random_texture(rng, filter_name, bits):
     sizes = chain_sizes(37, 50, levels=16 if filter_name == "trilinear" else 1)
     count = int((sizes[:, 0].astype(np.int64) * sizes[:, 1]).sum())
     texels = rng.integers(0, 256 if bits == 8 else 32768, (count, 4)).astype(np.uint16)
-    wrap = rng.choice(list(WRAPS))
-    return stored(texels, sizes, wrap, bits), bits, sizes, FILTERS[filter_name], WRAPS[wrap]
+    wrap = WRAP_PAIRS[rng.integers(len(WRAP_PAIRS))]
+    return stored(texels, sizes, wrap, bits), bits, sizes, FILTERS[filter_name], numbers_of(wrap)
 
 
 def random_material(rng, texture, lit):

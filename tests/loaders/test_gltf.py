@@ -283,7 +283,7 @@ def test_a_material_comes_along(write):
         extensions={"KHR_materials_emissive_strength": {"emissiveStrength": 4}},
         pbrMetallicRoughness={"baseColorFactor": [1, 0.5, 0.25, 1], "metallicFactor": 0},
     )
-    tree["samplers"] = [{"wrapS": 33071, "wrapT": 33071, "magFilter": 9728}]
+    tree["samplers"] = [{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}]
     tree["textures"][0]["sampler"] = 0
     info = tree["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
     info["extensions"] = {"KHR_texture_transform": {"offset": [0.5, 0], "scale": [0.5, 2]}}
@@ -296,7 +296,7 @@ def test_a_material_comes_along(write):
     texture = material.texture.texture
     assert material.texture == e3d.PlacedTexture(texture, offset=(0.5, 0), scale=(0.5, 2))
     assert np.array_equal(texture.pixels[:, :, :3], red)
-    assert (texture.wrap, texture.filter) == ("clamp", "nearest")
+    assert (texture.wrap, texture.filter) == (("clamp", "mirror"), "nearest")
     assert mesh.uvs.tolist() == [[0, 1], [1, 1], [0, 0]]
     assert document.counts["materials"] == ["paint"]
     assert document.warnings == []

@@ -64,6 +64,19 @@ def test_unknown_options_are_refused(option):
         Texture(image(1, 1), **{option: "unknown"})
 
 
+def test_wraps_along_two_sides_are_one_where_they_are_the_same():
+    texture = Texture(image(1, 1), wrap=["clamp", "mirror"])
+    assert texture.wrap == ("clamp", "mirror")
+    texture.wrap = ("repeat", "repeat")
+    assert texture.wrap == "repeat"
+
+
+@pytest.mark.parametrize("wrap", [(), ("clamp",), ("clamp",) * 3, ("clamp", "unknown"), 3, None])
+def test_wraps_that_are_none_are_refused(wrap):
+    with pytest.raises(InvalidArgumentError, match="wrap must be one"):
+        Texture(image(1, 1), wrap=wrap)
+
+
 def test_a_path_is_not_taken_for_pixels():
     with pytest.raises(InvalidArgumentError, match=r"use load_texture\('wood.png'\)"):
         Texture("wood.png")

@@ -143,7 +143,7 @@ static ALWAYS_INLINE void stage_maps(e3d_batch *batch, const sample_vector *v, c
 static inline int maps_are_alike(const e3d_map *a, const e3d_map *b)
 {
     const e3d_texture_view *x = a->view, *y = b->view;
-    return a->place == b->place && x->filter == y->filter && x->wrap == y->wrap && x->channel_bits == y->channel_bits &&
+    return a->place == b->place && x->filter == y->filter && x->wrap[0] == y->wrap[0] && x->wrap[1] == y->wrap[1] && x->channel_bits == y->channel_bits &&
            x->level_count == y->level_count && x->levels[0].width == y->levels[0].width && x->levels[0].height == y->levels[0].height;
 }
 

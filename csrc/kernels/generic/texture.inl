@@ -186,7 +186,7 @@ static inline void texture_begin(texture_plan *plan, const e3d_texture_view *vie
 static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int bits, int i, vf32 u, vf32 v, vi32 lod)
 {
     const e3d_texture_view *view = plan->view;
-    vf32 s = texture_wrap(u, view->wrap), t = texture_wrap(v_sub(v_setf(1.0f), v), view->wrap);
+    vf32 s = texture_wrap(u, view->wrap[0]), t = texture_wrap(v_sub(v_setf(1.0f), v), view->wrap[1]);
     if (filter == E3D_NEAREST) {
         v_storei(plan->near.top + i, texture_nearest_at(&view->levels[0], s, t));
         return;

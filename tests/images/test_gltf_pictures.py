@@ -1,8 +1,8 @@
 """Pictures of glTF files beside those that other renderers drew of the same file, camera and light.
 
-``spec`` is Appendix B of glTF 2.0 in float64 with rays, one sample in the middle of each pixel and
-textures without mip levels; this engine is asked for the same. The measure is NVIDIA's FLIP of what
-a screen shows, over black. No other renderer may be nearer to the truth.
+``spec`` is Appendix B of glTF 2.0 in float64 with rays, without shadows, with one sample in the
+middle of each pixel and textures without mip levels; this engine is asked for the same. The measure
+is NVIDIA's FLIP of what a screen shows, over black. No other renderer may be nearer to the truth.
 """
 
 import json
@@ -17,10 +17,14 @@ import engine3d as e3d
 PICTURES = GLTF / "references" / "pictures"
 MOST = 0.02
 PEERS = ("cycles", "three", "pygfx", "vtk", "f3d", "pyrender")
-# ``spec`` draws triangles only; three.js draws lines and points as well, a pixel wide as here.
-TRUTHS = {"ModesU16": "three"}
-# Peers' pictures differ from ``spec`` by less than the smallest step of 8 bits, as these may.
-ALIKE = 0.0025
+# ``spec`` draws triangles only, and no light that passes through; three.js has lines and points, a
+# pixel wide as here, and volumes.
+TRUTHS = {"AttenuationTest": "three", "ModesU16": "three"}
+NOT_DRAWN = {"AttenuationTest": "light that passes through surfaces is not drawn"}
+# That of this one is smooth along edges.
+SAMPLES = {"NormalTangentTest": 4}
+OWN = (e3d.DirectionalLight, e3d.PointLight, e3d.SpotLight, e3d.Camera)
+ALIKE = 0.0005  # two distances that nobody sees the difference of
 
 pytestmark = pytest.mark.skipif(
     not PICTURES.is_dir(), reason="needs the glTF references in ../shared (or ENGINE3D_SHARED)"
@@ -29,7 +33,10 @@ flip = pytest.importorskip("flip_evaluator", reason="FLIP is of the package flip
 
 
 def names():
-    return sorted(path.stem for path in PICTURES.glob("*.npz"))
+    for name in sorted(path.stem for path in PICTURES.glob("*.npz")):
+        why = NOT_DRAWN.get(name)
+        marks = () if why is None else pytest.mark.xfail(reason=why, strict=True)
+        yield pytest.param(name, marks=marks)
 
 
 def file_of(name):
@@ -39,12 +46,12 @@ def file_of(name):
 
 
 def read(path):
-    """The scene of a file, without its lights and cameras and with textures as ``spec`` reads them."""
+    """The scene of a file without lights and cameras; textures are read as ``spec`` does."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         scene = e3d.load_scene(path)
     for node in list(scene.nodes):
-        if isinstance(node.object, (e3d.DirectionalLight, e3d.PointLight, e3d.SpotLight, e3d.Camera)):
+        if isinstance(node.object, OWN):
             node.object = None
         for material in getattr(node.object, "materials", ()):
             for texture in textures_of(material):
@@ -68,7 +75,8 @@ def drawn(name, size):
     camera = json.loads((PICTURES / f"{name}.camera.json").read_text())
     pose = e3d.look_at(camera["eye"], camera["target"], camera["up"])
     lens = e3d.PerspectiveCamera(camera["yfov"], znear=camera["znear"], zfar=camera["zfar"])
-    frame = e3d.render(scene, size=size, camera=scene.add(lens, pose=pose))
+    camera = scene.add(lens, pose=pose)
+    frame = e3d.render(scene, camera, size=size, samples=SAMPLES.get(name, 1))
     return frame.color[..., :3].astype(np.float32) / 255
 
 
@@ -97,4 +105,4 @@ def test_picture_is_nearer_to_the_truth_than_any_other(name):
     text = ", ".join(f"{peer} {value:.4f}" for peer, value in peers.items())
     print(f"{name}: engine3d {ours:.4f}; {text}")
     assert ours <= MOST
-    assert ours <= max(min(peers.values()), ALIKE)
+    assert ours <= min(peers.values()) + ALIKE

@@ -1,9 +1,8 @@
-"""The white furnace: white surfaces that reflect all they get, in light that is 1 from everywhere, show 1.
+"""The white furnace: white surfaces in light that is 1 from everywhere show 1.
 
-A file of the corpus has spheres of seven roughnesses, of metal, half of it, and of none. Peers lose a
-quarter to two thirds of the light of some.
+A file of the corpus has spheres of seven roughnesses, of metal, half of it, and of none. Other
+renderers lose a quarter to two thirds of the light of some.
 """
-
 
 import numpy as np
 import pytest
@@ -64,7 +63,8 @@ def test_white_shows_all_light_at_every_angle(metallic, light):
     scene = lit(e3d.Scene(), light)
     for number, roughness in enumerate(LEVELS):
         ball = e3d.uv_sphere(0.45, (96, 48))
-        ball.materials = [e3d.Material(color=(1.0, 1.0, 1.0), metallic=metallic, roughness=roughness)]
+        how = {"metallic": metallic, "roughness": roughness}
+        ball.materials = [e3d.Material(color=(1.0, 1.0, 1.0), **how)]
         scene.add(ball, translation=(number - 3, 0, 0))
     radiance = radiance_of(scene)
     scale, places = SIZE[1] / 3.0, (0.0, 0.15, 0.3, 0.4, 0.43)

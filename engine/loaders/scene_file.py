@@ -162,7 +162,8 @@ class _Reading:
 
     def _texture(self, entry: JsonValue) -> Texture:
         held = entry.members()
-        options = {key: held[key].text() for key in held if key not in ("file", "png", "wrap")}
+        texts = (key for key in held if key not in ("file", "png", "wrap"))
+        options: dict[str, Any] = {key: held[key].text() for key in texts}
         if (wrap := entry.get("wrap")) is not None:
             pair = isinstance(wrap.value, list)
             options["wrap"] = tuple(side.text() for side in wrap) if pair else wrap.text()

@@ -105,7 +105,8 @@ def _map_fields(values: dict[str, Any], maps: dict[str, dict], load) -> dict[str
         fields |= both
     elif rough is not None or metal is not None:
         pixels = _joined(rough and rough[0], metal and metal[0])
-        fields["metallic_roughness_texture"] = Texture(pixels), (rough or metal)[1]
+        made = Texture(pixels, color_space="linear", name="roughness and metal")
+        fields["metallic_roughness_texture"] = made, (rough or metal)[1]
     if "metallic_roughness_texture" in fields:
         fields["roughness"] = _fraction(values.get("Pr", 1.0))
         has_metal = metal is not None or both is not None
@@ -149,7 +150,8 @@ def _normal_fields(maps: dict[str, dict], load) -> dict[str, Any]:
     if _holds_normals(texture.pixels):
         return {"normal_texture": held, "normal_scale": _strength(entry)}
     normals = normals_of_heights(texture.pixels[..., 0], texture.wrap == "repeat")
-    made = Texture(normals, wrap=texture.wrap, color_space="linear")
+    name = f"{texture.name} as normals"
+    made = Texture(normals, wrap=texture.wrap, color_space="linear", name=name)
     return {"normal_texture": (made, entry), "normal_scale": _strength(entry)}
 
 

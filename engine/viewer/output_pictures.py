@@ -47,8 +47,13 @@ def picture_of(name: str, values: np.ndarray, bounds: Sphere) -> np.ndarray:
     """
     if name == "depth":
         return _nearness(values)
-    if name == "albedo":
+    if name in ("albedo", "emissive"):
         return _encoded(values)
+    if name == "metallic_roughness":  # as the textures have them: roughness green, metallic blue
+        zeros = np.zeros_like(values[..., :1])
+        return _bytes(np.concatenate([zeros, values[..., 1:], values[..., :1]], axis=-1))
+    if name == "tangent":
+        return _bytes(values[..., :3] * np.float32(0.5) + np.float32(0.5))
     if name.endswith("_id"):
         return _identities(values)
     if name.endswith("normal"):

@@ -24,6 +24,7 @@ def test_all_that_nodes_use_is_listed_once(tmp_path):
         ("material", "brick", 2),
         ("mesh", "walls", 2),
         ("texture", "house.tga", 2),
+        ("texture", "house.tga as normals", 2),  # its map_Bump
     ]
     assert entries[1].path == str(tmp_path / "house.obj")
     assert entries[2].path == str(tmp_path / "house.tga")

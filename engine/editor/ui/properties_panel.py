@@ -13,6 +13,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from ...geometry.mesh import Mesh
+from ...materials.colors import split_alpha
 from ...materials.display_colors import display_color
 from ...materials.material import TEXTURE_SLOTS, Material, textures_of
 from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
@@ -31,6 +32,8 @@ _COLLIDERS = {
     "sphere": lambda mesh: SphereCollider(*_ball(mesh)),
     "mesh": lambda mesh: MeshCollider(),
 }
+# Of physically based materials.
+_SHARES = ("metallic", "roughness", "clearcoat", "clearcoat_roughness")
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
 
 
@@ -95,11 +98,19 @@ class PropertiesPanel:
             self._set([thing], {name: new / factor})
 
     def _color(self, thing, name: str, label: str) -> None:
-        value = getattr(thing, name)
-        changed, new = imgui.color_edit3(label, list(display_color(tuple(value), "srgb")))
+        color, alpha = split_alpha(tuple(getattr(thing, name)))
+        changed, new = imgui.color_edit3(label, list(display_color(color, "srgb")))
         self._follow_drag()
         if changed:
-            self._set([thing], {name: tuple(round(255 * part) for part in new)})
+            rest = () if alpha == 1.0 else (round(255 * alpha),)
+            self._set([thing], {name: (*(round(255 * part) for part in new), *rest)})
+
+    def _share(self, thing, name: str, label: str) -> None:
+        """Lay out a number from 0 to 1."""
+        changed, new = imgui.slider_float(label, getattr(thing, name), 0.0, 1.0)
+        self._follow_drag()
+        if changed:
+            self._set([thing], {name: min(max(new, 0.0), 1.0)})
 
     def _flag(self, things, name: str, label: str) -> None:
         changed, new = imgui.checkbox(label, bool(getattr(things[-1], name)))
@@ -198,8 +209,13 @@ class PropertiesPanel:
 
     def _draw_material(self, material: Material) -> None:
         self._color(material, "color", "Colour")
-        self._color(material, "specular", "Specular")
-        self._number(material, "shininess", "Shininess", 0.5, 0.0)
+        if material.is_physical:
+            for name in _SHARES:
+                if getattr(material, name) is not None:
+                    self._share(material, name, name.replace("_", " ").capitalize())
+        else:
+            self._color(material, "specular", "Specular")
+            self._number(material, "shininess", "Shininess", 0.5, 0.0)
         self._color(material, "emissive", "Emissive")
         self._flag([material], "two_sided", "Two-sided")
         imgui.same_line()

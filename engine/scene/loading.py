@@ -16,10 +16,10 @@ from ..errors import InvalidArgumentError
 from ..loaders import CameraRecord, Document, LightRecord, load_document
 from ..loaders.sources import File
 from ._scene_records import fill_scene
-from .tree_records import choose_variant, fill_from_tree
 from .cameras import PerspectiveCamera
 from .lights import DirectionalLight, PointLight
 from .scene import Scene
+from .tree_records import choose_variant, fill_from_tree
 
 
 def load_scene(

@@ -174,7 +174,8 @@ def textured(filter_name):
     fields["uv"][0] = np.linspace(0.1, 1.3, LANES) + np.array([[0], [0.4]])
     fields["lod"] = rng.integers(0, 512, LANES)
     levels = sizes if filter_name == "trilinear" else sizes[:1]
-    arguments = (texels, 16, levels, FILTERS[filter_name], WRAPS["repeat"], np.ones(3, np.float32))
+    wraps = (WRAPS["repeat"], WRAPS["repeat"])
+    arguments = (texels, 16, levels, FILTERS[filter_name], wraps, np.ones(3, np.float32))
     return BATCH, lambda kernels: kernels.texture(batch, *arguments)
 
 

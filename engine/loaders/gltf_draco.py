@@ -59,7 +59,7 @@ class GltfDraco:
         if packing is None:
             return None
         if importlib.util.find_spec("DracoPy") is None:
-            if self._has_plain(entry, where):
+            if self._has_plain(entry, where) and not self._is_required():
                 return None
             raise self._file.error(
                 f"{where} is packed by {DRACO}, which needs the package DracoPy: "
@@ -83,6 +83,9 @@ class GltfDraco:
         packing = self._file.part(extensions, DRACO, where)
         self._file.entry("bufferViews", packing.get("bufferView"), f"{where}.{DRACO}")
         return packing
+
+    def _is_required(self) -> bool:
+        return DRACO in self._file.tree.get("extensionsRequired", ())
 
     def _has_plain(self, entry: dict, where: str) -> bool:
         """Whether the positions are in the file besides."""

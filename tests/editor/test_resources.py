@@ -34,7 +34,7 @@ def test_all_that_nodes_use_is_listed_once(tmp_path):
     house.materials[0].name = "stone"
     assert listing.entries()[0].name == "stone"
     scene.remove(nodes[1])
-    assert [e.users for e in listing.entries()] == [1, 1, 1]
+    assert [e.users for e in listing.entries()] == [1, 1, 1, 1]
     box = e3d.box()
     listing.keep(box)
     assert [(e.name, e.users) for e in listing.entries() if e.kind == "mesh"] == [

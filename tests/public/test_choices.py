@@ -38,6 +38,7 @@ ACCEPTED = {
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,
     "AlphaMode": native.ALPHA_MODES,
+    "LightUnit": lights.UNITS,
     "MotionPath": clips.PATHS,
     "Interpolation": clips.INTERPOLATIONS,
     "Loop": player.LOOPS,

@@ -15,6 +15,7 @@
 #include "kernels/types/lobe.h"
 #include "kernels/types/maps.h"
 #include "kernels/types/records.h"
+#include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/ui.h"

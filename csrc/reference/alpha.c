@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "reference/arithmetic.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 static e3d_alpha_mode alpha_mode_of(const ref_piece *piece)
 {

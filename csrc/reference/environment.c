@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "reference/arithmetic.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 enum { CHANNELS = 3,
        LAST = E3D_ENVIRONMENT_LEVELS - 1 };

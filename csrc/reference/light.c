@@ -5,7 +5,7 @@
  * Rules: R31, and the attenuations there. A light that is out of range adds nothing at all.
  */
 #include "reference/arithmetic.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 /* R31, R43, R51: `x` is the squared distance over that of the range, `i` one over the distance. */
 static float falloff(const e3d_light *light, float d2, float x, float i, int by_product)

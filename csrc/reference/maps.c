@@ -5,7 +5,7 @@
  * Rules: R45 (coordinates), R46 (values), R47 (tangent), R48 (mapped normal).
  */
 #include "reference/arithmetic.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 static const float *coordinates_of(const e3d_texture_use *use, const ref_surface *s)
 {

@@ -7,7 +7,7 @@
  *      Estevez and Kulla 2017 (sheen); Fdez-Aguera 2019 (multiple scattering).
  */
 #include "reference/arithmetic.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 /* A lobe of GGX about a normal. */
 typedef struct lobe {

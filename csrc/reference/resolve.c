@@ -10,7 +10,7 @@
 
 #include "reference/arithmetic.h"
 #include "core/srgb_tables.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 /* R34: the number of thresholds that are <= v; they ascend. */
 static uint8_t encode_srgb(float v)

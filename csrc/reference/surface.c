@@ -7,7 +7,7 @@
  */
 #include "reference/arithmetic.h"
 #include "core/srgb_tables.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 /* R19 */
 static void find_weights(ref_surface *s, int32_t x, int32_t y)
@@ -23,9 +23,6 @@ static void find_weights(ref_surface *s, int32_t x, int32_t y)
     for (int k = 0; k < 3; k++)
         s->barycentric[k] = ref_min(s->weight[k] * s->r, 1.0f);
 }
-
-/* R20: of three values. */
-float ref_interpolate(const ref_surface *s, const float v[3]) { return ref_dot3(s->weight, v) * s->r; }
 
 /* One component of a vertex attribute; a vertex that the primitive lacks counts as 0. */
 static float interpolate_attribute(const ref_surface *s, const float *values, int components, int c)

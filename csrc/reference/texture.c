@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "reference/arithmetic.h"
-#include "reference/stages.h"
+#include "reference/surface.h"
 
 enum { CHANNELS = 4 };
 

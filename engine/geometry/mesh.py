@@ -348,7 +348,7 @@ class Mesh(Closed):
         Method: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008, which normal maps are
         baked for (MikkTSpace). Without tangents, faces use a direction of their own.
         """
-        from .tangents import mesh_with_tangents
+        from ._tangents import mesh_with_tangents
 
         return mesh_with_tangents(self, uv_set)
 
@@ -397,7 +397,7 @@ class Mesh(Closed):
     def save(
         self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
     ) -> None:
-        """Write the mesh to an OBJ, PLY, STL or glTF file; parameters and exceptions of `save_mesh`."""
+        """Write the mesh to a file; parameters and exceptions of `save_mesh`."""
         from ..writers import save_mesh
 
         save_mesh(self, path, format=format, **options)

@@ -6,6 +6,8 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/maps.h"
+#include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"

@@ -3,7 +3,10 @@
 #define E3D_KERNELS_MAPS_INL
 
 #include "core/always_inline.h"
+#include "core/limits.h"
+#include "e3d.h"
 #include "kernels/types/maps.h"
+#include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"

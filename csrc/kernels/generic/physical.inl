@@ -6,6 +6,8 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/maps.h"
+#include "kernels/types/shading.h"
+#include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/albedo.inl"
@@ -59,7 +61,7 @@ static ALWAYS_INLINE void model_coat(const e3d_batch *batch, const e3d_map_batch
     lobe_begin(at->view, varying_at(&model->coat_roughness, i), &at->coat);
 }
 
-static ALWAYS_INLINE vf32 sheen_roughness(const e3d_surface_model *model, int i)
+static ALWAYS_INLINE vf32 usable_sheen_roughness(const e3d_surface_model *model, int i)
 {
     return v_min(v_max(varying_at(&model->sheen_roughness, i), v_setf(E3D_LEAST_SHEEN_ROUGHNESS)), v_setf(1.0f));
 }
@@ -92,7 +94,7 @@ static ALWAYS_INLINE void model_begin(const e3d_batch *batch, const e3d_map_batc
     if (model->has_coat)
         model_coat(batch, m, model, i, at);
     if (model->has_sheen) {
-        vf32 rough = sheen_roughness(model, i);
+        vf32 rough = usable_sheen_roughness(model, i);
         at->sheen_power = v_div(one, v_mul(rough, rough));
     }
 }
@@ -248,7 +250,7 @@ static ALWAYS_INLINE void model_sheen(const e3d_surface_model *model, const mode
                                       vf32 color[3])
 {
     vf32 sheen[3], one = v_setf(1.0f);
-    albedo_place place = albedo_find(sheen_roughness(model, i), at->base.nv);
+    albedo_place place = albedo_find(usable_sheen_roughness(model, i), at->base.nv);
     vf32 e = albedo_of(E3D_DFG_SHEEN, &place);
     for (int k = 0; k < 3; k++)
         sheen[k] = varying_at(&model->sheen[k], i);

@@ -4,6 +4,7 @@
 
 #include "core/always_inline.h"
 #include "core/limits.h"
+#include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/encode.inl"
 

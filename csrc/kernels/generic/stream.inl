@@ -3,7 +3,7 @@
 #define E3D_KERNELS_STREAM_INL
 
 #include "core/stream.h"
-#include "kernels/types/shading.h"
+#include "kernels/types/samples.h"
 
 /* Non-temporal stores: plain ones would first read each line from memory, which took 0.4 to 0.7 ms of a frame of 1920 x 1080. Rows
  * that aren't whole vectors are written 16 bytes at a time, or through the caches. */

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 

@@ -2,11 +2,11 @@
 #ifndef E3D_KERNELS_SHADING_H
 #define E3D_KERNELS_SHADING_H
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "core/limits.h"
 #include "e3d.h"
+#include "kernels/types/samples.h"
 
 enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
 
@@ -85,20 +85,6 @@ typedef struct e3d_lighting {
     float ambient[3], clamp[2], eye[4], exposure;
     const e3d_environment_light *environment; /* NULL where there is none */
 } e3d_lighting;
-
-/* A tile's samples, where there are several a pixel, or where blended ones are laid over them. */
-typedef struct e3d_samples {
-    float color[3][E3D_TILE_SAMPLES + E3D_PAD]; /* clamped, and multiplied by its alpha */
-    float counts[E3D_TILE_SAMPLES + E3D_PAD];   /* alpha: 1, or 0 where a transparent background shows, or between */
-} e3d_samples;
-
-/* Rows of pixels to copy: `count` rows of `bytes`. `to` moves by `pitch` from one row to the next, `from` by `step`. */
-typedef struct e3d_pixel_rows {
-    char *to;
-    const char *from;
-    size_t bytes, pitch, step;
-    int count;
-} e3d_pixel_rows;
 
 /* How the kernel `paint` turns the samples of a batch into pixels. */
 typedef struct e3d_paint {

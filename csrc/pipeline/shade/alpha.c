@@ -2,6 +2,7 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/maps.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/alpha.h"

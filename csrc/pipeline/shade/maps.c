@@ -1,13 +1,18 @@
 /* shade: materials of more than a base colour (R45-R49). Which textures count is found once for each bucket. */
-#include "pipeline/shade/maps.h"
-
 #include <string.h>
 
 #include "core/limits.h"
+#include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/maps.h"
+#include "kernels/types/shading.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/maps.h"
+#include "pipeline/shade/shade.h"
+#include "pipeline/shade/surface.h"
 
 int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets)
 {

@@ -7,6 +7,7 @@
 
 #include "core/limits.h"
 #include "e3d.h"
+#include "kernels/types/maps.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/view.h"

@@ -1,6 +1,7 @@
 /* resolve: where an environment is the background, its colours are looked up pixel by pixel (R63); all samples of a pixel share one. */
 #include "core/limits.h"
 #include "kernels/kernels.h"
+#include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"

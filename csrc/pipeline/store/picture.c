@@ -1,7 +1,7 @@
 /* A tile's rows to a picture of the caller's, and back. */
 #include <string.h>
 
-#include "kernels/types/shading.h"
+#include "kernels/types/samples.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/store/picture.h"

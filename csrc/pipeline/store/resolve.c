@@ -2,6 +2,7 @@
 #include "core/limits.h"
 #include "core/srgb_tables.h"
 #include "e3d.h"
+#include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/visible.h"
 #include "pipeline/pass/plan.h"

@@ -8,7 +8,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "e3d_targets.h"
-#include "kernels/types/shading.h"
+#include "kernels/types/samples.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 

@@ -12,7 +12,7 @@
 #include "kernels/kernels.h"
 #include "kernels/types/alpha.h"
 #include "kernels/types/records.h"
-#include "kernels/types/shading.h"
+#include "kernels/types/samples.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"

@@ -167,6 +167,76 @@ def scenes() -> np.ndarray:
     return sheet(tiles, 3)
 
 
+def ripples(size=256) -> e3d.Texture:
+    """A map of normals: waves that cross."""
+    v, u = np.mgrid[0:size, 0:size] * (2 * math.pi / size)
+    slopes = 0.45 * np.stack(
+        [linalg.cos(8 * u) * linalg.sin(8 * v), linalg.sin(8 * u) * linalg.cos(8 * v)]
+    )
+    normals = np.stack([-slopes[0], slopes[1], np.ones(u.shape)], axis=-1)
+    normals /= linalg.length(normals)[:, :, None]
+    return e3d.Texture(np.rint(127.5 + 127.5 * normals).astype(np.uint8), color_space="linear")
+
+
+def materials() -> np.ndarray:
+    """Physically based balls in a hall, behind panes of coloured glass that cross."""
+    rows = (
+        [
+            {"color": (1.0, 0.77, 0.34), "metallic": 1.0, "roughness": r}
+            for r in (0.05, 0.2, 0.4, 0.6, 0.9)
+        ],
+        [
+            {"color": (0.72, 0.05, 0.04), "metallic": 0.0, "roughness": r}
+            for r in (0.05, 0.2, 0.4, 0.6, 0.9)
+        ],
+        [
+            {"color": (0.05, 0.08, 0.3), "roughness": 0.6, "clearcoat": 1.0, "metallic": 0.3},
+            {
+                "color": (0.02, 0.1, 0.06),
+                "roughness": 0.9,
+                "metallic": 0.0,
+                "sheen_color": (0.3, 0.8, 0.5),
+                "sheen_roughness": 0.4,
+            },
+            {
+                "color": (0.9, 0.9, 0.92),
+                "metallic": 1.0,
+                "roughness": 0.15,
+                "normal_texture": ripples(),
+            },
+            {"color": (0.9, 0.45, 0.3), "metallic": 1.0, "roughness": 0.3},
+            {
+                "color": (0.02, 0.02, 0.02),
+                "metallic": 0.0,
+                "roughness": 0.1,
+                "emissive": (0.1, 0.5, 0.9),
+            },
+        ],
+    )
+    scene = e3d.Scene(background=e3d.Environment.hall(), ambient=(0, 0, 0))
+    scene.environment, scene.background_blur = scene.background, 0.35
+    scene.environment_intensity = 0.6
+    for row, values in enumerate(rows):
+        for column, value in enumerate(values):
+            ball = e3d.uv_sphere(0.46, (96, 48))
+            ball.materials = [e3d.Material(**value)]
+            scene.add(ball, translation=(column - 2.0, 1.0 - row, 0.0))
+    for angle, color in ((0.5, (0.8, 0.12, 0.03, 0.5)), (-0.5, (0.03, 0.2, 0.8, 0.5))):
+        pane = e3d.quad((-0.65, -1.55, 0), (0.65, -1.55, 0), (0.65, 1.55, 0), (-0.65, 1.55, 0))
+        pane.materials = [
+            e3d.Material(
+                color=color, roughness=0.1, metallic=0.0, alpha_mode="blend", two_sided=True
+            )
+        ]
+        scene.add(
+            pane,
+            translation=(2.0, 0.0, 0.75),
+            rotation=linalg.quaternion_from_axis_angle((0, 1, 0), angle),
+        )
+    scene.add(e3d.DirectionalLight((-0.5, -0.7, -0.6), (1.0, 0.95, 0.85), 1.5))
+    return draw(scene, look((0.9, 0.5, 9.5), (0.05, 0.0, 0.0)), (1120, 660))
+
+
 def viewer() -> np.ndarray:
     """What the viewer's window shows: a model with its edges, grid, axes, what the file holds."""
     settings = Settings(appearance={"wireframe": "overlay"}, grid=True, axes=True, metadata=True)
@@ -222,6 +292,7 @@ PICTURES = {
     "modes": modes,
     "filters": filters,
     "scenes": scenes,
+    "materials": materials,
     "viewer": viewer,
     "city": city,
     "impostors": impostors,

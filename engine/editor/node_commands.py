@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from .. import linalg
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..motion.skins import Skin
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.placements import Placements
@@ -298,7 +299,28 @@ def copy_below(scene: Scene, node: Node, parent: Node | None) -> Node:
     for original in nodes[1:]:  # parents first, siblings in their order
         made[original].reparent(made[original.parent])
     made[node].reparent(parent)
+    _bend_alike(made)
     return made[node]
+
+
+def _bend_alike(made: dict[Node, Node]) -> None:
+    """Let copies be bent as their originals: by the copies of their joints, if these are copied."""
+    skins: dict[Skin, Skin | None] = {}
+    for original, twin in made.items():
+        skin = original.skin
+        if skin is not None and skin not in skins:
+            skins[skin] = _skin_of_copies(skin, made, twin)
+        twin.skin = None if skin is None else skins[skin]
+        if original.morph_weights is not None:
+            twin.morph_weights = original.morph_weights
+
+
+def _skin_of_copies(skin: Skin, made: dict[Node, Node], twin: Node) -> Skin | None:
+    """None where a joint is in another scene, and has no copy."""
+    joints = [made.get(joint, joint) for joint in skin.joints]
+    if any(joint._scene is not twin._scene for joint in joints):
+        return None
+    return Skin(joints, skin.inverse_binds, skin.name)
 
 
 def _copied(scene: Scene, node: Node) -> Node:

@@ -62,6 +62,7 @@ class SceneState:
         ids = np.append(columns["id"], -1)  # the last one is that of "none", -1
         self._links = [ids[columns[name][slots]].tolist() for name in ("parent", "next")]
         self._held = [(node.name, node._object, node._collider) for node in self.nodes]
+        self._bent = [(node.skin, kept(node.morph_weights)) for node in self.nodes]
         self._things = {thing: contents(thing) for thing in _reachable(self._held)}
 
     def __eq__(self, other: object) -> bool:
@@ -74,6 +75,7 @@ class SceneState:
             and self._flags.tobytes() == other._flags.tobytes()
             and self._links == other._links
             and same(self._held, other._held)
+            and same(self._bent, other._bent)
             and self._things.keys() == other._things.keys()
             and all(same(held, other._things[thing]) for thing, held in self._things.items())
         )
@@ -94,11 +96,15 @@ class SceneState:
         for thing, held in self._things.items():
             put_contents(thing, held)
         self._placements.put(scene)
-        for node, flags, (name, obj, collider) in zip(
-            self.nodes, self._flags.tolist(), self._held, strict=True
+        for node, flags, (name, obj, collider), (skin, weights) in zip(
+            self.nodes, self._flags.tolist(), self._held, self._bent, strict=True
         ):
             node.visible, node.static = bool(flags & VISIBLE), bool(flags & STATIC)
             _hold(node, name, obj, collider)
+            if node.skin is not skin:
+                node.skin = skin
+            if not same(node.morph_weights, weights):
+                node.morph_weights = weights
 
     def _put_motions(self) -> None:
         scene = self._scene

@@ -333,3 +333,45 @@ def test_warnings_become_entries():
         ("warning", "is missing"),
         ("action", "Add x"),
     ]
+
+
+def bent_scene():
+    """A skinned node and its joints below one node, and a morph target."""
+    scene = e3d.Scene()
+    root = scene.add(name="root")
+    joints = [scene.add(parent=root), scene.add(parent=root, translation=(1, 0, 0))]
+    target = e3d.MorphTarget(np.ones((3, 3)))
+    mesh = e3d.Mesh(
+        np.eye(3),
+        [[0, 1, 2]],
+        joints=[[0, 1]] * 3,
+        weights=[[0.5, 0.5]] * 3,
+        morph_targets=[target],
+    )
+    node = scene.add(mesh, parent=root, name="bent")
+    node.skin = e3d.Skin(joints)
+    node.morph_weights = [0.25]
+    return scene, root, node
+
+
+def test_copies_are_bent_by_the_copies_of_their_joints():
+    scene, root, node = bent_scene()
+    document = SceneDocument(scene)
+    document.do(DuplicateNodes(scene, [root]))
+    twin_root = scene.nodes[len(scene.nodes) // 2]
+    *joints, twin = twin_root.children
+    assert list(twin.skin.joints) == joints and twin.skin is not node.skin
+    assert twin.skin.inverse_binds.tobytes() == node.skin.inverse_binds.tobytes()
+    assert twin.morph_weights.tolist() == [0.25]
+    document.do(DuplicateNodes(scene, [node]))
+    assert scene.nodes[-1].skin.joints == node.skin.joints
+
+
+def test_a_state_holds_how_nodes_are_bent():
+    scene, _, node = bent_scene()
+    skin, state = node.skin, SceneState(scene)
+    node.skin, node.morph_weights = None, [0.5]
+    assert state != SceneState(scene)
+    state.put()
+    assert node.skin is skin and node.morph_weights.tolist() == [0.25]
+    assert state == SceneState(scene)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
+from ...environments.environment import BUILT_IN, named_environment
 from ...geometry.mesh import Mesh
 from ...materials.colors import split_alpha
 from ...materials.display_colors import display_color
@@ -20,6 +21,7 @@ from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...scene.instances import InstancedMesh
 from ...scene.lights import LIGHTS, DirectionalLight, Light, PointLight, SpotLight
 from ...scene.nodes import Node
+from ...scene.scene import MAX_EXPOSURE, Scene
 from ...spatial.colliders import BoxCollider, MeshCollider, SphereCollider
 from ..value_commands import SetValues
 from .files import Files
@@ -87,12 +89,14 @@ class PropertiesPanel:
         pairs = zip(values, new, kept, strict=True)
         return [float(old) if same else now / factor for old, now, same in pairs]
 
-    def _number(self, thing, name: str, label: str, speed: float, low: float, factor=1.0) -> None:
+    def _number(
+        self, thing, name: str, label: str, speed: float, low: float, factor=1.0, high=1e9
+    ) -> None:
         value = getattr(thing, name)
         if value is None or not math.isfinite(value):
             imgui.label_text(label, "none" if value is None else f"{value:g}")
             return
-        changed, new = imgui.drag_float(label, value * factor, speed, low, 1e9, "%.4g")
+        changed, new = imgui.drag_float(label, value * factor, speed, low, high, "%.4g")
         self._follow_drag()
         if changed:
             self._set([thing], {name: new / factor})
@@ -127,6 +131,27 @@ class PropertiesPanel:
             if isinstance(scene.background, tuple):
                 self._color(scene, "background", "Background")
             self._color(scene, "ambient", "Ambient")
+            self._number(scene, "exposure", "Exposure", 0.02, -MAX_EXPOSURE, high=MAX_EXPOSURE)
+            self._draw_environment(scene)
+
+    def _draw_environment(self, scene: Scene) -> None:
+        """Lay out the light from all around: a built-in environment, or that of a file."""
+        now = scene.environment
+        name = "none" if now is None else now.built_in or now.name or "from a file"
+        if imgui.begin_combo("Environment", name):
+            for built_in in (None, *BUILT_IN):
+                is_now = (
+                    now is None
+                    if built_in is None
+                    else now is not None and now.built_in == built_in
+                )
+                if imgui.selectable(built_in or "none", is_now)[0] and not is_now:
+                    chosen = None if built_in is None else named_environment(built_in)
+                    self._workspace.do(SetValues([scene], {"environment": chosen}))
+            imgui.end_combo()
+        if now is not None:
+            self._number(scene, "environment_intensity", "Intensity", 0.01, 0.0)
+            self._number(scene, "environment_rotation", "Turn", 0.5, -1e9, math.degrees(1.0))
 
     def _draw_node(self, node: Node) -> None:
         nodes = self._workspace.document.selection.nodes

@@ -112,7 +112,7 @@ WRONG = [
     (changed(*ARRAYS, "positions", "base64", "AAA"), "base64: is not base64"),
     (changed(*ARRAYS, "positions", "base64", "A\u00e9=="), "base64: is not base64"),
     (changed(*ARRAYS, "faces", "base64", "AAAAAAEAAAADAAAA"), r"objects\[3\]: .*faces"),
-    (changed(*ARRAYS, "weights", {}), "meshes have no array 'weights'"),
+    (changed(*ARRAYS, "widths", {}), "meshes have no array 'widths'"),
     (changed("objects", 3, "groups", {"g": {"type": "int32", "shape": [1], "base64": "BQAAAA=="}}),
      r"objects\[3\]: .*group"),
     (changed("materials", 0, "texture", 1), r"materials\[0\].texture: 1 is not the number"),

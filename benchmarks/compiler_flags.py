@@ -35,7 +35,9 @@ CPU_LACKS_IT = 3  # exit status of the timer
 TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}
 # What frames need beside the kernels, and of that what the kernels do.
 CORE = ["csrc/core/*.c", "csrc/pipeline/*/*.c", "csrc/reference/*.c"]
-TABLES = ["core_encode_tables", "core_srgb_tables"]
+CORE += ["csrc/environment/dfg_table.c", "csrc/environment/handle.c"]
+# What the kernels alone are linked with.
+TABLES = ["core_encode_tables", "core_srgb_tables", "environment_dfg_table", "environment_handle"]
 # Kernel -> its heading, and the element that a time is given for.
 KERNELS = {
     "transform": ("transform", "vertex"),

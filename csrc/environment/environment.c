@@ -10,14 +10,10 @@
 #include "core/fpenv.h"
 #include "e3d_environment.h"
 #include "environment/cube.h"
+#include "environment/handle.h"
 #include "environment/light_tree.h"
 #include "environment/picture.h"
 #include "environment/prefilter.h"
-
-struct e3d_environment {
-    e3d_environment_view view;
-    float *texels;
-};
 
 enum { LEAST_SIZE = 32,
        LEAST_LOBES = 64,
@@ -105,5 +101,3 @@ void e3d_environment_destroy(e3d_environment *environment)
     free(environment->texels);
     free(environment);
 }
-
-const e3d_environment_view *e3d_environment_get_view(const e3d_environment *environment) { return &environment->view; }

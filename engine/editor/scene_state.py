@@ -17,22 +17,12 @@ from ..geometry.mesh import Mesh
 from ..materials.material import textures_of
 from ..scene.instances import InstancedMesh
 from ..scene.placements import Placements
-from ..scene.scene import Scene
+from ..scene.scene import SCENE_VALUES, Scene
 from ..spatial.colliders import MeshCollider
 from .contents import contents, kept, put_contents, same
 from .selection import topmost
 
-_SCENE_VALUES = (
-    "background",
-    "ambient",
-    "light_clamp",
-    "exposure",
-    "environment",
-    "environment_intensity",
-    "environment_rotation",
-    "background_blur",
-    "warnings",
-)
+_SCENE_VALUES = (*SCENE_VALUES, "warnings")
 
 
 class SceneState:

@@ -15,23 +15,12 @@ from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
 from ..environments.environment import Environment
 from ..materials.display_colors import display_color, shading_color
-from ..scene.scene import Scene
+from ..scene.scene import SCENE_VALUES, Scene
 from ._native_handles import MeshNeeds, native_environment
 from .options import RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
-# What a frame's options take from a scene.
-_SCENE_VALUES = (
-    "background",
-    "ambient",
-    "light_clamp",
-    "exposure",
-    "environment",
-    "environment_intensity",
-    "environment_rotation",
-    "background_blur",
-)
 #: The keyword arguments of a frame that name options, without the outputs.
 KEYWORDS = tuple(one.name for one in fields(RenderOptions) if one.name != "outputs")
 _MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
@@ -176,7 +165,7 @@ class OptionsCache:
 
     def get(self, scene: Scene, options: RenderOptions) -> FrameOptions:
         """Return what the options are for a scene as it is now."""
-        seen = options, *(getattr(scene, name) for name in _SCENE_VALUES)
+        seen = options, *(getattr(scene, name) for name in SCENE_VALUES)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
             known = seen, FrameOptions(scene, self._color_space, options, self._threads)

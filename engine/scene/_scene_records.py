@@ -19,10 +19,8 @@ from .instances import InstancedMesh
 from .motion_records import MOTION_KEYS, fill_animator
 from .nodes import Node
 from .object_kinds import KINDS
-from .scene import Scene
+from .scene import SCENE_VALUES, Scene
 
-_SCENE_KEYS = {"background", "ambient", "light_clamp", "environment", "environment_intensity"}
-_SCENE_KEYS |= {"environment_rotation", "background_blur", "exposure"}
 _NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
 _NODE_KEYS |= {"collider", "children", *MOTION_KEYS}
 
@@ -32,7 +30,7 @@ def fill_scene(scene: Scene, record: SceneRecord) -> None:
     values = record.values.members()
     full_rate_distance = values.pop("full_rate_distance", None)
     for key, value in values.items():
-        if key not in _SCENE_KEYS:
+        if key not in SCENE_VALUES:
             raise value.error("is no property of a scene")
         held: Any = value.value
         if key == "environment" and held is not None:

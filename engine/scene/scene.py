@@ -44,6 +44,17 @@ if TYPE_CHECKING:
     from .animation import Animator
     from .nodes import SceneObject
 
+#: What pictures depend on besides nodes; frames, files and the editor go by this list.
+SCENE_VALUES = (
+    "background",
+    "ambient",
+    "light_clamp",
+    "exposure",
+    "environment",
+    "environment_intensity",
+    "environment_rotation",
+    "background_blur",
+)
 MAX_EXPOSURE = 64
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
 _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, *LIGHTS)

@@ -9,8 +9,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from ..editor.folder_listing import Item, list_folder
 from ..errors import printable
+from ..files.folder_listing import Item, list_folder
 from .model_files import MODEL_EXTENSIONS
 from .panels import Panel, Row
 from .recent_files import recent_files

@@ -59,5 +59,8 @@ class Surroundings:
 
 
 def _has_physical(scene: Scene) -> bool:
-    """Return whether a scene shows physically based materials."""
-    return any(isinstance(thing, Material) and thing.is_physical for thing in uses_in([scene]))
+    """Return whether a scene shows physically based materials that are lit."""
+    return any(
+        isinstance(thing, Material) and thing.is_physical and not thing.unlit
+        for thing in uses_in([scene])
+    )

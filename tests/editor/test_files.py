@@ -2,8 +2,8 @@
 
 import os
 
-from engine3d.editor.folder_listing import list_folder
 from engine3d.editor.recent_files import MOST, RecentFiles
+from engine3d.files.folder_listing import list_folder
 
 
 def test_recent_files_are_kept_the_latest_first(tmp_path):

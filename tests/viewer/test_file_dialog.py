@@ -245,6 +245,6 @@ def test_without_a_file_it_begins_where_the_program_does(tmp_path, monkeypatch):
     ("size", "text"), [(0, "0 B"), (999, "999 B"), (12_345, "12.3 kB"), (2 * 10**16, "2e+04 TB")]
 )
 def test_sizes_are_short(size, text):
-    from engine3d.editor.folder_listing import Item
+    from engine3d.files.folder_listing import Item
 
     assert _size(Item("a", "/a", False, size, 0.0)) == text

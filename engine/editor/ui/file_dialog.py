@@ -11,9 +11,9 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
+from ...files.folder_listing import Item, Listing, list_folder
 from ...ui.imgui_painter import ImguiPainter
 from ..file_pictures import FilePictures
-from ..folder_listing import Item, Listing, list_folder
 from ..recent_files import RecentFiles
 
 _SIZE = 62, 30  # in heights of the font

@@ -13,29 +13,19 @@ from .warning_list import WarningList
 
 #: The kinds, in the order in which they are told -> what is said of one and of several materials.
 KINDS = {
-    "transparent": ("is transparent", "are transparent", "drawn opaque"),
     "transmission": (
         "is transparent like glass (transmission)",
         "are transparent like glass (transmission)",
         "drawn opaque",
     ),
-    "cut out": ("has its alpha cut off", "have their alpha cut off", "drawn whole"),
     "emission map": ("has an emission map", "have emission maps", "drawn without emission"),
-    "normal map": ("has a normal map", "have normal maps", "drawn without"),
-    "bump map": ("has a bump map", "have bump maps", "drawn without"),
     "displacement": ("has a displacement map", "have displacement maps", "drawn without"),
-    "physical": (
-        "has physically based values or maps",
-        "have physically based values or maps",
-        "drawn as a matt surface",
-    ),
     "anisotropy": ("is anisotropic", "are anisotropic", "drawn as if alike in all directions"),
     "occlusion": ("has an occlusion map", "have occlusion maps", "drawn without"),
     "reflection": ("has a reflection map", "have reflection maps", "drawn without"),
     "specular map": ("has a map of its highlight", "have maps of their highlights", "left out"),
     "ambient map": ("has an ambient map", "have ambient maps", "drawn without"),
     "decal": ("has a decal", "have decals", "drawn without"),
-    "unlit": ("is to be drawn unlit", "are to be drawn unlit", "lit like others"),
 }
 
 

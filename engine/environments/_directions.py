@@ -15,14 +15,13 @@ from numpy.typing import NDArray
 from .. import linalg
 
 Floats = NDArray[np.float64]
-#: Of the built-in pictures.
-WIDTH, HEIGHT = 1024, 512
 
 
-def directions() -> tuple[Floats, Floats, Floats]:
-    """Return x, y and z of the pixels' directions, which broadcast to (HEIGHT, WIDTH)."""
-    azimuth = ((np.arange(WIDTH) + 0.5) / WIDTH - 0.5) * (2 * math.pi)
-    elevation = (0.5 - (np.arange(HEIGHT) + 0.5) / HEIGHT) * math.pi
+def directions(height: int) -> tuple[Floats, Floats, Floats]:
+    """Return x, y and z of the pixels' directions, which broadcast to (height, 2 * height)."""
+    width = 2 * height
+    azimuth = ((np.arange(width) + 0.5) / width - 0.5) * (2 * math.pi)
+    elevation = (0.5 - (np.arange(height) + 0.5) / height) * math.pi
     level = linalg.cos(elevation)[:, np.newaxis]
     return (
         level * linalg.cos(azimuth),
@@ -82,8 +81,9 @@ def panel(
 
 
 def picture(channels: Sequence[Floats]) -> NDArray[np.float32]:
-    """Return channels that broadcast to (HEIGHT, WIDTH) as (HEIGHT, WIDTH, 3) float32."""
-    out = np.empty((HEIGHT, WIDTH, 3), np.float32)
+    """Return channels, which broadcast to the picture's size, as (H, W, 3) float32."""
+    shape = np.broadcast_shapes(*(channel.shape for channel in channels))
+    out = np.empty((*shape, 3), np.float32)
     for number, channel in enumerate(channels):
         out[:, :, number] = channel
     return out

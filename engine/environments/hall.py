@@ -53,7 +53,7 @@ def pixels() -> np.ndarray:
 
 
 def _meet_room() -> _Hit:
-    x, y, z = np.broadcast_arrays(*directions())
+    x, y, z = np.broadcast_arrays(*directions(512))
     tiny = 1e-9
     to_side = _HALF_WIDTH / np.maximum(np.abs(x), tiny)
     to_end = _HALF_LENGTH / np.maximum(np.abs(z), tiny)

@@ -18,7 +18,7 @@ _EDGE, _CORE = 0.99982, 0.99988
 
 def pixels() -> np.ndarray:
     """Return the picture, (H, W, 3) float32."""
-    rays = directions()
+    rays = directions(512)
     y, sun = rays[1], toward(_SUN, rays)
     up = np.clip(y, 0.0, 1.0)
     low = 1.0 - up

@@ -91,7 +91,7 @@ def distance(truth, picture):
     return float(flip.evaluate(truth, np.ascontiguousarray(picture), "LDR")[1])
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", list(names()))
 def test_picture_is_nearer_to_the_truth_than_any_other(name):
     pictures = np.load(PICTURES / f"{name}.npz")
     of_truth = TRUTHS.get(name, "spec")

@@ -98,7 +98,8 @@ cdef extern from "e3d.h" nogil:
         float matrix[6]
 
     ctypedef enum e3d_alpha_mode:
-        pass
+        E3D_ALPHA_MASK
+        E3D_ALPHA_BLEND
 
     ctypedef struct e3d_physical:
         float metallic
@@ -241,7 +242,7 @@ cdef extern from "e3d.h" nogil:
         int32_t unshadowed
 
     ctypedef enum e3d_mode:
-        pass
+        E3D_MODE_UNLIT
 
     ctypedef enum e3d_cull:
         E3D_CULL_NONE
@@ -305,6 +306,7 @@ cdef extern from "e3d.h" nogil:
         int32_t faces_only
 
     ctypedef enum e3d_output_kind:
+        E3D_OUTPUT_NDC_DEPTH
         E3D_OUTPUTS
 
     ctypedef struct e3d_targets:

@@ -110,9 +110,10 @@ class LightList:
             self._native.add_point_light(color, lux, (0.0, 0.0, 0.0), light.range, falloff)
 
     def placed(self) -> list[tuple]:
-        """Return the lights that show: number, light, and its direction towards the light and place.
+        """Return the lights that show: number, light, and the pair of where it shines from.
 
-        Unit directions of directional and spot lights, places of point and spot lights; else None.
+        That is the unit direction towards a directional or spot light, and the place of a point or
+        spot light; else None.
         """
         return [(number, *at) for number, at in sorted(self._at.items())]
 

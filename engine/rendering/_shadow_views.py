@@ -189,7 +189,10 @@ def directional_views(
     size, margin = light.shadow_map_size, light._shadow_margin()
     sides, downs, depths = (_extent(axis, bounds) for axis in axes)
     step = _rounded_up(depths[1] - depths[0], 1) / 32.0
-    first, last = (math.floor(depths[0] / step) - 1) * step, (math.ceil(depths[1] / step) + 1) * step
+    first, last = (
+        (math.floor(depths[0] / step) - 1) * step,
+        (math.ceil(depths[1] / step) + 1) * step,
+    )
     rise = _single(2.0 / (last - first))
     depth = rise, _single(-1.0 - first * rise)
     whole = _rounded_up(max(sides[1] - sides[0], downs[1] - downs[0]), 8)
@@ -292,4 +295,6 @@ def point_views(
     between = _between(light, nearest, farthest)
     if between is None:
         return None
-    return _local_views(light, position, [np.array(axes, np.float64) for axes in _FACES], 1.0, between)
+    return _local_views(
+        light, position, [np.array(axes, np.float64) for axes in _FACES], 1.0, between
+    )

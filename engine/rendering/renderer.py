@@ -374,7 +374,10 @@ class Renderer(Closed):
             view.rays if frame_options.has_backdrop else None,
         )
         self._turn.check()
-        drawn.shadow_maps, drawn.shadow_maps_drawn = self._shadow_maps.count, self._shadow_maps.drawn
+        drawn.shadow_maps, drawn.shadow_maps_drawn = (
+            self._shadow_maps.count,
+            self._shadow_maps.drawn,
+        )
         frame._seen = view, options.cull
         frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame

@@ -96,7 +96,9 @@ class NodeArrays(NativeGraph):
         for name, (dtype, row) in _COLUMNS.items():
             columns[name] = np.zeros((room, *row), dtype)
             columns[name][: self.count] = self.columns.get(name, columns[name])[: self.count]
-        self.attach(**{name: column for name, column in columns.items() if name not in _NOT_ATTACHED})
+        self.attach(
+            **{name: column for name, column in columns.items() if name not in _NOT_ATTACHED}
+        )
         self.columns = columns
 
 

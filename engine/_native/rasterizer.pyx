@@ -407,6 +407,7 @@ cdef class NativeRenderer:
         const double[:, ::1] clip_from_world not None,
         const double[:, ::1] view_from_world not None,
         eye,
+        int cull,
         int64_t number,
     ):
         """Draw the casters that were placed last into a square of ndc depths; see `render`."""
@@ -422,7 +423,7 @@ cdef class NativeRenderer:
         memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
         copy_vector(frame.eye, eye, 4)
         frame.view = number
-        frame.mode, frame.cull = E3D_MODE_UNLIT, E3D_CULL_NONE
+        frame.mode, frame.cull = E3D_MODE_UNLIT, <e3d_cull>cull
         frame.line_width = frame.point_size = frame.depth_far = frame.exposure = 1.0
         frame.faces_only = True
         frame.materials = draw_list.casting_materials

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._native.rasterizer import NativeRenderer
+from .._native.rasterizer import CULLS, NativeRenderer
 from .._native.scene_graph import SHOWN
+from ..choices import Cull
 from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.node_arrays import CASTS_NONE, NodeArrays
 from ..scene.scene import Scene
@@ -66,8 +67,8 @@ class ShadowMaps:
         self._kept: dict[int, _LightMaps] = {}
         self.drawn = self.count = 0
 
-    def update(self, scene: Scene, view: View) -> None:
-        """Give the lights their maps, for a frame with lit surfaces.
+    def update(self, scene: Scene, view: View, cull: Cull) -> None:
+        """Give the lights their maps, for a frame with lit surfaces that leaves out these faces.
 
         Raises
         ------
@@ -83,7 +84,7 @@ class ShadowMaps:
         if not lights:
             return
         bounds = scene.bounds
-        moment = scene._arrays, scene._arrays.updated, self._draw_list.renewals
+        moment = scene._arrays, scene._arrays.updated, self._draw_list.renewals, CULLS[cull]
         for number, light, pose in lights:
             light.check()
             views = _views_of(light, pose, bounds, view)
@@ -116,15 +117,15 @@ class ShadowMaps:
         clip = seen.clip_from_world.tobytes()
         if clip == drawn.clip and moment == drawn.moment:
             return
-        arrays, _, renewals = moment
+        arrays, _, renewals, cull = moment
         selection = np.empty((arrays.count + 63) // 64, np.uint64)
         arrays.select(seen.clip_from_world, 1.0, False, selection)
-        casters = arrays, renewals, _casters(arrays, selection)
+        casters = arrays, renewals, cull, _casters(arrays, selection)
         if clip != drawn.clip or casters != drawn.casters:
             drawn.clip, drawn.casters = b"", None  # for if anything below raises
             native = self._draw_list.native
             native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
-            self._native.draw_shadow_map(native, depths, *seen, id(drawn))
+            self._native.draw_shadow_map(native, depths, *seen, cull, id(drawn))
             self.drawn += 1
         drawn.clip, drawn.moment, drawn.casters = clip, moment, casters
 

@@ -349,7 +349,7 @@ class Renderer(Closed):
                 options.culling == "frustum",
             )
             if options.mode == "lit" and "color" in frame.outputs:
-                self._shadow_maps.update(scene, view)
+                self._shadow_maps.update(scene, view, options.cull)
                 self._turn.check()
             near, far = 0.0, 1.0
             if options.mode == "depth":

@@ -291,7 +291,7 @@ class SpotLight(CastsShadows):
         self.check()
 
     def check(self) -> None:
-        """Raise unless the inner cone is narrower than the outer one, and the shadow fits its map."""
+        """Raise unless the inner cone is narrower than the outer, and the shadow fits its map."""
         if not self.inner_cone_angle < self.outer_cone_angle:
             raise InvalidArgumentError(
                 f"inner_cone_angle must be less than outer_cone_angle, {self.outer_cone_angle:g}, "

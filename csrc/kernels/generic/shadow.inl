@@ -133,25 +133,66 @@ static ALWAYS_INLINE vi32 shadow_tap(const e3d_light_shadow *shadow, vi32 base, 
     return v_addi(v_muli(top, v_subi(all, fy)), v_muli(bottom, fy));
 }
 
-/* A row of taps that are a texel apart: they share the comparisons between them. */
-static ALWAYS_INLINE vi32 shadow_row(const e3d_light_shadow *shadow, vi32 at, vi32 fx, vf32 depth)
+/* Weights of four columns or rows of comparisons: of all of a block's, or of those on one side of a larger block. */
+typedef struct shadow_weights {
+    vi32 of[4];
+} shadow_weights;
+
+/* The first of them and the last share a tap's weight; those between have all of it. */
+static ALWAYS_INLINE shadow_weights shadow_block_weights(vi32 fraction)
 {
-    vi32 sum = shadow_compare(shadow->depths, at, depth, v_subi(v_seti(256), fx));
-    for (int32_t k = 1; k < shadow->taps; k++)
-        sum = v_addi(sum, shadow_compare(shadow->depths, v_addi(at, v_seti(k)), depth, v_seti(256)));
-    return v_addi(sum, shadow_compare(shadow->depths, v_addi(at, v_seti(shadow->taps)), depth, fx));
+    vi32 all = v_seti(256);
+    return (shadow_weights){{v_subi(all, fraction), all, all, fraction}};
 }
 
-static ALWAYS_INLINE vi32 shadow_block(const e3d_light_shadow *shadow, vi32 base, vi32 x, vi32 y, vf32 depth)
+/* Of six columns or rows the first three, without the fourth, or the last three, without the one before them. */
+static ALWAYS_INLINE shadow_weights shadow_half_weights(vi32 fraction, int last)
 {
-    vi32 fx = v_andi(x, v_seti(255)), fy = v_andi(y, v_seti(255)), size = v_seti(shadow->size);
-    vi32 at = v_addi(v_addi(base, v_muli(v_sra(y, 8), size)), v_sra(x, 8));
-    vi32 sum = v_muli(shadow_row(shadow, at, fx, depth), v_subi(v_seti(256), fy));
-    for (int32_t k = 1; k < shadow->taps; k++) {
-        at = v_addi(at, size);
-        sum = v_addi(sum, v_shl(shadow_row(shadow, at, fx, depth), 8));
+    vi32 all = v_seti(256), none = v_seti(0);
+    return last ? (shadow_weights){{none, all, all, fraction}} : (shadow_weights){{v_subi(all, fraction), all, all, none}};
+}
+
+/* The weights of those of sixteen comparisons whose bits are set. */
+static ALWAYS_INLINE vi32 shadow_weigh(vi32 bits, const shadow_weights *x, const shadow_weights *y)
+{
+    vi32 sum = v_seti(0), one = v_seti(1);
+    for (int r = 0; r < 4; r++) {
+        vi32 row = v_seti(0);
+        for (int c = 0; c < 4; c++, bits = v_shr(bits, 1))
+            row = v_addi(row, v_andi(v_subi(v_seti(0), v_andi(bits, one)), x->of[c]));
+        sum = v_addi(sum, v_muli(row, y->of[r]));
     }
-    return v_addi(sum, v_muli(shadow_row(shadow, v_addi(at, size), fx, depth), fy));
+    return sum;
+}
+
+/* Taps that are a texel apart share the comparisons between them: 3 x 3 are sixteen comparisons. */
+static ALWAYS_INLINE vi32 shadow_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+{
+    vi32 bits = v_ge16(shadow->depths, shadow->size, at, depth), all = v_seti(0xFFFF), low = v_seti(255);
+    vmask none = v_eqi(bits, v_seti(0)), whole = v_eqi(bits, all);
+    if (!v_any(v_mnot(v_mor(none, whole)))) /* as mostly */
+        return v_seli(whole, v_seti(65536 * 9), v_seti(0));
+    shadow_weights across = shadow_block_weights(v_andi(x, low)), down = shadow_block_weights(v_andi(y, low));
+    return shadow_weigh(bits, &across, &down);
+}
+
+/* 5 x 5 taps: four such blocks, which overlap. */
+static ALWAYS_INLINE vi32 shadow_large_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+{
+    vi32 bits[4], every = v_seti(0xFFFF), some = v_seti(0), low = v_seti(255), sum = v_seti(0);
+    for (int k = 0; k < 4; k++) {
+        bits[k] = v_ge16(shadow->depths, shadow->size, v_addi(at, v_seti(2 * (k & 1) + 2 * (k >> 1) * shadow->size)), depth);
+        every = v_andi(every, bits[k]);
+        some = v_ori(some, bits[k]);
+    }
+    vmask none = v_eqi(some, v_seti(0)), whole = v_eqi(every, v_seti(0xFFFF));
+    if (!v_any(v_mnot(v_mor(none, whole))))
+        return v_seli(whole, v_seti(65536 * 25), v_seti(0));
+    for (int k = 0; k < 4; k++) {
+        shadow_weights across = shadow_half_weights(v_andi(x, low), k & 1), down = shadow_half_weights(v_andi(y, low), k >> 1);
+        sum = v_addi(sum, shadow_weigh(bits[k], &across, &down));
+    }
+    return sum;
 }
 
 /* R93: the column or row of the first tap in 1/256 texel, which lanes outside of the maps have somewhere inside. */
@@ -167,8 +208,11 @@ static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_shadow *shadow, const sha
     int32_t step = shadow->step, across = step * (shadow->taps - 1);
     vi32 x = shadow_first(shadow, place->x, across), y = shadow_first(shadow, place->y, across), sum = v_seti(0);
     vi32 base = v_muli(place->map, v_seti(shadow->size * shadow->size));
-    if (step == 256)
-        sum = shadow_block(shadow, base, x, y, place->depth);
+    vi32 at = v_addi(v_addi(base, v_muli(v_sra(y, 8), v_seti(shadow->size))), v_sra(x, 8));
+    if (step == 256 && shadow->taps == 3)
+        sum = shadow_block(shadow, at, x, y, place->depth);
+    else if (step == 256 && shadow->taps == 5)
+        sum = shadow_large_block(shadow, at, x, y, place->depth);
     else
         for (int32_t t = 0; t < shadow->taps * shadow->taps; t++) {
             vi32 right = v_seti(step * (t % shadow->taps)), down = v_seti(step * (t / shadow->taps));

@@ -21,6 +21,7 @@ class Peer:
 
     split = False  # a frame is delivered as an array
     MODES = {"lit", "unlit", "lights", "deferred", "depth", "id", "pbr", "blend", "glass", "skin"}
+    MODES |= {"shadow"}
 
     def __init__(self, scene):
         self.source = scene
@@ -30,8 +31,10 @@ class Peer:
         made = {}
         nodes = [self.scene.add(drawable(draw, scene.mode, made)) for draw in scene.draws]
         self.crowd = Crowd(self.scene, nodes, scene.draws) if scene.mode == "skin" else None
-        for light, pose in lights(scene):
-            self.scene.add(light, translation=pose)
+        self.lights = [light for light, _ in lights(scene)]
+        for light, (_, place) in zip(self.lights, lights(scene), strict=True):
+            self.scene.add(light, translation=place)
+        self.frames = 0
         self.camera = e3d.Camera(np.asarray(scene.proj, np.float64))
         self.renderer = e3d.Renderer(scene.width, scene.height, color_space="linear")
 
@@ -42,6 +45,8 @@ class Peer:
         source = self.source
         if self.crowd is not None:
             self.crowd.show(source.frame)
+        if source.mode == "shadow":
+            self.turn_light()
         pose = linalg.inverse(np.asarray(source.view, np.float64))
         self.frame = self.renderer.render(
             self.scene,
@@ -51,6 +56,12 @@ class Peer:
         )
         if self.output == "instance_id":
             np.add(self.frame.instance_id, 1, out=self.frame.instance_id)  # 0 is the background
+
+    def turn_light(self):
+        """Turn the light by a hair, so that its map is drawn anew in every frame."""
+        self.frames += 1
+        hair = 1e-6 * np.array([self.frames % 5 - 2, 0.0, self.frames % 7 - 3])
+        self.lights[0].direction = hair - np.asarray(self.source.light_dir, np.float64)
 
     def read(self):
         pixels = getattr(self.frame, self.output)
@@ -153,10 +164,14 @@ def lights(scene):
                 color=color, intensity=1.0, range=float(radius), falloff="window"
             )
             yield light, (float(x), float(y), float(z))
-    elif scene.mode in ("lit", "skin", "glass"):
+    elif scene.mode in ("lit", "skin", "glass", "shadow"):
         strength = 1.0 - float(scene.ambient)
         direction = tuple(-float(c) for c in scene.light_dir)
-        yield e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0), None
+        light = e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0)
+        if scene.mode == "shadow":
+            light.shadow, light.shadow_map_size = True, int(scene.shadow.size)
+            light.shadow_cascades = 1  # one map, as the description has it
+        yield light, None
 
 
 def physical_lights(scene):

@@ -47,6 +47,9 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_LEAST_ROUGHNESS 0.045f
 #define E3D_LEAST_SHEEN_ROUGHNESS 0.07f
 #define E3D_LEAST_COSINE 0x1p-20f
+/* Of shadow maps: how far samples move towards the light so that none lies in its own shadow. */
+#define E3D_SHADOW_CORNER 0x1.6a09e6p+0f /* the root of 2: comparisons are farthest from the sample in the corners */
+#define E3D_SHADOW_SLACK 0.25f           /* for normals that are not those of the face */
 #define E3D_OVER_PI 0x1.45f306p-2f  /* 1 / pi */
 #define E3D_OVER_2PI 0x1.45f306p-3f /* 1 / (2 pi) */
 #define E3D_OVER_21 0x1.861862p-5f  /* 1 / 21 */

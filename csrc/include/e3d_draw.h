@@ -33,6 +33,7 @@ typedef struct e3d_draw {
     /* E3D_POSE_NODES, in place of world_from_node, node_id and first_instance: */
     const double *node_worlds;       /* (instances, 12) world from node: three rows of four */
     const int32_t *node_ids;         /* (instances,) what object_id outputs */
+    int32_t unshadowed;              /* not 0: no shadow falls on it */
 } e3d_draw;
 
 #ifdef __cplusplus

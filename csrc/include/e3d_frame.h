@@ -93,6 +93,9 @@ typedef struct e3d_frame {
     int32_t transparent_outputs; /* outputs but colour are of the nearest surface, blended or not; else of the nearest that isn't blended */
     e3d_culling culling;
     const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
+    const e3d_shadow_map *shadow_maps; /* of all lights */
+    int32_t shadow_map_count;
+    int32_t faces_only;          /* neither lines nor points are drawn */
 } e3d_frame;
 
 #ifdef __cplusplus

@@ -16,6 +16,31 @@ typedef enum e3d_light_kind { E3D_LIGHT_DIRECTIONAL = 0, E3D_LIGHT_POINT, E3D_LI
     X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) X(E3D_FALLOFF_WINDOW, window) X(E3D_FALLOFF_GLTF, gltf)
 typedef enum e3d_falloff { E3D_EACH_FALLOFF(E3D_ENUMERATOR) } e3d_falloff;
 
+/* What keeps a light from a surface: nothing, or what a map shows that was drawn from the light. */
+typedef enum e3d_shadow_kind { E3D_SHADOW_NONE = 0, E3D_SHADOW_MAP } e3d_shadow_kind;
+
+/* Where a map is: its column is x + scale times how far to the light's right a place is, its row y + scale times how far down, both
+ * over how far ahead it is where the light is a point or spot light (R91). */
+typedef struct e3d_shadow_map {
+    float scale, x, y;
+    float texel; /* 1 over scale: how wide a texel is, at distance 1 of a point or spot light */
+} e3d_shadow_map;
+
+/* Of kind E3D_SHADOW_MAP all of it: directional lights have one map or several, the finest first; point lights the six faces of a
+ * cube, of which all have the place of the first; spot lights one. */
+typedef struct e3d_light_shadow {
+    e3d_shadow_kind kind;
+    int32_t first, count;    /* of e3d_frame.shadow_maps */
+    int32_t size, taps;      /* texels and comparisons a side: 1, 3 or 5 */
+    float bias;              /* is added to the depths that are compared */
+    float normal_bias;       /* how far samples move along their normals, in the world */
+    int32_t step;            /* 1/256 texel, from comparison to comparison */
+    float margin;            /* texels at a map's sides where no sample is looked up, as the comparisons around it leave the map */
+    float axes[3][3];        /* directional, spot: unit vectors to the right, down and ahead, as the light shines */
+    float depth[2];          /* ndc depth of what is so far ahead: depth[0]*ahead + depth[1], or depth[0] + depth[1]/ahead */
+    const float *depths;     /* (count, size, size) what the maps show: the output ndc_depth */
+} e3d_light_shadow;
+
 typedef struct e3d_light {
     e3d_light_kind kind;
     e3d_falloff falloff;
@@ -26,6 +51,7 @@ typedef struct e3d_light {
                           * (not with E3D_FALLOFF_WINDOW) */
     float lux[3];        /* what physically based materials take for color: lux, of the others candela */
     float cone[2];       /* spot: the cosine of the outer angle, and 1 over what the inner one's is more */
+    e3d_light_shadow shadow; /* lit surfaces lie in it that receive shadows */
 } e3d_light;
 
 #ifdef __cplusplus

@@ -35,6 +35,9 @@ enum {
     E3D_NODE_STATIC = 64  /* the caller says that it stays where it is */
 };
 
+/* What a node has nothing to do with. */
+enum { E3D_NODE_CASTS_NONE = 1, E3D_NODE_RECEIVES_NONE = 2 };
+
 typedef struct e3d_graph {
     int32_t count;             /* slots in use, removed nodes included */
     int32_t *parent;           /* slots; -1: none */
@@ -154,9 +157,11 @@ typedef struct e3d_node_rows {
     const int32_t *object, *id;
     const double *world;
     const int32_t *anchor; /* as in e3d_graph */
+    const uint8_t *unshadowed; /* E3D_NODE_CASTS_NONE, E3D_NODE_RECEIVES_NONE; NULL: neither of any */
+    int32_t casting;       /* not 0: only what casts shadows is drawn */
 } e3d_node_rows;
 
-/* The nodes of one object. */
+/* The nodes of one object that receive shadows, or those that don't. */
 typedef struct e3d_batch {
     int32_t nodes;      /* that are drawn */
     int32_t draw;       /* of all of them; -1: none yet */
@@ -173,7 +178,7 @@ typedef struct e3d_draw_list {
     double *worlds;   /* (nodes, 12) and (nodes,): of batched nodes, batch after batch */
     int32_t *ids, *slots;
     int32_t node_room;
-    e3d_batch *batches; /* of each object */
+    e3d_batch *batches; /* two of each object: receivers of shadows, the others */
     int32_t batch_room;
     uint64_t *bits;   /* scratch */
     int32_t words;

@@ -98,7 +98,8 @@ cdef extern from "e3d.h" nogil:
         float matrix[6]
 
     ctypedef enum e3d_alpha_mode:
-        pass
+        E3D_ALPHA_MASK
+        E3D_ALPHA_BLEND
 
     ctypedef struct e3d_physical:
         float metallic
@@ -183,6 +184,30 @@ cdef extern from "e3d.h" nogil:
     ctypedef enum e3d_falloff:
         pass
 
+    ctypedef enum e3d_shadow_kind:
+        E3D_SHADOW_NONE
+        E3D_SHADOW_MAP
+
+    ctypedef struct e3d_shadow_map:
+        float scale
+        float x
+        float y
+        float texel
+
+    ctypedef struct e3d_light_shadow:
+        e3d_shadow_kind kind
+        int32_t first
+        int32_t count
+        int32_t size
+        int32_t taps
+        float bias
+        float normal_bias
+        int32_t step
+        float margin
+        float axes[3][3]
+        float depth[2]
+        const float *depths
+
     ctypedef struct e3d_light:
         e3d_light_kind kind
         e3d_falloff falloff
@@ -192,6 +217,7 @@ cdef extern from "e3d.h" nogil:
         float range
         float cone[2]
         float lux[3]
+        e3d_light_shadow shadow
 
     ctypedef enum e3d_pose_kind:
         E3D_POSE_NONE
@@ -213,9 +239,10 @@ cdef extern from "e3d.h" nogil:
         const int32_t *instance_ids
         const double *node_worlds
         const int32_t *node_ids
+        int32_t unshadowed
 
     ctypedef enum e3d_mode:
-        pass
+        E3D_MODE_UNLIT
 
     ctypedef enum e3d_cull:
         E3D_CULL_NONE
@@ -274,8 +301,12 @@ cdef extern from "e3d.h" nogil:
         int32_t order_count
         e3d_culling culling
         const double *frozen_clip_from_world
+        const e3d_shadow_map *shadow_maps
+        int32_t shadow_map_count
+        int32_t faces_only
 
     ctypedef enum e3d_output_kind:
+        E3D_OUTPUT_NDC_DEPTH
         E3D_OUTPUTS
 
     ctypedef struct e3d_targets:

@@ -2,7 +2,7 @@
 
 from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
 
-from e3d cimport e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment_light, e3d_filter, e3d_light, e3d_wrap
+from e3d cimport e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment_light, e3d_filter, e3d_light, e3d_shadow_map, e3d_wrap
 from e3d_clusters cimport e3d_cluster
 
 
@@ -142,6 +142,7 @@ cdef extern from "kernels/kernels.h" nogil:
         float eye[4]
         float exposure
         const void *environment
+        const e3d_shadow_map *shadows
 
     ctypedef struct e3d_pixel_rows:
         char *to

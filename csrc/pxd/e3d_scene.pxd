@@ -138,6 +138,8 @@ cdef extern from "e3d_scene.h" nogil:
         const int32_t *id
         const double *world
         const int32_t *anchor
+        const uint8_t *unshadowed
+        int32_t casting
 
     ctypedef struct e3d_draw_list:
         e3d_draw *draws

@@ -138,9 +138,9 @@ static e3d_status build_instance(ref_scene *scene, const e3d_draw *draw, int32_t
     const e3d_mesh_desc *mesh = e3d_mesh_view(draw->mesh);
     int64_t before = scene->pieces.count + scene->edges.count;
     status = build_primitives(scene, REF_FACE, mesh->faces_count);
-    if (status == E3D_OK)
+    if (status == E3D_OK && !scene->frame->faces_only)
         status = build_primitives(scene, REF_LINE, mesh->lines_count);
-    if (status == E3D_OK)
+    if (status == E3D_OK && !scene->frame->faces_only)
         status = build_primitives(scene, REF_POINT, mesh->points_count);
     if (status == E3D_OK && with_edges)
         status = build_primitives(scene, REF_EDGE, mesh->edges_count);

@@ -2,7 +2,7 @@
  *
  * In:  a surface, the frame's lights.
  * Out: its linear colour, not yet clamped.
- * Rules: R31, and the attenuations there. A light that is out of range adds nothing at all.
+ * Rules: R31, and the attenuations there; R90. A light that is out of range adds nothing at all.
  */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
@@ -83,6 +83,8 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
             continue;
         float cosine = ref_dot3(surface->world_normal, l);
         cosine = cosine > 0.0f ? cosine : 0.0f;
+        if (cosine > 0.0f && light->shadow.kind != E3D_SHADOW_NONE)
+            attenuation = attenuation * ref_light_reached(frame, n, surface, l);
         float e = attenuation * cosine;
         float k = shiny && cosine > 0.0f ? highlight(frame, surface, l, material->shininess) : 0.0f;
         for (int c = 0; c < 3; c++) {

@@ -95,8 +95,9 @@ static int has_sheen(const e3d_material *m) { return m->physical.sheen_color[0] 
                                                      m->physical.sheen_color[2] != 0.0f; }
 
 /* R51 */
-static void add_light(const e3d_light *light, const ref_surface *s, const sample *at, sums *out)
+static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, const sample *at, sums *out)
 {
+    const e3d_light *light = &frame->lights[n];
     const e3d_material *material = s->piece->primitive.material;
     float l[3], attenuation;
     if (!ref_light_reach(light, s->world_position, 1, l, &attenuation))
@@ -104,6 +105,12 @@ static void add_light(const e3d_light *light, const ref_surface *s, const sample
     float nl = ref_dot3(at->base.normal, l);
     if (!(nl > 0.0f))
         return;
+    if (light->shadow.kind != E3D_SHADOW_NONE) {
+        float reached = ref_light_reached(frame, n, s, l);
+        if (!(reached > 0.0f))
+            return;
+        attenuation = attenuation * reached;
+    }
     half_vector h;
     for (int c = 0; c < 3; c++)
         h.h[c] = l[c] + at->view[c];
@@ -211,7 +218,7 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
     sums lights = {.direct = {0.0f}};
     float irradiance[3], indirect[3];
     for (int32_t n = 0; n < frame->light_count; n++)
-        add_light(&frame->lights[n], surface, &at, &lights);
+        add_light(frame, n, surface, &at, &lights);
     find_irradiance(frame, surface->world_normal, irradiance);
     find_indirect(frame, surface, &at, irradiance, indirect);
     for (int c = 0; c < 3; c++)

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "core/shadows.h"
 #include "reference/float_environment.h"
 #include "reference/stages.h"
 
@@ -40,6 +41,8 @@ static e3d_status check_frame(const e3d_frame *frame, const e3d_targets *targets
     if (frame->samples_axis != 1 && frame->samples_axis != 2 && frame->samples_axis != 4)
         return E3D_INVALID_ARGUMENT;
     if (!size_is_valid(frame->line_width) || !size_is_valid(frame->point_size))
+        return E3D_INVALID_ARGUMENT;
+    if (!e3d_shadows_are_valid(frame))
         return E3D_INVALID_ARGUMENT;
     int64_t primitives = 0;
     for (int32_t d = 0; d < frame->draw_count; d++) {

@@ -70,6 +70,10 @@ int ref_light_reach(const e3d_light *light, const float p[3], int by_product, fl
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
+/* shadow.c */
+/* R90: how much of light n reaches a surface from direction l. */
+float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *surface, const float l[3]);
+
 /* physical.c */
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 

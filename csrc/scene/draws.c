@@ -124,14 +124,20 @@ static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, co
     return 1;
 }
 
-static int append_node(e3d_draw_list *list, const e3d_placed *object, const double world[12], int32_t id,
-                       const e3d_view_volume *view)
+/* A node as it is drawn. */
+typedef struct drawn_node {
+    const double *world; /* three rows of four */
+    int32_t id, unshadowed;
+} drawn_node;
+
+static int append_node(e3d_draw_list *list, const e3d_placed *object, const drawn_node *node, const e3d_view_volume *view)
 {
     static const double LAST_ROW[4] = {0, 0, 0, 1};
     e3d_draw draw = object->draw;
-    memcpy(draw.world_from_node, world, 12 * sizeof *world);
+    memcpy(draw.world_from_node, node->world, 12 * sizeof *node->world);
     memcpy(draw.world_from_node + 12, LAST_ROW, sizeof LAST_ROW);
-    draw.node_id = id;
+    draw.node_id = node->id;
+    draw.unshadowed = node->unshadowed;
     if (view && object->instances)
         return select_instances(list, view, object, draw.world_from_node) && append_runs(list, &draw);
     e3d_draw *to = append(list);
@@ -143,7 +149,7 @@ static int append_node(e3d_draw_list *list, const e3d_placed *object, const doub
 /* ---- batches ---- */
 
 /* Finds the one draw for all nodes of a mesh; it is made when the first of them is met. */
-static int begin_batch(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch)
+static int begin_batch(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, int32_t unshadowed)
 {
     e3d_draw *draw = append(list);
     if (!draw)
@@ -153,25 +159,25 @@ static int begin_batch(e3d_draw_list *list, const e3d_placed *object, e3d_batch 
     draw->instances = batch->nodes;
     draw->node_worlds = list->worlds + 12 * (size_t)batch->first;
     draw->node_ids = list->ids + batch->first;
+    draw->unshadowed = unshadowed;
     batch->draw = list->count - 1;
     return 1;
 }
 
-static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, const double world[12],
-                         int32_t id)
+static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, const drawn_node *node)
 {
-    if (batch->draw < 0 && !begin_batch(list, object, batch))
+    if (batch->draw < 0 && !begin_batch(list, object, batch, node->unshadowed))
         return 0;
-    memcpy(list->worlds + 12 * (size_t)batch->end, world, 12 * sizeof *world);
-    list->ids[batch->end++] = id;
+    memcpy(list->worlds + 12 * (size_t)batch->end, node->world, 12 * sizeof *node->world);
+    list->ids[batch->end++] = node->id;
     return take_turn(list, batch->draw);
 }
 
-/* Finds where the rows of each object's nodes start. */
-static void lay_out_batches(e3d_draw_list *list, int32_t objects)
+/* Finds where the rows of each batch's nodes start. */
+static void lay_out_batches(e3d_draw_list *list, int32_t batches)
 {
     int32_t first = 0;
-    for (int32_t i = 0; i < objects; i++) {
+    for (int32_t i = 0; i < batches; i++) {
         list->batches[i].first = list->batches[i].end = first;
         first += list->batches[i].nodes;
     }
@@ -179,12 +185,12 @@ static void lay_out_batches(e3d_draw_list *list, int32_t objects)
 
 /* ---- nodes ---- */
 
-static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t objects)
+static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t batches)
 {
-    if (objects > list->batch_room) {
-        if (!reserve(&list->batches, objects, sizeof *list->batches))
+    if (batches > list->batch_room) {
+        if (!reserve(&list->batches, batches, sizeof *list->batches))
             return 0;
-        list->batch_room = objects;
+        list->batch_room = batches;
     }
     if (slots > list->node_room) {
         if (!reserve(&list->worlds, slots, 12 * sizeof *list->worlds) ||
@@ -215,7 +221,22 @@ e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects
     return totals;
 }
 
-/* Lists the slots that are drawn, and counts them for each object. */
+static int32_t receives_none(const e3d_node_rows *rows, int32_t slot)
+{
+    return rows->unshadowed && rows->unshadowed[slot] & E3D_NODE_RECEIVES_NONE ? 1 : 0;
+}
+
+static int casts_none(const e3d_node_rows *rows, int32_t slot)
+{
+    return rows->casting && rows->unshadowed && rows->unshadowed[slot] & E3D_NODE_CASTS_NONE;
+}
+
+static e3d_batch *batch_of(const e3d_draw_list *list, const e3d_node_rows *rows, int32_t slot)
+{
+    return &list->batches[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
+}
+
+/* Lists the slots that are drawn, and counts them for each batch. */
 static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
                        const e3d_placed *objects, int32_t object_count)
 {
@@ -225,9 +246,9 @@ static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uin
                 slot |= 63; /* none are left in this word */
             continue;
         }
-        if (draws_at(rows, slot, objects, object_count)) {
+        if (draws_at(rows, slot, objects, object_count) && !casts_none(rows, slot)) {
             list->slots[list->nodes++] = slot;
-            list->batches[rows->object[slot]].nodes++;
+            batch_of(list, rows, slot)->nodes++;
         }
     }
 }
@@ -237,20 +258,19 @@ int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64
 {
     list->count = list->order_count = list->nodes = 0;
     list->boxes_tested = 0;
-    if (!reserve_all(list, rows->count, object_count))
+    if (object_count > INT32_MAX / 2 || !reserve_all(list, rows->count, 2 * object_count))
         return 0;
-    for (int32_t i = 0; i < object_count; i++)
+    for (int32_t i = 0; i < 2 * object_count; i++)
         list->batches[i] = (e3d_batch){.draw = -1};
     list_slots(list, rows, selection, objects, object_count);
-    lay_out_batches(list, object_count);
+    lay_out_batches(list, 2 * object_count);
     for (int32_t i = 0; i < list->nodes; i++) {
-        int32_t slot = list->slots[i], number = rows->object[slot];
-        const e3d_placed *object = &objects[number];
-        const double *world = e3d_placing_pose(rows->world, rows->anchor, slot);
-        e3d_batch *of = &list->batches[number];
+        int32_t slot = list->slots[i];
+        const e3d_placed *object = &objects[rows->object[slot]];
+        const drawn_node node = {e3d_placing_pose(rows->world, rows->anchor, slot), rows->id[slot], receives_none(rows, slot)};
+        e3d_batch *of = batch_of(list, rows, slot);
         int together = batch && of->nodes > 1 && object->draw.pose_kind == E3D_POSE_NONE;
-        if (!(together ? append_member(list, object, of, world, rows->id[slot])
-                       : append_node(list, object, world, rows->id[slot], view)))
+        if (!(together ? append_member(list, object, of, &node) : append_node(list, object, &node, view)))
             return 0;
     }
     return 1;

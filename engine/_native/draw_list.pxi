@@ -27,14 +27,40 @@ cdef void *resized(void *items, size_t count, size_t size) except NULL:
     return moved
 
 
+cdef int set_rows(e3d_node_rows *rows, int32_t count, dict columns, const uint64_t[::1] selection) except -1:
+    """Point at the arrays of the first nodes, which their holder keeps alive."""
+    cdef const uint8_t[::1] flags = columns["flags"], unshadowed = columns["unshadowed"]
+    cdef const int32_t[::1] object = columns["object"], id = columns["object_id"], anchor = columns["anchor"]
+    cdef const double[:, ::1] world = columns["world"]
+    require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0], anchor.shape[0],
+                              unshadowed.shape[0]),
+            "the arrays of nodes are too short")
+    require(world.shape[1] == 12, "world must be (nodes, 12)")
+    require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
+    memset(rows, 0, sizeof(e3d_node_rows))
+    if count:
+        rows.count = count
+        rows.flags, rows.object, rows.id, rows.world = &flags[0], &object[0], &id[0], &world[0, 0]
+        rows.anchor, rows.unshadowed = &anchor[0], &unshadowed[0]
+    return 0
+
+
 cdef class NativeDrawList:
-    """What a frame draws: objects, drawn wherever nodes place them, materials and lights."""
+    """What a frame draws: objects, drawn wherever nodes place them, materials and lights.
+
+    Besides it has what a map of shadows draws, after `place_casters`, and the maps of the lights.
+    """
 
     cdef e3d_placed *objects
-    cdef e3d_draw_list placed
+    cdef e3d_draw_list placed, casting
     cdef e3d_totals totals
     cdef e3d_material *materials
+    cdef e3d_material *casting_materials
     cdef e3d_light *lights
+    cdef e3d_shadow_map *shadow_maps
+    cdef int shadow_map_count, shadow_map_capacity
+    cdef bint casts_others  # the materials are others than those that maps are drawn with
+    cdef list depths  # of the maps
     cdef readonly int object_count, material_count, light_count
     cdef int object_capacity, material_capacity, light_capacity
     cdef dict borrowed, trees  # by the number of the object
@@ -44,22 +70,29 @@ cdef class NativeDrawList:
     def __cinit__(self):
         self.borrowed, self.trees = {}, {}
         self.textures = {}
+        self.depths = []
 
     def __dealloc__(self):
         free(self.objects)
         e3d_draw_list_free(&self.placed)
+        e3d_draw_list_free(&self.casting)
         free(self.materials)
+        free(self.casting_materials)
+        free(self.shadow_maps)
         free(self.lights)
 
     def clear(self):
         """Forget objects, draws, materials and lights, and let go of their arrays."""
         self.object_count = self.material_count = self.light_count = 0
+        self.casts_others = True
+        self.clear_shadows()
         self.forget_places()
         self.borrowed, self.trees = {}, {}
         self.textures = {}
 
     cdef void forget_places(self) noexcept:
         self.placed.count = self.placed.order_count = self.placed.nodes = 0
+        self.casting.count = self.casting.order_count = self.casting.nodes = 0
 
     def clear_lights(self):
         self.light_count = 0
@@ -100,11 +133,7 @@ cdef class NativeDrawList:
     def place(
         self,
         int32_t count,
-        const uint8_t[::1] flags not None,
-        const int32_t[::1] object not None,
-        const int32_t[::1] id not None,
-        const double[:, ::1] world not None,
-        const int32_t[::1] anchor not None,
+        dict columns not None,
         const uint64_t[::1] selection,
         const double[:, ::1] clip_from_world,
         double widen,
@@ -121,18 +150,7 @@ cdef class NativeDrawList:
         cdef e3d_node_rows rows
         cdef e3d_view_volume volume
         cdef const e3d_view_volume *view = NULL
-        cdef const uint64_t *bits = NULL
-        require(0 <= count <= min(flags.shape[0], object.shape[0], id.shape[0], world.shape[0], anchor.shape[0]),
-                "the arrays of nodes are too short")
-        require(world.shape[1] == 12, "world must be (nodes, 12)")
-        require(selection is None or 64 * selection.shape[0] >= count, "a selection has a bit a node")
-        memset(&rows, 0, sizeof(rows))
-        if count:
-            rows.count = count
-            rows.flags, rows.object, rows.id, rows.world = &flags[0], &object[0], &id[0], &world[0, 0]
-            rows.anchor = &anchor[0]
-            if selection is not None:
-                bits = &selection[0]
+        set_rows(&rows, count, columns, selection)
         if clip_from_world is not None:
             require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
             memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
@@ -140,9 +158,49 @@ cdef class NativeDrawList:
             view = &volume
         if moved:
             self.totals = e3d_graph_totals(&rows, self.objects, self.object_count)
-        if not e3d_graph_draws(&self.placed, &rows, bits, view, self.objects, self.object_count,
-                               batch):
+        self.list_draws(&self.placed, &rows, selection, view, batch)
+
+    def place_casters(
+        self,
+        int32_t count,
+        dict columns not None,
+        const uint64_t[::1] selection not None,
+        const double[:, ::1] clip_from_world not None,
+    ):
+        """List what a map of shadows draws: of the nodes whose bit is set those that cast shadows."""
+        cdef e3d_node_rows rows
+        cdef e3d_view_volume volume
+        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+        memcpy(volume.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+        volume.widen, volume.flat = 1.0, False
+        set_rows(&rows, count, columns, selection)
+        rows.casting = True
+        self.list_draws(&self.casting, &rows, selection, &volume, True)
+        self.find_casting_materials()
+
+    cdef int list_draws(self, e3d_draw_list *placed, const e3d_node_rows *rows, const uint64_t[::1] selection,
+                        const e3d_view_volume *view, bint batch) except -1:
+        cdef const uint64_t *bits = NULL
+        if selection is not None and rows.count:
+            bits = &selection[0]
+        if not e3d_graph_draws(placed, rows, bits, view, self.objects, self.object_count, batch):
             raise OutOfMemoryError("no memory for the list of what to draw")
+        return 0
+
+    cdef int find_casting_materials(self) except -1:
+        """Materials as maps of shadows draw them: what is blended is there where it is half opaque."""
+        if not self.casts_others or not self.material_count:
+            return 0
+        self.casting_materials = <e3d_material *>resized(
+            self.casting_materials, self.material_count, sizeof(e3d_material)
+        )
+        memcpy(self.casting_materials, self.materials, self.material_count * sizeof(e3d_material))
+        for k in range(self.material_count):
+            if self.casting_materials[k].alpha_mode == E3D_ALPHA_BLEND:
+                self.casting_materials[k].alpha_mode = E3D_ALPHA_MASK
+                self.casting_materials[k].alpha_cutoff = 0.5
+        self.casts_others = False
+        return 0
 
     def set_instance_tree(self, int index, NativeTree tree):
         """Let instances be left out by a tree of their boxes, or by none.
@@ -196,6 +254,7 @@ cdef class NativeDrawList:
         coordinates, and the six numbers of the matrix that these are moved by, or None.
         """
         require(0 <= index <= self.material_count, "no such material")
+        self.casts_others = True
         self.materials = <e3d_material *>grown(
             self.materials, self.material_count, &self.material_capacity, sizeof(e3d_material)
         )
@@ -232,6 +291,7 @@ cdef class NativeDrawList:
     ):
         """Say what a material that was set is as a physically based one."""
         require(0 <= index < self.material_count, "no such material")
+        self.casts_others = True
         self.materials[index].is_physical = True
         cdef e3d_physical *physical = &self.materials[index].physical
         physical.metallic = metallic
@@ -279,6 +339,39 @@ cdef class NativeDrawList:
     def move_light(self, int number, position):
         """Set where a point or spot light is."""
         copy_vector(self.light_at(number).position, position, 3)
+
+    def clear_shadows(self):
+        """Let no light have a shadow."""
+        for k in range(self.light_count):
+            self.lights[k].shadow.kind = E3D_SHADOW_NONE
+        self.shadow_map_count = 0
+        self.depths = []
+
+    def set_shadow(
+        self, int number, const float[:, :, ::1] depths not None, list places not None, *, int taps, int step,
+        float margin, float bias, float normal_bias, axes, depth,
+    ):
+        """Give a light its maps: (maps, size, size), and the numbers of e3d_shadow_map of each."""
+        cdef e3d_light_shadow *shadow = &self.light_at(number).shadow
+        cdef e3d_shadow_map *map
+        require(depths.shape[0] == len(places) and depths.shape[1] == depths.shape[2] > 0, "maps are square")
+        memset(shadow, 0, sizeof(e3d_light_shadow))
+        shadow.first, shadow.count = self.shadow_map_count, <int32_t>depths.shape[0]
+        shadow.size, shadow.taps, shadow.step = <int32_t>depths.shape[1], taps, step
+        shadow.bias, shadow.normal_bias, shadow.margin = bias, normal_bias, margin
+        for k in range(3):
+            copy_vector(shadow.axes[k], axes[k], 3)
+        copy_vector(shadow.depth, depth, 2)
+        for scale, x, y in places:
+            self.shadow_maps = <e3d_shadow_map *>grown(
+                self.shadow_maps, self.shadow_map_count, &self.shadow_map_capacity, sizeof(e3d_shadow_map)
+            )
+            map = &self.shadow_maps[self.shadow_map_count]
+            map.scale, map.x, map.y, map.texel = scale, x, y, 1.0 / scale
+            self.shadow_map_count += 1
+        self.depths.append(depths)
+        shadow.depths = &depths[0, 0, 0]
+        shadow.kind = E3D_SHADOW_MAP
 
     cdef e3d_light *new_light(self, e3d_light_kind kind, color, lux) except NULL:
         self.lights = <e3d_light *>grown(

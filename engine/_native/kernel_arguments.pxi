@@ -92,6 +92,7 @@ cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] rea
     memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
     lighting.exposure = 1.0
     lighting.environment = NULL
+    lighting.shadows = NULL
     return lighting
 
 

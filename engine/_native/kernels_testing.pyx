@@ -16,7 +16,7 @@ from libc.string cimport memcpy, memset
 
 from e3d cimport (
     E3D_DFG_SIZE, E3D_DFG_TABLE, E3D_OK, e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment, e3d_environment_create,
-    e3d_environment_destroy, e3d_environment_light, e3d_filter, e3d_light, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_wrap
+    e3d_environment_destroy, e3d_environment_light, e3d_filter, e3d_light, e3d_light_shadow, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_shadow_map, e3d_wrap
 )
 from e3d_clusters cimport *
 from e3d_helping cimport e3d_helping, e3d_helping_note, e3d_job_times
@@ -48,6 +48,8 @@ STRUCT_SIZES = {
     "surfaces": sizeof(e3d_surfaces),
     "batch": sizeof(e3d_batch),
     "light": sizeof(e3d_light),
+    "light_shadow": sizeof(e3d_light_shadow),
+    "shadow_map": sizeof(e3d_shadow_map),
     "map_batch": sizeof(e3d_map_batch),
     "cell_group": sizeof(e3d_cell_group),
     "lobe_block": sizeof(e3d_lobe_block),

@@ -232,6 +232,7 @@ cdef class NativeStats:
     cdef e3d_totals totals
     cdef int64_t draws_unbatched, nodes_in_frustum, boxes_tested
     cdef int materials, lights
+    cdef public int shadow_maps, shadow_maps_drawn
 
     def as_dict(self):
         cdef e3d_stats *stats = &self.stats
@@ -241,6 +242,8 @@ cdef class NativeStats:
             "draws_unbatched": self.draws_unbatched,
             "materials": self.materials,
             "lights": self.lights,
+            "shadow_maps": self.shadow_maps,
+            "shadow_maps_drawn": self.shadow_maps_drawn,
             "instances": stats.instances,
             "boxes_tested": self.boxes_tested,
             "nodes_in_frustum": self.nodes_in_frustum,
@@ -338,7 +341,6 @@ cdef class NativeRenderer:
         cdef e3d_frame frame
         cdef e3d_targets outputs
         cdef NativeStats drawn = NativeStats.__new__(NativeStats)
-        cdef e3d_status status
         require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
         require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
         frame = options.frame
@@ -368,18 +370,11 @@ cdef class NativeRenderer:
         frame.draw_count = draw_list.placed.count
         frame.order = draw_list.placed.order
         frame.order_count = draw_list.placed.order_count
+        frame.shadow_maps = draw_list.shadow_maps
+        frame.shadow_map_count = draw_list.shadow_map_count
         fill_targets(&outputs, targets, width, height)
-        require(self.handle != NULL, "the renderer was abandoned")
-        self.interruption = None
-        self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL
-        with nogil:
-            status = e3d_render(self.handle, &frame, &outputs, &drawn.stats)
-        if self.handle == NULL:
-            return drawn  # the caller knows that the process was forked meanwhile
-        if self.interruption is not None:
-            error, self.interruption = self.interruption, None
-            raise error
-        check(status)
+        if not self.draw(&frame, &outputs, &drawn.stats):
+            return drawn
         drawn.totals = draw_list.totals
         drawn.draws_unbatched = draw_list.placed.order_count
         drawn.boxes_tested = draw_list.node_boxes_tested + draw_list.placed.boxes_tested
@@ -387,6 +382,58 @@ cdef class NativeRenderer:
         drawn.materials = draw_list.material_count
         drawn.lights = draw_list.light_count
         return drawn
+
+
+    cdef bint draw(self, const e3d_frame *frame, const e3d_targets *outputs, e3d_stats *stats) except -1:
+        """Draw; False where the process was forked meanwhile, which the caller knows."""
+        cdef e3d_status status
+        require(self.handle != NULL, "the renderer was abandoned")
+        self.interruption = None
+        self.poll.due = monotonic_seconds() + SIGNAL_INTERVAL
+        with nogil:
+            status = e3d_render(self.handle, frame, outputs, stats)
+        if self.handle == NULL:
+            return False
+        if self.interruption is not None:
+            error, self.interruption = self.interruption, None
+            raise error
+        check(status)
+        return True
+
+    def draw_shadow_map(
+        self,
+        NativeDrawList draw_list not None,
+        float[:, ::1] depths not None,
+        const double[:, ::1] clip_from_world not None,
+        const double[:, ::1] view_from_world not None,
+        eye,
+        int cull,
+        int64_t number,
+    ):
+        """Draw the casters that were placed last into a square of ndc depths; see `render`."""
+        cdef e3d_frame frame
+        cdef e3d_targets outputs
+        cdef e3d_stats stats
+        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+        require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
+        memset(&frame, 0, sizeof(e3d_frame))
+        memset(&outputs, 0, sizeof(e3d_targets))
+        frame.width, frame.height, frame.samples_axis = <int32_t>depths.shape[1], <int32_t>depths.shape[0], 1
+        memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+        memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+        copy_vector(frame.eye, eye, 4)
+        frame.view = number
+        frame.mode, frame.cull = E3D_MODE_UNLIT, <e3d_cull>cull
+        frame.line_width = frame.point_size = frame.depth_far = frame.exposure = 1.0
+        frame.faces_only = True
+        frame.materials = draw_list.casting_materials
+        frame.material_count = draw_list.material_count
+        frame.draws = draw_list.casting.draws
+        frame.draw_count = draw_list.casting.count
+        frame.order = draw_list.casting.order
+        frame.order_count = draw_list.casting.order_count
+        e3d_targets_set(&outputs, E3D_OUTPUT_NDC_DEPTH, floats_of(depths, frame.width, frame.height))
+        self.draw(&frame, &outputs, &stats)
 
 
 cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height) except -1:

@@ -25,6 +25,7 @@ from ..choices import (
 from . import values
 from .environment_options import surroundings
 from .inputs import model_files
+from .light_options import SHADOWS
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
 from .usage import UsageError
@@ -276,36 +277,6 @@ def add_appearance(parser) -> None:
     )
 
 
-def add_light(parser) -> None:
-    """Add the light."""
-    group = parser.add_argument_group("light")
-    group.add_argument(
-        "--light-position",
-        type=values.vector,
-        metavar="X,Y,Z",
-        help="light the model with one point light at this position only",
-    )
-    group.add_argument(
-        "--light-direction",
-        type=values.direction,
-        metavar="X,Y,Z",
-        help="light the model with one light from afar only, which travels this way",
-    )
-    group.add_argument(
-        "--light-intensity",
-        type=values.not_negative,
-        metavar="I",
-        help="intensity of that light; one at a position gives I/d² at distance d. Without such a "
-        "light, a factor for the default lights",
-    )
-    group.add_argument(
-        "--light-clamp",
-        type=values.limits,
-        metavar="LOW,HIGH",
-        help="keep the sum of the lights within these, such as 0.1,1",
-    )
-
-
 def add_camera(parser) -> None:
     """Add where to look from."""
     group = parser.add_argument_group("camera")
@@ -500,6 +471,7 @@ def settings(args: argparse.Namespace):
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,
         light_clamp=args.light_clamp,
+        shadow=None if args.shadows is None else SHADOWS[args.shadows],
         surroundings=surroundings(args),
         textures=not args.no_texture,
         near=args.near,

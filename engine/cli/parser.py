@@ -9,7 +9,7 @@ import argparse
 
 from ..benchmarking.names import WORKLOADS
 from ..version import __version__
-from . import environment_options, options, suggestions, values
+from . import environment_options, light_options, options, suggestions, values
 from .suggestions import Parser
 from .usage import UsageError
 
@@ -123,7 +123,7 @@ def _add_render(commands) -> None:
 def _add_shared(command) -> None:
     options.add_picture(command)
     options.add_appearance(command)
-    options.add_light(command)
+    light_options.add_light(command)
     environment_options.add_environment(command)
     options.add_camera(command)
 

@@ -327,7 +327,14 @@ def _copied(scene: Scene, node: Node) -> Node:
     obj = node.object
     if not isinstance(obj, (Mesh, InstancedMesh)):
         obj = copy.copy(obj)
-    twin = scene.add(obj, name=node.name, pose=node.pose, static=node.static)
+    twin = scene.add(
+        obj,
+        name=node.name,
+        pose=node.pose,
+        static=node.static,
+        cast_shadows=node.cast_shadows,
+        receive_shadows=node.receive_shadows,
+    )
     if not node.visible:
         twin.visible = False
     twin.collider = node.collider

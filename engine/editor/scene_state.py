@@ -16,6 +16,7 @@ from .._native.scene_graph import STATIC, VISIBLE
 from ..geometry.mesh import Mesh
 from ..materials.material import textures_of
 from ..scene.instances import InstancedMesh
+from ..scene.node_arrays import CASTS_NONE, RECEIVES_NONE
 from ..scene.placements import Placements
 from ..scene.scene import SCENE_VALUES, Scene
 from ..spatial.colliders import MeshCollider
@@ -49,6 +50,7 @@ class SceneState:
         slots = np.array([node._slot for node in self.nodes], np.int64)
         columns = scene._arrays.columns
         self._flags = columns["flags"][slots] & (VISIBLE | STATIC)
+        self._unshadowed = columns["unshadowed"][slots]
         ids = np.append(columns["id"], -1)  # the last one is that of "none", -1
         self._links = [ids[columns[name][slots]].tolist() for name in ("parent", "next")]
         self._held = [(node.name, node._object, node._collider) for node in self.nodes]
@@ -63,6 +65,7 @@ class SceneState:
             and (self._animator, self._motions) == (other._animator, other._motions)
             and self._placements.same(other._placements)
             and self._flags.tobytes() == other._flags.tobytes()
+            and self._unshadowed.tobytes() == other._unshadowed.tobytes()
             and self._links == other._links
             and same(self._held, other._held)
             and same(self._bent, other._bent)
@@ -86,10 +89,17 @@ class SceneState:
         for thing, held in self._things.items():
             put_contents(thing, held)
         self._placements.put(scene)
-        for node, flags, (name, obj, collider), (skin, weights) in zip(
-            self.nodes, self._flags.tolist(), self._held, self._bent, strict=True
+        for node, flags, unshadowed, (name, obj, collider), (skin, weights) in zip(
+            self.nodes,
+            self._flags.tolist(),
+            self._unshadowed.tolist(),
+            self._held,
+            self._bent,
+            strict=True,
         ):
             node.visible, node.static = bool(flags & VISIBLE), bool(flags & STATIC)
+            node.cast_shadows = not unshadowed & CASTS_NONE
+            node.receive_shadows = not unshadowed & RECEIVES_NONE
             _hold(node, name, obj, collider)
             if node.skin is not skin:
                 node.skin = skin

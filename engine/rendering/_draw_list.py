@@ -43,6 +43,9 @@ class DrawList:
     native : NativeDrawList
     changes : int
         Grows whenever `update` finds that something else is to be drawn, or elsewhere.
+    renewals : int
+        Grows when objects or materials changed, or meshes were bent anew.
+    lights : LightList
     """
 
     def __init__(self, color_space: str, threads: int) -> None:
@@ -72,8 +75,8 @@ class DrawList:
         self._how = 1.0, False, True
         self._selected: bytes | None = None
         self._posed: tuple | None = None  # what poses the scene's meshes, and its moment
-        self._lights = LightList(self.native, color_space)
-        self.changes = 0
+        self.lights = LightList(self.native, color_space)
+        self.changes = self.renewals = 0
 
     def update(
         self,
@@ -114,7 +117,7 @@ class DrawList:
             self._settle()
         widen = 1.0 + marks if self._marks or needs.edges else 1.0
         self._place(scene._arrays, frustum, (widen, flat, batching))
-        self._lights.update(scene, headlight)
+        self.lights.update(scene, headlight)
 
     def _follow_poses(self, scene: Scene) -> None:
         """Draw meshes that were bent anew as they are now."""
@@ -123,6 +126,7 @@ class DrawList:
         if posed != self._posed and posing is not None:
             self.native.set_meshes(posing.numbers, posing.poses)
             self._placed = None
+            self.renewals += 1
         self._posed = posed
 
     def _settle(self) -> None:
@@ -155,6 +159,7 @@ class DrawList:
 
     def _renew(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
         """Make the list of objects anew, or only what changed of it."""
+        self.renewals += 1
         self._changed += self._watch.changed()
         same = self._scene() is scene and self._needs == needs and self._normals == normals
         numbers = self._numbers_that_changed(scene) if same else None
@@ -211,7 +216,7 @@ class DrawList:
         self._placed = None
         self._needs, self._normals = needs, normals
         self.native.clear()
-        self._lights.forget()
+        self.lights.forget()
         self._watch, self._changed = Watch(), []
         self._materials, self._flat, self._textured, self._users = {}, {}, {}, {}
         self._bases, self._material_lists, self._lists_then, self._listed = {}, [], [], []
@@ -303,14 +308,9 @@ class DrawList:
         selected = None if selection is None else selection.tobytes()
         same = selected is not None and selected == self._selected and batching == self._how[2]
         if moved or self._trees or not same:
-            columns = arrays.columns
             self.native.place(
                 arrays.count,
-                columns["flags"],
-                columns["object"],
-                columns["object_id"],
-                columns["world"],
-                columns["anchor"],
+                arrays.columns,
                 selection,
                 frustum,
                 widen,

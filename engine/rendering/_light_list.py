@@ -40,6 +40,7 @@ class LightList:
         """List all lights anew at the next update."""
         self._listed: tuple | None = None
         self._shown = np.empty(0, bool)
+        self._at: dict[int, tuple] = {}  # of each light that shows what it is, and where
         self._changes = 0
         self._placed = np.empty(0, np.uint32)
 
@@ -57,6 +58,7 @@ class LightList:
             self._changes = changes
         elif not same:
             self._native.clear_lights()
+            self._at = {}
             if towards is not None:
                 self._native.add_directional_light(color, lux, towards)
         elif towards is not None:
@@ -74,6 +76,7 @@ class LightList:
         else:
             moved = np.arange(len(slots))
             self._native.clear_lights()
+            self._at = {}
             for light in shown.nonzero()[0].tolist():
                 self._add(self._lights[light])
         if len(moved):
@@ -106,13 +109,26 @@ class LightList:
             falloff = FALLOFFS[light.falloff]
             self._native.add_point_light(color, lux, (0.0, 0.0, 0.0), light.range, falloff)
 
+    def placed(self) -> list[tuple]:
+        """Return the lights that show: number, light, and the pair of where it shines from.
+
+        That is the unit direction towards a directional or spot light, and the place of a point or
+        spot light; else None.
+        """
+        return [(number, *at) for number, at in sorted(self._at.items())]
+
     def _place(self, number: int, light, pose: list[float]) -> None:
         """Put a light where the first three rows of its world pose say."""
+        towards, position = None, None
         if isinstance(light, DirectionalLight):
             x, y, z = light.direction.tolist()
             towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
-            self._native.turn_light(number, normalize(towards))
-            return
-        self._native.move_light(number, pose[3::4])
+        else:
+            position = pose[3::4]
+            self._native.move_light(number, position)
         if isinstance(light, SpotLight):
-            self._native.turn_light(number, normalize([pose[2], pose[6], pose[10]]))
+            towards = [pose[2], pose[6], pose[10]]
+        if towards is not None:
+            towards = normalize(towards)
+            self._native.turn_light(number, towards)
+        self._at[number] = light, (towards, position)

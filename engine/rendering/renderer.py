@@ -35,6 +35,7 @@ from ..scene.scene import Scene
 from ._draw_list import DrawList
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
+from ._shadow_maps import ShadowMaps
 from ._turn import RendererTurn
 from ._view import CameraChoice, View, find_camera
 from .backend_selection import resolve_backend, resolve_threads
@@ -101,6 +102,7 @@ class Renderer(Closed):
         threads = resolve_threads(threads)
         self._native = _native.NativeRenderer(number, threads)
         self._draw_list = DrawList(self._color_space, threads)
+        self._shadow_maps = ShadowMaps(self._native, self._draw_list)
         self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
         self._asked, self._wanted = (), {}
@@ -140,7 +142,7 @@ class Renderer(Closed):
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
         with self._turn.taken(closing=True):
-            self._native = self._draw_list = None
+            self._native = self._draw_list = self._shadow_maps = None
             self._turn.let_go()
             self._pool.forget()
 
@@ -346,6 +348,9 @@ class Renderer(Closed):
                 options.batching,
                 options.culling == "frustum",
             )
+            if options.mode == "lit" and "color" in frame.outputs:
+                self._shadow_maps.update(scene, view, options.cull)
+                self._turn.check()
             near, far = 0.0, 1.0
             if options.mode == "depth":
                 near, far = view.depth_range(scene.bounds)
@@ -369,6 +374,10 @@ class Renderer(Closed):
             view.rays if frame_options.has_backdrop else None,
         )
         self._turn.check()
+        drawn.shadow_maps, drawn.shadow_maps_drawn = (
+            self._shadow_maps.count,
+            self._shadow_maps.drawn,
+        )
         frame._seen = view, options.cull
         frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame

@@ -22,6 +22,8 @@ from .object_kinds import KINDS
 from .scene import SCENE_VALUES, Scene
 
 _NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
+_SHADOW_KEYS = ("cast_shadows", "receive_shadows")
+_NODE_KEYS |= {*_SHADOW_KEYS}
 _NODE_KEYS |= {"collider", "children", *MOTION_KEYS}
 
 
@@ -105,6 +107,7 @@ def _node(scene: Scene, objects: list, entry: JsonValue, place: dict) -> Node:
             obj,
             name="" if name is None else name.text(),
             static=_is(entry, "static"),
+            **{key: _is(entry, key) for key in _SHADOW_KEYS if entry.get(key) is not None},
             **place,
         ),
     )

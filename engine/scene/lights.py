@@ -24,11 +24,11 @@ from .._support.validation import (
     one_of,
     vector3,
 )
-from ..choices import ColorLike, Falloff, LightUnit
+from ..choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
 from ..errors import InvalidArgumentError
 from ..linalg import cos
 from ..materials.colors import check_color
-from ._placed_by_node import PlacedByNode
+from ._shadow_casting import CastsShadows, CountAttribute, whole_number
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 UNITS: tuple[LightUnit, ...] = get_args(LightUnit)
@@ -57,7 +57,7 @@ def _angle(value: float, what: str) -> float:
     return number
 
 
-class DirectionalLight(PlacedByNode):
+class DirectionalLight(CastsShadows):
     """A light infinitely far away, such as the sun.
 
     Parameters
@@ -70,6 +70,23 @@ class DirectionalLight(PlacedByNode):
         physical materials it is in lux: such a surface shows it over pi.
     unit : {"photometric", "white"}
         With ``"white"``, physical materials take the intensity as the others do.
+    shadow : bool
+        Whether what stands in its way keeps the light off what is behind, by maps that are drawn
+        from the light, as in three.js. Nodes cast and receive shadows by their own switches.
+    shadow_map_size : int
+        Texels a side, 32 to 8192, of each map.
+    shadow_bias : float
+        Is added to the depth that is compared, of a range of 1 from the nearest to the farthest.
+    shadow_normal_bias : float
+        World units by which samples move along their normals before they are looked up. Both are
+        beside what the size of a texel asks for, which is done by itself, so that 0 looks right.
+    shadow_radius : float
+        How far the comparisons around a sample are apart, in texels, 0 to 16.
+    shadow_taps : {1, 3, 5}
+        Comparisons a side: 1, 3 x 3 or 5 x 5, each between four texels.
+    shadow_cascades : int
+        Most maps, 1 to 8: the first shows what is near the camera, each further one four times as
+        far. What is small beside what the camera sees takes fewer.
 
     Attributes
     ----------
@@ -86,6 +103,7 @@ class DirectionalLight(PlacedByNode):
     color: ColorAttribute = CheckedAttribute(check_color)
     intensity: NumberAttribute = CheckedAttribute(not_negative)
     unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
+    shadow_cascades: CountAttribute = CheckedAttribute(whole_number(1, 8))
 
     def __init__(
         self,
@@ -93,18 +111,38 @@ class DirectionalLight(PlacedByNode):
         color: ColorLike = (1, 1, 1),
         intensity: float = 1.0,
         unit: LightUnit = "photometric",
+        *,
+        shadow: LightShadow = False,
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
+        shadow_cascades: int = 4,
     ) -> None:
         self.direction = direction
         self.color = color
         self.intensity = intensity
         self.unit = unit
+        self.shadow = shadow
+        self.shadow_map_size = shadow_map_size
+        self.shadow_bias = shadow_bias
+        self.shadow_normal_bias = shadow_normal_bias
+        self.shadow_radius = shadow_radius
+        self.shadow_taps = shadow_taps
+        self.shadow_cascades = shadow_cascades
+        self.check()
+
+    def check(self) -> None:
+        """Raise unless ``shadow_radius`` and ``shadow_map_size`` go together."""
+        self._check_shadow()
 
     def __repr__(self) -> str:
         direction = tuple(self.direction.tolist())
         return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"
 
 
-class PointLight(PlacedByNode):
+class PointLight(CastsShadows):
     """A light that shines from one point in all directions.
 
     Parameters
@@ -121,6 +159,8 @@ class PointLight(PlacedByNode):
         KHR_lights_punctual has it, ``(1 - (d / range)**4) / d**2``.
     unit : {"photometric", "white"}
         As for `DirectionalLight`.
+    shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
+        As for `DirectionalLight`; six maps, the faces of a cube.
 
     Attributes
     ----------
@@ -146,18 +186,32 @@ class PointLight(PlacedByNode):
         range: float = math.inf,
         falloff: Falloff = "inverse_square",
         unit: LightUnit = "photometric",
+        *,
+        shadow: LightShadow = False,
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
     ) -> None:
         self.color = color
         self.intensity = intensity
         self.range = range
         self.falloff = falloff
         self.unit = unit
+        self.shadow = shadow
+        self.shadow_map_size = shadow_map_size
+        self.shadow_bias = shadow_bias
+        self.shadow_normal_bias = shadow_normal_bias
+        self.shadow_radius = shadow_radius
+        self.shadow_taps = shadow_taps
         self.check()
 
     def check(self) -> None:
-        """Raise unless ``range`` and ``falloff`` go together."""
+        """Raise unless ``range`` and ``falloff`` go together, and what there is of shadows."""
         if self.falloff == "window" and math.isinf(self.range):
             raise InvalidArgumentError("falloff 'window' needs a finite range")
+        self._check_shadow()
 
     def __repr__(self) -> str:
         return (
@@ -166,7 +220,7 @@ class PointLight(PlacedByNode):
         )
 
 
-class SpotLight(PlacedByNode):
+class SpotLight(CastsShadows):
     """A light that shines from one point into a cone, along the -Z of its node.
 
     As KHR_lights_punctual has it: all of it inside of the inner cone, nothing outside of the outer
@@ -184,6 +238,9 @@ class SpotLight(PlacedByNode):
         Radians from the axis: 0 <= inner < outer <= pi/2.
     unit : {"photometric", "white"}
         As for `DirectionalLight`.
+    shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
+        As for `DirectionalLight`; one map.
+        What is more than 84 degrees off the axis gets all of the light.
 
     Attributes
     ----------
@@ -211,6 +268,13 @@ class SpotLight(PlacedByNode):
         inner_cone_angle: float = 0.0,
         outer_cone_angle: float = math.pi / 4,
         unit: LightUnit = "photometric",
+        *,
+        shadow: LightShadow = False,
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
     ) -> None:
         self.color = color
         self.intensity = intensity
@@ -218,15 +282,22 @@ class SpotLight(PlacedByNode):
         self.inner_cone_angle = inner_cone_angle
         self.outer_cone_angle = outer_cone_angle
         self.unit = unit
+        self.shadow = shadow
+        self.shadow_map_size = shadow_map_size
+        self.shadow_bias = shadow_bias
+        self.shadow_normal_bias = shadow_normal_bias
+        self.shadow_radius = shadow_radius
+        self.shadow_taps = shadow_taps
         self.check()
 
     def check(self) -> None:
-        """Raise unless the inner cone is narrower than the outer one."""
+        """Raise unless the inner cone is narrower than the outer, and the shadow fits its map."""
         if not self.inner_cone_angle < self.outer_cone_angle:
             raise InvalidArgumentError(
                 f"inner_cone_angle must be less than outer_cone_angle, {self.outer_cone_angle:g}, "
                 f"not {self.inner_cone_angle:g}"
             )
+        self._check_shadow()
 
     def cone(self) -> tuple[float, float]:
         """Return the cosine of the outer angle, and 1 over what the inner one's is more."""

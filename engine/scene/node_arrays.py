@@ -31,7 +31,12 @@ _COLUMNS = {
     "changed": (np.int32, ()),
     "stack": (np.int32, ()),
     "anchor": (np.int32, ()),
+    "unshadowed": (np.uint8, ()),  # CASTS_NONE and RECEIVES_NONE
 }
+#: Columns that C gets with each call that reads them.
+_NOT_ATTACHED = ("object_id", "unshadowed")
+#: What a node has to do with shadows: nothing set is all of it.
+CASTS_NONE, RECEIVES_NONE = 1, 2
 _LINKS = ("parent", "first_child", "last_child", "next", "previous", "anchor")
 _ROOM = 16
 
@@ -91,7 +96,9 @@ class NodeArrays(NativeGraph):
         for name, (dtype, row) in _COLUMNS.items():
             columns[name] = np.zeros((room, *row), dtype)
             columns[name][: self.count] = self.columns.get(name, columns[name])[: self.count]
-        self.attach(**{name: column for name, column in columns.items() if name != "object_id"})
+        self.attach(
+            **{name: column for name, column in columns.items() if name not in _NOT_ATTACHED}
+        )
         self.columns = columns
 
 

@@ -20,6 +20,7 @@ from .._support.numbers import floats
 from .._support.validation import frozen_floats, matrix4, vector3
 from ..errors import InvalidArgumentError
 from ..spatial.colliders import check_collider
+from .node_arrays import CASTS_NONE, RECEIVES_NONE
 
 if TYPE_CHECKING:
     from ..geometry.mesh import Mesh
@@ -279,6 +280,27 @@ class Node:
         self._arrays.set_flag(self._slot, STATIC, bool(value))
 
     @property
+    def cast_shadows(self) -> bool:
+        """Whether what the node holds keeps light off others; its children have their own switch.
+
+        See `DirectionalLight`. Lines and points cast no shadows.
+        """
+        return self._takes_part(CASTS_NONE)
+
+    @cast_shadows.setter
+    def cast_shadows(self, value: bool) -> None:
+        self._take_part(CASTS_NONE, bool(value))
+
+    @property
+    def receive_shadows(self) -> bool:
+        """Whether shadows fall on what the node holds; its children have their own switch."""
+        return self._takes_part(RECEIVES_NONE)
+
+    @receive_shadows.setter
+    def receive_shadows(self, value: bool) -> None:
+        self._take_part(RECEIVES_NONE, bool(value))
+
+    @property
     def collider(self) -> Collider | None:
         """BoxCollider, SphereCollider, MeshCollider or None; see `Scene.overlap_box`."""
         return self._collider
@@ -329,6 +351,15 @@ class Node:
         """Let frames show another node's id for this one."""
         self._arrays.columns["object_id"][self._slot] = other.id
         self._arrays.changes += 1
+
+    def _takes_part(self, bit: int) -> bool:
+        return not self._arrays.columns["unshadowed"][self._slot] & bit
+
+    def _take_part(self, bit: int, on: bool) -> None:
+        """Let the node cast or receive shadows, or not."""
+        if self._takes_part(bit) != on:
+            self._arrays.columns["unshadowed"][self._slot] ^= bit
+            self._arrays.changes += 1
 
     def _rotation_and_scale(self) -> tuple[np.ndarray, np.ndarray]:
         rotation, scale = np.empty(4), np.empty(3)

@@ -248,6 +248,8 @@ class Scene(Closed):
         euler: ArrayLike | None = None,
         scale: ArrayLike | None = None,
         static: bool = False,
+        cast_shadows: bool = True,
+        receive_shadows: bool = True,
     ) -> Node:
         """Put an object into the scene.
 
@@ -272,6 +274,8 @@ class Scene(Closed):
         scale : float or (3,) float, optional
         static : bool
             The node is meant to stay where it is; see `Node.static`.
+        cast_shadows, receive_shadows : bool
+            See `Node.cast_shadows`.
 
         Returns
         -------
@@ -309,6 +313,7 @@ class Scene(Closed):
             self._arrays.set_parts(slot, rotation, scale)
         if static:
             node.static = True
+        node.cast_shadows, node.receive_shadows = cast_shadows, receive_shadows
         self._list(node)
         self._nodes = None
         if self._names is not None:

@@ -75,6 +75,10 @@ class Lighting:
             for node in nodes:
                 node.visible = setup == name
 
+    def groups(self) -> list[list]:
+        """Return the lights that shine together: those of each set-up."""
+        return [[node.object for node in nodes] for nodes in self._nodes.values()]
+
     def leave(self) -> None:
         """Light the scene with its own lights again, and take away all others."""
         self.choose(self.names[0])
@@ -131,6 +135,10 @@ class OnlyLight:
         for node in self._hidden:
             node.visible = False
         self._node = scene.add(light, translation=position)
+
+    def groups(self) -> list[list]:
+        """As of `Lighting`."""
+        return [[self._node.object]]
 
     def leave(self) -> None:
         """Light the scene with its own lights again."""

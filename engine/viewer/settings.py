@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ..choices import LightShadow
 from .surroundings import Surroundings
 from .theme import DARK, Theme
 
@@ -31,6 +32,8 @@ class Settings:
         The way the only light travels, in world space.
     light_clamp : (float, float) or None
         See `Scene`.
+    shadow : bool or None
+        What ``shadow`` of the main lights is to be; None leaves it to the scene.
     surroundings : Surroundings
         The environment.
     textures : bool
@@ -58,6 +61,7 @@ class Settings:
     light_intensity: float | None = None
     light_direction: tuple[float, float, float] | None = None
     light_clamp: tuple[float, float] | None = None
+    shadow: LightShadow | None = None
     surroundings: Surroundings = field(default_factory=Surroundings)
     textures: bool = True
     near: float | None = None

@@ -28,6 +28,7 @@ from .output_pictures import (
 from .scene_bounds import turning_outline
 from .selection import CLICK_OUTPUTS
 from .settings import Settings
+from .shadow_switch import ShadowSwitch
 from .theme import Theme
 from .untextured import Textures
 from .viewed_scene import ViewedScene
@@ -161,6 +162,14 @@ class ViewRenderer:
         self.show_grid(self.settings.grid)
 
     def _light(self) -> Lighting | OnlyLight:
+        """Light the scene, with shadows as the user asked for."""
+        lighting = self._lit()
+        self._shadows = None
+        if self.settings.shadow is not None:
+            self._shadows = ShadowSwitch(lighting.groups(), self.settings.shadow)
+        return lighting
+
+    def _lit(self) -> Lighting | OnlyLight:
         scene, settings = self.viewed.scene, self.settings
         intensity = settings.light_intensity
         if settings.light_position is not None:
@@ -185,6 +194,8 @@ class ViewRenderer:
         self._take_lights_and_grid()
 
     def _take_lights_and_grid(self) -> None:
+        if self._shadows is not None:
+            self._shadows.leave()
         self.lighting.leave()
         if self._grid is not None:
             self.viewed.scene.remove(self._grid)

@@ -153,6 +153,9 @@ class _Writing:
                 entry["hidden"] = True
             if node.static:
                 entry["static"] = True
+            for name in ("cast_shadows", "receive_shadows"):
+                if not getattr(node, name):
+                    entry[name] = False
             if node.collider is not None:
                 entry["collider"] = self._collider(node)
             entry.update(motions.get(node, {}))

@@ -239,8 +239,14 @@ class _Making:
             if not _are_equal(getattr(scene, name, None), getattr(usual, name, None))
         ]
         lost += ["colliders"] if any(node.collider is not None for node in nodes) else []
+        lost += ["shadows"] if any(map(_tells_of_shadows, nodes)) else []
         if lost:
             self.told.append(f"gltf files do not hold {', '.join(lost)}")
+
+
+def _tells_of_shadows(node: Node) -> bool:
+    casts = isinstance(node.object, _LIGHTS) and node.object.shadow
+    return bool(casts or not node.cast_shadows or not node.receive_shadows)
 
 
 def _is_further_part(node: Node) -> bool:

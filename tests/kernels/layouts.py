@@ -144,7 +144,9 @@ BATCH_RECORD = np.dtype(
         ("shine", "f4", (3, _LANES)),
         ("alpha", "f4", _LANES),
         ("count", "i4"),
-    ]
+        ("unmapped_normal", "u8"),  # an address, or 0
+    ],
+    align=True,
 )
 _PLACES, _SLOTS = len(TEXTURE_SLOTS) + 1, len(TEXTURE_SLOTS)
 MAP_BATCH = np.dtype(
@@ -154,6 +156,24 @@ MAP_BATCH = np.dtype(
     + [("metallic_roughness", "f4", (2, _LANES)), ("emissive", "f4", (3, _LANES))]
     + [("direct", "f4", (3, _LANES)), ("coat", "f4", (3, _LANES)), ("fuzz", "f4", (3, _LANES))]
 )
+LIGHT_SHADOW = np.dtype(
+    [
+        ("kind", "i4"),
+        ("first", "i4"),
+        ("count", "i4"),
+        ("size", "i4"),
+        ("taps", "i4"),
+        ("bias", "f4"),
+        ("normal_bias", "f4"),
+        ("step", "i4"),
+        ("margin", "f4"),
+        ("axes", "f4", (3, 3)),
+        ("depth", "f4", 2),
+        ("depths", "u8"),  # an address
+    ],
+    align=True,
+)
+SHADOW_MAP = np.dtype([(name, "f4") for name in ("scale", "x", "y", "texel")])
 LIGHT = np.dtype(
     [
         ("kind", "i4"),
@@ -164,7 +184,9 @@ LIGHT = np.dtype(
         ("range", "f4"),
         ("lux", "f4", 3),
         ("cone", "f4", 2),
-    ]
+        ("shadow", LIGHT_SHADOW),
+    ],
+    align=True,
 )
 CELLS, LOBE_TEXELS = 4, 16
 CELL_GROUP = np.dtype(
@@ -205,6 +227,8 @@ STRUCTS = {
     "surfaces": SURFACES,
     "batch": BATCH_RECORD,
     "light": LIGHT,
+    "light_shadow": LIGHT_SHADOW,
+    "shadow_map": SHADOW_MAP,
     "map_batch": MAP_BATCH,
     "cell_group": CELL_GROUP,
     "lobe_block": LOBE_BLOCK,

@@ -8,6 +8,7 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
+#include "kernels/generic/shadow.inl"
 
 /* One vector of lit samples. Where all light is grey, the first channel stands for all three. */
 typedef struct lit_lanes {
@@ -92,19 +93,35 @@ static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf
         light_highlight(light, l, facing, attenuation, near, shininess, lit);
 }
 
-static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, float shininess, lit_lanes *lit)
+/* R90: the attenuation of what of a light reaches samples; those that face away from it get none of it anyway. */
+static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const lit_lanes *lit,
+                                         const vf32 l[3], vf32 attenuation)
+{
+    if (!lighting->lights[n].shadow.kind || !v_any(v_gt(dot_three(lit->normal, l), v_setf(0.0f))))
+        return attenuation;
+    return v_mul(attenuation, light_reached(lighting, n, batch, i, lit->position, l));
+}
+
+/* Adds a light to samples of the batch from i on; whether some lights have shadows is a constant for the compiler. */
+static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int shadows, float shininess,
+                                    lit_lanes *lit)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 l[3], attenuation = v_setf(1.0f);
     if (light->kind == E3D_LIGHT_DIRECTIONAL) {
         for (int k = 0; k < 3; k++)
             l[k] = v_setf(light->to_light[k]);
+        if (shadows)
+            attenuation = light_shadowed(lighting, n, batch, i, lit, l, attenuation);
         light_from(light, l, attenuation, NULL, shininess, lit);
         return;
     }
     vmask near = light_towards(lighting, n, lit->position, 0, l, &attenuation);
-    if (v_any(near))
-        light_from(light, l, attenuation, &near, shininess, lit);
+    if (!v_any(near))
+        return;
+    if (shadows)
+        attenuation = light_shadowed(lighting, n, batch, i, lit, l, attenuation);
+    light_from(light, l, attenuation, &near, shininess, lit);
 }
 
 static inline void light_view(const e3d_lighting *lighting, lit_lanes *lit)
@@ -212,7 +229,8 @@ static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
 }
 
 /* Adds the chosen ones of the lights from `first` on. */
-static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count, float shininess)
+static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count, int shadows,
+                                    float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         lit_lanes lit = light_begin(batch, i, lighting, shininess);
@@ -221,7 +239,7 @@ static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, int
             lit.shine[k] = v_loadf(batch->shine[k] + i);
         }
         for (int n = 0; n < count; n++)
-            light_one(lighting, chosen[n], shininess, &lit);
+            light_one(lighting, chosen[n], batch, i, shadows, shininess, &lit);
         for (int k = 0; k < 3; k++) {
             v_storef(batch->energy[k] + i, lit.energy[k]);
             v_storef(batch->shine[k] + i, lit.shine[k]);
@@ -238,7 +256,10 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
     do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
-        light_add(batch, lighting, first, chosen, count, shininess);
+        if (lighting->shadows)
+            light_add(batch, lighting, first, chosen, count, 1, shininess);
+        else
+            light_add(batch, lighting, first, chosen, count, 0, shininess);
         first = end;
     } while (first < lighting->light_count);
     for (int k = 0; k < 3; k++)

@@ -15,13 +15,13 @@
 
 /* ---- light ---- */
 
-/* R31 of all lights, which are few. Whether there are highlights is a constant for the compiler. */
-static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, float shininess, vf32 color[3])
+/* R31 of all lights, which are few. Whether there are highlights or shadows is a constant for the compiler. */
+static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, int shadows, float shininess, vf32 color[3])
 {
     const e3d_lighting *lighting = paint->lighting;
     lit_lanes lit = light_begin(batch, i, lighting, shininess);
     for (int n = 0; n < lighting->light_count; n++)
-        light_one(lighting, n, shininess, &lit);
+        light_one(lighting, n, batch, i, shadows, shininess, &lit);
     for (int k = 0; k < 3; k++)
         lit.energy[k] = light_clamp(lighting, lit.energy[k]);
     combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, lighting->exposure, color);
@@ -60,18 +60,21 @@ static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int la
         rgba[sample[lane]] = pixel[lane];
 }
 
+/* How samples are lit, which is a constant for the compiler. */
+enum paint_lit { PAINT_UNLIT = 0, PAINT_LIT, PAINT_SHADOWED };
+
 /* The colours of one vector. */
-static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const e3d_paint *paint, int colored, int lit, float shininess,
+static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess,
                                       vf32 color[3])
 {
     for (int k = 0; k < 3; k++)
         color[k] = colored ? v_loadf(batch->color[k] + i) : v_setf(paint->base[k]);
     if (lit)
-        paint_light(batch, i, paint, shininess, color);
+        paint_light(batch, i, paint, lit == PAINT_SHADOWED, shininess, color);
 }
 
 /* Shades and encodes a batch to RGBA8. */
-static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const e3d_paint *paint, int colored, int lit, float shininess, int srgb,
+static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess, int srgb,
                                       uint32_t *rgba)
 {
     const vcurve curve = encode_curve();
@@ -83,7 +86,7 @@ static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const e3d_paint *p
 }
 
 /* Where the sRGB curve is looked up in memory, light has a loop of its own: one of both would not fit the out-of-order window. */
-static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const e3d_paint *paint, int colored, int lit, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess, uint32_t *rgba)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
@@ -91,10 +94,10 @@ static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const e3d_paint *paint
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }
-    paint_codes(batch, paint, 1, 0, 0.0f, 1, rgba);
+    paint_codes(batch, paint, 1, PAINT_UNLIT, 0.0f, 1, rgba);
 }
 
-static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const e3d_paint *paint, int colored, int lit, float shininess)
+static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
@@ -103,7 +106,7 @@ static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const e3d_paint 
     }
 }
 
-static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint, int colored, int lit, float shininess, uint32_t *rgba)
+static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess, uint32_t *rgba)
 {
     if (paint->samples)
         paint_samples(batch, paint, colored, lit, shininess);
@@ -132,11 +135,13 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         kernel_interpolate(batch, surfaces, paint->wanted);
     int colored = paint_albedo(batch, surfaces, paint);
     if (!paint->lighting)
-        paint_pixels(batch, paint, colored, 0, 0.0f, rgba);
+        paint_pixels(batch, paint, colored, PAINT_UNLIT, 0.0f, rgba);
+    else if (paint->lighting->shadows)
+        paint_pixels(batch, paint, colored, PAINT_SHADOWED, paint->shininess, rgba);
     else if (paint->shininess > 0.0f)
-        paint_pixels(batch, paint, colored, 1, paint->shininess, rgba);
+        paint_pixels(batch, paint, colored, PAINT_LIT, paint->shininess, rgba);
     else
-        paint_pixels(batch, paint, colored, 1, 0.0f, rgba);
+        paint_pixels(batch, paint, colored, PAINT_LIT, 0.0f, rgba);
 }
 
 #endif

@@ -151,7 +151,8 @@ static ALWAYS_INLINE void model_add_coat(const e3d_light *light, const vf32 l[3]
 }
 
 /* R51 of one light. */
-static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, int has_coat, int has_sheen, model_lanes *at)
+static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int has_coat, int has_sheen,
+                                          model_lanes *at)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 l[3], attenuation = v_setf(1.0f), one = v_setf(1.0f), zero = v_setf(0.0f);
@@ -165,6 +166,13 @@ static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, i
     vmask lit = v_mand(near, v_gt(nl, zero));
     if (!v_any(lit))
         return;
+    if (lighting->shadows && light->shadow.kind) {
+        vf32 reached = light_reached(lighting, n, batch, i, at->position, l);
+        lit = v_mand(lit, v_gt(reached, zero));
+        if (!v_any(lit))
+            return;
+        attenuation = v_mul(attenuation, reached);
+    }
     half_lanes h;
     for (int k = 0; k < 3; k++)
         h.h[k] = v_add(l[k], at->view[k]);
@@ -327,7 +335,7 @@ static ALWAYS_INLINE void physical_vectors(e3d_batch *batch, e3d_map_batch *m, c
         model_begin(batch, m, model, lighting, i, &at);
         model_sums(m, lights, i, &at);
         for (int n = 0; n < lights->count; n++)
-            model_add_light(lighting, lights->numbers[n], has_coat, has_sheen, &at);
+            model_add_light(lighting, lights->numbers[n], batch, i, has_coat, has_sheen, &at);
         if (lights->is_last) {
             model_finish(model, lighting, plan, has_coat, has_sheen, &at, i, color);
             for (int k = 0; k < 3; k++)

@@ -40,6 +40,17 @@ static inline void floats_four(const float *base, const int32_t *at, __m128 *fir
     *second = _mm_shuffle_ps(a, b, PAIRS_ODD);
 }
 
+/* Compares four floats from `at` on and the fours below them, whose rows are `pitch` floats apart: a bit each, where it is no less. */
+static inline int32_t floats_sixteen(const float *at, intptr_t pitch, float least)
+{
+    __m128 least4 = _mm_set1_ps(least), row[4];
+    for (int r = 0; r < 4; r++)
+        row[r] = _mm_cmpge_ps(_mm_loadu_ps(at + r * pitch), least4);
+    __m128i upper = _mm_packs_epi32(_mm_castps_si128(row[0]), _mm_castps_si128(row[1]));
+    __m128i lower = _mm_packs_epi32(_mm_castps_si128(row[2]), _mm_castps_si128(row[3]));
+    return _mm_movemask_epi8(_mm_packs_epi16(upper, lower));
+}
+
 /* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
 static inline __m128i pairs_quad(void)
 {

@@ -36,6 +36,14 @@ static inline vi32 v_loadu8(const uint8_t *p) { return *p; }
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) { return bytes[i]; }
 static inline vi32 v_gatheri(const void *base, vi32 i) { return v_loadi((const char *)base + 4 * (intptr_t)i); }
 
+/* Of four floats from base[at] on, and the fours below them in rows `pitch` floats apart: a bit each, where it is no less than a number. */
+static inline vi32 v_ge16(const float *base, int32_t pitch, vi32 at, vf32 least) {
+    int32_t bits = 0;
+    for (int k = 0; k < 16; k++)
+        bits |= (int32_t)(base[at + k / 4 * pitch + k % 4] >= least) << k;
+    return bits;
+}
+
 static inline vf32 v_add(vf32 a, vf32 b) { return a + b; }
 static inline vf32 v_sub(vf32 a, vf32 b) { return a - b; }
 static inline vf32 v_mul(vf32 a, vf32 b) { return a * b; }

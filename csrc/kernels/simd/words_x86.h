@@ -14,6 +14,18 @@ static inline void v_storef(float *p, vf32 a) { MM(storeu_ps)(p, a); }
 static inline void v_storei(void *p, vi32 a) { MMW(storeu)((vi32 *)p, a); }
 static inline void v_streami(void *p, vi32 a) { MMW(stream)((vi32 *)p, a); }
 
+/* As vec_1.h says it, by loads of four floats. */
+static ALWAYS_INLINE vi32 v_ge16(const float *base, int32_t pitch, vi32 at, vf32 least)
+{
+    int32_t places[V_LANES], bits[V_LANES];
+    float leasts[V_LANES];
+    v_storei(places, at);
+    v_storef(leasts, least);
+    for (int lane = 0; lane < V_LANES; lane++)
+        bits[lane] = floats_sixteen(base + places[lane], pitch, leasts[lane]);
+    return v_loadi(bits);
+}
+
 static inline vf32 v_add(vf32 a, vf32 b) { return MM(add_ps)(a, b); }
 static inline vf32 v_sub(vf32 a, vf32 b) { return MM(sub_ps)(a, b); }
 static inline vf32 v_mul(vf32 a, vf32 b) { return MM(mul_ps)(a, b); }

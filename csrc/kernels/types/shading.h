@@ -61,6 +61,7 @@ typedef struct e3d_batch {
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3], alpha;
     int count;
+    const e3d_lane_array *unmapped_normal; /* where `normal` is mapped: what it was before; else NULL */
 } e3d_batch;
 
 /* What shading needs of a bucket's samples, and so what interpolation fills. */
@@ -84,6 +85,7 @@ typedef struct e3d_lighting {
     const float *reach[5];
     float ambient[3], clamp[2], eye[4], exposure;
     const e3d_environment_light *environment; /* NULL where there is none */
+    const e3d_shadow_map *shadows; /* NULL: no light has a shadow, or none falls on what is lit */
 } e3d_lighting;
 
 /* How the kernel `paint` turns the samples of a batch into pixels. */

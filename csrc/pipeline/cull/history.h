@@ -35,7 +35,7 @@ typedef struct e3d_history {
 } e3d_history;
 
 /* The histories of the views that a renderer drew last. */
-enum { E3D_HISTORIES = 8 };
+enum { E3D_HISTORIES = 16 }; /* maps of shadows are views, too */
 typedef struct e3d_histories {
     e3d_history of[E3D_HISTORIES];
     uint64_t frames;

@@ -3,6 +3,7 @@
 
 #include "core/clock.h"
 #include "core/fpenv.h"
+#include "core/shadows.h"
 #include "e3d.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
@@ -34,7 +35,7 @@ static int frame_is_valid(const e3d_frame *f)
     if (!(f->line_width > 0 && f->line_width <= 256) || !(f->point_size > 0 && f->point_size <= 256))
         return 0;
     if (f->draw_count < 0 || f->material_count < 0 || f->light_count < 0 ||
-        (f->order && f->order_count < 0))
+        (f->order && f->order_count < 0) || !e3d_shadows_are_valid(f))
         return 0;
     for (int32_t d = 0; d < f->draw_count; d++) {
         const e3d_draw *draw = &f->draws[d];

@@ -31,12 +31,12 @@ static int64_t primitives_of(const e3d_mesh_desc *desc)
     return (int64_t)desc->faces_count + desc->lines_count + desc->points_count;
 }
 
-static e3d_draw_state state_of(const e3d_draw *draw, int edges)
+static e3d_draw_state state_of(const e3d_draw *draw, int edges, int faces_only)
 {
     const e3d_mesh_desc *desc = &draw->mesh->desc;
     e3d_draw_state s = {.draw = draw, .mesh = draw->mesh};
-    s.line_units = units_of(desc->lines_count);
-    s.point_units = units_of(desc->points_count);
+    s.line_units = faces_only ? 0 : units_of(desc->lines_count);
+    s.point_units = faces_only ? 0 : units_of(desc->points_count);
     s.edge_units = edges ? units_of(desc->edges_count) : 0;
     s.units = s.line_units + s.point_units + s.edge_units;
     s.primitives = (int32_t)primitives_of(desc);
@@ -54,7 +54,7 @@ static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edge
         if (all > INT32_MAX || primitives + all * draw->instances > INT32_MAX || instances + draw->instances > INT32_MAX)
             return E3D_TOO_MANY_PRIMITIVES;
         e3d_draw_state *s = &draws->states[d];
-        *s = state_of(draw, edges);
+        *s = state_of(draw, edges, frame->faces_only);
         s->any_two_sided = two_sided;
         s->any_alpha = alpha && has_alpha(frame, draw);
         s->instance_base = instances;

@@ -3,6 +3,7 @@
 
 #include "core/limits.h"
 #include "core/mesh.h"
+#include "core/shadows.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/plan.h"
@@ -61,7 +62,7 @@ static e3d_plan asked_mode(const e3d_frame *f)
 {
     switch (f->mode) {
     case E3D_MODE_LIT:
-        return ASKED(LIT) | asked_if(has_local_light(f), E3D_ASKED_LOCAL_LIGHT) |
+        return ASKED(LIT) | asked_if(has_local_light(f), E3D_ASKED_LOCAL_LIGHT) | asked_if(e3d_has_shadows(f), E3D_ASKED_SHADOWS) |
                asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS);
     case E3D_MODE_UNLIT: return ASKED(UNLIT);
     case E3D_MODE_DEPTH: return ASKED(DEPTH_MODE);
@@ -109,6 +110,7 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_SHADES, PLAN(COLORS), 0},
     {E3D_PLAN_SHADES, PLAN(OUTPUTS), 0},
     {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(LIT) | ASKED(LOCAL_LIGHT), 0},
+    {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(LIT) | ASKED(SHADOWS), 0},
     {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(DEPTH_MODE), 0},
     {E3D_PLAN_POSITION, ASKED(POSITIONS), 0},
     {E3D_PLAN_NORMAL, PLAN(COLORS) | ASKED(LIT), 0},

@@ -7,6 +7,7 @@
 #include "core/limits.h"
 #include "core/mesh.h"
 #include "core/pool.h"
+#include "core/shadows.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/vertices.h"
@@ -63,6 +64,10 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     memcpy(lighting->eye, frame->eye, sizeof frame->eye);
     lighting->exposure = frame->exposure;
     lighting->environment = frame->environment.environment ? &frame->environment : NULL;
+    lighting->shadows = NULL;
+    view->unshadowed = *lighting;
+    if (e3d_has_shadows(frame))
+        lighting->shadows = frame->shadow_maps;
     return 1;
 }
 

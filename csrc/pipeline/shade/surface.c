@@ -111,6 +111,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     g.has_uvs = g.mapped && mesh->uvs;
     g.has_uvs1 = g.mapped && mesh->uvs1;
     g.has_tangents = g.mapped && mesh->tangents;
+    g.unshadowed = draw->unshadowed != 0;
     g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
     g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
     return g;
@@ -120,7 +121,7 @@ static int same_bucket(const e3d_bucket *a, const e3d_bucket *b)
 {
     return a->material == b->material && a->face == b->face && a->flat == b->flat &&
            a->textured == b->textured && a->by_vertex == b->by_vertex &&
-           a->by_instance == b->by_instance && a->mapped == b->mapped && a->has_uvs == b->has_uvs &&
+           a->by_instance == b->by_instance && a->unshadowed == b->unshadowed && a->mapped == b->mapped && a->has_uvs == b->has_uvs &&
            a->has_uvs1 == b->has_uvs1 && a->has_tangents == b->has_tangents;
 }
 

@@ -13,7 +13,7 @@
 /* Samples that are shaded by the same steps. */
 typedef struct e3d_bucket {
     const e3d_material *material;
-    int8_t face, flat, textured, by_vertex, by_instance;
+    int8_t face, flat, textured, by_vertex, by_instance, unshadowed;
     int8_t mapped;                          /* by more than a texture of the base colour at the mesh's own coordinates: maps.h */
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int32_t first, last; /* of its visible pieces */

@@ -164,6 +164,9 @@ class PropertiesPanel:
         self._flag(nodes, "visible", "Visible")
         imgui.same_line()
         self._flag(nodes, "static", "Static")
+        self._flag(nodes, "cast_shadows", "Cast shadows")
+        imgui.same_line()
+        self._flag(nodes, "receive_shadows", "Receive shadows")
         if imgui.collapsing_header("Transform", imgui.TreeNodeFlags_.default_open):
             self._draw_transform(node)
         held = node.object
@@ -291,6 +294,7 @@ class PropertiesPanel:
         if isinstance(light, SpotLight):
             self._number(light, "inner_cone_angle", "Inner cone", 0.01, 0.0)
             self._number(light, "outer_cone_angle", "Outer cone", 0.01, 0.0)
+        self._flag([light], "shadow", "Shadow")
         if not isinstance(light, DirectionalLight):
             self._draw_range(light)
         else:

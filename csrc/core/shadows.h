@@ -1,0 +1,12 @@
+/* Whether the lights of a frame have shadows, and whether their maps can be looked up. */
+#ifndef E3D_SHADOWS_H
+#define E3D_SHADOWS_H
+
+#include "e3d.h"
+
+/* Whether any light has a shadow. */
+int e3d_has_shadows(const e3d_frame *frame);
+/* Whether the maps of all lights are there, and no comparison leaves them. */
+int e3d_shadows_are_valid(const e3d_frame *frame);
+
+#endif

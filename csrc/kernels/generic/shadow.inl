@@ -1,0 +1,260 @@
+/* shadow: how much of a light reaches samples, by the maps that were drawn from it (R91-R94). Sources: Williams 1978 (maps); Reeves,
+ * Salesin and Cook 1987 (comparisons, then a mean).
+ */
+#ifndef E3D_KERNELS_SHADOW_INL
+#define E3D_KERNELS_SHADOW_INL
+
+#include "core/always_inline.h"
+#include "core/limits.h"
+#include "e3d.h"
+#include "kernels/types/shading.h"
+#include "kernels/generic/surface.inl"
+
+/* Samples as their light sees them: how far to the right, down and ahead they are, and what one step along the normal adds to that. */
+typedef struct shadow_lanes {
+    vf32 at[3], along[3], sine; /* sine: of the angle between the normal and the light */
+} shadow_lanes;
+
+/* Where samples are in the maps: column and row in texels, the depth to compare, which map it is, and which samples are in one. */
+typedef struct shadow_place {
+    vf32 x, y, depth;
+    vi32 map;
+    vmask inside;
+} shadow_place;
+
+/* R91: the sine of the angle at which light falls. */
+static ALWAYS_INLINE vf32 shadow_sine(const vf32 normal[3], const vf32 l[3])
+{
+    vf32 c = dot_three(normal, l);
+    return v_sqrt(v_max(v_sub(v_setf(1.0f), v_mul(c, c)), v_setf(0.0f)));
+}
+
+/* R91: how far a sample moves along its normal, of which a texel is so wide there. */
+static ALWAYS_INLINE vf32 shadow_shift(const e3d_light_shadow *shadow, vf32 texel, vf32 sine)
+{
+    float reach = ((float)(shadow->step * (shadow->taps - 1)) * (1.0f / 512.0f) + 1.0f) * E3D_SHADOW_CORNER;
+    return v_add(v_setf(shadow->normal_bias), v_mul(v_mul(v_setf(reach), texel), v_add(sine, v_setf(E3D_SHADOW_SLACK))));
+}
+
+static ALWAYS_INLINE vmask shadow_is_inside(const e3d_light_shadow *shadow, vf32 x, vf32 y)
+{
+    vf32 low = v_setf(shadow->margin), high = v_setf((float)shadow->size - shadow->margin);
+    vmask right = v_mand(v_ge(x, low), v_ge(high, x)), down = v_mand(v_ge(y, low), v_ge(high, y));
+    return v_mand(right, down);
+}
+
+/* ---- where (R92) ---- */
+
+static ALWAYS_INLINE shadow_place shadow_place_directional(const e3d_light_shadow *shadow, const e3d_shadow_map *maps, const shadow_lanes *s)
+{
+    shadow_place place = {.map = v_seti(0)};
+    vf32 zero = v_setf(0.0f), scale = zero, texel = zero, x0 = zero, y0 = zero;
+    place.inside = v_gt(zero, zero);
+    for (int32_t k = shadow->count - 1; k >= 0; k--) {
+        vf32 size = v_setf(maps[k].scale);
+        vf32 x = v_add(v_mul(s->at[0], size), v_setf(maps[k].x)), y = v_add(v_mul(s->at[1], size), v_setf(maps[k].y));
+        vmask in = shadow_is_inside(shadow, x, y);
+        scale = v_self(in, size, scale);
+        texel = v_self(in, v_setf(maps[k].texel), texel);
+        x0 = v_self(in, x, x0);
+        y0 = v_self(in, y, y0);
+        place.map = v_seli(in, v_seti(k), place.map);
+        place.inside = v_mor(in, place.inside);
+    }
+    vf32 shift = shadow_shift(shadow, texel, s->sine);
+    place.x = v_add(x0, v_mul(v_mul(s->along[0], shift), scale));
+    place.y = v_add(y0, v_mul(v_mul(s->along[1], shift), scale));
+    vf32 ahead = v_add(s->at[2], v_mul(s->along[2], shift));
+    place.depth = v_add(v_add(v_mul(ahead, v_setf(shadow->depth[0])), v_setf(shadow->depth[1])), v_setf(shadow->bias));
+    return place;
+}
+
+/* Of what is so far to the right, down and ahead of a light that shines from a point. */
+static ALWAYS_INLINE void shadow_project(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const vf32 at[3], shadow_place *place)
+{
+    vf32 scale = v_setf(map->scale), near = v_div(v_setf(1.0f), v_max(at[2], v_setf(0x1p-100f)));
+    place->x = v_add(v_mul(v_mul(at[0], near), scale), v_setf(map->x));
+    place->y = v_add(v_mul(v_mul(at[1], near), scale), v_setf(map->y));
+    place->depth = v_add(v_add(v_setf(shadow->depth[0]), v_mul(v_setf(shadow->depth[1]), near)), v_setf(shadow->bias));
+    place->inside = v_mand(v_gt(at[2], v_setf(0.0f)), shadow_is_inside(shadow, place->x, place->y));
+}
+
+static ALWAYS_INLINE shadow_place shadow_place_spot(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
+{
+    shadow_place place = {.map = v_seti(0)};
+    vf32 at[3], shift = shadow_shift(shadow, v_mul(s->at[2], v_setf(map->texel)), s->sine);
+    for (int k = 0; k < 3; k++)
+        at[k] = v_add(s->at[k], v_mul(s->along[k], shift));
+    shadow_project(shadow, map, at, &place);
+    return place;
+}
+
+static ALWAYS_INLINE vf32 shadow_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(0x7FFFFFFF))); }
+
+/* The face of the cube, and what is to its right, down and ahead; `at` and `along` are in the world's axes. */
+static ALWAYS_INLINE shadow_place shadow_place_point(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
+{
+    shadow_place place;
+    vf32 zero = v_setf(0.0f), p[3], face[3];
+    vf32 most = v_max(v_max(shadow_abs(s->at[0]), shadow_abs(s->at[1])), shadow_abs(s->at[2]));
+    vf32 shift = shadow_shift(shadow, v_mul(most, v_setf(map->texel)), s->sine);
+    for (int k = 0; k < 3; k++)
+        p[k] = v_add(s->at[k], v_mul(s->along[k], shift));
+    vf32 a = shadow_abs(p[0]), b = shadow_abs(p[1]), c = shadow_abs(p[2]);
+    vmask by_x = v_mand(v_ge(a, b), v_ge(a, c)), by_y = v_mandnot(v_ge(b, c), by_x);
+    vf32 major = v_self(by_x, p[0], v_self(by_y, p[1], p[2]));
+    vmask back = v_lt(major, zero);
+    vf32 minus[3] = {v_sub(zero, p[0]), v_sub(zero, p[1]), v_sub(zero, p[2])};
+    vf32 right_x = v_self(back, minus[2], p[2]), right_z = v_self(back, p[0], minus[0]);
+    face[0] = v_self(by_x, right_x, v_self(by_y, p[0], right_z));
+    face[1] = v_self(by_y, v_self(back, p[2], minus[2]), minus[1]);
+    face[2] = shadow_abs(major);
+    vi32 axis = v_seli(by_x, v_seti(0), v_seli(by_y, v_seti(2), v_seti(4)));
+    shadow_project(shadow, map, face, &place);
+    place.map = v_addi(axis, v_seli(back, v_seti(1), v_seti(0)));
+    return place;
+}
+
+/* ---- comparisons (R93) ---- */
+
+/* What of a weight a comparison leaves: 0 where the map shows something nearer. */
+static ALWAYS_INLINE vi32 shadow_compare(const float *depths, vi32 at, vf32 depth, vi32 weight)
+{
+    return v_seli(v_ge(v_asf(v_gatheri(depths, at)), depth), weight, v_seti(0));
+}
+
+/* Blends four comparisons about a place, in 1/256 texel. */
+static ALWAYS_INLINE vi32 shadow_tap(const e3d_light_shadow *shadow, vi32 base, vi32 x, vi32 y, vf32 depth)
+{
+    vi32 all = v_seti(256), fx = v_andi(x, v_seti(255)), fy = v_andi(y, v_seti(255)), gx = v_subi(all, fx), one = v_seti(1);
+    vi32 upper = v_addi(v_addi(base, v_muli(v_sra(y, 8), v_seti(shadow->size))), v_sra(x, 8)), lower = v_addi(upper, v_seti(shadow->size));
+    vi32 top = v_addi(shadow_compare(shadow->depths, upper, depth, gx), shadow_compare(shadow->depths, v_addi(upper, one), depth, fx));
+    vi32 bottom = v_addi(shadow_compare(shadow->depths, lower, depth, gx), shadow_compare(shadow->depths, v_addi(lower, one), depth, fx));
+    return v_addi(v_muli(top, v_subi(all, fy)), v_muli(bottom, fy));
+}
+
+/* Weights of four columns or rows of comparisons: of all of a block's, or of those on one side of a larger block. */
+typedef struct shadow_weights {
+    vi32 of[4];
+} shadow_weights;
+
+/* The first of them and the last share a tap's weight; those between have all of it. */
+static ALWAYS_INLINE shadow_weights shadow_block_weights(vi32 fraction)
+{
+    vi32 all = v_seti(256);
+    return (shadow_weights){{v_subi(all, fraction), all, all, fraction}};
+}
+
+/* Of six columns or rows the first three, without the fourth, or the last three, without the one before them. */
+static ALWAYS_INLINE shadow_weights shadow_half_weights(vi32 fraction, int last)
+{
+    vi32 all = v_seti(256), none = v_seti(0);
+    return last ? (shadow_weights){{none, all, all, fraction}} : (shadow_weights){{v_subi(all, fraction), all, all, none}};
+}
+
+/* The weights of those of sixteen comparisons whose bits are set. */
+static ALWAYS_INLINE vi32 shadow_weigh(vi32 bits, const shadow_weights *x, const shadow_weights *y)
+{
+    vi32 sum = v_seti(0), one = v_seti(1);
+    for (int r = 0; r < 4; r++) {
+        vi32 row = v_seti(0);
+        for (int c = 0; c < 4; c++, bits = v_shr(bits, 1))
+            row = v_addi(row, v_andi(v_subi(v_seti(0), v_andi(bits, one)), x->of[c]));
+        sum = v_addi(sum, v_muli(row, y->of[r]));
+    }
+    return sum;
+}
+
+/* Taps that are a texel apart share the comparisons between them: 3 x 3 are sixteen comparisons. */
+static ALWAYS_INLINE vi32 shadow_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+{
+    vi32 bits = v_ge16(shadow->depths, shadow->size, at, depth), all = v_seti(0xFFFF), low = v_seti(255);
+    vmask none = v_eqi(bits, v_seti(0)), whole = v_eqi(bits, all);
+    if (!v_any(v_mnot(v_mor(none, whole)))) /* as mostly */
+        return v_seli(whole, v_seti(65536 * 9), v_seti(0));
+    shadow_weights across = shadow_block_weights(v_andi(x, low)), down = shadow_block_weights(v_andi(y, low));
+    return shadow_weigh(bits, &across, &down);
+}
+
+/* 5 x 5 taps: four such blocks, which overlap. */
+static ALWAYS_INLINE vi32 shadow_large_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+{
+    vi32 bits[4], every = v_seti(0xFFFF), some = v_seti(0), low = v_seti(255), sum = v_seti(0);
+    for (int k = 0; k < 4; k++) {
+        bits[k] = v_ge16(shadow->depths, shadow->size, v_addi(at, v_seti(2 * (k & 1) + 2 * (k >> 1) * shadow->size)), depth);
+        every = v_andi(every, bits[k]);
+        some = v_ori(some, bits[k]);
+    }
+    vmask none = v_eqi(some, v_seti(0)), whole = v_eqi(every, v_seti(0xFFFF));
+    if (!v_any(v_mnot(v_mor(none, whole))))
+        return v_seli(whole, v_seti(65536 * 25), v_seti(0));
+    for (int k = 0; k < 4; k++) {
+        shadow_weights across = shadow_half_weights(v_andi(x, low), k & 1), down = shadow_half_weights(v_andi(y, low), k >> 1);
+        sum = v_addi(sum, shadow_weigh(bits[k], &across, &down));
+    }
+    return sum;
+}
+
+/* R93: the column or row of the first tap in 1/256 texel, which lanes outside of the maps have somewhere inside. */
+static ALWAYS_INLINE vi32 shadow_first(const e3d_light_shadow *shadow, vf32 at, int32_t across)
+{
+    vf32 within = v_min(v_max(at, v_setf(0.0f)), v_setf((float)shadow->size));
+    vi32 first = v_subi(v_rint(v_mul(within, v_setf(256.0f))), v_seti(128 + across / 2));
+    return v_mini(v_maxi(first, v_seti(0)), v_seti(256 * shadow->size - 257 - across));
+}
+
+static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_shadow *shadow, const shadow_place *place)
+{
+    int32_t step = shadow->step, across = step * (shadow->taps - 1);
+    vi32 x = shadow_first(shadow, place->x, across), y = shadow_first(shadow, place->y, across), sum = v_seti(0);
+    vi32 base = v_muli(place->map, v_seti(shadow->size * shadow->size));
+    vi32 at = v_addi(v_addi(base, v_muli(v_sra(y, 8), v_seti(shadow->size))), v_sra(x, 8));
+    if (step == 256 && shadow->taps == 3)
+        sum = shadow_block(shadow, at, x, y, place->depth);
+    else if (step == 256 && shadow->taps == 5)
+        sum = shadow_large_block(shadow, at, x, y, place->depth);
+    else
+        for (int32_t t = 0; t < shadow->taps * shadow->taps; t++) {
+            vi32 right = v_seti(step * (t % shadow->taps)), down = v_seti(step * (t / shadow->taps));
+            sum = v_addi(sum, shadow_tap(shadow, base, v_addi(x, right), v_addi(y, down), place->depth));
+        }
+    vf32 reached = v_div(v_float(sum), v_setf((float)(65536 * shadow->taps * shadow->taps)));
+    return v_self(place->inside, reached, v_setf(1.0f));
+}
+
+/* ---- lights ---- */
+
+/* R91-R94 of a light that has maps; `l` is towards it. */
+static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lighting, int n, const vf32 position[3], const vf32 normal[3],
+                                                         const vf32 l[3])
+{
+    const e3d_light *light = &lighting->lights[n];
+    const e3d_light_shadow *shadow = &light->shadow;
+    const e3d_shadow_map *maps = lighting->shadows + shadow->first;
+    shadow_lanes s = {.sine = shadow_sine(normal, l)};
+    vf32 p[3];
+    for (int k = 0; k < 3; k++)
+        p[k] = light->kind == E3D_LIGHT_DIRECTIONAL ? position[k] : v_sub(position[k], v_setf(light->position[k]));
+    for (int k = 0; k < 3; k++) {
+        const vf32 axis[3] = {v_setf(shadow->axes[k][0]), v_setf(shadow->axes[k][1]), v_setf(shadow->axes[k][2])};
+        s.at[k] = light->kind == E3D_LIGHT_POINT ? p[k] : dot_three(p, axis);
+        s.along[k] = light->kind == E3D_LIGHT_POINT ? normal[k] : dot_three(normal, axis);
+    }
+    shadow_place place = light->kind == E3D_LIGHT_DIRECTIONAL ? shadow_place_directional(shadow, maps, &s)
+                         : light->kind == E3D_LIGHT_SPOT      ? shadow_place_spot(shadow, maps, &s)
+                                                              : shadow_place_point(shadow, maps, &s);
+    return v_any(place.inside) ? shadow_blend(shadow, &place) : v_setf(1.0f);
+}
+
+/* How much of light n, which has a shadow, reaches a vector of samples, from 0 to 1: those of the batch from i on, at these positions. */
+static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const vf32 position[3],
+                                        const vf32 l[3])
+{
+    const e3d_lane_array *normals = batch->unmapped_normal ? batch->unmapped_normal : batch->normal;
+    vf32 normal[3];
+    for (int k = 0; k < 3; k++)
+        normal[k] = v_loadf(normals[k] + i);
+    return shadow_map_reached(lighting, n, position, normal, l);
+}
+
+#endif

@@ -1,0 +1,151 @@
+"""The maps of shadows of a scene's lights, drawn anew where what they show changed.
+
+In: a scene whose draw list is up to date, and what the camera sees. Out: the lights of the native
+draw list have their maps. A map is kept while neither its light, nor what it shows, nor, of
+directional lights, the part of the world that it covers has changed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._native.rasterizer import CULLS, NativeRenderer
+from .._native.scene_graph import SHOWN
+from ..choices import Cull
+from ..scene.lights import DirectionalLight, SpotLight
+from ..scene.node_arrays import CASTS_NONE, NodeArrays
+from ..scene.scene import Scene
+from ._draw_list import DrawList
+from ._shadow_views import (
+    MapView,
+    ShadowViews,
+    directional_views,
+    point_views,
+    spot_views,
+)
+from ._view import View
+
+
+class _LightMaps:
+    """The maps of one light: their depths, and of each what it was drawn of."""
+
+    def __init__(self, count: int, size: int) -> None:
+        self.depths = np.empty((count, size, size), np.float32)
+        self.drawn = [_Drawn() for _ in range(count)]
+
+    def fits(self, count: int, size: int) -> bool:
+        return self.depths.shape == (count, size, size)
+
+
+class _Drawn:
+    """What a map was drawn of: first the moment of the scene, then the nodes themselves."""
+
+    clip = b""
+    moment: tuple | None = None
+    casters: tuple | None = None
+
+
+class ShadowMaps:
+    """The maps of one renderer.
+
+    Parameters
+    ----------
+    native : NativeRenderer
+    draw_list : DrawList
+
+    Attributes
+    ----------
+    drawn : int
+        Maps that the last update drew.
+    count : int
+        Maps that there are.
+    """
+
+    def __init__(self, native: NativeRenderer, draw_list: DrawList) -> None:
+        self._native = native
+        self._draw_list = draw_list
+        self._kept: dict[int, _LightMaps] = {}
+        self.drawn = self.count = 0
+
+    def update(self, scene: Scene, view: View, cull: Cull) -> None:
+        """Give the lights their maps, for a frame with lit surfaces that leaves out these faces.
+
+        Raises
+        ------
+        InvalidArgumentError
+            A light's shadow_radius is too wide for its maps.
+        """
+        native = self._draw_list.native
+        self.drawn = self.count = 0
+        native.clear_shadows()
+        lights = [entry for entry in self._draw_list.lights.placed() if entry[1].shadow is True]
+        for number in self._kept.keys() - {number for number, _, _ in lights}:
+            del self._kept[number]
+        if not lights:
+            return
+        bounds = scene.bounds
+        moment = scene._arrays, scene._arrays.updated, self._draw_list.renewals, CULLS[cull]
+        for number, light, pose in lights:
+            light.check()
+            views = _views_of(light, pose, bounds, view)
+            if views is not None:
+                self._update_light(number, light, views, moment)
+
+    def _update_light(self, number: int, light, views: ShadowViews, moment: tuple) -> None:
+        count, size = len(views.maps), light.shadow_map_size
+        kept = self._kept.get(number)
+        if kept is None or not kept.fits(count, size):
+            kept = self._kept[number] = _LightMaps(count, size)
+        for k, seen in enumerate(views.maps):
+            self._update_map(kept.depths[k], kept.drawn[k], seen, moment)
+        self.count += count
+        self._draw_list.native.set_shadow(
+            number,
+            kept.depths,
+            views.places,
+            taps=light.shadow_taps,
+            step=round(256 * light.shadow_radius),
+            margin=views.margin,
+            bias=2.0 * light.shadow_bias,  # depths are from -1 to 1
+            normal_bias=light.shadow_normal_bias,
+            axes=views.axes,
+            depth=views.depth,
+        )
+
+    def _update_map(self, depths, drawn: _Drawn, seen: MapView, moment: tuple) -> None:
+        """Draw a map, unless it would show the same again."""
+        clip = seen.clip_from_world.tobytes()
+        if clip == drawn.clip and moment == drawn.moment:
+            return
+        arrays, _, renewals, cull = moment
+        selection = np.empty((arrays.count + 63) // 64, np.uint64)
+        arrays.select(seen.clip_from_world, 1.0, False, selection)
+        casters = arrays, renewals, cull, _casters(arrays, selection)
+        if clip != drawn.clip or casters != drawn.casters:
+            drawn.clip, drawn.casters = b"", None  # for if anything below raises
+            native = self._draw_list.native
+            native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
+            self._native.draw_shadow_map(native, depths, *seen, cull, id(drawn))
+            self.drawn += 1
+        drawn.clip, drawn.moment, drawn.casters = clip, moment, casters
+
+
+def _views_of(light, pose: list[float], bounds: np.ndarray, view: View) -> ShadowViews | None:
+    """From where a light's maps are drawn; ``pose`` as `LightList.placed` has it."""
+    towards, position = pose
+    if isinstance(light, DirectionalLight):
+        return directional_views(light, towards, bounds, view)
+    if isinstance(light, SpotLight):
+        return spot_views(light, towards, position, bounds)
+    return point_views(light, position, bounds)
+
+
+def _casters(arrays: NodeArrays, selection: np.ndarray) -> tuple[bytes, ...]:
+    """What tells whether selected nodes that cast shadows are the same, where they were."""
+    bits = np.unpackbits(selection.view(np.uint8), bitorder="little")[: arrays.count]
+    columns = arrays.columns
+    casts = columns["unshadowed"][: arrays.count] & CASTS_NONE == 0
+    shown = columns["flags"][: arrays.count] & SHOWN != 0
+    slots = np.flatnonzero((bits != 0) & casts & shown & (columns["object"][: arrays.count] >= 0))
+    names = ("object", "world_version")
+    return slots.tobytes(), *(columns[name][slots].tobytes() for name in names)

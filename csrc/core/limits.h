@@ -39,6 +39,11 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_UNORM15_BLENDED 0x1.0002p-23f /* 1 / (32767 * 256): a weight of 256 */
 #define E3D_UNORM8_BLENDED 0x1.03060ap-24f /* 1 / 255^3: two weights of 255 each */
 
+/* R111: changes of texture coordinates are limited so that the squares of their products are finite, and a footprint without a
+ * direction has none rather than a quotient of zeros. */
+#define E3D_MOST_TEXELS 0x1p30f
+#define E3D_LEAST_AXIS 0x1p-60f
+
 #define E3D_LEAST_WEIGHT 0x1p-64f /* the least weight of the first corner, so that those of R19 are never all 0 */
 #define E3D_LEAST_ALPHA 0x1p-24f /* R81: a blended sample with less shows nothing; so sums of alphas have a finite inverse */
 #define E3D_LEAST_LENGTH2 0x1p-126f /* R22: the least squared length whose root has a finite inverse */

@@ -5,6 +5,7 @@
  * Each level has a border of one texel, by the wrap along each coordinate: the neighbours that a filter blends always
  * stand side by side.
  */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -141,22 +142,48 @@ static void make_signed(e3d_texture *texture, size_t bytes)
         texture->texels[i] ^= 0x80;
 }
 
+static int is_valid(const e3d_sampling *sampling)
+{
+    float bias = sampling->lod_bias;
+    return (unsigned)sampling->filter <= E3D_TRILINEAR && (unsigned)sampling->wrap[0] <= E3D_MIRROR &&
+           (unsigned)sampling->wrap[1] <= E3D_MIRROR && (unsigned)sampling->anisotropy <= E3D_MAX_ANISOTROPY &&
+           bias >= -E3D_MAX_LOD_BIAS && bias <= E3D_MAX_LOD_BIAS;
+}
+
+/* 2 to the power of y, by R27. */
+static float power_of_two(float y)
+{
+    static const float c[5] = {0x1.3a37acp-2f, 0x1.10e326p-4f, 0x1.6d1682p-7f, 0x1.7e244cp-10f, 0x1.cb1d4cp-13f};
+    float whole = floorf(y), f = y - whole, sum = c[4];
+    for (int k = 3; k >= 0; k--)
+        sum = sum * f + c[k];
+    return ldexpf((1.0f + f) + (f * (f - 1.0f)) * sum, (int)whole);
+}
+
+/* Only a chain of levels has any use for either. */
+static void keep_sampling(const e3d_sampling *sampling, e3d_texture_view *view)
+{
+    int has_levels = sampling->filter == E3D_TRILINEAR;
+    view->filter = sampling->filter;
+    memcpy(view->wrap, sampling->wrap, sizeof view->wrap);
+    view->anisotropy = has_levels && sampling->anisotropy > 1 ? sampling->anisotropy : 1;
+    view->level_scale = has_levels ? power_of_two(sampling->lod_bias) : 1.0f;
+}
+
 e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height, int decode_srgb,
-                              e3d_filter filter, const e3d_wrap wrap[2], e3d_texture **out)
+                              const e3d_sampling *sampling, e3d_texture **out)
 {
     *out = NULL;
     if (!pixels || width < 1 || height < 1 || width > E3D_MAX_TEXTURE_SIZE ||
-        height > E3D_MAX_TEXTURE_SIZE || (unsigned)filter > E3D_TRILINEAR ||
-        (unsigned)wrap[0] > E3D_MIRROR || (unsigned)wrap[1] > E3D_MIRROR)
+        height > E3D_MAX_TEXTURE_SIZE || !is_valid(sampling))
         return E3D_INVALID_ARGUMENT;
-    int levels = filter == E3D_TRILINEAR ? chain_levels(width, height) : 1;
+    int levels = sampling->filter == E3D_TRILINEAR ? chain_levels(width, height) : 1;
     e3d_texture *texture = calloc(1, sizeof *texture);
     if (!texture)
         return E3D_OUT_OF_MEMORY;
     texture->view.level_count = levels;
     texture->view.channel_bits = decode_srgb || levels > 1 ? 16 : 8;
-    texture->view.filter = filter;
-    memcpy(texture->view.wrap, wrap, sizeof texture->view.wrap);
+    keep_sampling(sampling, &texture->view);
     texture->view.is_opaque = is_opaque(pixels, (size_t)width * (size_t)height);
     size_t bytes = chain_texels(width, height, levels) * texel_bytes(texture);
     texture->texels = malloc(bytes + PAST);

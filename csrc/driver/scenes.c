@@ -305,10 +305,11 @@ static e3d_status add_materials(scene *s, random_stream *r)
     for (int i = 0; i < SCENE_MAX_TEXTURES; i++) {
         int32_t width = 1 + random_below(r, 33), height = 1 + random_below(r, 33);
         uint8_t *pixels = random_bytes(s, r, 4 * width * height);
-        e3d_filter filter = (e3d_filter)random_below(r, 3);
-        const e3d_wrap wrap[2] = {(e3d_wrap)random_below(r, 3), (e3d_wrap)random_below(r, 3)};
-        e3d_status status = e3d_texture_create(pixels, width, height, random_below(r, 2), filter,
-                                               wrap, &s->textures[i]);
+        const e3d_sampling sampling = {.filter = (e3d_filter)random_below(r, 3),
+                                       .wrap = {(e3d_wrap)random_below(r, 3), (e3d_wrap)random_below(r, 3)},
+                                       .anisotropy = random_once_in(r, 2) ? 1 + random_below(r, E3D_MAX_ANISOTROPY) : 1,
+                                       .lod_bias = random_once_in(r, 2) ? random_float(r, -2.0f, 2.0f) : 0.0f};
+        e3d_status status = e3d_texture_create(pixels, width, height, random_below(r, 2), &sampling, &s->textures[i]);
         if (status != E3D_OK)
             return status;
     }

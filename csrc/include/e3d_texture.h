@@ -26,7 +26,15 @@ typedef struct e3d_level {
     int32_t width, height;
 } e3d_level;
 
-enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 16384 };
+enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 16384, E3D_MAX_ANISOTROPY = 16, E3D_MAX_LOD_BIAS = 16 };
+
+/* How a texture is read. */
+typedef struct e3d_sampling {
+    e3d_filter filter;
+    e3d_wrap wrap[2];   /* along u and along v */
+    int32_t anisotropy; /* E3D_TRILINEAR: the most places that are read for a sample; 0 counts as 1 */
+    float lod_bias;     /* E3D_TRILINEAR: added to the level; -E3D_MAX_LOD_BIAS .. E3D_MAX_LOD_BIAS */
+} e3d_sampling;
 
 typedef struct e3d_texture_view {
     e3d_level levels[E3D_MAX_LEVELS];
@@ -35,12 +43,13 @@ typedef struct e3d_texture_view {
     int32_t is_opaque;   /* every alpha is 255 */
     e3d_filter filter;
     e3d_wrap wrap[2]; /* along u and along v */
+    int32_t anisotropy; /* at least 1; 1 unless the filter is E3D_TRILINEAR */
+    float level_scale;  /* 2 to the power of the bias (R110) */
 } e3d_texture_view;
 
-/* pixels: (height, width, 4) uint8, top row first, copied. decode_srgb: 0 takes 8-bit values as they are. wrap: along u
- * and along v. */
+/* pixels: (height, width, 4) uint8, top row first, copied. decode_srgb: 0 takes 8-bit values as they are. */
 e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height, int decode_srgb,
-                              e3d_filter filter, const e3d_wrap wrap[2], e3d_texture **out);
+                              const e3d_sampling *sampling, e3d_texture **out);
 void e3d_texture_destroy(e3d_texture *texture);
 const e3d_texture_view *e3d_texture_get_view(const e3d_texture *texture);
 

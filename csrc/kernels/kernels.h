@@ -86,8 +86,8 @@ typedef struct e3d_kernels {
     void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted);
     /* Fills the wanted attributes of a batch (R19-R26). */
     void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted);
-    /* color = base * texture */
-    void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float base[3]);
+    /* color = base * texture; of an anisotropic one the batch's weights and the slopes of its surfaces are there. */
+    void (*texture)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const float base[3]);
     /* color *= vertex colour, color *= instance colour */
     void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance);
     /* energy, and shine where shininess > 0 */

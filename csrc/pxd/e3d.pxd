@@ -86,9 +86,14 @@ cdef extern from "e3d.h" nogil:
     ctypedef enum e3d_wrap:
         pass
 
+    ctypedef struct e3d_sampling:
+        e3d_filter filter
+        e3d_wrap wrap[2]
+        int32_t anisotropy
+        float lod_bias
+
     e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t height,
-                                  int decode_srgb, e3d_filter filter, const e3d_wrap *wrap,
-                                  e3d_texture **out)
+                                  int decode_srgb, const e3d_sampling *sampling, e3d_texture **out)
     void e3d_texture_destroy(e3d_texture *texture)
 
     ctypedef struct e3d_texture_use:

@@ -39,6 +39,8 @@ cdef extern from "kernels/kernels.h" nogil:
         int32_t is_opaque
         e3d_filter filter
         e3d_wrap wrap[2]
+        int32_t anisotropy
+        float level_scale
 
     ctypedef struct e3d_viewport:
         int32_t width
@@ -245,7 +247,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport)
         void (*surface)(e3d_surfaces *surfaces, int tile_x, int tile_y, int wanted)
         void (*interpolate)(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
-        void (*texture)(e3d_batch *batch, const e3d_texture_view *texture, const float *base)
+        void (*texture)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const float *base)
         void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance)
         void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess)
         void (*combine)(e3d_batch *batch, const float *specular, const float *emissive,

@@ -2,8 +2,9 @@
  *
  * In:  a texture's levels (linear RGBA, top row first), uv and how they change over the piece.
  * Out: the red, green, blue and alpha of the texture there, and their unit.
- * Rules: R25 and R26 (level of detail), R29 (wrap), R30 (filters). The levels themselves are R28.
+ * Rules: R25 and R26 (level of detail), R29 (wrap), R30 (filters), R110 to R113 (bias, anisotropy). The levels themselves are R28.
  */
+#include <math.h>
 #include <string.h>
 
 #include "reference/arithmetic.h"
@@ -25,18 +26,78 @@ static void find_slopes(const ref_surface *s, const float corners[3], float size
     *down = (ay * s0 - a0 * sy) * size - s->dx * turn;
 }
 
-/* R26, in 1/256 level. */
+/* R110: the texture's size as R25 counts it. */
+static float counted_size(const e3d_texture_view *texture, int32_t side) { return (float)side * texture->level_scale; }
+
+static void find_changes(const e3d_texture_view *texture, const ref_surface *s, const ref_coordinates *at, float along[2], float down[2])
+{
+    find_slopes(s, at->corner[0], counted_size(texture, texture->levels[0].width), &along[0], &down[0]);
+    find_slopes(s, at->corner[1], counted_size(texture, texture->levels[0].height), &along[1], &down[1]);
+}
+
+/* R26: in 1/256 level, of a squared length in texels that is at least 1. */
+static int32_t level_of_length(const e3d_texture_view *texture, float squared)
+{
+    int32_t coarsest = (texture->level_count - 1) * 256, bits;
+    memcpy(&bits, &squared, sizeof bits);
+    int32_t lod = (bits - 0x3F800000) / 65536;
+    return lod < coarsest ? lod : coarsest;
+}
+
+/* R26 */
 static int32_t level_of_detail(const e3d_texture_view *texture, const ref_surface *s, const ref_coordinates *at)
 {
     float along[2], down[2];
-    find_slopes(s, at->corner[0], (float)texture->levels[0].width, &along[0], &down[0]);
-    find_slopes(s, at->corner[1], (float)texture->levels[0].height, &along[1], &down[1]);
+    find_changes(texture, s, at, along, down);
     float longest = ref_max(along[0] * along[0] + along[1] * along[1], down[0] * down[0] + down[1] * down[1]);
-    float q = ref_max((longest * (s->r * s->r)) * (s->r * s->r), 1.0f);
-    int32_t coarsest = (texture->level_count - 1) * 256, bits;
-    memcpy(&bits, &q, sizeof bits);
-    int32_t lod = (bits - 0x3F800000) / 65536;
-    return lod < coarsest ? lod : coarsest;
+    return level_of_length(texture, ref_max((longest * (s->r * s->r)) * (s->r * s->r), 1.0f));
+}
+
+/* Where an anisotropic filter reads: how many probes, how far apart in u and v, and at which level. */
+typedef struct probes {
+    float count, step[2];
+    int32_t lod;
+} probes;
+
+/* R111: the axes of the footprint, the minor one at least a texel. */
+typedef struct ellipse {
+    float longest2, longest, shortest; /* longest2: its square */
+    float direction[2];                /* of the major axis, in texels */
+} ellipse;
+
+static ellipse find_ellipse(const float along[2], const float down[2])
+{
+    ellipse out;
+    float a = along[0] * along[0] + down[0] * down[0], c = along[1] * along[1] + down[1] * down[1];
+    float b = along[0] * along[1] + down[0] * down[1], d = a - c;
+    float root = sqrtf(d * d + (b * b) * 4.0f), axis = fabsf(d) + root;
+    out.longest2 = ref_max(((a + c) + root) * 0.5f, 1.0f);
+    out.longest = sqrtf(out.longest2);
+    out.shortest = ref_max(fabsf(along[0] * down[1] - along[1] * down[0]) / out.longest, 1.0f);
+    float x = d >= 0.0f ? axis : b + b, y = d >= 0.0f ? b + b : axis;
+    float inverse = 1.0f / ref_max(sqrtf(x * x + y * y), E3D_LEAST_AXIS);
+    out.direction[0] = x * inverse;
+    out.direction[1] = y * inverse;
+    return out;
+}
+
+/* R112 */
+static probes find_probes(const e3d_texture_view *texture, const ref_surface *s, const ref_coordinates *at)
+{
+    float along[2], down[2], r2 = s->r * s->r;
+    find_changes(texture, s, at, along, down);
+    for (int c = 0; c < 2; c++) {
+        along[c] = ref_clamp(along[c] * r2, -E3D_MOST_TEXELS, E3D_MOST_TEXELS);
+        down[c] = ref_clamp(down[c] * r2, -E3D_MOST_TEXELS, E3D_MOST_TEXELS);
+    }
+    ellipse e = find_ellipse(along, down);
+    probes out = {.count = (float)ref_rint(ref_min(e.longest / e.shortest, (float)texture->anisotropy))};
+    float share = 1.0f / out.count, reach = e.longest * share;
+    const int32_t size[2] = {texture->levels[0].width, texture->levels[0].height};
+    for (int c = 0; c < 2; c++)
+        out.step[c] = (e.direction[c] * reach) * (1.0f / counted_size(texture, size[c]));
+    out.lod = level_of_length(texture, ref_max(e.longest2 * (share * share), e.shortest * e.shortest));
+    return out;
 }
 
 /* R29: into [0, 1]. */
@@ -129,9 +190,29 @@ static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float
         out[c] = out[c] + (coarser[c] - out[c]) * f;
 }
 
+/* R113 */
+static void sample_probes(const e3d_texture_view *texture, const probes *probes, const float uv[2], float out[CHANNELS])
+{
+    float middle = (probes->count - 1.0f) * 0.5f, texel[CHANNELS];
+    for (float k = 0.0f; k < probes->count; k++) {
+        float u = uv[0] + (k - middle) * probes->step[0], v = uv[1] + (k - middle) * probes->step[1];
+        float s = wrap_coordinate(u, texture->wrap[0]), t = wrap_coordinate(1.0f - v, texture->wrap[1]);
+        sample_trilinear(texture, probes->lod, s, t, texel);
+        for (int c = 0; c < CHANNELS; c++)
+            out[c] = k > 0.0f ? out[c] + texel[c] : texel[c];
+    }
+    for (int c = 0; c < CHANNELS; c++)
+        out[c] = out[c] / probes->count;
+}
+
 float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at,
                          float out[CHANNELS])
 {
+    if (texture->anisotropy > 1) {
+        probes probes = find_probes(texture, surface, at);
+        sample_probes(texture, &probes, at->uv, out);
+        return E3D_UNORM15_BLENDED;
+    }
     float s = wrap_coordinate(at->uv[0], texture->wrap[0]);
     float t = wrap_coordinate(1.0f - at->uv[1], texture->wrap[1]);
     if (texture->filter == E3D_NEAREST)

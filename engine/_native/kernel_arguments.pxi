@@ -133,6 +133,7 @@ cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
     view.is_opaque = 0
     view.filter = <e3d_filter>filter
     view.wrap[0], view.wrap[1] = <e3d_wrap>(<int>wrap[0]), <e3d_wrap>(<int>wrap[1])
+    view.anisotropy, view.level_scale = 1, 1.0
     for level in range(sizes.shape[0]):
         view.levels[level].texels = &texels[start]
         view.levels[level].width = sizes[level, 0]

@@ -136,6 +136,9 @@ class Kernels:
         filter: int,
         wrap: tuple[int, int],
         base: _Floats,
+        anisotropy: int = 1,
+        level_scale: float = 1.0,
+        surfaces: _Bytes | None = None,
     ) -> None: ...
     def tint(self, batch: _Bytes, surfaces: _Bytes, by_vertex: bool, by_instance: bool) -> None: ...
     def light(

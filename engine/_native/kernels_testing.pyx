@@ -412,12 +412,20 @@ cdef class Kernels:
             self.table.interpolate(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0], wanted)
 
     def texture(self, uint8_t[::1] batch, const uint8_t[::1] texels, int channel_bits,
-                const int32_t[:, ::1] sizes, int filter, wrap, const float[::1] base):
-        """``texels``: the levels with their borders, and 16 bytes more."""
+                const int32_t[:, ::1] sizes, int filter, wrap, const float[::1] base,
+                int anisotropy=1, float level_scale=1.0, const uint8_t[::1] surfaces=None):
+        """``texels``: the levels with their borders, and 16 bytes more. ``surfaces``: where ``anisotropy`` is more than 1."""
         cdef e3d_texture_view view = texture_view(texels, channel_bits, sizes, filter, wrap)
+        cdef const e3d_surfaces *of = NULL
         check_size(batch, sizeof(e3d_batch))
+        view.anisotropy, view.level_scale = anisotropy, level_scale
+        if surfaces is not None:
+            check_size(surfaces, sizeof(e3d_surfaces))
+            of = <const e3d_surfaces *>&surfaces[0]
+        elif anisotropy > 1:
+            raise ValueError("an anisotropic texture needs surfaces")
         for _ in range(self.rounds):
-            self.table.texture(<e3d_batch *>&batch[0], &view, &base[0])
+            self.table.texture(<e3d_batch *>&batch[0], of, &view, &base[0])
 
     def tint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, bint by_vertex, bint by_instance):
         check_size(batch, sizeof(e3d_batch))

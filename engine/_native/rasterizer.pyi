@@ -96,7 +96,14 @@ def pose_meshes(
 
 class NativeTexture:
     def __init__(
-        self, pixels: _Bytes, decode_srgb: bool, filter: int, wrap_u: int, wrap_v: int
+        self,
+        pixels: _Bytes,
+        decode_srgb: bool,
+        filter: int,
+        wrap_u: int,
+        wrap_v: int,
+        anisotropy: int,
+        lod_bias: float,
     ) -> None: ...
 
 class NativeEnvironment:

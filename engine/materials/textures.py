@@ -30,6 +30,8 @@ WRAPS: tuple[Wrap, ...] = get_args(Wrap)
 #: One for both coordinates, or one along u and one along v.
 SideWraps: TypeAlias = Wrap | tuple[Wrap, Wrap]
 MAX_SIDE = 16384
+MAX_ANISOTROPY = 16
+MAX_LOD_BIAS = 16
 
 
 def _check_wrap(value: SideWraps, what: str) -> SideWraps:
@@ -42,6 +44,23 @@ def _check_wrap(value: SideWraps, what: str) -> SideWraps:
     return u if u == v else (u, v)
 
 
+def _check_anisotropy(value: int, what: str) -> int:
+    if isinstance(value, bool) or real(value) not in range(1, MAX_ANISOTROPY + 1):
+        raise InvalidArgumentError(
+            f"{what} must be a whole number in 1..{MAX_ANISOTROPY}, not {shown(value)}"
+        )
+    return int(value)
+
+
+def _check_bias(value: float, what: str) -> float:
+    bias = real(value)
+    if not -MAX_LOD_BIAS <= bias <= MAX_LOD_BIAS:
+        raise InvalidArgumentError(
+            f"{what} must be in -{MAX_LOD_BIAS}..{MAX_LOD_BIAS}, not {shown(value)}"
+        )
+    return bias
+
+
 class TextureOptions(TypedDict, total=False):
     """The keyword arguments of `Texture`, for functions that pass them on."""
 
@@ -49,6 +68,8 @@ class TextureOptions(TypedDict, total=False):
     filter: Filter
     wrap: SideWraps
     name: str
+    anisotropy: int
+    lod_bias: float
 
 
 class Texture(Closed):
@@ -66,6 +87,13 @@ class Texture(Closed):
         What lies beyond the edges; of a pair, along u and along v. An equal pair is kept as the
         one name.
     name : str
+    anisotropy : int
+        At how many places along its footprint a pixel reads the texture at most, 1 to 16. 1 reads
+        one place, and blurs surfaces that recede. Only of trilinear textures: others have no
+        smaller images to read.
+    lod_bias : float
+        Added to the level that trilinear textures are read at, -16 to 16: each -1 reads an image
+        twice as wide, which is sharper and flickers more.
 
     Attributes
     ----------
@@ -87,6 +115,8 @@ class Texture(Closed):
     color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
     filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
     wrap: CheckedAttribute[SideWraps, SideWraps] = CheckedAttribute(_check_wrap)
+    anisotropy: CheckedAttribute[int, int] = CheckedAttribute(_check_anisotropy)
+    lod_bias: CheckedAttribute[float, float] = CheckedAttribute(_check_bias)
 
     def __init__(
         self,
@@ -96,12 +126,16 @@ class Texture(Closed):
         filter: Filter = "trilinear",
         wrap: SideWraps = "repeat",
         name: str = "",
+        anisotropy: int = 1,
+        lod_bias: float = 0.0,
     ) -> None:
         self.pixels = pixels
         self.color_space = color_space
         self.filter = filter
         self.wrap = wrap
         self.name = str(name)
+        self.anisotropy = anisotropy
+        self.lod_bias = lod_bias
 
     @property
     def pixels(self) -> NDArray[np.uint8]:

@@ -58,13 +58,16 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
 def native_texture(texture: Texture, color_space: str) -> NativeTexture:
     """Return the handle of a texture as it is now, for renderers of one colour space."""
-    pixels, filter, sides = texture.pixels, texture.filter, texture.side_wraps
+    pixels = texture.pixels
+    sampling = texture.filter, texture.side_wraps, texture.anisotropy, texture.lod_bias
     decode = color_space == "srgb" and texture.color_space == "srgb"
     natives = _textures.setdefault(texture, {})
     made_of, native = natives.get(decode, (None, None))
-    if made_of is None or made_of[0] is not pixels or made_of[1:] != (filter, sides):
-        native = NativeTexture(pixels, decode, FILTERS[filter], *(WRAPS[name] for name in sides))
-        natives[decode] = (pixels, filter, sides), native
+    if made_of is None or made_of[0] is not pixels or made_of[1:] != sampling:
+        filter, sides, *level = sampling
+        wraps = (WRAPS[name] for name in sides)
+        native = NativeTexture(pixels, decode, FILTERS[filter], *wraps, *level)
+        natives[decode] = (pixels, *sampling), native
     return native
 
 

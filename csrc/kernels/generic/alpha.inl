@@ -17,6 +17,7 @@
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/texel_alpha.inl"
+#include "kernels/generic/anisotropic.inl"
 #include "kernels/generic/maps.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/samples.inl"
@@ -154,15 +155,19 @@ static inline float alpha_of_opaque(const e3d_texture_view *view)
     return view->filter == E3D_NEAREST ? 255.0f : 255.0f * 255.0f * 255.0f;
 }
 
-static void alpha_texture(e3d_batch *batch, const e3d_texture_view *view, float base)
+static void alpha_texture(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *view, float base)
 {
     texture_plan plan;
     const float bases[3] = {base, base, base};
     texture_begin(&plan, view, bases);
-    if (view->channel_bits == 8)
+    if (view->anisotropy > 1) {
+        const probe_source from = probes_from(batch, surfaces, surfaces->slope, batch->uv[0], batch->uv[1], view);
+        anisotropic_read(&plan, &from, plan.scale, NULL, batch->alpha);
+    } else if (view->channel_bits == 8) {
         alpha_filter(&plan, view->filter, 8, batch, plan.scale[0]);
-    else
+    } else {
         alpha_filter(&plan, view->filter, 16, batch, plan.scale[0]);
+    }
 }
 
 static ALWAYS_INLINE void stage_vertex_alpha(e3d_batch *batch, const sample_vector *v, const void *unused)
@@ -187,7 +192,7 @@ static void kernel_alpha(e3d_batch *batch, const e3d_surfaces *surfaces, const e
     int varies = view && !view->is_opaque;
     const e3d_varying opaque = {NULL, view ? alpha_of_opaque(view) * (base->factor * e3d_texture_unit(view)) : 0.0f};
     if (varies)
-        alpha_texture(batch, view, base->factor);
+        alpha_texture(batch, surfaces, view, base->factor);
     else
         kernel_varying(view ? &opaque : base, batch->count, batch->alpha);
     if (by_vertex)

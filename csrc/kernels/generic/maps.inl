@@ -11,6 +11,7 @@
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/texel_alpha.inl"
+#include "kernels/generic/anisotropic.inl"
 
 /* ---- what surfaces bring ---- */
 
@@ -142,14 +143,16 @@ static ALWAYS_INLINE void stage_maps(e3d_batch *batch, const sample_vector *v, c
 
 /* ---- texels ---- */
 
-/* Whether texels of two textures at one place have the same numbers and weights. */
+/* Whether texels of two textures at one place have the same numbers and weights. (Probes of anisotropic ones aren't kept.) */
 static inline int maps_are_alike(const e3d_map *a, const e3d_map *b)
 {
     const e3d_texture_view *x = a->view, *y = b->view;
-    return a->place == b->place && x->filter == y->filter && x->wrap[0] == y->wrap[0] && x->wrap[1] == y->wrap[1] &&
+    return x->anisotropy == 1 && y->anisotropy == 1 && a->place == b->place && x->filter == y->filter && x->wrap[0] == y->wrap[0] && x->wrap[1] == y->wrap[1] &&
            x->channel_bits == y->channel_bits && x->level_count == y->level_count &&
            x->levels[0].width == y->levels[0].width && x->levels[0].height == y->levels[0].height;
 }
+
+static const float map_ones[3] = {1.0f, 1.0f, 1.0f};
 
 /* Reads a texture, whose places may be found already. */
 static ALWAYS_INLINE void map_filter(texture_plan *plan, int filter, int bits, int is_found, const texture_source *from, e3d_lane_array *out)
@@ -167,10 +170,9 @@ static ALWAYS_INLINE void map_filter(texture_plan *plan, int filter, int bits, i
 static inline void map_texture(texture_plan *plan, const e3d_map *map, int is_found, int count, e3d_map_batch *out, e3d_lane_array *texels)
 {
     const texture_source from = {out->uv[map->place][0], out->uv[map->place][1], out->lod[map->place], count};
-    static const float ones[3] = {1.0f, 1.0f, 1.0f};
     const e3d_texture_view *view = map->view;
     if (!is_found)
-        texture_begin(plan, view, ones);
+        texture_begin(plan, view, map_ones);
     plan->view = view;
     if (view->filter == E3D_TRILINEAR)
         map_filter(plan, E3D_TRILINEAR, 16, is_found, &from, texels);
@@ -182,6 +184,15 @@ static inline void map_texture(texture_plan *plan, const e3d_map *map, int is_fo
         v_storef(texels[3] + i, alpha_read(plan, view->filter, view->channel_bits, i));
 }
 
+static inline void map_anisotropic(texture_plan *plan, const e3d_map *map, const e3d_batch *batch, const map_stage *stage, const e3d_surfaces *surfaces,
+                                   e3d_lane_array *texels)
+{
+    e3d_lane_array *uv = stage->out->uv[map->place];
+    const probe_source from = probes_from(batch, surfaces, stage->surfaces->slope[map->place], uv[0], uv[1], map->view);
+    texture_begin(plan, map->view, map_ones);
+    anisotropic_read(plan, &from, map_ones, texels, map->has_alpha ? texels[3] : NULL);
+}
+
 /* Coordinates, tangents and texels of a batch, whose weights and normals are there. */
 static void kernel_maps(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_maps *maps, const e3d_map_surfaces *m, e3d_map_batch *out)
 {
@@ -190,7 +201,10 @@ static void kernel_maps(e3d_batch *batch, const e3d_surfaces *surfaces, const e3
     each_vector(batch, surfaces, stage_maps, &stage);
     for (int k = 0; k < maps->count; k++) {
         int is_found = k && maps_are_alike(&maps->maps[k - 1], &maps->maps[k]);
-        map_texture(&plan, &maps->maps[k], is_found, batch->count, out, out->texel[k]);
+        if (maps->maps[k].view->anisotropy > 1)
+            map_anisotropic(&plan, &maps->maps[k], batch, &stage, surfaces, out->texel[k]);
+        else
+            map_texture(&plan, &maps->maps[k], is_found, batch->count, out, out->texel[k]);
     }
 }
 

@@ -8,7 +8,7 @@
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/interpolate.inl"
-#include "kernels/generic/texture.inl"
+#include "kernels/generic/anisotropic.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/samples.inl"
@@ -34,7 +34,7 @@ static inline int paint_albedo(e3d_batch *batch, const e3d_surfaces *surfaces, c
 {
     const float *base = paint->base;
     if (paint->texture) {
-        kernel_texture(batch, paint->texture, base);
+        kernel_texture(batch, surfaces, paint->texture, base);
         base = NULL;
     }
     tint_all(batch, surfaces, paint->by_vertex, paint->by_instance, base);

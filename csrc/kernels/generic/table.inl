@@ -18,6 +18,7 @@
 #include "kernels/generic/project.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture.inl"
+#include "kernels/generic/anisotropic.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/albedo.inl"

@@ -285,16 +285,15 @@ static ALWAYS_INLINE void texture_filter(texture_plan *plan, int filter, int bit
 
 /* The loops know filter and texels of the usual textures as constants: of raw colours, and of sRGB with mip levels. The latter takes
  * 3 % off the head. */
-static void kernel_texture(e3d_batch *batch, const e3d_texture_view *view, const float base[3])
+static ALWAYS_INLINE void texture_color(texture_plan *plan, e3d_batch *batch)
 {
-    texture_plan plan;
-    texture_begin(&plan, view, base);
+    const e3d_texture_view *view = plan->view;
     if (view->filter == E3D_BILINEAR && view->channel_bits == 8)
-        texture_filter(&plan, E3D_BILINEAR, 8, batch);
+        texture_filter(plan, E3D_BILINEAR, 8, batch);
     else if (view->filter == E3D_TRILINEAR && view->channel_bits == 16)
-        texture_filter(&plan, E3D_TRILINEAR, 16, batch);
+        texture_filter(plan, E3D_TRILINEAR, 16, batch);
     else
-        texture_filter(&plan, view->filter, view->channel_bits, batch);
+        texture_filter(plan, view->filter, view->channel_bits, batch);
 }
 
 #endif

@@ -15,7 +15,7 @@ enum { E3D_MOST_PLACES = E3D_TEXTURE_SLOTS + 1 };
 typedef struct e3d_map_place {
     int32_t uv_set, is_moved;
     float matrix[6];
-    float texels[2]; /* the size of the textures, for their levels */
+    float texels[2]; /* the counted size of the textures, for their levels */
     int32_t has_level;
 } e3d_map_place;
 

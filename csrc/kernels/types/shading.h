@@ -37,7 +37,7 @@ typedef struct e3d_surfaces {
     int32_t count, matrices;
     int32_t irregular;             /* how many surface.c must finish: clipped pieces, lines, points, clip-space meshes */
     int32_t projected;             /* how many have no record, so that `project` has work to do */
-    float texels[2];               /* the size of the texture, for E3D_WANT_LEVEL */
+    float texels[2];               /* the counted size of the texture, for E3D_WANT_LEVEL */
 } e3d_surfaces;
 
 /* R30: what texels are counted in. */
@@ -47,6 +47,9 @@ static inline float e3d_texture_unit(const e3d_texture_view *view)
         return view->channel_bits == 16 ? E3D_UNORM15 : E3D_UNORM8;
     return view->channel_bits == 16 ? E3D_UNORM15_BLENDED : E3D_UNORM8_BLENDED;
 }
+
+/* R110: a side of the texture as R25 counts it. */
+static inline float e3d_counted_size(const e3d_texture_view *view, int32_t side) { return (float)side * view->level_scale; }
 
 typedef float e3d_lane_array[E3D_BATCH + E3D_PAD];
 

@@ -23,9 +23,7 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
     if (bucket->mapped)
         return wanted | E3D_WANT_WEIGHTS | E3D_WANT_SURFACE;
     if (bucket->textured && !e3d_texture_get_view(bucket->material->texture.texture)->is_opaque) {
-        wanted |= E3D_WANT_UV | E3D_WANT_SURFACE;
-        if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
-            wanted |= E3D_WANT_LEVEL;
+        wanted |= E3D_WANT_SURFACE | e3d_texture_wanted(e3d_texture_get_view(bucket->material->texture.texture));
     }
     return wanted;
 }

@@ -78,8 +78,8 @@ static int32_t find_place(e3d_maps *maps, const e3d_texture_use *use, const e3d_
     if (use->is_moved)
         memcpy(place.matrix, use->matrix, sizeof place.matrix);
     if (view) {
-        place.texels[0] = (float)view->levels[0].width;
-        place.texels[1] = (float)view->levels[0].height;
+        place.texels[0] = e3d_counted_size(view, view->levels[0].width);
+        place.texels[1] = e3d_counted_size(view, view->levels[0].height);
     }
     while (number < maps->place_count && !same_place(&maps->places[number], &place))
         number++;

@@ -105,7 +105,7 @@ static void find_albedo(const e3d_kernels *kernels, const e3d_bucket *bucket, e3
         for (int i = 0; i < batch->count; i++)
             batch->color[k][i] = base[k];
     if (bucket->textured)
-        kernels->texture(batch, e3d_texture_get_view(bucket->material->texture.texture), base);
+        kernels->texture(batch, &memory->surfaces, e3d_texture_get_view(bucket->material->texture.texture), base);
     if (bucket->by_vertex || bucket->by_instance)
         kernels->tint(batch, &memory->surfaces, bucket->by_vertex, bucket->by_instance);
 }
@@ -152,9 +152,7 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
     if (bucket->mapped)
         wanted |= E3D_WANT_WEIGHTS | E3D_WANT_MAPS;
     else if (bucket->textured && colored) {
-        wanted |= E3D_WANT_UV;
-        if (e3d_texture_get_view(bucket->material->texture.texture)->filter == E3D_TRILINEAR)
-            wanted |= E3D_WANT_LEVEL;
+        wanted |= e3d_texture_wanted(e3d_texture_get_view(bucket->material->texture.texture));
     }
     if (pass->targets->barycentric || (colored && bucket->by_vertex))
         wanted |= E3D_WANT_WEIGHTS;

@@ -389,9 +389,15 @@ static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *piece, con
 
 static void set_texels(const e3d_bucket *bucket, e3d_surfaces *s)
 {
-    const e3d_level *level = &e3d_texture_get_view(bucket->material->texture.texture)->levels[0];
-    s->texels[0] = (float)level->width;
-    s->texels[1] = (float)level->height;
+    const e3d_texture_view *view = e3d_texture_get_view(bucket->material->texture.texture);
+    s->texels[0] = e3d_counted_size(view, view->levels[0].width);
+    s->texels[1] = e3d_counted_size(view, view->levels[0].height);
+}
+
+int e3d_texture_wanted(const e3d_texture_view *view)
+{
+    int level = view->filter == E3D_TRILINEAR ? E3D_WANT_LEVEL : 0;
+    return E3D_WANT_UV | level | (view->anisotropy > 1 ? E3D_WANT_WEIGHTS : 0);
 }
 
 int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory)

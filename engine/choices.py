@@ -34,6 +34,8 @@ OutputMode = Literal[
 ]
 Wireframe = Literal["overlay", "only"]
 Cull = Literal["none", "back", "front"]
+#: What frames cull besides: back faces, mesh by mesh, where that does not show.
+FrameCull = Literal["none", "back", "front", "auto"]
 Shading = Literal["deferred", "forward"]
 Normals = Literal["auto", "smooth", "flat"]
 HiddenSurfaces = Literal["zbuffer", "painter", "none"]

@@ -24,6 +24,33 @@ typedef struct e3d_surface {
  * the group; `block_faces` triangles are added up at a time, and their sums to the others. */
 e3d_sums_problem e3d_smooth_sums(const e3d_surface *surface, size_t block_faces, double *sums);
 
+/* A surface that is smooth but for its creases. */
+typedef struct e3d_creased_surface {
+    const float *positions;  /* [3 * position_count] */
+    const int32_t *faces;    /* [3 * face_count] in range, fewer than 2^31 */
+    const int32_t *places;   /* of each vertex the place where it is, less than place_count; NULL: each has its own */
+    const uint8_t *visible;  /* [3 * face_count] 0 for the side behind a corner that is the diagonal of a polygon; NULL: none is */
+    size_t position_count, face_count, place_count;
+    double cosine; /* of the angle between two triangles' normals beyond which their edge is a crease */
+} e3d_creased_surface;
+
+/* Its corners and normals; freed by e3d_free_creases. */
+typedef struct e3d_creases {
+    int32_t *faces;   /* [3 * face_count] */
+    int32_t *sources; /* [added] the vertex that each further one is at */
+    float *normals;   /* [3 * (position_count + added)] */
+    size_t added;
+    bool is_smooth; /* whether all corners at a place have one normal */
+} e3d_creases;
+
+/* Finds them; false if memory is out. */
+bool e3d_find_creases(const e3d_creased_surface *surface, e3d_creases *made);
+void e3d_free_creases(e3d_creases *made);
+
+/* Finds whether the triangles enclose a volume, their fronts outside; the angle and what is visible do not matter.
+ * -1 if memory is out. */
+int e3d_encloses(const e3d_creased_surface *surface);
+
 /* Triangles that wear an image: (vertices, 3) positions and normals, (vertices, 2) coordinates whose origin is at the bottom left,
  * and a number for each vertex, the same for those that are equal in all of these. */
 typedef struct e3d_mapped_surface {

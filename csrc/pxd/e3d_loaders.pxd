@@ -115,6 +115,24 @@ cdef extern from "e3d_loaders.h" nogil:
     e3d_sums_problem e3d_smooth_sums(
         const e3d_surface *surface, size_t block_faces, double *sums)
 
+    ctypedef struct e3d_creased_surface:
+        const float *positions
+        const int32_t *faces
+        const int32_t *places
+        const uint8_t *visible
+        size_t position_count, face_count, place_count
+        double cosine
+
+    ctypedef struct e3d_creases:
+        int32_t *faces
+        int32_t *sources
+        float *normals
+        size_t added
+        bint is_smooth
+
+    int e3d_encloses(const e3d_creased_surface *surface)
+    bint e3d_find_creases(const e3d_creased_surface *surface, e3d_creases *made)
+
     ctypedef struct e3d_mapped_surface:
         const float *positions
         const float *normals

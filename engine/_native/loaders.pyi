@@ -72,6 +72,20 @@ def rows_repeat(rows: NDArray[np.uint32], are_floats: bool) -> bool: ...
 def weld_facets(
     pieces: Iterable[tuple[int, memoryview]], offset: int, stride: int, facets: int
 ) -> tuple[NDArray[np.int32], NDArray[np.float32]]: ...
+def encloses(
+    positions: NDArray[np.float32],
+    faces: NDArray[np.int32],
+    places: NDArray[np.int32] | None,
+    count: int,
+) -> bool: ...
+def find_creases(
+    positions: NDArray[np.float32],
+    faces: NDArray[np.int32],
+    places: NDArray[np.int32] | None,
+    visible: NDArray[np.uint8] | None,
+    count: int,
+    cosine: float,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32], bool]: ...
 def find_tangents(
     positions: NDArray[np.float32],
     normals: NDArray[np.float32],

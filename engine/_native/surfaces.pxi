@@ -39,6 +39,74 @@ def smooth_sums(positions, const int32_t[:, ::1] faces not None,
     return sums
 
 
+cdef e3d_creased_surface placed_surface(const float[:, ::1] positions, const int32_t[:, ::1] faces,
+                                        const int32_t[::1] places, size_t count) except *:
+    """Triangles, of which there are some, checked."""
+    cdef size_t vertices = positions.shape[0]
+    cdef e3d_creased_surface surface = e3d_creased_surface(
+        NULL, NULL, NULL, NULL, vertices, faces.shape[0], count, 0.0)
+    if positions.shape[1] != 3 or faces.shape[1] != 3:
+        raise InvalidArgumentError("the triangles have no positions")
+    if np.min(faces) < 0 or np.max(faces) >= vertices:
+        raise InvalidArgumentError("a face holds an index that is out of range")
+    if faces.shape[0] >= (1 << 31) // 3:
+        raise OutOfMemoryError("no memory for what is found of a mesh")
+    if places is None:
+        surface.place_count = vertices
+    elif <size_t>places.shape[0] != vertices or np.min(places) < 0 or np.max(places) >= count:
+        raise InvalidArgumentError("a vertex is at a place that is out of range")
+    else:
+        surface.places = &places[0]
+    surface.positions, surface.faces = &positions[0, 0], &faces[0, 0]
+    return surface
+
+
+def encloses(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
+             const int32_t[::1] places, size_t count):
+    """Tell whether triangles enclose a volume, their fronts outside; arguments of find_creases."""
+    cdef int found
+    if faces.shape[0] == 0 or positions.shape[0] == 0:
+        return False
+    cdef e3d_creased_surface surface = placed_surface(positions, faces, places, count)
+    with nogil:
+        found = e3d_encloses(&surface)
+    if found < 0:
+        raise OutOfMemoryError("no memory for what is found of a mesh")
+    return bool(found)
+
+
+def find_creases(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
+                 const int32_t[::1] places, const uint8_t[:, ::1] visible, size_t count,
+                 double cosine):
+    """Split vertices where triangles meet at more than an angle; find the normals of all.
+
+    ``places`` (V,), below ``count``, are the same for vertices at one place; None if each has its
+    own. ``visible`` (F, 3) is 0 for diagonals of polygons. Returns faces (F, 3) int32, the old
+    vertex of each added one (A,) int32, normals (V + A, 3) float32, and whether the corners at
+    each place have one normal.
+    """
+    cdef size_t vertices = positions.shape[0]
+    cdef e3d_creases made
+    cdef bint done
+    if faces.shape[0] == 0 or vertices == 0:
+        return np.array(faces), np.empty(0, np.int32), np.zeros((vertices, 3), np.float32), True
+    if visible is not None and (visible.shape[0] != faces.shape[0] or visible.shape[1] != 3):
+        raise InvalidArgumentError("the triangles have sides that do not match")
+    cdef e3d_creased_surface surface = placed_surface(positions, faces, places, count)
+    surface.cosine = cosine
+    if visible is not None:
+        surface.visible = &visible[0, 0]
+    with nogil:
+        done = e3d_find_creases(&surface, &made)
+    if not done:
+        raise OutOfMemoryError("no memory for the normals of a mesh")
+    cdef size_t added = made.added
+    sources = owned(<void **>&made.sources, added, np.dtype(np.int32))
+    normals = owned(<void **>&made.normals, 3 * (vertices + added), np.dtype(np.float32))
+    split = owned(<void **>&made.faces, 3 * faces.shape[0], np.dtype(np.int32))
+    return split.reshape(-1, 3), sources, normals.reshape(-1, 3), bool(made.is_smooth)
+
+
 def find_tangents(const float[:, ::1] positions not None, const float[:, ::1] normals not None,
                   const float[:, ::1] uvs not None, const int32_t[:, ::1] faces not None,
                   const int32_t[::1] points not None):

@@ -13,8 +13,8 @@ from typing import get_args
 
 from ..choices import (
     Backend,
-    Cull,
     Culling,
+    FrameCull,
     HiddenSurfaces,
     Mode,
     OutputMode,
@@ -131,6 +131,13 @@ def add_viewed_scene(parser) -> None:
         "--variant",
         metavar="NAME",
         help="which of the sets of materials that the model offers, by name or number",
+    )
+    group.add_argument(
+        "--crease-angle",
+        type=values.crease_angle,
+        metavar="DEGREES",
+        help="where a model has no normals, draw edges sharp whose faces meet at more than this; "
+        "35 by default, 180 makes all smooth, 0 all flat",
     )
     group.add_argument(
         "--no-texture", action="store_true", help="leave textures out; light and colours stay"
@@ -253,8 +260,9 @@ def add_appearance(parser) -> None:
     )
     group.add_argument(
         "--cull",
-        choices=get_args(Cull),
-        help="which faces to leave out; back by default",
+        choices=get_args(FrameCull),
+        help="which faces to leave out; by default (auto) none of models, but the backs of what is "
+        "closed, which do not show; in glTF and scenes the backs",
     )
     group.add_argument(
         "--culling",
@@ -534,7 +542,8 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     if args.triangles is not None and args.scene != "city":
         raise UsageError("--triangles goes with --scene city")
     if not args.models:
-        for option in ("texture", "variant", "animation_index", "animation_time"):
+        needing = ("texture", "variant", "animation_index", "animation_time", "crease_angle")
+        for option in needing:
             if getattr(args, option) is not None:
                 raise UsageError(f"--{option.replace('_', '-')} needs a MODEL")
         if args.scene is None and default_scene is None:
@@ -556,7 +565,9 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
 
 def opening(args: argparse.Namespace) -> dict:
     """Return how the options say that models are to be opened."""
+    creases = {} if args.crease_angle is None else {"crease_angle": args.crease_angle}
     return {
+        **creases,
         "side_by_side": args.side_by_side,
         "up": args.up,
         "texture": args.texture,

@@ -178,6 +178,14 @@ def slope(text: str) -> float:
     return value
 
 
+def crease_angle(text: str) -> float:
+    """Parse an angle between faces in degrees; return radians."""
+    value = not_negative(text)
+    if value > 180.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is more than 180 degrees")
+    return math.radians(value)
+
+
 def view_angle(text: str) -> float:
     """Parse a vertical field of view in degrees."""
     value = number(text)

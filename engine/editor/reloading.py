@@ -64,10 +64,12 @@ class Reload(Command):
             return load_texture(self._path)
         came = self._thing._origin
         is_of_file = came is not None and isinstance(came.origin, FileOrigin)
-        format, part = (came.origin.format, came.origin.part) if is_of_file else (None, None)
+        origin = came.origin if is_of_file else FileOrigin(self._path, None, None)
+        part = origin.part
+        how = {"format": origin.format, "crease_angle": origin.crease_angle}
         if part is None:
-            return load_mesh(self._path, format=format)
-        for _, mesh, _ in load_document(self._path, format=format).objects:
+            return load_mesh(self._path, **how)
+        for _, mesh, _ in load_document(self._path, **how).objects:
             if mesh._origin is not None and mesh._origin.origin.part == part:
                 return mesh
         raise FileFormatError(f"it has no part {part[0]!r} number {part[1]}", self._path)

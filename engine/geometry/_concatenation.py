@@ -15,6 +15,7 @@ from ..errors import InvalidArgumentError
 from ..linalg import compose
 from ..materials.colors import srgb_to_linear_table
 from ..materials.material import Material
+from .creases import mesh_with_creases
 from .posing import posed_mesh
 from .vertex_attributes import VertexAttribute, attributes_of, vertex_attributes
 
@@ -51,6 +52,7 @@ def _check_types(mesh_type: type, meshes: list) -> None:
 def concatenate(mesh_type: type, meshes: list, name: str):
     """Return a ``mesh_type`` that holds everything of ``meshes``; see `Mesh.concatenate`."""
     _check_types(mesh_type, meshes)
+    meshes = _alike(meshes)
     if not meshes:
         return mesh_type(np.zeros((0, 3), np.float32), name=name)
     starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])[:-1]
@@ -65,12 +67,21 @@ def concatenate(mesh_type: type, meshes: list, name: str):
         points=_moved(meshes, starts, "points"),
         edge_visible=_joined_edge_flags(meshes),
         position_ids=_joined_position_ids(meshes),
+        crease_angle=meshes[0].crease_angle,
         name=name,
         **_joined_attributes(meshes),
     )
     joined._groups = _joined_groups(meshes)
     joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
     return joined
+
+
+def _alike(meshes: list) -> list:
+    """Meshes of one crease angle without normals; or else all with those that are drawn."""
+    angles = {mesh.crease_angle for mesh in meshes}
+    if len(angles) <= 1 and not any(mesh.has_normals for mesh in meshes):
+        return meshes
+    return [mesh_with_creases(mesh) for mesh in meshes]
 
 
 def _moved(meshes, starts, what: str) -> np.ndarray:

@@ -13,7 +13,8 @@ import numpy as np
 
 from .._native import loaders as native
 from ..errors import InvalidArgumentError
-from .vertex_attributes import attributes_of
+from ._splitting import split_mesh
+from .creases import mesh_with_creases
 
 if TYPE_CHECKING:
     from .mesh import Mesh
@@ -27,6 +28,8 @@ def mesh_with_tangents(mesh: Mesh, uv_set: int) -> Mesh:
     if uvs is None:
         name = "uvs1" if uv_set else "uvs"
         raise InvalidArgumentError(f"tangents need texture coordinates, but there are no {name}")
+    mesh = mesh_with_creases(mesh)
+    uvs = mesh.uvs1 if uv_set else mesh.uvs
     rows = np.concatenate([mesh.positions, mesh.normals, uvs], axis=1)
     points, _ = native.number_rows(rows.view(np.uint32), True)
     groups, of_group = native.find_tangents(mesh.positions, mesh.normals, uvs, mesh.faces, points)
@@ -34,7 +37,8 @@ def mesh_with_tangents(mesh: Mesh, uv_set: int) -> Mesh:
     faces, added = _split(mesh.faces.reshape(-1), groups.reshape(-1), count, len(of_group))
     tangents = np.zeros((count + len(added), 4), np.float32)
     tangents[faces] = of_group[groups.reshape(-1)]
-    return _rebuilt(mesh, faces.reshape(-1, 3), np.concatenate([np.arange(count), added]), tangents)
+    rows = np.concatenate([np.arange(count), added])
+    return split_mesh(mesh, faces.reshape(-1, 3), rows, tangents=tangents)
 
 
 def _split(
@@ -57,30 +61,3 @@ def _split(
     number = vertex.copy()
     number[rest] = count + np.arange(len(rest))
     return number[of_corner.reshape(-1)].astype(np.int32), vertex[rest]
-
-
-def _rebuilt(mesh: Mesh, faces: np.ndarray, rows: np.ndarray, tangents: np.ndarray) -> Mesh:
-    """The mesh with vertices that are those of some rows."""
-    ids = mesh.position_ids
-    if ids is None and len(rows) > len(mesh.positions):
-        ids = np.arange(len(mesh.positions), dtype=np.int32)
-    attributes = {name: array[rows] for name, array in attributes_of(mesh).items()}
-    made = type(mesh)(
-        mesh.positions[rows],
-        faces,
-        normals=mesh.normals[rows] if mesh.has_normals else None,
-        materials=mesh.materials,
-        material_ids=mesh.material_ids,
-        lines=mesh.lines,
-        points=mesh.points,
-        edge_visible=mesh.edge_visible,
-        position_ids=None if ids is None else ids[rows],
-        joints=None if mesh.joints is None else mesh.joints[rows],
-        weights=None if mesh.weights is None else mesh.weights[rows],
-        morph_targets=[target.rows(rows) for target in mesh.morph_targets],
-        name=mesh.name,
-        **{**attributes, "tangents": tangents},
-    )
-    made.groups = mesh.groups
-    made.warnings = list(mesh.warnings)
-    return made

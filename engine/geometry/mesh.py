@@ -39,6 +39,7 @@ from ._arrays import (
     check_vectors4,
     require_range,
 )
+from .creases import SMOOTH, check_crease_angle, mesh_with_creases
 from .morph_targets import MorphTarget
 from .vertex_attributes import VertexAttribute, vertex_attributes
 
@@ -95,6 +96,10 @@ class Mesh(Closed):
         shares of their sum.
     morph_targets : iterable of MorphTarget, optional
         What nodes may add to the vertices, each times a weight of ``node.morph_weights``.
+    crease_angle : float
+        Radians, 0 to pi: where normals are computed, an edge whose triangles meet at more than this
+        is drawn sharp. Pi, the usual value, makes all smooth; loaders take 35 degrees. It is of no
+        effect on meshes with joints or morph targets, which are smooth.
     name : str
 
     Attributes
@@ -107,6 +112,7 @@ class Mesh(Closed):
     weights : (V, N) float32 or None
         Read-only; `set_influences` replaces both.
     morph_targets : tuple of MorphTarget
+    crease_angle : float
     materials : list of Material
     groups : dict of str to (N,) int32
         Face indices of named parts; none once the number of faces changes.
@@ -135,6 +141,7 @@ class Mesh(Closed):
     edge_visible: _OptionalFlags = ArrayAttribute(check_flags3, optional=True)
     position_ids: _OptionalIntegers = ArrayAttribute(check_indices, optional=True)
     _given_normals: _OptionalFloats = ArrayAttribute(check_vectors3, optional=True)
+    _crease_angle: float = SMOOTH
     _origin: Any = None  # see origins.py
     _morph_targets: tuple[MorphTarget, ...] = ()
     _FORGOTTEN = ("_derived", "_origin")
@@ -158,6 +165,7 @@ class Mesh(Closed):
         joints: ArrayLike | None = None,
         weights: ArrayLike | None = None,
         morph_targets: Iterable[MorphTarget] | None = None,
+        crease_angle: float = SMOOTH,
         name: str = "",
     ) -> None:
         self.name = str(name)
@@ -167,6 +175,7 @@ class Mesh(Closed):
         self._morph_targets = ()
         self._derived: dict[str, tuple[list, np.ndarray]] = {}  # with what it was computed from
         self._materials = _check_materials(materials)
+        self._crease_angle = check_crease_angle(crease_angle)
         self.positions = positions
         self.faces = () if faces is None else faces
         self.lines = () if lines is None else lines
@@ -226,7 +235,10 @@ class Mesh(Closed):
 
     @property
     def normals(self) -> NDArray[np.float32]:
-        """Vertex normals (V, 3) float32: the given ones, or angle-weighted ones, computed once."""
+        """Vertex normals (V, 3) float32: the given ones, or angle-weighted ones, computed once.
+
+        Computed ones are smooth over all creases: `with_creases` has those that are drawn.
+        """
         return self._derive("normals", dict(self._arrays))
 
     @normals.setter
@@ -237,6 +249,16 @@ class Mesh(Closed):
     def has_normals(self) -> bool:
         """Whether normals were given; False means that they are computed."""
         return self._given_normals is not None
+
+    @property
+    def crease_angle(self) -> float:
+        """Radians; where normals are computed, edges sharper than this are drawn sharp."""
+        return self._crease_angle
+
+    @crease_angle.setter
+    def crease_angle(self, value: float) -> None:
+        self._crease_angle = check_crease_angle(value)
+        self._changed()
 
     @property
     def face_normals(self) -> NDArray[np.float32]:
@@ -323,6 +345,25 @@ class Mesh(Closed):
         if poses is not None:
             meshes = placed(cls, meshes, poses)
         return concatenate(cls, meshes, name)
+
+    def with_creases(self) -> Mesh:
+        """Return the mesh with the normals that it is drawn with, by its ``crease_angle``.
+
+        Returns
+        -------
+        mesh : Mesh
+            Faces in the same order; vertices are split where triangles meet at more than the angle,
+            the added ones behind the others. The mesh itself if it has normals, if its angle is
+            pi, or if it has joints or morph targets.
+
+        Notes
+        -----
+        Method: triangles round a point that share an edge that is no crease have one normal there,
+        the sum of theirs weighted by their angles at the point. Points are what has exactly the
+        same coordinates. Triangles that are turned against each other, which is no crease, get
+        opposite normals.
+        """
+        return mesh_with_creases(self)
 
     def with_tangents(self, uv_set: int = 0) -> Mesh:
         """Return the mesh with tangents computed from normals and texture coordinates.
@@ -483,6 +524,7 @@ class Mesh(Closed):
         gone = dict.fromkeys(_movers.VERTEX_AXES)
         self._arrays.update({**gone, **other._arrays})  # one step: they fit at every moment
         self._morph_targets = other._morph_targets
+        self._crease_angle = other._crease_angle
         self._derived.clear()
         self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)

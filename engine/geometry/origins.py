@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..materials.material import TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
+from .creases import CREASE_ANGLE
 
 if TYPE_CHECKING:
     from .mesh import Mesh
@@ -28,12 +29,15 @@ class FileOrigin(NamedTuple):
         The object's name, and how many objects of that name stand before it; None: all, joined.
     is_missing : bool
         Whether the mesh only keeps the place of one that is not there.
+    crease_angle : float
+        Radians, of normals that the file lacks.
     """
 
     path: str
     format: str | None
     part: tuple[str, int] | None
     is_missing: bool = False
+    crease_angle: float = CREASE_ANGLE
 
 
 class PrimitiveOrigin(NamedTuple):

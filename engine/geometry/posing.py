@@ -43,6 +43,7 @@ def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
         points=mesh.points,
         edge_visible=visible,
         position_ids=mesh.position_ids,
+        crease_angle=mesh.crease_angle,
         name=mesh.name,
         **attributes_of(mesh),
     )

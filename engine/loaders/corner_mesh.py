@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._native import loaders as native
+from ..geometry.creases import SMOOTH
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
 from .mtl import uv_transform
@@ -79,6 +80,8 @@ class Geometry(NamedTuple):
         What ``triangles.normals`` refers to; None leaves normals to the mesh.
     lines : (L, 2) int, points : (P,) int
         Position indices.
+    crease_angle : float
+        Radians, of normals that are left to the mesh.
     """
 
     vertices: Vertices
@@ -86,6 +89,7 @@ class Geometry(NamedTuple):
     normals: np.ndarray | None
     lines: np.ndarray
     points: np.ndarray
+    crease_angle: float = SMOOTH
 
     def with_own_positions(self) -> Geometry:
         """Return the same with only the positions in use, for one of many parts of a file."""
@@ -105,7 +109,7 @@ class Geometry(NamedTuple):
 
 def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh:
     """Weld corners into vertices."""
-    vertices, triangles, normals, lines, points = geometry
+    vertices, triangles, normals, lines, points, crease_angle = geometry
     count = len(vertices.positions)
     uv_indices, uvs = _transformed_uvs(triangles, vertices.uvs, materials)
     normal_indices = None if normals is None else triangles.normals
@@ -126,6 +130,7 @@ def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh
         points=vertex_of[lines.size :],
         edge_visible=triangles.edge_visible,
         position_ids=of_position if is_split else None,
+        crease_angle=crease_angle if normals is None else SMOOTH,
         name=name,
     )
 

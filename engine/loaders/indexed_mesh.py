@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._native import loaders as native
+from ..geometry.creases import CREASE_ANGLE, SMOOTH
 from ..geometry.mesh import Mesh
 from ..geometry.vertex_attributes import vertex_attributes
 from .smoothing import join_seams
@@ -43,6 +44,8 @@ class IndexedGeometry:
     position_ids : (V,) number or None
         Vertices with the same number are one point of the surface.
     edge_visible : (T, 3) bool or None
+    crease_angle : float
+        Radians, of normals that are not given.
     """
 
     positions: np.ndarray
@@ -57,6 +60,7 @@ class IndexedGeometry:
     lines: np.ndarray | None = None
     position_ids: np.ndarray | None = None
     edge_visible: np.ndarray | None = None
+    crease_angle: float = CREASE_ANGLE
 
 
 def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
@@ -83,6 +87,7 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         lines=vertex_of.reshape(-1, 2),
         edge_visible=geometry.edge_visible,
         position_ids=_position_ids(geometry, vertices, bool(of_corner)),
+        crease_angle=SMOOTH if geometry.normals is not None else geometry.crease_angle,
         name=name,
         **attributes,
     )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import Engine3DWarning, FileFormatError, InvalidArgumentError
+from ..geometry.creases import CREASE_ANGLE, check_crease_angle
 from ..geometry.mesh import Mesh
 from ..geometry.origins import FileOrigin, remember_origin
 from ..materials.textures import Texture
@@ -30,7 +31,13 @@ if TYPE_CHECKING:
 Progress = Callable[[float], object]
 
 
-def load_mesh(path: File, *, format: str | None = None, progress: Progress | None = None) -> Mesh:
+def load_mesh(
+    path: File,
+    *,
+    format: str | None = None,
+    progress: Progress | None = None,
+    crease_angle: float = CREASE_ANGLE,
+) -> Mesh:
     """Load a model as one mesh with its materials, in the file's coordinates.
 
     Parameters
@@ -45,6 +52,10 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
         ``progress(fraction)`` is called with the share of the work that is done: 0.0 once the file
         is open, 1.0 at the end, never less than before. OBJ files call it every four
         megabytes; most formats tell the beginning and the end only. What it raises ends loading.
+    crease_angle : float, optional
+        Radians, 0 to pi, for files that have neither normals nor smoothing groups: edges whose
+        triangles meet at more than this are drawn sharp, others smooth. 35 degrees if left out; pi
+        makes all smooth, 0 all flat.
 
     Returns
     -------
@@ -63,6 +74,7 @@ def load_mesh(path: File, *, format: str | None = None, progress: Progress | Non
         There is no such ``format``, or ``path`` is none of these things.
     """
     with read_source(path) as source:
+        source = source._replace(crease_angle=check_crease_angle(crease_angle))
         document = _read_document(source, format, progress, split=False)
     return whole_mesh(document, source, format)
 
@@ -73,6 +85,7 @@ def load_document(
     format: str | None = None,
     progress: Progress | None = None,
     companion: Callable[[str], bool] | None = None,
+    crease_angle: float = CREASE_ANGLE,
 ) -> Document:
     """Load everything that a model file holds: its objects one by one, lights and cameras.
 
@@ -85,6 +98,7 @@ def load_document(
         become its texture for its name alone (`companion_texture`); any may if left out.
     """
     with read_source(path) as source:
+        source = source._replace(crease_angle=check_crease_angle(crease_angle))
         if companion is not None:
             source = source._replace(companion=companion)
         document = _read_document(source, format, progress, split=True)
@@ -122,7 +136,10 @@ def parts_of(document: Document, source: Source, format: str | None) -> dict[tup
 def _remember(mesh: Mesh, document: Document, source: Source, format: str | None, part) -> None:
     """Note which part of a file a mesh is; of a scene's file, it is no part to be named."""
     if source.has_name and document.scene is None:
-        remember_origin(mesh, FileOrigin(os.path.abspath(source.path), format, part))
+        origin = FileOrigin(
+            os.path.abspath(source.path), format, part, crease_angle=source.crease_angle
+        )
+        remember_origin(mesh, origin)
 
 
 def load_texture(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.creases import SMOOTH
 from ..materials.material import Material
 from .corner_mesh import Triangles
 from .documents import Document
@@ -45,8 +46,10 @@ def read_obj(source: Source, split: bool = False) -> Document:
     cut = _cut(source, file, warnings)
     materials, material_ids = _materials(source, file, states, cut, warnings)
     triangles = _triangles(file.faces, cut, material_ids)
-    normals = _fill_normals(file, triangles, states)
-    parts = ObjParts(file, triangles, normals, states, materials)
+    # What the file says of smoothing holds whatever the angle.
+    crease_angle = SMOOTH if states.has_smoothing else source.crease_angle
+    normals = _fill_normals(file, triangles, states, crease_angle)
+    parts = ObjParts(file, triangles, normals, states, materials, crease_angle)
     objects = parts.objects(source.stem, warnings) if split else [parts.whole(source.stem)]
     return Document("obj", objects, counts=parts.counts(), warnings=warnings.messages())
 
@@ -94,7 +97,7 @@ def _triangles(faces: Elements, cut: Triangulation | None, material_ids: np.ndar
     return Triangles(*corners, material_ids, cut.polygons, cut.edge_visible)
 
 
-def _fill_normals(file: ObjFile, triangles: Triangles, states: ObjStates):
+def _fill_normals(file: ObjFile, triangles: Triangles, states: ObjStates, crease_angle: float):
     """Give the triangles the normals that they lack; returns what their indices refer to."""
     vertices = file.vertices
     if triangles.normals is None and not states.has_smoothing:
@@ -109,6 +112,7 @@ def _fill_normals(file: ObjFile, triangles: Triangles, states: ObjStates):
         vertices.normals,
         states.smoothing_groups(len(file.faces.sizes))[triangles.polygons],
         triangles.polygons,
+        crease_angle=crease_angle,
     )
     if filled is None:
         return None

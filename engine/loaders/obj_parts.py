@@ -34,6 +34,8 @@ class ObjParts(NamedTuple):
         What ``triangles.normals`` refers to, if anything.
     states : ObjStates
     materials : list of Material
+    crease_angle : float
+        Radians, of normals that neither the file nor its smoothing groups give.
     """
 
     file: ObjFile
@@ -41,6 +43,7 @@ class ObjParts(NamedTuple):
     normals: np.ndarray | None
     states: ObjStates
     materials: list[Material]
+    crease_angle: float
 
     def counts(self) -> dict:
         """Return the lists of the file, as `Document.counts` shows them."""
@@ -71,7 +74,12 @@ class ObjParts(NamedTuple):
             # Nothing but vertices: a point cloud.
             points = np.arange(len(file.vertices.positions))
         geometry = Geometry(
-            file.vertices, self.triangles, self.normals, _segments(file.lines), points
+            file.vertices,
+            self.triangles,
+            self.normals,
+            _segments(file.lines),
+            points,
+            self.crease_angle,
         )
         return self._built(geometry, name, self._starts(), slice(None))
 
@@ -112,6 +120,7 @@ class ObjParts(NamedTuple):
             self.normals,
             _segments(lines),
             points.positions,
+            self.crease_angle,
         )
         return self._built(geometry.with_own_positions(), name, starts, chosen)
 

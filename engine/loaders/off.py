@@ -47,6 +47,7 @@ def read_off(source: Source, split: bool = False) -> Document:
     warnings = WarningList(source.path)
     reader = _OffReader(source, warnings)
     geometry = reader.read()
+    geometry.crease_angle = source.crease_angle
     mesh = build_indexed_mesh(geometry, source.stem)
     mesh.materials = [Material()]
     if mesh.uvs is not None:

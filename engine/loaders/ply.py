@@ -56,7 +56,7 @@ def read_ply(source: Source, split: bool = False) -> Document:
     if len(strips) and not len(faces.corners):
         faces = PlyFaces(strips)
     has_uvs = vertices.uvs is not None or faces.uvs is not None
-    mesh = _mesh(vertices, faces, lines, source.stem)
+    mesh = _mesh(vertices, faces, lines, source)
     mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
     mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
     counts = _counts(tables, vertices, faces, lines)
@@ -64,7 +64,7 @@ def read_ply(source: Source, split: bool = False) -> Document:
     return Document("ply", [entry], counts=counts, warnings=warnings.messages())
 
 
-def _mesh(vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, name: str) -> Mesh:
+def _mesh(vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, source: Source) -> Mesh:
     geometry = IndexedGeometry(
         vertices.positions,
         faces.corners,
@@ -76,8 +76,9 @@ def _mesh(vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, name: str) 
         lines=lines,
         position_ids=vertices.position_ids,
         edge_visible=faces.edge_visible,
+        crease_angle=source.crease_angle,
     )
-    return build_indexed_mesh(geometry, name)
+    return build_indexed_mesh(geometry, source.stem)
 
 
 def _counts(

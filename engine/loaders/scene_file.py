@@ -25,6 +25,7 @@ from ..environments.environment import (
     named_environment,
 )
 from ..errors import FileFormatError, InvalidArgumentError
+from ..geometry.creases import CREASE_ANGLE, SMOOTH, check_crease_angle
 from ..geometry.mesh import Mesh
 from ..geometry.origins import FileOrigin, remember_origin
 from ..materials.colors import certainly_linear
@@ -254,7 +255,8 @@ class _Reading:
         materials = entry.get("materials")
         chosen = None if materials is None else self._chosen(materials)
         try:
-            mesh = Mesh(arrays.pop("positions", ()), **arrays, materials=chosen)
+            angle = _crease_angle(entry, SMOOTH)
+            mesh = Mesh(arrays.pop("positions", ()), **arrays, materials=chosen, crease_angle=angle)
             if groups is not None:
                 mesh.groups = {key: value.array() for key, value in groups.members().items()}
         except InvalidArgumentError as error:
@@ -296,7 +298,8 @@ class _Reading:
             part = text.text(), 0 if place is None else place.index(2**31, "parts")
         format = None if entry.get("format") is None else entry.need("format").text()
         try:
-            return self._part(name, format, part)
+            angle = _crease_angle(entry, CREASE_ANGLE)
+            return self._part(name, format, part, angle)
         except (LinkedFileError, FileFormatError, OSError) as error:
             self._warnings.add(f"{entry.where}: mesh {shown(name)} is left out: {error}")
         except InvalidArgumentError as error:
@@ -304,12 +307,14 @@ class _Reading:
         mesh = Mesh([], name=part[0] if part else "")
         path = self._place_of(name)
         if path is not None:
-            remember_origin(mesh, FileOrigin(path, format, part, is_missing=True))
+            remember_origin(mesh, FileOrigin(path, format, part, True, angle))
         return mesh
 
-    def _part(self, name: str, format: str | None, part: tuple[str, int] | None) -> Mesh:
+    def _part(
+        self, name: str, format: str | None, part: tuple[str, int] | None, crease_angle: float
+    ) -> Mesh:
         """A part of a file, or all of it; each file is read once, and each mesh given out once."""
-        key = name, format, part is not None
+        key = name, format, part is not None, crease_angle
         if key not in self._meshes:
             try:
                 self._meshes[key] = self._read(*key)
@@ -339,8 +344,11 @@ class _Reading:
             self._copies[key] = copy.copy(material)
         return self._copies[key]
 
-    def _read(self, name: str, format: str | None, split: bool) -> dict[Any, Mesh]:
+    def _read(
+        self, name: str, format: str | None, split: bool, crease_angle: float
+    ) -> dict[Any, Mesh]:
         with self._files.read(self._files.find(name)) as source:
+            source = source._replace(crease_angle=crease_angle)
             if find_reader(source, "mesh", format).read is read_scene_file:
                 raise FileFormatError("a scene within a scene is not read", source.path)
             document = document_of(source, format, split=split)
@@ -359,6 +367,11 @@ class _Reading:
         if folder is None or "\0" in name or len(name) > _MAX_NAME:
             return None
         return os.path.abspath(os.path.join(folder, name))
+
+
+def _crease_angle(entry: JsonValue, usual: float) -> float:
+    angle = entry.get("crease_angle")
+    return usual if angle is None else check_crease_angle(angle.value)
 
 
 def _vertices_of(arguments: dict[str, Any]) -> int:

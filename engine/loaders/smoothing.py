@@ -8,9 +8,12 @@ have the same.
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from .._native import loaders as native
+from ..geometry.creases import SMOOTH, find_creases
 from ..geometry.mesh import Mesh
 from ..geometry.normals import face_normals, smooth_sums, unit_vectors
 from .welding import number_rows, rows_repeat
@@ -30,6 +33,7 @@ def fill_normals(
     polygons: np.ndarray,
     *,
     are_masks: bool = False,
+    crease_angle: float = SMOOTH,
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Give every corner a normal.
 
@@ -48,6 +52,8 @@ def fill_normals(
         The polygon that each triangle is part of.
     are_masks : bool
         Each bit of ``groups`` is a group, and a triangle may be in several.
+    crease_angle : float
+        Radians, between triangles that are of one group because the file has none.
 
     Returns
     -------
@@ -64,9 +70,12 @@ def fill_normals(
     if not missing.any():
         return normal_indices, normals
     filled = normal_indices.copy()
+    grouped = _grouped_normals
+    if crease_angle < SMOOTH:
+        grouped = functools.partial(_creased_normals, crease_angle=crease_angle)
     tables = [np.asarray(normals, np.float32).reshape(-1, 3)]
     for chosen, compute in (
-        (missing & ~is_flat[:, np.newaxis], _masked_normals if are_masks else _grouped_normals),
+        (missing & ~is_flat[:, np.newaxis], _masked_normals if are_masks else grouped),
         (missing & is_flat[:, np.newaxis], _flat_normals),
     ):
         if chosen.any():
@@ -86,6 +95,17 @@ def _grouped_normals(positions, corners, groups):
     shared = shared.reshape(corners.shape)
     sums = smooth_sums(positions, corners, shared, len(places))
     return unit_vectors(sums).astype(np.float32), shared
+
+
+def _creased_normals(positions, corners, groups, *, crease_angle: float):
+    """A normal for each position and side of a crease, and the one of every corner."""
+    arrays = {
+        "positions": np.ascontiguousarray(positions, np.float32),
+        "faces": np.ascontiguousarray(corners, np.int32),
+        "edge_visible": None,
+    }
+    made = find_creases(arrays, crease_angle)
+    return made.normals, made.faces
 
 
 def _masked_normals(positions, corners, masks):

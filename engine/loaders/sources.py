@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, BinaryIO, NamedTuple, TypeAlias
 import numpy as np
 
 from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
+from ..geometry.creases import CREASE_ANGLE
 from .open_files import OpenFile, unreadable
 
 if TYPE_CHECKING:
@@ -66,12 +67,15 @@ class Source(NamedTuple):
         ``progress(fraction)``: told by the reader how much of its work is done, 0..1.
     companion : callable
         ``companion(path) -> bool``: whether an image may become the texture for its name alone.
+    crease_angle : float
+        Radians, of normals that the file lacks.
     """
 
     path: str
     content: bytes | OpenFile
     progress: Callable[[float], object] = _no_progress
     companion: Callable[[str], bool] = _any_image
+    crease_angle: float = CREASE_ANGLE
 
     def __enter__(self) -> Source:
         return self

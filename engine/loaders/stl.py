@@ -1,8 +1,8 @@
 """STL: triangles without anything else, as text or binary.
 
 In: the bytes of a file. Out: a `Document`. Corners at exactly the same place become one vertex. The
-normals of the file are not believed; a facet has one, so the material is flat-shaded. Whether a
-file is binary is told by its length: many binary files begin with the word ``solid``.
+normals of the file are not believed: they are computed by crease angle. Whether a file is binary is
+told by its length: many binary files begin with the word ``solid``.
 """
 
 from __future__ import annotations
@@ -85,8 +85,9 @@ def read_stl(source: Source, split: bool = False) -> Document:
     whole = Mesh(
         facets.positions,
         facets.faces,
-        materials=[Material(flat_shading=True)],
+        materials=[Material(flat_shading=source.crease_angle == 0.0)],
         edge_visible=facets.edge_visible,
+        crease_angle=source.crease_angle,
         name=source.stem,
     )
     groups = [] if facets.polygons is None else _groups(facets.solids, facets.polygons)
@@ -208,6 +209,7 @@ def _part(whole: Mesh, chosen: np.ndarray, name: str) -> Mesh:
         faces.reshape(-1, 3),
         materials=whole.materials,
         edge_visible=None if visible is None else visible[chosen],
+        crease_angle=whole.crease_angle,
         name=name,
     )
 

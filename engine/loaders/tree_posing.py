@@ -203,5 +203,6 @@ def _changed(mesh: Mesh, arrays: dict[str, np.ndarray]) -> Mesh:
         lines=mesh.lines,
         points=mesh.points,
         position_ids=mesh.position_ids,
+        crease_angle=mesh.crease_angle,
         name=mesh.name,
     )

@@ -100,6 +100,9 @@ def read_here(source: Source, split: bool) -> Document:
             f"damaged, or no {kind} file (trimesh ended with {printable(reason[:_SAID])})",
             source.path,
         ) from error
+    for part in parts:
+        if not part.mesh.has_normals:
+            part.mesh.crease_angle = source.crease_angle
     objects = document_objects(source, parts, MAX_REPEATED + source.size, split)
     return Document(kind, objects, counts=counts_of(objects), warnings=warnings.messages())
 

@@ -158,6 +158,7 @@ def _joined(mesh: Mesh, parts) -> Mesh:
         np.concatenate([part + start for part, start in zip(faces, starts, strict=True)]),
         materials=mesh.materials,
         material_ids=np.repeat(ids, [len(part) for part in faces]),
+        crease_angle=mesh.crease_angle,
         name=mesh.name,
         **attributes,
     )

@@ -21,10 +21,13 @@ from ..motion.posed_mesh import PosedMesh
 from ..scene.instances import MANY, InstancedMesh
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
+from ._enclosing import all_in_front, encloses, is_in_front, plane_in_node
 from ._light_list import LightList
 from ._native_handles import MeshNeeds, native_mesh
 from ._native_materials import set_material
+from ._view import View
 
+_FEW = 64  # meshes that are looked at vertex by vertex
 _SETTLED = 3  # frames in which they did not change
 
 
@@ -55,14 +58,19 @@ class DrawList:
         self._scene = lambda: None
         self._objects_version = -1
         self._needs: MeshNeeds | None = None
-        self._normals = ""
+        self._normals, self._by_mesh = "", False
+        self._listed_for: tuple | None = None  # needs, normals and by_mesh
+        self._closed: set[int] = set()  # numbers of objects that enclose a volume
         self._watch = Watch()
         self._changed: list = []  # of what is watched, since the list was made
-        self._materials: dict[Material, list[tuple[int, int]]] = {}  # where they are, as whose
-        self._flat: dict[Material, bool] = {}  # which normals they asked for
+        # Where they are, as whose, and whether both sides show anyway.
+        self._materials: dict[Material, list[tuple[int, int, bool]]] = {}
+        # Which normals they asked for, and whether nothing shows through them.
+        self._traits: dict[Material, tuple[bool, bool]] = {}
         self._textured: dict[Material, set[Texture]] = {}
         self._users: dict[Texture, set[Material]] = {}
-        self._bases: dict[tuple[int, ...], int] = {}  # where materials begin, by their ids
+        # Where materials begin, by their ids, and whether both sides show anyway.
+        self._bases: dict[tuple[tuple[int, ...], bool], int] = {}
         self._material_lists: list[list[Material]] = []  # the meshes' own, by number of the object
         self._lists_then: list[list[Material]] = []  # and as they were
         self._listed: list = []  # what the objects were made of, by number: things, materials' ids
@@ -88,6 +96,7 @@ class DrawList:
         marks: float,
         batching: bool,
         flat: bool = False,
+        by_mesh: bool = False,
     ) -> None:
         """Make the native list draw ``scene``.
 
@@ -108,10 +117,13 @@ class DrawList:
             Nodes of one mesh are drawn as one.
         flat : bool
             What is outside of the frustum is found box by box, without the trees of boxes.
+        by_mesh : bool
+            Materials of meshes that enclose no volume show both sides.
         """
         scene._update(self._threads)
-        if self._needs != needs or self._normals != normals or not self._lists(scene):
-            self._renew(scene, needs, normals)
+        how = needs, normals, by_mesh
+        if self._listed_for != how or not self._lists(scene):
+            self._renew(scene, *how)
         self._follow_poses(scene)
         if self._many and not self._trees:
             self._settle()
@@ -143,6 +155,29 @@ class DrawList:
             self.native.set_instance_tree(number, None)
         self._trees, self._frames = False, 0
 
+    def may_cull(self, scene: Scene, view: View) -> bool:
+        """Whether back faces may be left out, of materials that do not show both sides anyway.
+
+        They may if meshes that enclose a volume are listed, and the near plane cuts none of them:
+        what lies in front of it is seen from outside.
+        """
+        if not self._closed:
+            return False
+        arrays, objects = scene._arrays, scene._objects.objects
+        columns, count = arrays.columns, arrays.count
+        is_closed = np.zeros(len(objects) + 1, bool)  # the last is what nodes without object have
+        is_closed[list(self._closed)] = True
+        rows = np.flatnonzero(is_closed[columns["object"][:count]])
+        plane = view.clip_from_world[2] + view.clip_from_world[3]
+        near = rows[~all_in_front(plane, columns["bounds"][rows])]
+        if len(near) > _FEW:
+            return False
+        worlds = arrays.world_poses(near)
+        for mesh, world in zip((objects[n] for n in columns["object"][near]), worlds, strict=True):
+            if not (isinstance(mesh, Mesh) and is_in_front(plane_in_node(plane, world), mesh)):
+                return False
+        return True
+
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
         return self._placed == (scene._arrays, scene._arrays.changes) and self._lists(scene)
@@ -157,18 +192,21 @@ class DrawList:
             and not self._changed
         )
 
-    def _renew(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
+    def _renew(self, scene: Scene, needs: MeshNeeds, normals: str, by_mesh: bool) -> None:
         """Make the list of objects anew, or only what changed of it."""
         self.renewals += 1
         self._changed += self._watch.changed()
-        same = self._scene() is scene and self._needs == needs and self._normals == normals
+        same = self._scene() is scene and self._listed_for == (needs, normals, by_mesh)
         numbers = self._numbers_that_changed(scene) if same else None
         self._scene = lambda: None  # if anything below raises, the list is not current
         if numbers is None:
-            self._rebuild(scene, needs, normals)
+            self._needs, self._normals, self._by_mesh = needs, normals, by_mesh
+            self._listed_for = None
+            self._rebuild(scene)
         else:
             self._replace(scene, sorted(numbers))
         self._objects_version = scene._objects.version
+        self._listed_for = needs, normals, by_mesh
         self._scene = weakref.ref(scene)
 
     def _numbers_that_changed(self, scene: Scene) -> set[int] | None:
@@ -180,7 +218,7 @@ class DrawList:
         for thing in self._changed:
             if isinstance(thing, (Mesh, InstancedMesh)):
                 numbers |= objects.drawn_by(thing)
-            elif isinstance(thing, Material) and self._flat[thing] != thing.flat_shading:
+            elif isinstance(thing, Material) and self._traits[thing] != _traits_of(thing):
                 numbers |= self._numbers_with(thing)
         # Materials that nothing shows any longer are let go of when the list is made anew.
         few = 4 * (self._left + len(numbers)) <= len(objects.objects)
@@ -199,8 +237,8 @@ class DrawList:
     def _replace(self, scene: Scene, numbers: list[int]) -> None:
         """Renew the materials that changed, and the objects of some numbers."""
         for material in self._materials_that_changed():
-            for index, number in self._materials[material]:
-                self._set_material(index, material, number)
+            for index, number, both in self._materials[material]:
+                self._set_material(index, material, number, both)
         self._changed = []
         if not numbers:
             return
@@ -212,13 +250,13 @@ class DrawList:
         if not many.union(self._many).isdisjoint(numbers):
             self._unsettle()
 
-    def _rebuild(self, scene: Scene, needs: MeshNeeds, normals: str) -> None:
+    def _rebuild(self, scene: Scene) -> None:
         self._placed = None
-        self._needs, self._normals = needs, normals
+        self._closed = set()
         self.native.clear()
         self.lights.forget()
         self._watch, self._changed = Watch(), []
-        self._materials, self._flat, self._textured, self._users = {}, {}, {}, {}
+        self._materials, self._traits, self._textured, self._users = {}, {}, {}, {}
         self._bases, self._material_lists, self._lists_then, self._listed = {}, [], [], []
         self._left = 0
         self._marks = self._trees = False
@@ -229,6 +267,7 @@ class DrawList:
     def _set_object(self, number: int, obj) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""
         self._many.pop(number, None)
+        self._closed.discard(number)
         if obj is None:
             self.native.set_object(number, None, 0)
             self._note(number, (), (), [])
@@ -238,14 +277,17 @@ class DrawList:
         for thing in things:
             self._watch.add(thing)  # before it is read
         surfaces = tuple(map(id, mesh.materials))
-        if surfaces not in self._bases:
-            self._bases[surfaces] = self._add_materials(mesh.materials)
+        both = self._by_mesh and (isinstance(obj, PosedMesh) or not encloses(mesh))
+        if self._by_mesh and not both:
+            self._closed.add(number)
+        if (surfaces, both) not in self._bases:
+            self._bases[surfaces, both] = self._add_materials(mesh.materials, both)
         needs = _needs_of(mesh, self._needs, self._normals)
         if isinstance(obj, PosedMesh):
             native = obj.handle(needs, self._threads)
         else:
             native = native_mesh(mesh, needs, self._threads)
-        self.native.set_object(number, native, self._bases[surfaces])
+        self.native.set_object(number, native, self._bases[surfaces, both])
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
         self._note(number, things, surfaces, mesh.materials)
         if isinstance(obj, InstancedMesh):
@@ -281,13 +323,13 @@ class DrawList:
                 if not scene._objects.drawn_by(thing):
                     self._watch.remove(thing)
 
-    def _add_materials(self, materials: list[Material]) -> int:
+    def _add_materials(self, materials: list[Material], both: bool) -> int:
         """Add materials to the native list; return the first one's number."""
         base = self.native.material_count
         for number, material in enumerate(materials):
             index = base + number
-            self._materials.setdefault(material, []).append((index, number))
-            self._set_material(index, material, number)
+            self._materials.setdefault(material, []).append((index, number, both))
+            self._set_material(index, material, number, both)
         return base
 
     def _place(
@@ -322,12 +364,13 @@ class DrawList:
         self._placed, self._selected = placed, selected
         self._frustum, self._how = frustum, how
 
-    def _set_material(self, index: int, material: Material, number: int) -> None:
+    def _set_material(self, index: int, material: Material, number: int, both: bool) -> None:
         self._watch.add(material)
-        self._flat[material] = material.flat_shading
+        self._traits[material] = _traits_of(material)
         placed = placed_textures_of(material)
         self._note_textures(material, {use.texture for use in placed.values()})
-        set_material(self.native, index, number, material, placed, self._color_space)
+        two_sided = both or material.two_sided
+        set_material(self.native, index, number, material, placed, self._color_space, two_sided)
 
     def _note_textures(self, material: Material, textures: set[Texture]) -> None:
         """Look at the textures of a material, and no longer at those that no material has now."""
@@ -341,6 +384,11 @@ class DrawList:
             self._users.setdefault(texture, set()).add(material)
         if textures:
             self._textured[material] = textures
+
+
+def _traits_of(material: Material) -> tuple[bool, bool]:
+    """What of a material decides how meshes with it are listed."""
+    return material.flat_shading, material.alpha_mode == "opaque"
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:

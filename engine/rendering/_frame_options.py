@@ -79,7 +79,7 @@ class FrameOptions:
         self.headlight = color, tuple(lux * component for component in color)
         self.native = _native.NativeOptions(
             mode=_native.MODES[options.mode],
-            cull=_native.CULLS[options.cull],
+            cull=_native.CULLS["back" if options.cull == "auto" else options.cull],
             wireframe=_native.WIREFRAMES[options.wireframe],
             hidden=_native.HIDDEN_SURFACES[options.hidden_surfaces],
             shading=_native.SHADINGS[options.shading],

@@ -19,8 +19,10 @@ from .._native.rasterizer import (
     NativeTexture,
 )
 from ..environments.environment import Environment
+from ..geometry.creases import creased_arrays, has_creases
 from ..geometry.mesh import Mesh
 from ..geometry.native_meshes import make_native_mesh
+from ..geometry.vertex_attributes import vertex_attributes
 from ..materials.textures import Texture
 
 
@@ -43,12 +45,21 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     Threads that ask at once for the first time may each make one: these are alike.
     """
     arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
+    angle = mesh.crease_angle
+    state = {**arrays, "crease_angle": angle}
     made_of, native = _meshes.get(mesh, (None, None))
-    if made_of is None or not all(map(operator.is_, arrays.values(), made_of.values())):
+    if made_of is None or not all(map(operator.is_, state.values(), made_of.values())):
         native = make_native_mesh(arrays, threads)
-        _meshes[mesh] = arrays, native
+        _meshes[mesh] = state, native
     if needs.vertex_normals and "normals" not in native.attributes:
-        native.set_attribute("normals", mesh._derive("normals", arrays))
+        if has_creases(arrays, angle):
+            creased = creased_arrays(arrays, vertex_attributes(Mesh), angle)
+            if creased["faces"] is not arrays["faces"]:
+                native = make_native_mesh(creased, threads)
+                _meshes[mesh] = state, native
+            native.set_attribute("normals", creased["_given_normals"])
+        else:
+            native.set_attribute("normals", mesh._derive("normals", arrays))
     if needs.face_normals and not native.has_face_normals:
         native.set_face_normals(mesh._derive("face_normals", arrays))
     if needs.edges and not native.has_edges:

@@ -25,6 +25,7 @@ def set_material(
     material: Material,
     textures: dict[str, PlacedTexture],
     color_space: str,
+    two_sided: bool,
 ) -> None:
     """Set a material of a native draw list, or the next one.
 
@@ -40,6 +41,8 @@ def set_material(
         Its own, by slot.
     color_space : {"srgb", "linear"}
         How 8-bit colours are read.
+    two_sided : bool
+        Whether both sides of its faces show, whatever is culled.
     """
     strength = material.emissive_strength if material.is_physical else 1.0
     emissive = shading_color(material.emissive, color_space)
@@ -51,7 +54,7 @@ def set_material(
         tuple(component * strength for component in emissive),
         {slot: _use(slot, placed, color_space) for slot, placed in textures.items()},
         id,
-        material.two_sided,
+        two_sided,
         material.flat_shading,
         material.unlit,
         material.normal_scale,

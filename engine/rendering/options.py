@@ -6,8 +6,9 @@ scene as well is found for each frame (_frame_options.py).
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypedDict
 
 from .._native import rasterizer as _native
@@ -15,8 +16,8 @@ from .._support.numbers import real, shown
 from .._support.validation import choose
 from ..choices import (
     ColorLike,
-    Cull,
     Culling,
+    FrameCull,
     HiddenSurfaces,
     Mode,
     Normals,
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from ._view import CameraChoice
     from .frame import Frame
 
+_CULLS = (*_native.CULLS, "auto")
 WHITE = (1.0, 1.0, 1.0)
 _MAX_LINE = 256.0
 
@@ -59,7 +61,7 @@ class RenderKeywords(TypedDict, total=False):
 
     mode: Mode
     wireframe: Wireframe | None
-    cull: Cull
+    cull: FrameCull
     shading: Shading
     outputs: Iterable[Output]
     out: Frame | None
@@ -96,7 +98,7 @@ class RenderOptions:
 
     mode: Mode = "lit"
     wireframe: Wireframe | None = None
-    cull: Cull = "back"
+    cull: FrameCull = "back"
     shading: Shading = "deferred"
     outputs: Iterable[Output] = ("color",)
     normals: Normals = "auto"
@@ -112,7 +114,7 @@ class RenderOptions:
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
         choose(self.wireframe, _native.WIREFRAMES, "wireframe")
-        choose(self.cull, _native.CULLS, "cull")
+        choose(self.cull, _CULLS, "cull")
         choose(self.shading, _native.SHADINGS, "shading")
         choose(self.normals, _native.NORMALS, "normals")
         choose(self.hidden_surfaces, _native.HIDDEN_SURFACES, "hidden_surfaces")
@@ -129,6 +131,12 @@ class RenderOptions:
 
 
 _DEFAULTS = RenderOptions()
+
+
+@functools.lru_cache(16)
+def with_both_sides(options: RenderOptions) -> RenderOptions:
+    """Return the options without culling of faces: the same object each time."""
+    return replace(options, cull="none")
 
 
 def either(options: RenderOptions | None, keywords: RenderOptions) -> RenderOptions:

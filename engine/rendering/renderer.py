@@ -19,8 +19,8 @@ from ..choices import (
     Backend,
     ColorLike,
     ColorSpace,
-    Cull,
     Culling,
+    FrameCull,
     HiddenSurfaces,
     Mode,
     Normals,
@@ -41,7 +41,7 @@ from ._view import CameraChoice, View, find_camera
 from .backend_selection import resolve_backend, resolve_threads
 from .frame import OUTPUTS, Frame, Output
 from .framing import frame_scene
-from .options import WHITE, RenderKeywords, RenderOptions, either
+from .options import WHITE, RenderKeywords, RenderOptions, either, with_both_sides
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -192,7 +192,16 @@ class Renderer(Closed):
             needs = frame_options.needs(options.outputs)
             census = scene._census()
             try:
-                self._draw_list.update(scene, needs, options.normals, headlight, None, 0.0, True)
+                self._draw_list.update(
+                    scene,
+                    needs,
+                    options.normals,
+                    headlight,
+                    None,
+                    0.0,
+                    True,
+                    by_mesh=options.cull == "auto",
+                )
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
@@ -213,7 +222,7 @@ class Renderer(Closed):
         *,
         mode: Mode = "lit",
         wireframe: Wireframe | None = None,
-        cull: Cull = "back",
+        cull: FrameCull = "back",
         shading: Shading = "deferred",
         outputs: Iterable[Output] = ("color",),
         out: Frame | None = None,
@@ -243,8 +252,10 @@ class Renderer(Closed):
             covered.
         wireframe : {None, "overlay", "only"}
             Draw the visible edges over the picture, or instead of its faces.
-        cull : {"back", "front", "none"}
+        cull : {"back", "front", "none", "auto"}
             Which faces are left out: those that show their back, or those that show their front.
+            ``"auto"`` shows both sides, but leaves the backs out of opaque meshes that enclose a
+            volume, their fronts outside, where the picture is the same.
         shading : {"deferred", "forward"}
             When pixels are shaded: once each, or as they are drawn. Both give the same bytes.
         outputs : iterable of str
@@ -338,6 +349,7 @@ class Renderer(Closed):
             if culling_camera is not None:
                 chosen = self._clip_from_world(scene, culling_camera)
             frustum = view.clip_from_world if chosen is None else chosen
+            by_mesh = options.cull == "auto"
             self._draw_list.update(
                 scene,
                 frame_options.needs(frame.outputs),
@@ -347,9 +359,14 @@ class Renderer(Closed):
                 frame_options.mark_size / min(self._width, self._height),
                 options.batching,
                 options.culling == "frustum",
+                by_mesh,
             )
+            cull = "back" if by_mesh else options.cull
+            if by_mesh and not self._draw_list.may_cull(scene, view):
+                cull = "none"
+                frame_options = self._options.get(scene, with_both_sides(options))
             if options.mode == "lit" and "color" in frame.outputs:
-                self._shadow_maps.update(scene, view, options.cull)
+                self._shadow_maps.update(scene, view, cull)
                 self._turn.check()
             near, far = 0.0, 1.0
             if options.mode == "depth":
@@ -378,7 +395,7 @@ class Renderer(Closed):
             self._shadow_maps.count,
             self._shadow_maps.drawn,
         )
-        frame._seen = view, options.cull
+        frame._seen = view, "none" if by_mesh else options.cull
         frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame
 

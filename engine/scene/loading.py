@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import linalg
 from ..errors import InvalidArgumentError
+from ..geometry.creases import CREASE_ANGLE
 from ..loaders import CameraRecord, Document, LightRecord, load_document
 from ..loaders.sources import File
 from ._scene_records import fill_scene
@@ -28,6 +29,7 @@ def load_scene(
     format: str | None = None,
     progress: Callable[[float], object] | None = None,
     variant: str | int | None = None,
+    crease_angle: float = CREASE_ANGLE,
 ) -> Scene:
     """Read a file with all its objects, lights, cameras, skins and animations.
 
@@ -42,6 +44,8 @@ def load_scene(
     variant : str or int, optional
         The name or number of one of the sets of materials that a glTF file offers
         (KHR_materials_variants); the usual one if left out.
+    crease_angle : float, optional
+        As in `load_mesh`.
 
     Returns
     -------
@@ -52,7 +56,8 @@ def load_scene(
     ------
     FileFormatError, FileAccessError, InvalidArgumentError
     """
-    return scene_from_document(load_document(path, format=format, progress=progress), variant)
+    document = load_document(path, format=format, progress=progress, crease_angle=crease_angle)
+    return scene_from_document(document, variant)
 
 
 @np.errstate(all="ignore")

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import get_args
 
 from .. import linalg
-from ..choices import Cull, Culling, HiddenSurfaces, Mode, OutputMode, Wireframe
+from ..choices import Culling, FrameCull, HiddenSurfaces, Mode, OutputMode, Wireframe
 from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
@@ -18,7 +18,7 @@ from ..scene.instances import InstancedMesh
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
 WIREFRAMES = (None, *get_args(Wireframe))
-CULLS = get_args(Cull)
+CULLS = get_args(FrameCull)
 CULLINGS = get_args(Culling)
 HIDDEN_SURFACES = get_args(HiddenSurfaces)
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)

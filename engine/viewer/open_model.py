@@ -10,6 +10,7 @@ import os
 import warnings
 
 from ..errors import Engine3DWarning, printable
+from ..geometry.creases import CREASE_ANGLE
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
 from ..scene.loading import scene_from_document
@@ -31,6 +32,7 @@ def open_model(
     companion=None,
     variant=None,
     animation=None,
+    crease_angle=CREASE_ANGLE,
 ) -> ViewedScene:
     """Load a file to look at.
 
@@ -47,6 +49,8 @@ def open_model(
     companion : callable, optional
         As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
 
+    crease_angle : float, optional
+        As in `engine3d.load_mesh`.
     variant : str or int, optional
         As in `engine3d.load_scene`.
     animation : callable, optional
@@ -67,7 +71,9 @@ def open_model(
     is_dressed = image is not None or color is not None
     if is_dressed:
         companion = _no_image
-    document = load_document(path, progress=progress, companion=companion)
+    document = load_document(
+        path, progress=progress, companion=companion, crease_angle=crease_angle
+    )
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
@@ -80,6 +86,8 @@ def open_model(
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
         update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
+        # glTF says of each material which sides show; other files don't, or are often wrong.
+        appearance={} if document.tree is not None else {"cull": "auto"},
         path=path,
         details=document_lines(document),
         warnings=list(scene.warnings),

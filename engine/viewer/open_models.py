@@ -69,6 +69,7 @@ def open_models(
         ", ".join(viewed.title for viewed in viewed_scenes),
         up=first.up,
         themed=True,
+        appearance={"cull": "auto"},
         details=[line for one in viewed_scenes for line in (one.title, *one.details)],
         warnings=[f"{one.title}: {line}" for one in viewed_scenes for line in one.warnings],
     )

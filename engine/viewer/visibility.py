@@ -150,6 +150,7 @@ def _toggled(hidden: set, everything: list, number: int, alone: bool) -> set:
 
 
 def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
+    mesh = mesh.with_creases()  # what is left keeps the normals that it had
     edges = mesh.edge_visible
     return Mesh(
         mesh.positions,

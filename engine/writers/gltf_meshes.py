@@ -60,7 +60,7 @@ class GltfMeshList:
         return len(self.meshes) - 1
 
     def _primitives(self, part: MeshRecord):
-        mesh = part.mesh
+        mesh = part.mesh.with_creases()
         numbers = np.unique(mesh.material_ids) if len(mesh.materials) > 1 else [0]
         for number in numbers if len(mesh.faces) else ():
             is_all = len(numbers) == 1

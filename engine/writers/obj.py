@@ -14,6 +14,7 @@ import numpy as np
 from .._native import writers as native
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import Files, StreamFiles
+from ..geometry.creases import SMOOTH
 from ..geometry.mesh import Mesh
 from ..loaders.welding import number_rows
 from ..materials.colors import srgb_bytes
@@ -132,7 +133,8 @@ def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) ->
     states = states[first]
     starts = np.flatnonzero(np.r_[True, (states[1:] != states[:-1]).any(axis=1)])
     lines = _FaceLines(mesh, outlines, position_of)
-    old = (-1, 0, True)
+    # Without a word about smoothing, readers look for creases.
+    old = (-1, 0, True if mesh.has_normals or mesh.crease_angle < SMOOTH else None)
     for start, end in zip(starts.tolist(), [*starts[1:].tolist(), len(first)], strict=True):
         new = tuple(states[start].tolist())
         if names and new[0] != old[0]:

@@ -22,6 +22,7 @@ from .._support.numbers import shown
 from ..environments.environment import Environment
 from ..errors import InvalidArgumentError, located, warn
 from ..files.atomic_write import atomic_write, checked_path
+from ..geometry.creases import CREASE_ANGLE, SMOOTH
 from ..geometry.mesh import Mesh
 from ..geometry.movers import VERTEX_AXES
 from ..geometry.origins import FileOrigin, PrimitiveOrigin, has_own_materials, origin_of
@@ -252,6 +253,8 @@ class _Writing:
             entry["part"] = origin.part[0]
             if origin.part[1]:
                 entry["occurrence"] = origin.part[1]
+        if origin.crease_angle != CREASE_ANGLE:
+            entry["crease_angle"] = origin.crease_angle
         return entry
 
     def _relative(self, path: str, may_be_missing: bool = False) -> str | None:
@@ -348,7 +351,8 @@ def _arrays(mesh: Mesh) -> dict[str, Any]:
         if name not in VERTEX_AXES and array is not None and (len(array) or name == "positions")
     }
     groups = {name: _array(faces) for name, faces in mesh.groups.items()}
-    return {"arrays": arrays, **({"groups": groups} if groups else {})}
+    angle = {} if mesh.crease_angle == SMOOTH else {"crease_angle": mesh.crease_angle}
+    return {"arrays": arrays, **({"groups": groups} if groups else {}), **angle}
 
 
 def _array(array: np.ndarray) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """STL: both forms, told apart whatever they begin with; welding; damaged files."""
 
+import math
 import struct
 
 import numpy as np
@@ -54,8 +55,10 @@ def test_binary_whatever_its_header_says(load, header):
     assert (mesh.normals == [0, 0, 1]).all()
 
 
-def test_the_facets_stay_flat(load):
-    assert load(TEXT).materials[0].flat_shading
+def test_only_an_angle_of_zero_makes_facets_flat(load):
+    mesh = load(TEXT)
+    assert not mesh.materials[0].flat_shading
+    assert mesh.crease_angle == math.radians(35)
 
 
 def test_vertices_are_welded_by_their_exact_position(load):

@@ -30,6 +30,7 @@ ACCEPTED = {
     "OutputMode": {*frame.OUTPUTS} - {*native.MODES, "color", "ndc_depth"},
     "Wireframe": [name for name in native.WIREFRAMES if name is not None],
     "Cull": native.CULLS,
+    "FrameCull": render_options._CULLS,
     "Shading": native.SHADINGS,
     "Normals": native.NORMALS,
     "HiddenSurfaces": native.HIDDEN_SURFACES,

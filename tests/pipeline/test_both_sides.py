@@ -1,0 +1,149 @@
+"""``cull="auto"``: both sides show, and backs are left out only where that changes nothing."""
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d.primitives import box, cylinder, icosphere, torus
+from engine3d.rendering._enclosing import encloses
+
+
+def scene_of(*meshes):
+    scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+    for number, mesh in enumerate(meshes):
+        scene.add(mesh, translation=(2.5 * number, 0, 0))
+    scene.add(e3d.DirectionalLight((-0.3, -0.5, -1)))
+    return scene
+
+
+def inside_out(mesh, some=slice(None)):
+    faces = mesh.faces.copy()
+    faces[some] = faces[some][:, ::-1]
+    return e3d.Mesh(mesh.positions, faces, normals=None, position_ids=mesh.position_ids)
+
+
+def picture(renderer, scene, cull, camera=None):
+    frame = renderer.render(scene, camera, cull=cull, outputs=("color", "triangle_id"))
+    return frame.color.copy(), frame.triangle_id.copy(), dict(frame.stats)
+
+
+@pytest.fixture
+def renderer():
+    with e3d.Renderer(160, 120) as renderer:
+        yield renderer
+
+
+SHAPES = {
+    "box": lambda: box((1, 1, 1)),
+    "ball": lambda: icosphere(1.0, 3),
+    "cylinder": lambda: cylinder(0.7, 1.5),
+    "torus": lambda: torus(1.0, 0.4),
+}
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_what_is_closed_is_culled_and_looks_the_same(renderer, name):
+    mesh = SHAPES[name]()
+    assert encloses(mesh)
+    scene = scene_of(mesh)
+    auto, none, back = (picture(renderer, scene, cull) for cull in ("auto", "none", "back"))
+    assert (auto[0] == none[0]).all()
+    assert (auto[1] == back[1]).all()
+    assert auto[2]["triangles_setup"] == back[2]["triangles_setup"] < none[2]["triangles_setup"]
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_what_is_inside_out_looks_as_if_it_were_not(renderer, name):
+    mesh = inside_out(SHAPES[name]())
+    assert not encloses(mesh)
+    turned = inside_out(mesh)
+    wrong, right = (picture(renderer, scene_of(one), "auto")[0] for one in (mesh, turned))
+    # Silhouettes may fall to the face behind by a rounding.
+    assert (wrong != right).any(axis=2).sum() <= 4
+    assert (picture(renderer, scene_of(mesh), "back")[0] != right).any(axis=2).sum() > 500
+
+
+def test_some_faces_turned_over_leave_no_holes(renderer):
+    ball = icosphere(1.0, 3)
+    mixed = inside_out(ball, slice(None, None, 3))
+    assert not encloses(mixed)
+    mixed.crease_angle = 0.6
+    right = picture(renderer, scene_of(inside_out(ball, slice(0))), "auto")[0]
+    wrong = picture(renderer, scene_of(mixed), "auto")[0]
+    assert np.abs(wrong.astype(int) - right).max(axis=2).mean() < 1.0
+
+
+def test_closed_and_open_meshes_in_one_picture(renderer):
+    plane = e3d.primitives.plane((1, 1))
+    scene = scene_of(icosphere(1.0, 2), inside_out(plane))
+    auto, none, back = (picture(renderer, scene, cull) for cull in ("auto", "none", "back"))
+    assert (auto[0] == none[0]).all()
+    assert back[2]["triangles_setup"] < auto[2]["triangles_setup"] < none[2]["triangles_setup"]
+
+
+def test_from_inside_both_sides_show(renderer):
+    room = box((4, 4, 4))
+    assert encloses(room)
+    camera = e3d.PerspectiveCamera(1.2, znear=0.05, zfar=20.0)
+    scene = scene_of(room)
+    for pose in (np.eye(4), _at(0, 0, 2.02)):  # inside, and where the near plane cuts a wall
+        auto, none = (picture(renderer, scene, cull, (camera, pose)) for cull in ("auto", "none"))
+        assert (auto[0] == none[0]).all()
+        assert (auto[1] >= 0).any()
+    outside = picture(renderer, scene, "auto", (camera, _at(0, 0, 2.1)))
+    assert (outside[1] == picture(renderer, scene, "back", (camera, _at(0, 0, 2.1)))[1]).all()
+
+
+def _at(*place):
+    pose = np.eye(4)
+    pose[:3, 3] = place
+    return pose
+
+
+def test_what_has_alpha_shows_its_inside():
+    glass = icosphere(1.0, 2)
+    assert encloses(glass)
+    glass.materials = [e3d.Material(color=(1.0, 1.0, 1.0, 0.5), alpha_mode="blend")]
+    assert not encloses(glass)
+
+
+def test_alpha_that_comes_later(renderer):
+    ball = icosphere(1.0, 2)
+    scene = scene_of(ball)
+    first = picture(renderer, scene, "auto")[0]
+    ball.materials[0].alpha_mode, ball.materials[0].color = "blend", (1.0, 1.0, 1.0, 0.5)
+    auto, none = (picture(renderer, scene, cull)[0] for cull in ("auto", "none"))
+    assert (auto == none).all()
+    assert (first != auto).any()
+
+
+def test_what_encloses_nothing():
+    ball = icosphere(1.0, 1)
+    assert not encloses(e3d.Mesh(ball.positions, ball.faces[1:]))
+    assert not encloses(e3d.Mesh([(0, 0, 0)]))
+    # A part that is inside out, beside one that is not.
+    both = e3d.Mesh.concatenate([ball, inside_out(ball)], poses=[np.eye(4), _at(5, 0, 0)])
+    assert not encloses(both)
+    assert encloses(e3d.Mesh.concatenate([ball, ball], poses=[np.eye(4), _at(5, 0, 0)]))
+
+
+def test_instances_and_a_mirrored_node(renderer):
+    ball = cylinder(0.7, 1.5)
+    scene = e3d.Scene()
+    scene.add(e3d.InstancedMesh(ball, np.stack([_at(0, 0, 0), _at(2, 0, 0)])))
+    scene.add(ball, translation=(0, 3, 0), scale=(-1, 1, 1))
+    # Instances are looked at by their box alone, which the camera of such a scene touches.
+    _, pose = e3d.frame_scene(scene, aspect=160 / 120)
+    camera = e3d.PerspectiveCamera(znear=0.1, zfar=50.0), pose
+    auto, none, back = (picture(renderer, scene, cull, camera) for cull in ("auto", "none", "back"))
+    assert (auto[0] == none[0]).all()
+    assert auto[2]["triangles_setup"] == back[2]["triangles_setup"]
+
+
+def test_picking_takes_what_shows(renderer):
+    scene = scene_of(inside_out(box((1, 1, 1))))
+    frame = renderer.render(
+        scene, cull="auto", outputs=("color", "depth", "triangle_id", "object_id")
+    )
+    hit = scene.pick(frame, 80, 60)
+    assert hit.face == frame.triangle_id[60, 80]

@@ -9,6 +9,7 @@
 #include "e3d_environment.h"
 #include "e3d_light.h"
 #include "e3d_material.h"
+#include "e3d_tone.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -93,6 +94,9 @@ typedef struct e3d_frame {
     int32_t transparent_outputs; /* outputs but colour are of the nearest surface, blended or not; else of the nearest that isn't blended */
     e3d_culling culling;
     const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
+    e3d_tone_mapping tone_mapping; /* of lit surfaces and of the backdrop, in mode lit */
+    e3d_fog fog;                   /* lit and unlit only */
+    e3d_gradient gradient;
 } e3d_frame;
 
 #ifdef __cplusplus

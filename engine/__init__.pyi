@@ -63,6 +63,9 @@ from .scene.cameras import Camera as Camera
 from .scene.cameras import IntrinsicsCamera as IntrinsicsCamera
 from .scene.cameras import OrthographicCamera as OrthographicCamera
 from .scene.cameras import PerspectiveCamera as PerspectiveCamera
+from .scene.fog import ExponentialFog as ExponentialFog
+from .scene.fog import Fog as Fog
+from .scene.gradients import Gradient as Gradient
 from .scene.instances import InstancedMesh as InstancedMesh
 from .scene.lights import DirectionalLight as DirectionalLight
 from .scene.lights import PointLight as PointLight

@@ -29,6 +29,7 @@ OutputMode = Literal[
     "metallic_roughness",
     "emissive",
     "tangent",
+    "radiance",
     "instance_id",
     "material_id",
 ]
@@ -40,6 +41,7 @@ Shading = Literal["deferred", "forward"]
 Normals = Literal["auto", "smooth", "flat"]
 HiddenSurfaces = Literal["zbuffer", "painter", "none"]
 Culling = Literal["all", "tree", "frustum", "none", "always"]
+ToneMapping = Literal["none", "neutral", "aces", "agx"]
 Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window", "gltf"]

@@ -22,5 +22,6 @@
 #include "e3d_status.h"
 #include "e3d_targets.h"
 #include "e3d_texture.h"
+#include "e3d_tone.h"
 
 #endif

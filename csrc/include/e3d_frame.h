@@ -9,6 +9,7 @@
 #include "e3d_environment.h"
 #include "e3d_light.h"
 #include "e3d_material.h"
+#include "e3d_tone.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -96,6 +97,9 @@ typedef struct e3d_frame {
     const e3d_shadow_map *shadow_maps; /* of all lights */
     int32_t shadow_map_count;
     int32_t faces_only;          /* neither lines nor points are drawn */
+    e3d_tone_mapping tone_mapping; /* of lit surfaces and of the backdrop, in mode lit */
+    e3d_fog fog;                   /* lit and unlit only */
+    e3d_gradient gradient;
 } e3d_frame;
 
 #ifdef __cplusplus

@@ -32,7 +32,8 @@ extern "C" {
     X(E3D_OUTPUT_BARYCENTRIC, barycentric, float, 3, 0, IDENTITIES) \
     X(E3D_OUTPUT_METALLIC_ROUGHNESS, metallic_roughness, float, 2, 0, MATERIALS) \
     X(E3D_OUTPUT_EMISSIVE, emissive, float, 3, 0, MATERIALS) /* working space */ \
-    X(E3D_OUTPUT_TANGENT, tangent, float, 4, 0, TANGENTS) /* view space, and the sign of the bitangent */
+    X(E3D_OUTPUT_TANGENT, tangent, float, 4, 0, TANGENTS) /* view space, and the sign of the bitangent */ \
+    X(E3D_OUTPUT_RADIANCE, radiance, float, 3, 0, RADIANCE) /* working space: the colour before it is tone mapped and clamped */
 
 typedef enum e3d_output_kind { E3D_EACH_OUTPUT(E3D_ENUMERATOR) E3D_OUTPUTS } e3d_output_kind;
 

@@ -114,8 +114,12 @@ typedef struct e3d_kernels {
     void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out);
     /* Adds what a block of texels gathers of the light of cells. */
     void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block);
-    /* Finds the clamped colours of an environment behind `count` pixels of a row, from (x, y) on. */
+    /* Finds the colours of an environment behind `count` pixels of a row, from (x, y) on; they are neither tone mapped nor clamped. */
     void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]);
+    /* color: fog over it, by the samples' positions. */
+    void (*fog)(e3d_batch *batch, const e3d_fog_view *fog);
+    /* Maps planes of colours to [0, 1]. */
+    void (*tone)(e3d_tone_mapping mapping, float *const color[3], int count);
     /* alpha (R80): base, times the texture's (NULL: base has it already), the vertices' and the instance's. */
     void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const e3d_varying *base, int by_vertex,
                   int by_instance);

@@ -24,6 +24,7 @@ cdef extern from "e3d.h" nogil:
         E3D_OPTION_NORMALS
         E3D_OPTION_SHADING
         E3D_OPTION_TEXTURE_SLOT
+        E3D_OPTION_TONE_MAPPING
         E3D_OPTION_WIREFRAME
         E3D_OPTION_WRAP
 
@@ -267,6 +268,27 @@ cdef extern from "e3d.h" nogil:
     ctypedef enum e3d_culling:
         pass
 
+    ctypedef enum e3d_tone_mapping:
+        pass
+
+    ctypedef enum e3d_fog_kind:
+        E3D_FOG_NONE
+        E3D_FOG_LINEAR
+        E3D_FOG_EXPONENTIAL
+
+    ctypedef struct e3d_fog:
+        e3d_fog_kind kind
+        float color[3]
+        float lit_color[3]
+        float near
+        float far
+        float density
+
+    ctypedef struct e3d_gradient:
+        int32_t shows
+        float top[3]
+        float bottom[3]
+
     ctypedef struct e3d_frame:
         int32_t width
         int32_t height
@@ -309,6 +331,9 @@ cdef extern from "e3d.h" nogil:
         const e3d_shadow_map *shadow_maps
         int32_t shadow_map_count
         int32_t faces_only
+        e3d_tone_mapping tone_mapping
+        e3d_fog fog
+        e3d_gradient gradient
 
     ctypedef enum e3d_output_kind:
         E3D_OUTPUT_NDC_DEPTH

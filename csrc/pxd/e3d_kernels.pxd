@@ -2,7 +2,9 @@
 
 from libc.stdint cimport int32_t, uint8_t, uint16_t, uint32_t, uint64_t
 
-from e3d cimport e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment_light, e3d_filter, e3d_light, e3d_shadow_map, e3d_wrap
+from e3d cimport (
+    e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment_light, e3d_filter, e3d_fog_kind, e3d_light, e3d_shadow_map, e3d_tone_mapping, e3d_wrap
+)
 from e3d_clusters cimport e3d_cluster
 
 
@@ -169,6 +171,14 @@ cdef extern from "kernels/kernels.h" nogil:
         const uint32_t *which
         const four_floats *color
 
+    ctypedef struct e3d_fog_view:
+        e3d_fog_kind kind
+        float row[4]
+        float color[3]
+        float near
+        float scale
+        float density
+
     ctypedef struct e3d_paint:
         int wanted
         const e3d_texture_view *texture
@@ -181,6 +191,8 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *emissive
         int srgb
         e3d_samples *samples
+        const e3d_fog_view *fog
+        e3d_tone_mapping tone
 
     ctypedef struct e3d_map_batch:
         pass
@@ -261,6 +273,8 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out)
         void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block)
         void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const *color)
+        void (*fog)(e3d_batch *batch, const e3d_fog_view *fog)
+        void (*tone)(e3d_tone_mapping mapping, float *const *color, int count)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)
         void (*put)(const e3d_batch *batch, int srgb, uint32_t *rgba)

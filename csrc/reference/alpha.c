@@ -116,9 +116,9 @@ void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t
         if (scene->frame->wireframe == E3D_WIRE_ONLY && piece->primitive.kind == REF_FACE)
             continue;
         ref_surface_at(scene, piece, x, y, &surface);
-        ref_shade(scene->frame, &surface, shaded);
+        ref_show(scene->frame, &surface, shaded);
         for (int c = 0; c < 3; c++)
-            color[c] = ref_clamp(shaded[c], 0.0f, 1.0f) * surface.alpha + color[c] * (1.0f - surface.alpha);
+            color[c] = shaded[c] * surface.alpha + color[c] * (1.0f - surface.alpha);
         *alpha = surface.alpha + *alpha * (1.0f - surface.alpha);
         scene->stats.pixels_shaded++;
     }

@@ -4,7 +4,7 @@
  * Out: one row of pixels after another: colour averaged over a pixel's samples and encoded; every
  *      other output from the one sample of R35.
  * Rules: R32 (overdraw), R33 and R85 (average), R34 (encoding), R35 and R86 (outputs), R36 (what wireframe shows), R63 (an
- *      environment as the background); R84 through alpha.c.
+ *      environment as the background), R123 (radiance); R84 through alpha.c, R117, R122 through tone.c.
  */
 #include <math.h>
 
@@ -51,13 +51,19 @@ static int shows_backdrop(const e3d_frame *frame)
     return frame->backdrop.light.environment && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
 }
 
-/* R63: of the pixel that a sample belongs to. */
+/* R63, R122: of the pixel that a sample belongs to. */
 static void background_color(const e3d_frame *frame, int32_t x, int32_t y, float out[3])
 {
-    float color[3];
-    if (shows_backdrop(frame))
-        ref_backdrop(&frame->backdrop, x / frame->samples_axis, y / frame->samples_axis, color);
-    clamp_color(shows_backdrop(frame) ? color : frame->background, out);
+    int32_t column = x / frame->samples_axis, row = y / frame->samples_axis;
+    float color[3] = {frame->background[0], frame->background[1], frame->background[2]};
+    if (shows_backdrop(frame)) {
+        ref_backdrop(&frame->backdrop, column, row, color);
+        if (frame->mode == E3D_MODE_LIT)
+            ref_map_tone(frame->tone_mapping, color);
+    } else if (frame->gradient.shows) {
+        ref_gradient(frame, column, row, color);
+    }
+    clamp_color(color, out);
 }
 
 /* The colour of what is kept at a sample, clamped; returns 0, and the background's colour, where nothing shows. */
@@ -82,10 +88,8 @@ static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t
         return 0;
     }
     ref_surface surface;
-    float color[3];
     ref_surface_at(scene, piece, x, y, &surface);
-    ref_shade(frame, &surface, color);
-    clamp_color(color, out);
+    ref_show(frame, &surface, out);
     scene->stats.pixels_shaded++;
     return 1;
 }
@@ -144,7 +148,28 @@ static void write_background(const e3d_targets *targets, size_t pixel)
     E3D_EACH_OUTPUT(WRITE_BACKGROUND)
 }
 
-static void write_surface(const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
+/* R123: of what is behind everything, only an environment has any. */
+static void write_background_radiance(const e3d_frame *frame, size_t pixel, float *target)
+{
+    float color[3];
+    if (!target || !shows_backdrop(frame))
+        return;
+    ref_backdrop(&frame->backdrop, (int32_t)(pixel % (size_t)frame->width), (int32_t)(pixel / (size_t)frame->width), color);
+    write_floats(target, pixel, color, 3);
+}
+
+/* R123 */
+static void write_radiance(const e3d_frame *frame, const ref_surface *surface, size_t pixel, float *target)
+{
+    float color[3] = {0.0f, 0.0f, 0.0f};
+    if (!target)
+        return;
+    if (frame->mode != E3D_MODE_OVERDRAW)
+        ref_shade(frame, surface, color);
+    write_floats(target, pixel, color, 3);
+}
+
+static void write_surface(const e3d_frame *frame, const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
 {
     const ref_primitive *primitive = &surface->piece->primitive;
     write_id(targets->triangle_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
@@ -166,6 +191,7 @@ static void write_surface(const e3d_targets *targets, size_t pixel, const ref_su
     write_floats(targets->metallic_roughness, pixel, metallic_roughness, 2);
     write_floats(targets->emissive, pixel, surface->emissive, 3);
     write_floats(targets->tangent, pixel, surface->view_tangent, 4);
+    write_radiance(frame, surface, pixel, targets->radiance);
 }
 
 /* R35 */
@@ -181,11 +207,12 @@ static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_
     }
     if (number < 0) {
         write_background(targets, pixel);
+        write_background_radiance(scene->frame, pixel, targets->radiance);
         return;
     }
     ref_surface surface;
     ref_surface_at(scene, &scene->pieces.items[number], x, y, &surface);
-    write_surface(targets, pixel, &surface, depth);
+    write_surface(scene->frame, targets, pixel, &surface, depth);
 }
 
 void ref_resolve_band(ref_scene *scene, const ref_band *band, const e3d_targets *targets)

@@ -1,7 +1,7 @@
-/* Shade: the colour of a surface in the frame's mode, not yet clamped or encoded.
+/* Shade: the colour of a surface in the frame's mode, not yet encoded.
  *
  * In:  a surface, the frame's mode. Out: three floats. Overdraw is not about surfaces: resolve.c.
- * Rules: R31 through light.c, R49 … R57 through physical.c, R32, R44.
+ * Rules: R31 through light.c, R49 … R57 through physical.c, R32, R44; R117, R121 through tone.c.
  */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
@@ -40,7 +40,14 @@ static void depth_color(const e3d_frame *frame, float metric_depth, float out[3]
     out[0] = out[1] = out[2] = grey;
 }
 
-void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
+static int is_lit(const e3d_frame *frame, const ref_surface *surface)
+{
+    const ref_primitive *primitive = &surface->piece->primitive;
+    return frame->mode == E3D_MODE_LIT && primitive->kind == REF_FACE && !primitive->material->is_unlit;
+}
+
+/* R31, R32, R57 */
+static void find_color(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
     const ref_primitive *primitive = &surface->piece->primitive;
     switch (frame->mode) {
@@ -63,7 +70,7 @@ void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
     default:
         break;
     }
-    if (frame->mode == E3D_MODE_LIT && primitive->kind == REF_FACE && !primitive->material->is_unlit) {
+    if (is_lit(frame, surface)) {
         if (primitive->material->is_physical)
             ref_light_physical(frame, surface, out);
         else
@@ -72,4 +79,21 @@ void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
     }
     for (int c = 0; c < 3; c++)
         out[c] = surface->albedo[c];
+}
+
+void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    int is_fogged = frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT;
+    find_color(frame, surface, out);
+    if (is_fogged && frame->fog.kind != E3D_FOG_NONE)
+        ref_add_fog(&frame->fog, surface->metric_depth, is_lit(frame, surface), out);
+}
+
+void ref_show(const e3d_frame *frame, const ref_surface *surface, float out[3])
+{
+    ref_shade(frame, surface, out);
+    if (is_lit(frame, surface))
+        ref_map_tone(frame->tone_mapping, out);
+    for (int c = 0; c < 3; c++)
+        out[c] = ref_clamp(out[c], 0.0f, 1.0f);
 }

@@ -77,7 +77,15 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
 /* physical.c */
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
+/* tone.c */
+void ref_map_tone(e3d_tone_mapping mapping, float color[3]);
+void ref_add_fog(const e3d_fog *fog, float metric_depth, int is_lit, float color[3]);
+/* R122: of a pixel. */
+void ref_gradient(const e3d_frame *frame, int32_t x, int32_t y, float out[3]);
+
 /* shade.c */
+/* The colour before it is tone mapped, and as it shows. */
 void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+void ref_show(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
 #endif

@@ -140,3 +140,17 @@ cdef e3d_texture_view texture_view(const uint8_t[::1] texels, int channel_bits,
         view.levels[level].height = sizes[level, 1]
         start += channel_bits // 2 * (<Py_ssize_t>sizes[level, 0] + 2) * (sizes[level, 1] + 2)
     return view
+
+
+cdef e3d_fog_view fog_view(fog) except *:
+    """`fog`: the kind, the row of view_from_world, the colour, near and scale, the density."""
+    cdef e3d_fog_view view
+    kind, row, color, depths, density = fog
+    view.kind = <e3d_fog_kind><int>kind
+    for k in range(4):
+        view.row[k] = row[k]
+    for k in range(3):
+        view.color[k] = color[k]
+    view.near, view.scale = depths
+    view.density = density
+    return view

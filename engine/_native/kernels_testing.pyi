@@ -203,6 +203,8 @@ class Kernels:
         self, kind: int, roughness: _Floats, cosine: _Floats, count: int, out: _Floats
     ) -> None: ...
     def lobe(self, group: _Bytes, block: _Bytes) -> None: ...
+    def fog(self, batch: _Bytes, fog: tuple) -> None: ...
+    def tone(self, mapping: int, color: _Floats, count: int) -> None: ...
     def encode(
         self,
         red: _Floats,
@@ -268,6 +270,8 @@ class Kernels:
         srgb: bool,
         rgba: _Words,
         samples: _Floats | None = ...,
+        fog: tuple | None = ...,
+        tone: int = ...,
     ) -> None: ...
     def stream(
         self, to: _Bytes, pitch: int, source: _Bytes, step: int, size: int, count: int

@@ -16,7 +16,8 @@ from libc.string cimport memcpy, memset
 
 from e3d cimport (
     E3D_DFG_SIZE, E3D_DFG_TABLE, E3D_OK, e3d_backdrop, e3d_backend, e3d_dfg, e3d_environment, e3d_environment_create,
-    e3d_environment_destroy, e3d_environment_light, e3d_filter, e3d_light, e3d_light_shadow, e3d_mesh, e3d_mesh_create, e3d_mesh_desc, e3d_mesh_destroy, e3d_shadow_map, e3d_wrap
+    e3d_environment_destroy, e3d_environment_light, e3d_filter, e3d_fog_kind, e3d_light, e3d_light_shadow, e3d_mesh, e3d_mesh_create,
+    e3d_mesh_desc, e3d_mesh_destroy, e3d_shadow_map, e3d_tone_mapping, e3d_wrap
 )
 from e3d_clusters cimport *
 from e3d_helping cimport e3d_helping, e3d_helping_note, e3d_job_times
@@ -515,6 +516,21 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.lobe(<const e3d_cell_group *>&group[0], <e3d_lobe_block *>&block[0])
 
+    def fog(self, uint8_t[::1] batch, fog):
+        """``fog``: as for `fog_view`."""
+        cdef e3d_fog_view view = fog_view(fog)
+        check_size(batch, sizeof(e3d_batch))
+        for _ in range(self.rounds):
+            self.table.fog(<e3d_batch *>&batch[0], &view)
+
+    def tone(self, int mapping, float[:, ::1] color, int count):
+        """``color``: (3, count + PAD), changed in place."""
+        cdef float *planes[3]
+        for k in range(3):
+            planes[k] = &color[k, 0]
+        for _ in range(self.rounds):
+            self.table.tone(<e3d_tone_mapping>mapping, planes, count)
+
     def encode(self, const float[::1] red, const float[::1] green, const float[::1] blue, int count,
                bint srgb, uint32_t[::1] rgba):
         for _ in range(self.rounds):
@@ -593,12 +609,13 @@ cdef class Kernels:
     def paint(self, uint8_t[::1] batch, const uint8_t[::1] surfaces, int wanted, texture,
               const float[::1] base, bint by_vertex, bint by_instance, lighting, float shininess,
               const float[::1] specular, const float[::1] emissive, bint srgb, uint32_t[::1] rgba,
-              float[:, ::1] samples=None):
+              float[:, ::1] samples=None, fog=None, int tone=0):
         """``texture`` and ``lighting``: None, or what `texture` and `light` take, as a tuple.
         ``specular`` and ``emissive`` may be None, too; ``rgba`` has E3D_TILE * E3D_TILE + PAD elements. ``samples``,
-        as for `keep`: these are written instead.
+        as for `keep`: these are written instead. ``fog``: None, or as for `fog`.
         """
         cdef e3d_paint paint
+        cdef e3d_fog_view mist
         cdef e3d_texture_view view
         cdef e3d_lighting lights
         check_size(batch, sizeof(e3d_batch))
@@ -620,6 +637,10 @@ cdef class Kernels:
         paint.emissive = NULL if emissive is None else &emissive[0]
         paint.srgb = srgb
         paint.samples = NULL if samples is None else samples_of(samples)
+        if fog is not None:
+            mist = fog_view(fog)
+        paint.fog = NULL if fog is None else &mist
+        paint.tone = <e3d_tone_mapping>tone
         for _ in range(self.rounds):
             self.table.paint(<e3d_batch *>&batch[0], <const e3d_surfaces *>&surfaces[0],
                              &paint, &rgba[0])

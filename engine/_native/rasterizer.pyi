@@ -24,6 +24,7 @@ CULLINGS: dict[str, int]
 SHADINGS: dict[str, int]
 TEXTURE_SLOTS: dict[str, int]
 NORMALS: dict[str, int]
+TONE_MAPPINGS: dict[str, int]
 BACKENDS: dict[str, int]
 OUTPUTS: dict[str, tuple[str, int]]
 VERTEX_ATTRIBUTES: dict[str, tuple[str, int]]
@@ -232,6 +233,10 @@ class NativeOptions:
         backdrop: NativeEnvironment | None = None,
         backdrop_intensity: float = 1.0,
         backdrop_level: float = 0.0,
+        tone_mapping: int = 0,
+        fog: tuple[Sequence[float], Sequence[float], tuple[float, float] | None, float]
+        | None = None,
+        gradient: tuple[Sequence[float], Sequence[float]] | None = None,
     ) -> None: ...
 
 class NativeStats:

@@ -43,6 +43,7 @@ MODES = values_of(E3D_OPTION_MODE)
 NORMALS = values_of(E3D_OPTION_NORMALS)
 SHADINGS = values_of(E3D_OPTION_SHADING)
 TEXTURE_SLOTS = values_of(E3D_OPTION_TEXTURE_SLOT)
+TONE_MAPPINGS = values_of(E3D_OPTION_TONE_MAPPING)
 WIREFRAMES = {
     None if name == "none" else name: value
     for name, value in values_of(E3D_OPTION_WIREFRAME).items()
@@ -165,6 +166,17 @@ cdef int run_signal_handlers(void *renderer) noexcept with gil:
     return (<NativeRenderer>renderer).handle == NULL  # forked by a handler: the helpers are elsewhere
 
 
+cdef int set_fog(e3d_fog *fog, tuple values) except -1:
+    """`values`: the colour, that over lit surfaces, near and far of linear fog or None, the density."""
+    color, lit_color, depths, density = values
+    fog.kind = E3D_FOG_EXPONENTIAL if depths is None else E3D_FOG_LINEAR
+    copy_vector(fog.color, color, 3)
+    copy_vector(fog.lit_color, lit_color, 3)
+    fog.near, fog.far = (0.0, 1.0) if depths is None else depths
+    fog.density = density
+    return 0
+
+
 cdef class NativeOptions:
     """How frames are drawn: all of a frame's settings but its size, its view and the scene."""
 
@@ -198,6 +210,9 @@ cdef class NativeOptions:
         NativeEnvironment backdrop=None,
         float backdrop_intensity=1.0,
         float backdrop_level=0.0,
+        int tone_mapping=0,
+        fog=None,
+        gradient=None,
     ):
         cdef e3d_frame *frame = &self.frame
         memset(frame, 0, sizeof(e3d_frame))
@@ -222,6 +237,13 @@ cdef class NativeOptions:
         set_environment(&frame.environment, environment, environment_turn, environment_intensity)
         set_environment(&frame.backdrop.light, backdrop, environment_turn, backdrop_intensity)
         frame.backdrop.level = backdrop_level
+        frame.tone_mapping = <e3d_tone_mapping>tone_mapping
+        if fog is not None:
+            set_fog(&frame.fog, fog)
+        if gradient is not None:
+            frame.gradient.shows = 1
+            copy_vector(frame.gradient.top, gradient[0], 3)
+            copy_vector(frame.gradient.bottom, gradient[1], 3)
         self.held = environment, backdrop
 
 

@@ -36,11 +36,24 @@ def _display_color(value, types, color_space):
     return tuple(encode_srgb(component) / 255 for component in linear)
 
 
-def encode_srgb(value: float) -> int:
-    """Return the 8-bit sRGB code of a linear value, clamped (IEC 61966-2-1)."""
+def exact_display_color(value: tuple, color_space: str) -> tuple[float, float, float]:
+    """Return the display values of a colour, clamped, without rounding them to 8-bit codes."""
+    linear = shading_color(value, color_space)
+    if color_space == "linear":
+        red, green, blue = (min(component, 1.0) for component in linear)
+    else:
+        red, green, blue = map(srgb_value, linear)
+    return red, green, blue
+
+
+def srgb_value(value: float) -> float:
+    """Return the sRGB value of a linear one, both in 0..1, clamped (IEC 61966-2-1)."""
     value = min(max(value, 0.0), 1.0)
     if value <= 0.0031308:
-        encoded = 12.92 * value
-    else:
-        encoded = 1.055 * math.pow(value, 1 / 2.4) - 0.055
-    return int(255 * encoded + 0.5)
+        return 12.92 * value
+    return 1.055 * math.pow(value, 1 / 2.4) - 0.055
+
+
+def encode_srgb(value: float) -> int:
+    """Return the 8-bit sRGB code of a linear value, clamped."""
+    return int(255 * srgb_value(value) + 0.5)

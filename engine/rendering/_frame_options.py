@@ -14,9 +14,12 @@ from .. import linalg
 from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
 from ..environments.environment import Environment
-from ..materials.display_colors import display_color, shading_color
+from ..materials.display_colors import display_color, exact_display_color, shading_color
+from ..scene.fog import Fog
+from ..scene.gradients import Gradient
 from ..scene.scene import SCENE_VALUES, Scene
 from ._native_handles import MeshNeeds, native_environment
+from ._tone_inverse import light_that_shows
 from .options import RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
@@ -60,8 +63,12 @@ class FrameOptions:
         self._needs: dict[tuple[str, ...], MeshNeeds] = {}
         encoded = options.mode in _ENCODED_MODES and color_space == "srgb"
         convert = shading_color if encoded else display_color
-        backdrop = None
-        if isinstance(scene.background, Environment):
+        backdrop = gradient = None
+        if isinstance(scene.background, Gradient):
+            background = (0.0, 0.0, 0.0, 1.0)
+            ends = scene.background.top, scene.background.bottom
+            gradient = tuple(exact_display_color(color, color_space) for color in ends)
+        elif isinstance(scene.background, Environment):
             background = (0.0, 0.0, 0.0, 1.0)
             if options.mode in _ENCODED_MODES:
                 backdrop = native_environment(scene.background, threads)
@@ -102,6 +109,9 @@ class FrameOptions:
             backdrop=backdrop,
             backdrop_intensity=scene.environment_intensity * 2.0**scene.exposure,
             backdrop_level=scene.background_blur * _MOST_BLURRED,
+            tone_mapping=_native.TONE_MAPPINGS[options.tone_mapping],
+            fog=_fog(scene, color_space, options),
+            gradient=gradient,
         )
         self.has_backdrop = backdrop is not None
         # Twice as far from its middle as the widest line or point reaches, and for rounding.
@@ -120,6 +130,18 @@ class FrameOptions:
                 edges=shaded and options.wireframe is not None,
             )
         return known
+
+
+def _fog(scene: Scene, color_space: str, options: RenderOptions):
+    """A scene's fog as the core takes it: colours, depths and density; or None."""
+    fog = scene.fog
+    if fog is None:
+        return None
+    color = shading_color(fog.color, color_space)
+    lit = light_that_shows(color, options.tone_mapping) if options.mode == "lit" else color
+    if isinstance(fog, Fog):
+        return color, lit, (fog.near, fog.far), 0.0
+    return color, lit, None, fog.density
 
 
 class OptionsCache:

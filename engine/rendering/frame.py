@@ -45,6 +45,7 @@ Output = Literal[
     "metallic_roughness",
     "emissive",
     "tangent",
+    "radiance",
 ]
 # Their dtypes and numbers of channels (0: no third axis), as the core lists them.
 OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
@@ -164,6 +165,10 @@ class Frame:
         "(H, W, 4) float32: unit vector in view space to the right in the image of normal maps, "
         "and 1 or -1: up is this times cross(normal, tangent), the normal before it is mapped; "
         "0 = none, background."
+    )
+    radiance: _Output[np.float32] = _Output(
+        "(H, W, 3) float32: the colour with exposure and fog before it is tone mapped and clamped, "
+        "linear; 0 = background, unless it is an environment."
     )
 
     def __init__(self, width: int, height: int, outputs: dict[Output, NDArray[Any]]) -> None:

@@ -22,6 +22,7 @@ from ..choices import (
     Mode,
     Normals,
     Shading,
+    ToneMapping,
     Wireframe,
 )
 from ..errors import InvalidArgumentError
@@ -75,6 +76,7 @@ class RenderKeywords(TypedDict, total=False):
     culling_camera: CameraChoice
     batching: bool
     transparent_outputs: bool
+    tone_mapping: ToneMapping
     options: RenderOptions | None
 
 
@@ -88,7 +90,7 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs
+    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -110,6 +112,7 @@ class RenderOptions:
     culling: Culling = "all"
     batching: bool = True
     transparent_outputs: bool = False
+    tone_mapping: ToneMapping = "none"
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -119,6 +122,7 @@ class RenderOptions:
         choose(self.normals, _native.NORMALS, "normals")
         choose(self.hidden_surfaces, _native.HIDDEN_SURFACES, "hidden_surfaces")
         choose(self.culling, _native.CULLINGS, "culling")
+        choose(self.tone_mapping, _native.TONE_MAPPINGS, "tone_mapping")
         self.__dict__.update(  # past __setattr__, which refuses
             outputs=check_outputs(self.outputs),
             line_width=_line_size(self.line_width, "line_width"),

@@ -26,6 +26,7 @@ from ..choices import (
     Normals,
     Samples,
     Shading,
+    ToneMapping,
     Wireframe,
 )
 from ..errors import InvalidArgumentError, SceneChangedError
@@ -236,6 +237,7 @@ class Renderer(Closed):
         culling_camera: CameraChoice = None,
         batching: bool = True,
         transparent_outputs: bool = False,
+        tone_mapping: ToneMapping = "none",
         options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
@@ -292,6 +294,11 @@ class Renderer(Closed):
             Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
             the nearest that isn't. Modes other than "lit" and "unlit" show blended surfaces as
             opaque ones anyway.
+        tone_mapping : {"none", "neutral", "aces", "agx"}
+            How light of any brightness becomes what a screen can show, in mode "lit": of lit
+            surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
+            ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and makes room above;
+            ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 
@@ -326,6 +333,7 @@ class Renderer(Closed):
                 culling,
                 batching,
                 transparent_outputs,
+                tone_mapping,
             )
             named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)

@@ -29,6 +29,8 @@ from ..materials.colors import check_color
 from ..motion.posing import Posing, check_morph_weights, check_skin, posed_for, set_weights
 from ._objects import ObjectTable
 from .cameras import Camera
+from .fog import ExponentialFog, Fog
+from .gradients import Gradient
 from .instances import InstancedMesh
 from .lights import LIGHTS
 from .node_arrays import NodeArrays
@@ -54,6 +56,7 @@ SCENE_VALUES = (
     "environment_intensity",
     "environment_rotation",
     "background_blur",
+    "fog",
 )
 MAX_EXPOSURE = 64
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
@@ -65,8 +68,8 @@ class Scene(Closed):
 
     Parameters
     ----------
-    background : sequence of 3 numbers, Environment or None
-        What is behind everything: a colour, or the environment as the camera sees it; None is
+    background : sequence of 3 numbers, Gradient, Environment or None
+        What is behind everything: a colour, two, or the environment as the camera sees it; None is
         transparent black (alpha 0).
     ambient : sequence of 3 numbers
         Light that reaches every surface from all sides; to physical materials, surroundings that
@@ -89,6 +92,8 @@ class Scene(Closed):
         Radians about +Y, counter-clockwise seen from above; as a background, too.
     background_blur : float
         0..1: how blurred an environment is as the background, 1 most.
+    fog : Fog, ExponentialFog or None
+        What becomes of colours with distance, in modes "lit" and "unlit".
     animations : dict of str to AnimationClip
         Clips of a file, by name, for an `AnimationPlayer`.
     warnings : list of str
@@ -107,7 +112,7 @@ class Scene(Closed):
 
     def __init__(
         self,
-        background: ColorLike | Environment | None = (0, 0, 0),
+        background: ColorLike | Gradient | Environment | None = (0, 0, 0),
         ambient: ColorLike = (0.1, 0.1, 0.1),
         light_clamp: Sequence[float] | None = None,
         exposure: float = 0.0,
@@ -138,14 +143,15 @@ class Scene(Closed):
         self.environment_intensity = 1.0
         self.environment_rotation = 0.0
         self.background_blur = 0.0
+        self.fog = None
 
     @property
-    def background(self) -> Color | Environment | None:
+    def background(self) -> Color | Gradient | Environment | None:
         return self._background
 
     @background.setter
-    def background(self, value: ColorLike | Environment | None) -> None:
-        if value is not None and not isinstance(value, Environment):
+    def background(self, value: ColorLike | Gradient | Environment | None) -> None:
+        if value is not None and not isinstance(value, (Environment, Gradient)):
             value = check_color(value, "background")
         self._background = value
 
@@ -188,6 +194,18 @@ class Scene(Closed):
         if not 0 <= blur <= 1:
             raise InvalidArgumentError(f"background_blur must be in 0..1, not {value!r}")
         self._background_blur = blur
+
+    @property
+    def fog(self) -> Fog | ExponentialFog | None:
+        return self._fog
+
+    @fog.setter
+    def fog(self, value: Fog | ExponentialFog | None) -> None:
+        if value is not None and not isinstance(value, (Fog, ExponentialFog)):
+            raise InvalidArgumentError(
+                f"fog must be a Fog, an ExponentialFog or None, not {value!r}"
+            )
+        self._fog = value
 
     @property
     def ambient(self) -> Color:

@@ -7,6 +7,7 @@ from images import (  # noqa: F401
     scenes_looks,
     scenes_physical,
     scenes_textures,
+    scenes_tone,
     scenes_views,
 )
 from images.picture import SCENES

@@ -177,7 +177,7 @@ static void kernel_irradiance(const e3d_environment_light *light, const float *c
     }
 }
 
-/* R63: the colours of `count` pixels from (x, y) on, clamped. */
+/* R63: the colours of `count` pixels from (x, y) on. */
 static void kernel_backdrop(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3])
 {
     environment_plan plan;
@@ -190,7 +190,7 @@ static void kernel_backdrop(const e3d_backdrop *backdrop, int x, int y, int coun
                          v_mul(row, v_setf(backdrop->down[k])));
         environment_radiance_at(&plan, d, backdrop->level, out);
         for (int k = 0; k < 3; k++)
-            v_storef(color[k] + i, encode_clamp(out[k]));
+            v_storef(color[k] + i, out[k]);
     }
 }
 

@@ -1,4 +1,4 @@
-/* paint: a batch of samples to encoded pixels (R19-R34). It runs the other kernels one after the other, but from light on colours
+/* paint: a batch of samples to encoded pixels (R19-R34, R117-R121). It runs the other kernels one after the other, but from light on colours
  * stay in registers. A loop from the texels on would not fit the out-of-order window: 3.04 instead of 2.86 ms for the head on Zen 4.
  */
 #ifndef E3D_KERNELS_PAINT_INL
@@ -11,6 +11,7 @@
 #include "kernels/generic/anisotropic.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/encode.inl"
+#include "kernels/generic/tone.inl"
 #include "kernels/generic/samples.inl"
 
 /* ---- light ---- */
@@ -85,8 +86,8 @@ static ALWAYS_INLINE void paint_codes(const e3d_batch *batch, const e3d_paint *p
     }
 }
 
-/* Where the sRGB curve is looked up in memory, light has a loop of its own: one of both would not fit the out-of-order window. */
-static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess, uint32_t *rgba)
+/* Keeps the colours of a batch with it. */
+static ALWAYS_INLINE void paint_colors(e3d_batch *batch, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 color[3];
@@ -94,6 +95,12 @@ static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const e3d_paint *paint
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }
+}
+
+/* Where the sRGB curve is looked up in memory, light has a loop of its own: one of both would not fit the out-of-order window. */
+static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess, uint32_t *rgba)
+{
+    paint_colors(batch, paint, colored, lit, shininess);
     paint_codes(batch, paint, 1, PAINT_UNLIT, 0.0f, 1, rgba);
 }
 
@@ -118,6 +125,28 @@ static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint,
         paint_codes(batch, paint, colored, lit, shininess, 0, rgba);
 }
 
+/* Fog and tone mapping are loops of their own. */
+static void paint_toned(e3d_batch *batch, const e3d_paint *paint, int colored, uint32_t *rgba)
+{
+    float *const planes[3] = {batch->color[0], batch->color[1], batch->color[2]};
+    if (!paint->lighting)
+        paint_colors(batch, paint, colored, PAINT_UNLIT, 0.0f);
+    else if (paint->lighting->shadows)
+        paint_colors(batch, paint, colored, PAINT_SHADOWED, paint->shininess);
+    else if (paint->shininess > 0.0f)
+        paint_colors(batch, paint, colored, PAINT_LIT, paint->shininess);
+    else
+        paint_colors(batch, paint, colored, PAINT_LIT, 0.0f);
+    if (paint->fog)
+        kernel_fog(batch, paint->fog);
+    if (paint->tone != E3D_TONE_NONE)
+        kernel_tone(paint->tone, planes, batch->count);
+    if (paint->samples)
+        paint_samples(batch, paint, 1, PAINT_UNLIT, 0.0f);
+    else
+        paint_codes(batch, paint, 1, PAINT_UNLIT, 0.0f, paint->srgb, rgba);
+}
+
 static void kernel_put(const e3d_batch *batch, int srgb, uint32_t *rgba)
 {
     const vcurve curve = encode_curve();
@@ -134,7 +163,9 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
     if (paint->wanted & E3D_WANT_SURFACE)
         kernel_interpolate(batch, surfaces, paint->wanted);
     int colored = paint_albedo(batch, surfaces, paint);
-    if (!paint->lighting)
+    if (paint->fog || paint->tone != E3D_TONE_NONE)
+        paint_toned(batch, paint, colored, rgba);
+    else if (!paint->lighting)
         paint_pixels(batch, paint, colored, PAINT_UNLIT, 0.0f, rgba);
     else if (paint->lighting->shadows)
         paint_pixels(batch, paint, colored, PAINT_SHADOWED, paint->shininess, rgba);

@@ -26,6 +26,7 @@
 #include "kernels/generic/environment.inl"
 #include "kernels/generic/maps.inl"
 #include "kernels/generic/physical.inl"
+#include "kernels/generic/tone.inl"
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
 #include "kernels/generic/alpha.inl"
@@ -74,6 +75,8 @@ const e3d_kernels E3D_TABLE = {
     .albedo = kernel_albedo,
     .lobe = kernel_lobe,
     .backdrop = kernel_backdrop,
+    .fog = kernel_fog,
+    .tone = kernel_tone,
     .alpha = kernel_alpha,
     .lay = kernel_lay,
     .blend = kernel_blend,

@@ -91,6 +91,15 @@ typedef struct e3d_lighting {
     const e3d_shadow_map *shadows; /* NULL: no light has a shadow, or none falls on what is lit */
 } e3d_lighting;
 
+/* Fog as an eye sees it. */
+typedef struct e3d_fog_view {
+    e3d_fog_kind kind;
+    float row[4]; /* of view_from_world: depth is 0 - z */
+    float color[3];
+    float near, scale; /* linear: scale is 1 over the range of depths */
+    float density;     /* exponential */
+} e3d_fog_view;
+
 /* How the kernel `paint` turns the samples of a batch into pixels. */
 typedef struct e3d_paint {
     int wanted;                      /* E3D_WANT_* */
@@ -102,6 +111,8 @@ typedef struct e3d_paint {
     const float *specular, *emissive; /* of lit samples; NULL where all are 0 */
     int srgb;
     e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
+    const e3d_fog_view *fog; /* may be NULL */
+    e3d_tone_mapping tone;
 } e3d_paint;
 
 #endif

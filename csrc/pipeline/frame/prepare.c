@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/grow.h"
+#include "core/tone_tables.h"
 #include "e3d.h"
 #include "pipeline/cull/history.h"
 #include "pipeline/frame/prepare.h"
@@ -13,6 +14,7 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
+#include "pipeline/store/backdrop.h"
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
@@ -56,6 +58,19 @@ static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
     out->tiles = (e3d_tiles_in){.pass = &out->pass, .bins = bins, .shade = &out->shade, .poll = renderer->poll};
 }
 
+/* The gradient, if it is the background; 0 when memory is out. */
+static int prepare_gradient(e3d_renderer *renderer, const e3d_frame *frame, e3d_store *out)
+{
+    out->gradient = NULL;
+    if (!frame->gradient.shows || e3d_shows_environment(frame))
+        return 1;
+    if (!e3d_array_reserve(&renderer->gradient, (size_t)frame->height, sizeof(uint32_t[E3D_DITHER])))
+        return 0;
+    e3d_backdrop_prepare(frame, renderer->gradient.data);
+    out->gradient = renderer->gradient.data;
+    return 1;
+}
+
 /* The view, and the one whose frustum tells what is drawn; 0 when memory is out. */
 static int prepare_views(e3d_renderer *renderer, const e3d_frame *frame, const e3d_view *frustum)
 {
@@ -83,7 +98,7 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_ASKED_ALPHA));
     if (status != E3D_OK)
         return status;
-    if (!prepare_views(renderer, frame, out->pass.frustum) || !clear_marks(renderer))
+    if (!prepare_views(renderer, frame, out->pass.frustum) || !prepare_gradient(renderer, frame, &out->store) || !clear_marks(renderer))
         return E3D_OUT_OF_MEMORY;
     prepare_shading(renderer, out);
     return reset_workers(renderer, &out->store) ? E3D_OK : E3D_OUT_OF_MEMORY;

@@ -98,6 +98,7 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     e3d_kept_free(&renderer->kept);
     e3d_array_free(&renderer->marks);
     e3d_array_free(&renderer->tile_progress);
+    e3d_array_free(&renderer->gradient);
     free(renderer);
 }
 

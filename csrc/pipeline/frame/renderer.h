@@ -38,6 +38,7 @@ typedef struct e3d_renderer {
     e3d_kept_memory kept;
     e3d_array marks;         /* uint8_t of each instance: E3D_MARK_ */
     e3d_array tile_progress; /* e3d_tile_progress */
+    e3d_array gradient;      /* uint32_t[E3D_DITHER], of each row of the picture */
     e3d_poll poll;
 } e3d_renderer;
 

@@ -93,13 +93,15 @@ static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
            asked_if(f->encode_srgb, E3D_ASKED_SRGB) | asked_if(e3d_culls_parts(f), E3D_ASKED_OCCLUSION) |
            asked_if(has_alpha(f), E3D_ASKED_ALPHA) | asked_if(f->transparent_outputs, E3D_ASKED_TRANSPARENT_OUTPUTS) |
            asked_if(f->frozen_clip_from_world != NULL, E3D_ASKED_OTHER_FRUSTUM) |
-           asked_if(f->backdrop.light.environment != NULL, E3D_ASKED_BACKDROP) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
+           asked_if(e3d_shows_environment(f) || f->gradient.shows, E3D_ASKED_BACKDROP) |
+           asked_if(e3d_has_light_or_color(f) && f->fog.kind != E3D_FOG_NONE, E3D_ASKED_FOG) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
 }
 
 /* ---- what is done about it ---- */
 
 const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_COLORS, ASKED(COLOR), ASKED(OVERDRAW_MODE)},
+    {E3D_PLAN_COLORS, ASKED(RADIANCE), ASKED(OVERDRAW_MODE)},
     {E3D_PLAN_OUTPUTS, ASKED(POSITIONS), 0},
     {E3D_PLAN_OUTPUTS, ASKED(NORMALS), 0},
     {E3D_PLAN_OUTPUTS, ASKED(UVS), 0},
@@ -107,11 +109,13 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_OUTPUTS, ASKED(IDENTITIES), 0},
     {E3D_PLAN_OUTPUTS, ASKED(MATERIALS), 0},
     {E3D_PLAN_OUTPUTS, ASKED(TANGENTS), 0},
+    {E3D_PLAN_OUTPUTS, ASKED(RADIANCE), 0},
     {E3D_PLAN_SHADES, PLAN(COLORS), 0},
     {E3D_PLAN_SHADES, PLAN(OUTPUTS), 0},
     {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(LIT) | ASKED(LOCAL_LIGHT), 0},
     {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(LIT) | ASKED(SHADOWS), 0},
     {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(DEPTH_MODE), 0},
+    {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(FOG), 0},
     {E3D_PLAN_POSITION, ASKED(POSITIONS), 0},
     {E3D_PLAN_NORMAL, PLAN(COLORS) | ASKED(LIT), 0},
     {E3D_PLAN_NORMAL, PLAN(COLORS) | ASKED(NORMAL_MODE), 0},
@@ -152,8 +156,7 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_EDGES, ASKED(COLOR) | ASKED(WIREFRAME), 0},
     {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER), ASKED(WIRE_ONLY)},
     {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER) | ASKED(HIDDEN_LINES), 0},
-    {E3D_PLAN_BACKDROP, PLAN(COLORS) | ASKED(BACKDROP) | ASKED(LIT), 0},
-    {E3D_PLAN_BACKDROP, PLAN(COLORS) | ASKED(BACKDROP) | ASKED(UNLIT), 0},
+    {E3D_PLAN_BACKDROP, ASKED(COLOR) | ASKED(BACKDROP), 0},
     {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(LIT), 0},
     {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(UNLIT), 0},
 };

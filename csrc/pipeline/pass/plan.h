@@ -39,7 +39,9 @@
     X(ALPHA, "materials that are masked or blended")                                   \
     X(TRANSPARENT_OUTPUTS, "other outputs of the nearest surface, blended or not")      \
     X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
-    X(BACKDROP, "an environment as the background")                                    \
+    X(BACKDROP, "an environment, where there is light or plain colour, or a gradient as the background") \
+    X(FOG, "fog")                                                                      \
+    X(RADIANCE, "the output radiance")                                                 \
     X(HUGE, "more samples than tiles are kept for")                                   \
     X(SHADOWS, "lights that have shadows")
 
@@ -69,7 +71,7 @@
     X(COUNTS_OVERDRAW, "faces are counted, sample by sample")                            \
     X(EDGES, "the edges of faces are drawn")                                             \
     X(EDGE_DEPTHS, "edges are tested against the depths of faces")                       \
-    X(BACKDROP, "the background is looked up in an environment, pixel by pixel")         \
+    X(BACKDROP, "the background is found pixel by pixel")                                \
     X(ENCODES_SRGB, "colours go through the sRGB encoder")
 
 #define E3D_ASKED_NAME(name, text) E3D_ASKED_##name,
@@ -104,6 +106,14 @@ const char *e3d_plan_text(e3d_plan_item item);
 static inline int e3d_culls_parts(const e3d_frame *frame)
 {
     return frame->culling == E3D_CULLING_ALL || frame->culling == E3D_CULLING_ALWAYS;
+}
+
+/* Whether colours are those of surfaces, in light or without. */
+static inline int e3d_has_light_or_color(const e3d_frame *frame) { return frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT; }
+
+static inline int e3d_shows_environment(const e3d_frame *frame)
+{
+    return frame->backdrop.light.environment != NULL && e3d_has_light_or_color(frame);
 }
 
 /* Whether a material's specular or emissive colour adds anything. */

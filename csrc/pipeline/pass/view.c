@@ -71,6 +71,19 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     return 1;
 }
 
+static void find_fog(e3d_view *view, const e3d_fog *fog)
+{
+    for (int lit = 0; lit < 2; lit++) {
+        e3d_fog_view *out = &view->fog[lit];
+        out->kind = fog->kind;
+        out->near = fog->near;
+        out->scale = 1.0f / (fog->far - fog->near);
+        out->density = fog->density;
+        memcpy(out->row, view->rows + 8, sizeof out->row);
+        memcpy(out->color, lit ? fog->lit_color : fog->color, sizeof out->color);
+    }
+}
+
 void e3d_view_free(e3d_view *view)
 {
     e3d_array_free(&view->instance_memory);
@@ -157,6 +170,7 @@ int e3d_view_prepare(e3d_view *view, const e3d_view *frustum, const double clip_
     for (int k = 0; k < 12; k++)
         view->rows[k] = (float)frame->view_from_world[k];
     view->mirrors = e3d_mirrors(frame->view_from_world);
+    find_fog(view, &frame->fog);
     if (!find_lights(view, frame) ||
         !e3d_array_reserve(&view->instance_memory, (size_t)draws->instance_count + 1, sizeof(e3d_view_instance)))
         return 0;

@@ -32,6 +32,7 @@ typedef struct e3d_view {
     float rows[12];           /* of view_from_world, f32 */
     int mirrors;              /* the camera does: R2 */
     e3d_lighting lighting, unshadowed; /* unshadowed: of what no shadow falls on */
+    e3d_fog_view fog[2]; /* of what is not lit, and of what is */
     e3d_view_instance *instances;
     e3d_array instance_memory, reach_memory;
 } e3d_view;

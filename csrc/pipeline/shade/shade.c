@@ -143,6 +143,40 @@ static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_
     }
 }
 
+/* ---- fog and tone (R117, R121) ---- */
+
+static int is_lit(const e3d_prepared *pass, const e3d_bucket *bucket)
+{
+    return pass->frame->mode == E3D_MODE_LIT && bucket->face && !bucket->material->is_unlit;
+}
+
+static const e3d_fog_view *fog_of(const e3d_prepared *pass, const e3d_bucket *bucket)
+{
+    return e3d_plans(pass, E3D_ASKED_FOG) ? &pass->view->fog[is_lit(pass, bucket)] : NULL;
+}
+
+static e3d_tone_mapping tone_of(const e3d_prepared *pass, const e3d_bucket *bucket)
+{
+    return is_lit(pass, bucket) ? pass->frame->tone_mapping : E3D_TONE_NONE;
+}
+
+/* The radiance of a batch. */
+static void find_radiance(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+{
+    const e3d_fog_view *fog = fog_of(pass, bucket);
+    find_colors(pass, bucket, memory);
+    if (fog)
+        pass->kernels->fog(&memory->batch, fog);
+}
+
+static void map_tone(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_batch *batch)
+{
+    float *const color[3] = {batch->color[0], batch->color[1], batch->color[2]};
+    e3d_tone_mapping tone = tone_of(pass, bucket);
+    if (tone != E3D_TONE_NONE)
+        pass->kernels->tone(tone, color, batch->count);
+}
+
 /* ---- batches ---- */
 
 /* What the batches of a bucket need of their surfaces: identities need nothing. */
@@ -177,7 +211,7 @@ static int is_painted(const e3d_prepared *pass, const e3d_bucket *bucket)
 static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, const e3d_shade_out *out)
 {
     const e3d_material *m = bucket->material;
-    int lit = pass->frame->mode == E3D_MODE_LIT && bucket->face && !m->is_unlit, shiny = e3d_adds(m->specular);
+    int lit = is_lit(pass, bucket), shiny = e3d_adds(m->specular);
     const e3d_paint paint = {
         .wanted = wanted,
         .texture = bucket->textured ? e3d_texture_get_view(m->texture.texture) : NULL,
@@ -190,8 +224,20 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = e3d_plans(pass, E3D_PLAN_ENCODES_SRGB),
         .samples = out->pixels->sampled ? &out->pixels->samples : NULL,
+        .fog = fog_of(pass, bucket),
+        .tone = tone_of(pass, bucket),
     };
     pass->kernels->paint(&out->memory->batch, &out->memory->surfaces, &paint, out->pixels->rgba);
+}
+
+/* The outputs beside colour. Afterwards the batch has its radiance, if that is one of them. */
+static void put_outputs(const e3d_shade_in *in, const e3d_bucket *bucket, const e3d_shade_out *out)
+{
+    e3d_outputs_batch(in->store, bucket, out->memory, out->pixels);
+    if (e3d_plans(in->pass, E3D_ASKED_RADIANCE) && e3d_plans(in->pass, E3D_PLAN_COLORS)) {
+        find_radiance(in->pass, bucket, out->memory);
+        e3d_outputs_radiance(in->store, &out->memory->batch, out->pixels);
+    }
 }
 
 /* A batch whose samples do not simply show. */
@@ -207,12 +253,13 @@ static void shade_alpha(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     else if (use != E3D_ALPHA_TEST && e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_albedo(pass->kernels, bucket, memory);
     if (use == E3D_ALPHA_OUTPUTS) {
-        e3d_outputs_batch(in->store, bucket, memory, out->pixels);
+        put_outputs(in, bucket, out);
         return;
     }
     if (use != E3D_ALPHA_TEST) {
         memory->shaded += memory->batch.count;
-        find_colors(pass, bucket, memory);
+        find_radiance(pass, bucket, memory);
+        map_tone(pass, bucket, &memory->batch);
     }
     e3d_alpha_batch(pass, bucket, out);
 }
@@ -238,7 +285,7 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     else if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_albedo(pass->kernels, bucket, out->memory);
     if (e3d_plans(pass, E3D_PLAN_OUTPUTS))
-        e3d_outputs_batch(in->store, bucket, out->memory, out->pixels);
+        put_outputs(in, bucket, out);
     int hidden = bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY;
     if (!e3d_plans(pass, E3D_PLAN_COLORS))
         return;
@@ -246,7 +293,9 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
         e3d_resolve_hidden(in->store, batch, out->pixels);
         return;
     }
-    find_colors(pass, bucket, out->memory);
+    if (!e3d_plans(pass, E3D_ASKED_RADIANCE))
+        find_radiance(pass, bucket, out->memory);
+    map_tone(pass, bucket, batch);
     e3d_resolve_batch(in->store, batch, out->pixels);
 }
 

@@ -198,3 +198,10 @@ void e3d_outputs_batch(const e3d_store *store, const e3d_bucket *bucket, e3d_sha
     put_barycentric(&place);
     put_maps(&place, bucket, &memory->maps.batch);
 }
+
+void e3d_outputs_radiance(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *out)
+{
+    int32_t room[E3D_BATCH];
+    const batch_place place = {store, batch, pixels_of(batch, store->pass->frame->samples_axis, room), out};
+    put(&place, E3D_OUTPUT_RADIANCE, batch->color);
+}

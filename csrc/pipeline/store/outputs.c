@@ -4,7 +4,9 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/visible.h"
+#include "pipeline/pass/plan.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/store/backdrop.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/picture.h"
 #include "pipeline/store/store.h"
@@ -42,6 +44,12 @@ void *e3d_outputs_gathered(const e3d_store *store, const e3d_store_memory *memor
     return output->target ? (int32_t *)memory->words.data + output->first : NULL;
 }
 
+/* R123: whether the background has radiance. */
+static int has_radiance(const e3d_store *store)
+{
+    return store->outputs[E3D_OUTPUT_RADIANCE].target && e3d_shows_environment(store->pass->frame);
+}
+
 void e3d_outputs_begin(const e3d_store *store, e3d_store_memory *memory)
 {
     for (int k = 0; k < E3D_OUTPUTS; k++) {
@@ -49,6 +57,8 @@ void e3d_outputs_begin(const e3d_store *store, e3d_store_memory *memory)
         for (int i = 0; words && i < KINDS[k].channels * E3D_TILE_SAMPLES; i++)
             words[i] = background;
     }
+    if (has_radiance(store))
+        e3d_backdrop_radiance(store, &memory->tile, e3d_outputs_gathered(store, memory, E3D_OUTPUT_RADIANCE));
 }
 
 void e3d_outputs_again(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory)
@@ -83,11 +93,26 @@ void e3d_outputs_end(const e3d_store *store, const e3d_visible_tile *visible, co
     }
 }
 
+/* Row by row. */
+static void blank_radiance(const e3d_store *store, const e3d_tile *tile)
+{
+    int axis = store->pass->frame->samples_axis;
+    float pixels[E3D_TILE][3];
+    e3d_tile row = *tile;
+    row.height = axis;
+    for (; row.y < tile->y + tile->height; row.y += axis) {
+        e3d_backdrop_radiance(store, &row, pixels);
+        e3d_write_tile(store->pass, &row, store->outputs[E3D_OUTPUT_RADIANCE].target, sizeof *pixels, pixels, sizeof pixels);
+    }
+}
+
 void e3d_outputs_blank(const e3d_store *store, const e3d_tile *tile)
 {
+    if (has_radiance(store))
+        blank_radiance(store, tile);
     for (int k = 0; k < E3D_OUTPUTS; k++) {
         int32_t row[4 * E3D_TILE]; /* as many channels as any has */
-        if (!store->outputs[k].target)
+        if (!store->outputs[k].target || (k == E3D_OUTPUT_RADIANCE && has_radiance(store)))
             continue;
         for (int i = 0; i < KINDS[k].channels * E3D_TILE; i++)
             row[i] = KINDS[k].background.as_int32_t;

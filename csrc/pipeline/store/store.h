@@ -7,6 +7,7 @@
 
 #include "core/grow.h"
 #include "core/limits.h"
+#include "core/tone_tables.h"
 #include "e3d_targets.h"
 #include "kernels/types/samples.h"
 #include "pipeline/pass/prepared.h"
@@ -37,6 +38,7 @@ typedef struct e3d_store {
     size_t words;                    /* of all outputs, in a thread's memory */
     e3d_background background;
     e3d_ink line;
+    const uint32_t (*gradient)[E3D_DITHER]; /* of each row of pixels; NULL where none shows */
 } e3d_store;
 
 /* A thread's memory: the pixels of one tile. */

@@ -6,6 +6,7 @@ from images import (  # noqa: F401
     scenes_lights,
     scenes_looks,
     scenes_physical,
+    scenes_shadows,
     scenes_textures,
     scenes_tone,
     scenes_views,

@@ -47,20 +47,31 @@ static void begin_with(e3d_history *history, const e3d_history *other)
     history->tiles_changed = other->tiles_changed;
 }
 
-e3d_history *e3d_history_of(e3d_histories *histories, int64_t view)
+/* What one light or eye sees tells nothing of what another light does. */
+static void forget(e3d_history *history)
 {
-    e3d_history *latest = histories->of, *longest = histories->of, *found = NULL;
+    const e3d_history nothing = {0};
+    begin_with(history, &nothing);
+}
+
+e3d_history *e3d_history_of(e3d_histories *histories, const e3d_frame *frame)
+{
+    e3d_history *latest = NULL, *longest = histories->of, *found = NULL;
     for (e3d_history *h = histories->of; h < histories->of + E3D_HISTORIES; h++) {
-        if (h->used && h->view == view)
+        if (h->used && h->view == frame->view)
             found = h;
-        latest = h->used > latest->used ? h : latest;
+        if (h->used && !h->is_of_light && (!latest || h->used > latest->used))
+            latest = h;
         longest = h->used < longest->used ? h : longest;
     }
     if (!found) {
         found = longest;
-        if (found != latest)
+        if (!latest || frame->faces_only)
+            forget(found);
+        else if (found != latest)
             begin_with(found, latest);
-        found->view = view;
+        found->view = frame->view;
+        found->is_of_light = frame->faces_only != 0;
     }
     found->used = ++histories->frames;
     return found;

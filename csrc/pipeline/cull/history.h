@@ -22,6 +22,7 @@ typedef struct e3d_backoff {
 
 typedef struct e3d_history {
     int64_t view;  /* e3d_frame.view */
+    int is_of_light; /* the view is that of a map of shadows (e3d_frame.faces_only) */
     uint64_t used; /* e3d_histories.frames when it was, or 0: never */
     e3d_array rows, rows_before; /* e3d_history_row of each entry: what `seen` and `seen_before` are of */
     e3d_array seen_before;
@@ -42,8 +43,9 @@ typedef struct e3d_histories {
 } e3d_histories;
 
 void e3d_histories_free(e3d_histories *histories);
-/* The history of a view. A new view begins with what the one drawn last saw, and replaces the one that waits longest. */
-e3d_history *e3d_history_of(e3d_histories *histories, int64_t view);
+/* The history of a frame's view. A new view begins with what the one drawn last saw, if both are those of cameras, and replaces the
+ * one that waits longest. */
+e3d_history *e3d_history_of(e3d_histories *histories, const e3d_frame *frame);
 
 /* Finds what the view's last frame of several rounds showed: 1 if it knows of most groups, -1 when memory is out. */
 int e3d_history_remember(e3d_history *history, const e3d_draws *draws);

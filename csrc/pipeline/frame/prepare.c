@@ -94,7 +94,7 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
                                .draws = &renderer->draws,
                                .view = &renderer->view,
                                .frustum = frame->frozen_clip_from_world ? &renderer->frozen : &renderer->view};
-    out->history = e3d_history_of(&renderer->histories, frame->view);
+    out->history = e3d_history_of(&renderer->histories, frame);
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_ASKED_ALPHA));
     if (status != E3D_OK)
         return status;

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 WHITE = (1.0, 1.0, 1.0)
 _MAX_LINE = 256.0
+_MAX_BLOOM = 100.0
 
 
 def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
@@ -52,6 +53,13 @@ def _line_size(value, what: str) -> float:
         raise InvalidArgumentError(
             f"{what} must be more than 0 and at most 256, not {shown(value)}"
         )
+    return number
+
+
+def _strength(value) -> float:
+    number = real(value)
+    if not 0 <= number <= _MAX_BLOOM:
+        raise InvalidArgumentError(f"bloom must be in 0..{_MAX_BLOOM:g}, not {shown(value)}")
     return number
 
 
@@ -75,6 +83,7 @@ class RenderKeywords(TypedDict, total=False):
     batching: bool
     transparent_outputs: bool
     tone_mapping: ToneMapping
+    bloom: float
     options: RenderOptions | None
 
 
@@ -88,7 +97,7 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping
+    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping, bloom
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -111,6 +120,7 @@ class RenderOptions:
     batching: bool = True
     transparent_outputs: bool = False
     tone_mapping: ToneMapping = "none"
+    bloom: float = 0.0
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -129,6 +139,7 @@ class RenderOptions:
             point_size=_line_size(self.point_size, "point_size"),
             batching=bool(self.batching),
             transparent_outputs=bool(self.transparent_outputs),
+            bloom=_strength(self.bloom),
         )
 
 

@@ -33,6 +33,7 @@ from ..errors import InvalidArgumentError, SceneChangedError
 from ..materials.colors import COLOR_SPACES
 from ..scene.cameras import Camera
 from ..scene.scene import Scene
+from ._bloom import Bloom
 from ._draw_list import DrawList
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
@@ -104,6 +105,7 @@ class Renderer(Closed):
         self._draw_list = DrawList(self._color_space, threads)
         self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
+        self._bloom = Bloom(number, threads, self._color_space == "srgb")
         self._asked, self._wanted = (), {}
         self._view: View | None = None
         self._framing: tuple[Camera, np.ndarray] | None = None
@@ -137,6 +139,7 @@ class Renderer(Closed):
             self._width, self._height = width, height
             self._asked = ()
             self._pool.forget()
+            self._bloom.forget()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
@@ -227,6 +230,7 @@ class Renderer(Closed):
         batching: bool = True,
         transparent_outputs: bool = False,
         tone_mapping: ToneMapping = "none",
+        bloom: float = 0.0,
         options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
@@ -286,6 +290,10 @@ class Renderer(Closed):
             surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
             ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and makes room above;
             ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
+        bloom : float
+            How much of the light above 1 glows around where it comes from, in modes "lit" and
+            "unlit", 0 to 100; 1 is a lot. It changes no alpha, so that before a transparent
+            background only what is drawn glows.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 
@@ -321,6 +329,7 @@ class Renderer(Closed):
                 batching,
                 transparent_outputs,
                 tone_mapping,
+                bloom,
             )
             named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)
@@ -360,9 +369,10 @@ class Renderer(Closed):
         except Exception as error:
             _blame_change(scene, census, error)
             raise
+        targets = self._bloom.targets(frame._outputs, options)
         drawn = self._native.render(
             self._draw_list.native,
-            frame._outputs,
+            targets,
             frame_options.native,
             self._width,
             self._height,
@@ -377,6 +387,7 @@ class Renderer(Closed):
             view.rays if frame_options.has_backdrop else None,
         )
         self._turn.check()
+        self._bloom.add(targets, options)
         frame._seen = view, options.cull
         frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame

@@ -38,6 +38,8 @@ static const float E3D_AGX_SRGB[3][3] = {
 };
 /* The sigmoid's polynomial about the middle of the curve, where rounding does it less harm, from its constant on. */
 static const float E3D_AGX_CURVE[7] = {0x1.2a7d02p-2f, 0x1.bd8adap+0f, 0x1.364746p+1f, -0x1.23126ep+2f, -0x1.487ae2p+3f, 0x1.970a3ep+2f, 0x1.f00000p+3f};
+/* w^2.2 is w^2 times this polynomial of the root of w, from its constant on: to 2e-6 up to 1.1. */
+static const float E3D_AGX_POWER[7] = {0x1.04c578p-2f, 0x1.ca4ff4p+0f, -0x1.64fe5cp+1f, 0x1.d09d46p+1f, -0x1.7fcc04p+1f, 0x1.6250e6p+0f, -0x1.15e018p-2f};
 #define E3D_AGX_SCALE 0x1.f07c22p-5f  /* 1 over the 16.5 stops of the curve */
 #define E3D_AGX_OFFSET 0x1.0623c4p-2f /* where a light of 1 is along them, from their middle */
 

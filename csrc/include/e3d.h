@@ -11,6 +11,7 @@
 #define E3D_H
 
 #include "e3d_backends.h"
+#include "e3d_bloom.h"
 #include "e3d_options.h"
 #include "e3d_draw.h"
 #include "e3d_environment.h"

@@ -143,6 +143,18 @@ typedef struct e3d_kernels {
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
     /* Copies rows with non-temporal stores; e3d_stream_end() must follow before other threads are told. */
     void (*stream)(const e3d_pixel_rows *rows);
+    /* Rows of a bloom (R124). What of four rows of radiance is above 1, filtered, by channels. */
+    void (*bloom_bright)(const float *const rows[4], int width, float *const planes[3]);
+    /* Four rows, filtered. */
+    void (*bloom_rows)(const float *const rows[4], int count, float *out);
+    /* A row of half the width, rounded up. */
+    void (*bloom_halve)(const float *row, int width, float *out);
+    /* A row of twice as many, between two. */
+    void (*bloom_mix)(const float *near, const float *far, int count, float *out);
+    /* A row of that width from one of half of it, or that row added to another. */
+    void (*bloom_spread)(const float *row, int width, int add, float *out);
+    /* The glow, times a scale, over pixels, whose codes decode to these values. */
+    void (*bloom_lay)(const float *const glow[3], float scale, const float decode[256], int srgb, int count, uint32_t *rgba);
     /* Draws rows of a shape of the user interface over the picture, which is at least E3D_UI_LEAST_WIDTH wide (of portable kernels: any). */
     void (*ui)(const e3d_canvas *picture, const e3d_ui_shape *shape, const e3d_ui_rows *rows);
 } e3d_kernels;

@@ -385,6 +385,17 @@ cdef extern from "e3d.h" nogil:
     void e3d_renderer_destroy(e3d_renderer *renderer)
     e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height)
     void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *) noexcept nogil, void *user)
+    ctypedef struct e3d_bloom:
+        const float *radiance
+        uint8_t *color
+        int32_t width
+        int32_t height
+        float strength
+        int32_t srgb
+
+    size_t e3d_bloom_scratch(int32_t width, int32_t height, int32_t threads)
+    e3d_status e3d_add_bloom(const e3d_bloom *bloom, e3d_backend backend, int32_t threads, float *scratch)
+
     e3d_status e3d_render(e3d_renderer *renderer, const e3d_frame *frame,
                           const e3d_targets *targets, e3d_stats *stats)
 

@@ -7,9 +7,12 @@
 #define E3D_REFERENCE_H
 
 #include "e3d.h"
+#include "e3d_bloom.h"
 
 /* Draws a frame into the targets. `stats` may be NULL. Nothing is written unless E3D_OK is returned.
  * `frame->shading` is ignored: deferred and forward give the same bytes. */
 e3d_status e3d_reference_render(const e3d_frame *frame, const e3d_targets *targets, e3d_stats *stats);
+/* Adds the glow of a picture to it. */
+e3d_status e3d_reference_bloom(const e3d_bloom *bloom);
 
 #endif

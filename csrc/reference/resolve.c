@@ -26,11 +26,11 @@ static uint8_t encode_srgb(float v)
     return (uint8_t)low;
 }
 
+uint8_t ref_encode(float v, int is_srgb) { return is_srgb ? encode_srgb(v) : (uint8_t)ref_rint(255.0f * v); }
+
 static uint8_t encode(const e3d_frame *frame, float v)
 {
-    if (frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT))
-        return encode_srgb(v);
-    return (uint8_t)ref_rint(255.0f * v);
+    return ref_encode(v, frame->encode_srgb && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT));
 }
 
 static void clamp_color(const float color[3], float out[3])

@@ -138,6 +138,8 @@ void ref_sort_fragments(const ref_scene *scene, ref_band *band);
 void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float color[3], float *alpha);
 
 /* resolve.c */
+/* R34 of a clamped value. */
+uint8_t ref_encode(float v, int is_srgb);
 void ref_resolve_band(ref_scene *scene, const ref_band *band, const e3d_targets *targets);
 
 #endif

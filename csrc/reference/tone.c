@@ -52,11 +52,11 @@ static void map_aces(float color[3])
     multiply(E3D_ACES_OUT, v, color);
 }
 
-static float agx_curve(float t)
+static float polynomial(const float coefficients[7], float t)
 {
-    float sum = E3D_AGX_CURVE[6];
+    float sum = coefficients[6];
     for (int k = 5; k >= 0; k--)
-        sum = sum * t + E3D_AGX_CURVE[k];
+        sum = sum * t + coefficients[k];
     return sum;
 }
 
@@ -67,11 +67,13 @@ static void map_agx(float color[3])
     multiply(E3D_AGX_IN, color, v);
     for (int c = 0; c < 3; c++) {
         float stops = ref_log2(ref_max(v[c], 1e-10f));
-        v[c] = agx_curve(ref_clamp(stops * E3D_AGX_SCALE + E3D_AGX_OFFSET, -0.5f, 0.5f));
+        v[c] = polynomial(E3D_AGX_CURVE, ref_clamp(stops * E3D_AGX_SCALE + E3D_AGX_OFFSET, -0.5f, 0.5f));
     }
     multiply(E3D_AGX_OUT, v, wide);
-    for (int c = 0; c < 3; c++)
-        wide[c] = ref_pow(ref_max(wide[c], 0.0f), 2.2f);
+    for (int c = 0; c < 3; c++) {
+        float w = ref_max(wide[c], 0.0f);
+        wide[c] = (w * w) * polynomial(E3D_AGX_POWER, sqrtf(w));
+    }
     multiply(E3D_AGX_SRGB, wide, color);
 }
 

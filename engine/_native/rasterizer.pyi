@@ -264,6 +264,16 @@ class NativeRenderer:
         rays: _Floats | None = None,
     ) -> NativeStats: ...
 
+def bloom_scratch(width: int, height: int, threads: int) -> int: ...
+def add_bloom(
+    radiance: _Floats,
+    color: _Bytes,
+    strength: float,
+    srgb: bool,
+    backend: int,
+    threads: int,
+    scratch: _Floats,
+) -> None: ...
 def rasterize(
     clip: _Floats,
     faces: _Integers,

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 _CULLS = (*_native.CULLS, "auto")
 WHITE = (1.0, 1.0, 1.0)
 _MAX_LINE = 256.0
+_MAX_BLOOM = 100.0
 
 
 def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
@@ -54,6 +55,13 @@ def _line_size(value, what: str) -> float:
         raise InvalidArgumentError(
             f"{what} must be more than 0 and at most 256, not {shown(value)}"
         )
+    return number
+
+
+def _strength(value) -> float:
+    number = real(value)
+    if not 0 <= number <= _MAX_BLOOM:
+        raise InvalidArgumentError(f"bloom must be in 0..{_MAX_BLOOM:g}, not {shown(value)}")
     return number
 
 
@@ -77,6 +85,7 @@ class RenderKeywords(TypedDict, total=False):
     batching: bool
     transparent_outputs: bool
     tone_mapping: ToneMapping
+    bloom: float
     options: RenderOptions | None
 
 
@@ -90,7 +99,7 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping
+    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping, bloom
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -113,6 +122,7 @@ class RenderOptions:
     batching: bool = True
     transparent_outputs: bool = False
     tone_mapping: ToneMapping = "none"
+    bloom: float = 0.0
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -131,6 +141,7 @@ class RenderOptions:
             point_size=_line_size(self.point_size, "point_size"),
             batching=bool(self.batching),
             transparent_outputs=bool(self.transparent_outputs),
+            bloom=_strength(self.bloom),
         )
 
 

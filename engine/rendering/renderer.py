@@ -33,6 +33,7 @@ from ..errors import InvalidArgumentError, SceneChangedError
 from ..materials.colors import COLOR_SPACES
 from ..scene.cameras import Camera
 from ..scene.scene import Scene
+from ._bloom import Bloom
 from ._draw_list import DrawList
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
@@ -106,6 +107,7 @@ class Renderer(Closed):
         self._shadow_maps = ShadowMaps(self._native, self._draw_list)
         self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
+        self._bloom = Bloom(number, threads, self._color_space == "srgb")
         self._asked, self._wanted = (), {}
         self._view: View | None = None
         self._framing: tuple[Camera, np.ndarray] | None = None
@@ -139,6 +141,7 @@ class Renderer(Closed):
             self._width, self._height = width, height
             self._asked = ()
             self._pool.forget()
+            self._bloom.forget()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
@@ -238,6 +241,7 @@ class Renderer(Closed):
         batching: bool = True,
         transparent_outputs: bool = False,
         tone_mapping: ToneMapping = "none",
+        bloom: float = 0.0,
         options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
@@ -299,6 +303,10 @@ class Renderer(Closed):
             surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
             ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and makes room above;
             ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
+        bloom : float
+            How much of the light above 1 glows around where it comes from, in modes "lit" and
+            "unlit", 0 to 100; 1 is a lot. It changes no alpha, so that before a transparent
+            background only what is drawn glows.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 
@@ -334,6 +342,7 @@ class Renderer(Closed):
                 batching,
                 transparent_outputs,
                 tone_mapping,
+                bloom,
             )
             named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)
@@ -382,9 +391,10 @@ class Renderer(Closed):
         except Exception as error:
             _blame_change(scene, census, error)
             raise
+        targets = self._bloom.targets(frame._outputs, options)
         drawn = self._native.render(
             self._draw_list.native,
-            frame._outputs,
+            targets,
             frame_options.native,
             self._width,
             self._height,
@@ -403,6 +413,7 @@ class Renderer(Closed):
             self._shadow_maps.count,
             self._shadow_maps.drawn,
         )
+        self._bloom.add(targets, options)
         frame._seen = view, "none" if by_mesh else options.cull
         frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame

@@ -50,8 +50,8 @@ class Fog:
 class ExponentialFog:
     """Fog that begins at the camera and never ends.
 
-    Of a colour ``exp(-(density * depth)**2)`` is left. That is three.js's ``FogExp2`` and OpenGL's ``GL_EXP2``; depth is the distance along the view
-    axis, as ``frame.depth`` has it.
+    Of a colour ``exp(-(density * depth)**2)`` is left. That is three.js's ``FogExp2`` and OpenGL's
+    ``GL_EXP2``; depth is the distance along the view axis, as ``frame.depth`` has it.
 
     Parameters
     ----------

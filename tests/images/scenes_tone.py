@@ -76,6 +76,10 @@ variant("tone_painter", toned, "agx", SKY, FOGS["linear"], hidden_surfaces="pain
 variant("tone_wireframe", toned, "agx", SKY, FOGS["linear"], wireframe="overlay")
 variant("tone_wireframe_only", toned, "agx", SKY, wireframe="only")
 variant("tone_linear", toned, "neutral", SKY, FOGS["linear"], color_space="linear")
+variant("bloom", toned, "neutral", SKY, bloom=0.4)
+variant("bloom_4", toned, background=None, samples=4, bloom=2.0)
+variant("bloom_sky", behind, e3d.Environment.sky(), tone_mapping="agx", bloom=1.0)
+variant("bloom_linear", toned, "aces", bloom=0.4, color_space="linear")
 variant("gradient", behind, SKY)
 variant("gradient_overdraw", behind, SKY, mode="overdraw")
 variant(

@@ -21,6 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 # Which folders of csrc/ the files of one include headers of, besides their own and system headers.
 FOLDERS = {
+    "bloom": {"core", "include", "kernels", "reference"},
     "canvas": {"include"},
     "core": {"include"},
     "driver": {"include"},

@@ -31,6 +31,7 @@
 #include "kernels/generic/paint.inl"
 #include "kernels/generic/alpha.inl"
 #include "kernels/generic/stream.inl"
+#include "kernels/generic/bloom.inl"
 #include "kernels/generic/ui.inl"
 
 const e3d_kernels E3D_TABLE = {
@@ -86,5 +87,11 @@ const e3d_kernels E3D_TABLE = {
     .average = kernel_average,
     .paint = kernel_paint,
     .stream = kernel_stream,
+    .bloom_bright = kernel_bloom_bright,
+    .bloom_rows = kernel_bloom_rows,
+    .bloom_halve = kernel_bloom_halve,
+    .bloom_mix = kernel_bloom_mix,
+    .bloom_spread = kernel_bloom_spread,
+    .bloom_lay = kernel_bloom_lay,
     .ui = kernel_ui,
 };

@@ -53,23 +53,26 @@ static ALWAYS_INLINE void tone_aces(vf32 color[3])
     tone_multiply(E3D_ACES_OUT, v, color);
 }
 
+static ALWAYS_INLINE vf32 tone_polynomial(const float coefficients[7], vf32 t)
+{
+    vf32 sum = v_setf(coefficients[6]);
+    for (int k = 5; k >= 0; k--)
+        sum = v_add(v_mul(sum, t), v_setf(coefficients[k]));
+    return sum;
+}
+
 static ALWAYS_INLINE vf32 tone_agx_curve(vf32 light)
 {
     vf32 stops = log2_poly(v_max(light, v_setf(1e-10f)));
     vf32 t = v_add(v_mul(stops, v_setf(E3D_AGX_SCALE)), v_setf(E3D_AGX_OFFSET));
-    t = v_min(v_max(t, v_setf(-0.5f)), v_setf(0.5f));
-    vf32 sum = v_setf(E3D_AGX_CURVE[6]);
-    for (int k = 5; k >= 0; k--)
-        sum = v_add(v_mul(sum, t), v_setf(E3D_AGX_CURVE[k]));
-    return sum;
+    return tone_polynomial(E3D_AGX_CURVE, v_min(v_max(t, v_setf(-0.5f)), v_setf(0.5f)));
 }
 
-/* R27: light to the power of 2.2. */
+/* v to the power of 2.2. */
 static ALWAYS_INLINE vf32 tone_linear(vf32 v)
 {
-    vmask some = v_ge(v, v_setf(0x1p-100f));
-    vf32 safe = v_self(some, v, v_setf(1.0f));
-    return v_self(some, exp2_poly(v_mul(v_setf(2.2f), log2_poly(safe))), v_setf(0.0f));
+    vf32 w = v_max(v, v_setf(0.0f));
+    return v_mul(v_mul(w, w), tone_polynomial(E3D_AGX_POWER, v_sqrt(w)));
 }
 
 /* R119 */
@@ -81,7 +84,7 @@ static ALWAYS_INLINE void tone_agx(vf32 color[3])
         v[k] = tone_agx_curve(v[k]);
     tone_multiply(E3D_AGX_OUT, v, wide);
     for (int k = 0; k < 3; k++)
-        wide[k] = tone_linear(v_max(wide[k], v_setf(0.0f)));
+        wide[k] = tone_linear(wide[k]);
     tone_multiply(E3D_AGX_SRGB, wide, color);
 }
 

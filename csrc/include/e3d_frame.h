@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "e3d_options.h"
+#include "e3d_casters.h"
 #include "e3d_draw.h"
 #include "e3d_environment.h"
 #include "e3d_light.h"
@@ -96,6 +97,7 @@ typedef struct e3d_frame {
     const e3d_shadow_map *shadow_maps; /* of all lights */
     int32_t shadow_map_count;
     int32_t faces_only;          /* neither lines nor points are drawn */
+    const e3d_casters *casters;  /* of exact shadows, or NULL: none */
 } e3d_frame;
 
 #ifdef __cplusplus

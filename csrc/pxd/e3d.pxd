@@ -187,6 +187,10 @@ cdef extern from "e3d.h" nogil:
     ctypedef enum e3d_shadow_kind:
         E3D_SHADOW_NONE
         E3D_SHADOW_MAP
+        E3D_SHADOW_EXACT
+
+    enum:
+        E3D_MAX_EXACT_LIGHTS
 
     ctypedef struct e3d_shadow_map:
         float scale
@@ -240,6 +244,13 @@ cdef extern from "e3d.h" nogil:
         const double *node_worlds
         const int32_t *node_ids
         int32_t unshadowed
+
+    ctypedef struct e3d_casters:
+        const e3d_draw *draws
+        int32_t draw_count
+        const e3d_material *materials
+        int32_t material_count
+        int64_t version
 
     ctypedef enum e3d_mode:
         E3D_MODE_UNLIT
@@ -304,6 +315,7 @@ cdef extern from "e3d.h" nogil:
         const e3d_shadow_map *shadow_maps
         int32_t shadow_map_count
         int32_t faces_only
+        const e3d_casters *casters
 
     ctypedef enum e3d_output_kind:
         E3D_OUTPUT_NDC_DEPTH

@@ -3,6 +3,7 @@
  * In:  the frame's casters. Out: a list of their faces, in no order that matters.
  * Rules: R97; the corners are R3's.
  */
+#include <math.h>
 #include <stdlib.h>
 
 #include "reference/stages.h"
@@ -18,12 +19,16 @@ static void add_faces(ref_casters *casters, int32_t number)
     const ref_instance *instance = &casters->instances[number];
     const e3d_mesh_desc *mesh = instance->mesh;
     for (int32_t face = 0; face < faces_of(instance->draw); face++) {
-        ref_caster *caster = &casters->items[casters->count++];
+        ref_caster *caster = &casters->items[casters->count];
+        int finite = 1;
         caster->instance = number;
         caster->face = face;
-        for (int k = 0; k < 3; k++)
-            ref_transform_point(instance->world_from_object, mesh->positions + 3 * (size_t)mesh->faces[3 * (size_t)face + (size_t)k],
-                                caster->corner[k]);
+        for (int k = 0; k < 3; k++) {
+            float *p = caster->corner[k];
+            ref_transform_point(instance->world_from_object, mesh->positions + 3 * (size_t)mesh->faces[3 * (size_t)face + (size_t)k], p);
+            finite = finite && isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+        }
+        casters->count += finite;
     }
 }
 

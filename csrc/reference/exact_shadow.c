@@ -176,7 +176,7 @@ static int has_hole(const ref_casters *casters, const ref_caster *caster, const 
     if (draw->instance_colors_u8 || draw->instance_colors_f32)
         alpha = alpha * color_alpha(casters->frame, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)instance->number);
     alpha = ref_clamp(alpha, 0.0f, 1.0f);
-    return !(alpha >= (material->alpha_mode == E3D_ALPHA_MASK ? material->alpha_cutoff : E3D_LEAST_ALPHA));
+    return !(alpha >= (material->alpha_mode == E3D_ALPHA_MASK ? material->alpha_cutoff : E3D_BLENDED_CASTER));
 }
 
 static int is_above(const eye *e, const plane *plane, const float p[3], const ref_caster *caster, const seen *s, float weight[3])

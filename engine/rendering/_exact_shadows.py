@@ -69,4 +69,6 @@ def _placed_casters(arrays: NodeArrays) -> tuple[bytes, ...]:
     casts = columns["unshadowed"][:count] & CASTS_NONE == 0
     shown = columns["flags"][:count] & SHOWN != 0
     slots = np.flatnonzero(casts & shown & (columns["object"][:count] >= 0))
-    return slots.tobytes(), *(columns[name][slots].tobytes() for name in ("object", "world_version"))
+    return slots.tobytes(), *(
+        columns[name][slots].tobytes() for name in ("object", "world_version")
+    )

@@ -107,5 +107,5 @@ int e3d_caster_is_open(const e3d_caster_index *index, uint32_t caster, const flo
         alpha = alpha * color_alpha(draw->instance_colors_u8, draw->instance_colors_f32, (size_t)instance->number);
     alpha = alpha > 0.0f ? alpha : 0.0f;
     alpha = alpha < 1.0f ? alpha : 1.0f;
-    return !(alpha >= (m->alpha_mode == E3D_ALPHA_MASK ? m->alpha_cutoff : E3D_LEAST_ALPHA));
+    return !(alpha >= (m->alpha_mode == E3D_ALPHA_MASK ? m->alpha_cutoff : E3D_BLENDED_CASTER));
 }

@@ -52,6 +52,10 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_LEAST_ROUGHNESS 0.045f
 #define E3D_LEAST_SHEEN_ROUGHNESS 0.07f
 #define E3D_LEAST_COSINE 0x1p-20f
+/* R100: how far off the plane of its face rounding may leave a sample or a corner beside it, as a share of their coordinates: 7 roundings
+ * of the sample, 8 of the corner (R3, R20). */
+#define E3D_PLANE_SLACK 0x1p-20f
+#define E3D_BLENDED_CASTER 0.5f /* R101: the alpha from which on what is blended hides a light */
 /* Of shadow maps: how far samples move towards the light so that none lies in its own shadow. */
 #define E3D_SHADOW_CORNER 0x1.6a09e6p+0f /* the root of 2: comparisons are farthest from the sample in the corners */
 #define E3D_SHADOW_SLACK 0.25f           /* for normals that are not those of the face */

@@ -1,6 +1,14 @@
 /* The shadows of a frame's lights, as they are given: arguments, checked before anything is drawn. */
 #include "core/shadows.h"
 
+int e3d_has_exact_shadows(const e3d_frame *frame)
+{
+    for (int32_t n = 0; n < frame->light_count; n++)
+        if (frame->lights[n].shadow.kind == E3D_SHADOW_EXACT)
+            return 1;
+    return 0;
+}
+
 int e3d_has_shadows(const e3d_frame *frame)
 {
     for (int32_t n = 0; n < frame->light_count; n++)
@@ -27,8 +35,20 @@ static int map_is_valid(const e3d_frame *frame, const e3d_light *light)
     return (int64_t)s->count * s->size * s->size <= INT32_MAX && (int64_t)s->step * (s->taps - 1) <= 256 * (int64_t)s->size - 512;
 }
 
+/* The lights of exact shadows are numbered one after the other. */
+static int exact_lights_are_valid(const e3d_frame *frame)
+{
+    int32_t count = 0;
+    for (int32_t n = 0; n < frame->light_count; n++)
+        if (frame->lights[n].shadow.kind == E3D_SHADOW_EXACT && frame->lights[n].shadow.first != count++)
+            return 0;
+    return count <= E3D_MAX_EXACT_LIGHTS;
+}
+
 int e3d_shadows_are_valid(const e3d_frame *frame)
 {
+    if (!exact_lights_are_valid(frame))
+        return 0;
     for (int32_t n = 0; n < frame->light_count; n++)
         if (frame->lights[n].shadow.kind == E3D_SHADOW_MAP && !map_is_valid(frame, &frame->lights[n]))
             return 0;

@@ -6,6 +6,8 @@
 
 /* Whether any light has a shadow. */
 int e3d_has_shadows(const e3d_frame *frame);
+/* Whether any light has an exact shadow. */
+int e3d_has_exact_shadows(const e3d_frame *frame);
 /* Whether the maps of all lights are there, and no comparison leaves them. */
 int e3d_shadows_are_valid(const e3d_frame *frame);
 

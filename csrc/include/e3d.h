@@ -13,6 +13,7 @@
 #include "e3d_backends.h"
 #include "e3d_bloom.h"
 #include "e3d_options.h"
+#include "e3d_casters.h"
 #include "e3d_draw.h"
 #include "e3d_environment.h"
 #include "e3d_frame.h"

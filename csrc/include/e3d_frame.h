@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "e3d_options.h"
+#include "e3d_casters.h"
 #include "e3d_draw.h"
 #include "e3d_environment.h"
 #include "e3d_light.h"
@@ -100,6 +101,7 @@ typedef struct e3d_frame {
     e3d_tone_mapping tone_mapping; /* of lit surfaces and of the backdrop, in mode lit */
     e3d_fog fog;                   /* lit and unlit only */
     e3d_gradient gradient;
+    const e3d_casters *casters;  /* of exact shadows, or NULL: none */
 } e3d_frame;
 
 #ifdef __cplusplus

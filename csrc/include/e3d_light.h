@@ -16,8 +16,11 @@ typedef enum e3d_light_kind { E3D_LIGHT_DIRECTIONAL = 0, E3D_LIGHT_POINT, E3D_LI
     X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) X(E3D_FALLOFF_WINDOW, window) X(E3D_FALLOFF_GLTF, gltf)
 typedef enum e3d_falloff { E3D_EACH_FALLOFF(E3D_ENUMERATOR) } e3d_falloff;
 
-/* What keeps a light from a surface: nothing, or what a map shows that was drawn from the light. */
-typedef enum e3d_shadow_kind { E3D_SHADOW_NONE = 0, E3D_SHADOW_MAP } e3d_shadow_kind;
+/* What keeps a light from a surface: nothing, what a map shows that was drawn from the light, or what is between both to the bit, of the
+ * frame's casters. */
+typedef enum e3d_shadow_kind { E3D_SHADOW_NONE = 0, E3D_SHADOW_MAP, E3D_SHADOW_EXACT } e3d_shadow_kind;
+
+enum { E3D_MAX_EXACT_LIGHTS = 32 };
 
 /* Where a map is: its column is x + scale times how far to the light's right a place is, its row y + scale times how far down, both
  * over how far ahead it is where the light is a point or spot light (R91). */
@@ -26,7 +29,7 @@ typedef struct e3d_shadow_map {
     float texel; /* 1 over scale: how wide a texel is, at distance 1 of a point or spot light */
 } e3d_shadow_map;
 
-/* Of kind E3D_SHADOW_MAP all of it: directional lights have one map or several, the finest first; point lights the six faces of a
+/* Of kind E3D_SHADOW_EXACT, first alone: how many lights of this kind come before it. Of kind E3D_SHADOW_MAP all of it: directional lights have one map or several, the finest first; point lights the six faces of a
  * cube, of which all have the place of the first; spot lights one. */
 typedef struct e3d_light_shadow {
     e3d_shadow_kind kind;

@@ -11,6 +11,7 @@
 #include "e3d.h"
 #include "e3d_canvas.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/casters.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/lobe.h"
 #include "kernels/types/maps.h"
@@ -90,6 +91,10 @@ typedef struct e3d_kernels {
     void (*texture)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const float base[3]);
     /* color *= vertex colour, color *= instance colour */
     void (*tint)(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance);
+    /* Finds the planes of surfaces in the world. */
+    void (*receivers)(const e3d_surfaces *surfaces, e3d_receivers *out);
+    /* hidden_lights: which lights with exact shadows something hides from samples that they would light. */
+    void (*hide)(e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *casters, const e3d_receivers *receivers);
     /* energy, and shine where shininess > 0 */
     void (*light)(e3d_batch *batch, const e3d_lighting *lighting, float shininess);
     /* color = ((color * energy + specular * shine) + emissive) * exposure; specular may be NULL */

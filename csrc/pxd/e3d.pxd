@@ -193,6 +193,10 @@ cdef extern from "e3d.h" nogil:
     ctypedef enum e3d_shadow_kind:
         E3D_SHADOW_NONE
         E3D_SHADOW_MAP
+        E3D_SHADOW_EXACT
+
+    enum:
+        E3D_MAX_EXACT_LIGHTS
 
     ctypedef struct e3d_shadow_map:
         float scale
@@ -246,6 +250,13 @@ cdef extern from "e3d.h" nogil:
         const double *node_worlds
         const int32_t *node_ids
         int32_t unshadowed
+
+    ctypedef struct e3d_casters:
+        const e3d_draw *draws
+        int32_t draw_count
+        const e3d_material *materials
+        int32_t material_count
+        int64_t version
 
     ctypedef enum e3d_mode:
         E3D_MODE_UNLIT
@@ -334,6 +345,7 @@ cdef extern from "e3d.h" nogil:
         e3d_tone_mapping tone_mapping
         e3d_fog fog
         e3d_gradient gradient
+        const e3d_casters *casters
 
     ctypedef enum e3d_output_kind:
         E3D_OUTPUT_NDC_DEPTH

@@ -73,6 +73,7 @@ static void init_scene(ref_scene *scene, const e3d_frame *frame)
 static void free_scene(ref_scene *scene)
 {
     free(scene->instances);
+    ref_free_casters(&scene->casters);
     free(scene->pieces.items);
     free(scene->edges.items);
 }
@@ -130,6 +131,8 @@ __attribute__((noinline)) static e3d_status draw_frame(ref_scene *scene, const e
     double start = milliseconds();
     int with_edges = scene->frame->wireframe != E3D_WIRE_NONE && targets->color;
     e3d_status status = ref_build_geometry(scene, with_edges);
+    if (status == E3D_OK && e3d_has_exact_shadows(scene->frame))
+        status = ref_find_casters(scene->frame, &scene->casters);
     scene->stats.ms_geometry = milliseconds() - start;
     if (status != E3D_OK)
         return status;

@@ -139,6 +139,8 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
     float p[3], sine = sine_of(normal, l);
     if (surface->instance->draw->unshadowed)
         return 1.0f;
+    if (light->shadow.kind == E3D_SHADOW_EXACT)
+        return ref_is_hidden(light, surface) ? 0.0f : 1.0f;
     for (int k = 0; k < 3; k++)
         p[k] = light->kind == E3D_LIGHT_DIRECTIONAL ? surface->world_position[k] : surface->world_position[k] - light->position[k];
     place at = light->kind == E3D_LIGHT_DIRECTIONAL ? place_directional(light, maps, p, normal, sine)

@@ -61,6 +61,20 @@ typedef struct ref_piece_list {
     int64_t count, capacity;
 } ref_piece_list;
 
+/* A face that may hide lights (R97): its corners in the world, and what tells of its alpha. */
+typedef struct ref_caster {
+    float corner[3][3];
+    int32_t instance, face; /* instance: of ref_casters */
+} ref_caster;
+
+typedef struct ref_casters {
+    const e3d_casters *source; /* or NULL */
+    const e3d_frame *frame;
+    ref_instance *instances;
+    ref_caster *items;
+    int64_t count;
+} ref_casters;
+
 /* Everything that geometry makes and the bands read. */
 typedef struct ref_scene {
     const e3d_frame *frame;
@@ -71,6 +85,7 @@ typedef struct ref_scene {
     int64_t instance_count, instance_capacity;
     ref_piece_list pieces;       /* faces, lines and points */
     ref_piece_list edges;        /* of the wireframe */
+    ref_casters casters;
     e3d_stats stats;
 } ref_scene;
 
@@ -120,6 +135,10 @@ e3d_status ref_setup_point(ref_scene *scene, const ref_primitive *primitive, con
 
 /* geometry.c */
 e3d_status ref_build_geometry(ref_scene *scene, int with_edges);
+
+/* casters.c */
+e3d_status ref_find_casters(const e3d_frame *frame, ref_casters *out);
+void ref_free_casters(ref_casters *casters);
 
 /* raster.c */
 void ref_sort_for_painter(ref_piece_list *pieces);

@@ -165,6 +165,7 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
 void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, ref_surface *out)
 {
     out->piece = piece;
+    out->casters = &scene->casters;
     out->instance = &scene->instances[piece->primitive.instance];
     find_weights(out, x, y);
     find_position(scene, out);

@@ -20,6 +20,7 @@ typedef struct ref_physical {
 
 /* What is seen at one sample. */
 typedef struct ref_surface {
+    const ref_casters *casters; /* of the scene */
     const ref_piece *piece;
     const ref_instance *instance;
     float dx, dy, weight[3], r; /* of R19 */
@@ -73,6 +74,13 @@ void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, fl
 /* shadow.c */
 /* R90: how much of light n reaches a surface from direction l. */
 float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *surface, const float l[3]);
+
+/* exact_shadow.c */
+/* R98-R101: whether a caster is between a surface and a light. */
+int ref_is_hidden(const e3d_light *light, const ref_surface *surface);
+
+/* texture.c, R29 and R30 of the fourth channel at level 0; returns the unit. */
+float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], float *out);
 
 /* physical.c */
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);

@@ -205,6 +205,25 @@ static void sample_probes(const e3d_texture_view *texture, const probes *probes,
         out[c] = out[c] / probes->count;
 }
 
+static float unit_of(const e3d_texture_view *texture)
+{
+    int nearest = texture->filter == E3D_NEAREST;
+    if (texture->channel_bits == 16)
+        return nearest ? E3D_UNORM15 : E3D_UNORM15_BLENDED;
+    return nearest ? E3D_UNORM8 : E3D_UNORM8_BLENDED;
+}
+
+float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], float *out)
+{
+    float s = wrap_coordinate(uv[0], texture->wrap[0]), t = wrap_coordinate(1.0f - uv[1], texture->wrap[1]), texel_at[CHANNELS];
+    if (texture->filter == E3D_NEAREST)
+        sample_nearest(texture, &texture->levels[0], s, t, texel_at);
+    else
+        sample_bilinear(texture, &texture->levels[0], s, t, texel_at);
+    *out = texel_at[3];
+    return unit_of(texture);
+}
+
 float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at,
                          float out[CHANNELS])
 {
@@ -221,8 +240,5 @@ float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *sur
         sample_bilinear(texture, &texture->levels[0], s, t, out);
     else
         sample_trilinear(texture, level_of_detail(texture, surface, at), s, t, out);
-    int nearest = texture->filter == E3D_NEAREST;
-    if (texture->channel_bits == 16)
-        return nearest ? E3D_UNORM15 : E3D_UNORM15_BLENDED;
-    return nearest ? E3D_UNORM8 : E3D_UNORM8_BLENDED;
+    return unit_of(texture);
 }

@@ -52,7 +52,9 @@ cdef class NativeDrawList:
     """
 
     cdef e3d_placed *objects
-    cdef e3d_draw_list placed, casting
+    cdef e3d_draw_list placed, casting, hiding
+    cdef e3d_casters casters
+    cdef int exact_light_count
     cdef e3d_totals totals
     cdef e3d_material *materials
     cdef e3d_material *casting_materials
@@ -76,6 +78,7 @@ cdef class NativeDrawList:
         free(self.objects)
         e3d_draw_list_free(&self.placed)
         e3d_draw_list_free(&self.casting)
+        e3d_draw_list_free(&self.hiding)
         free(self.materials)
         free(self.casting_materials)
         free(self.shadow_maps)
@@ -93,6 +96,8 @@ cdef class NativeDrawList:
     cdef void forget_places(self) noexcept:
         self.placed.count = self.placed.order_count = self.placed.nodes = 0
         self.casting.count = self.casting.order_count = self.casting.nodes = 0
+        self.hiding.count = self.hiding.order_count = self.hiding.nodes = 0
+        self.casters.version = 0
 
     def clear_lights(self):
         self.light_count = 0
@@ -177,6 +182,26 @@ cdef class NativeDrawList:
         rows.casting = True
         self.list_draws(&self.casting, &rows, selection, &volume, True)
         self.find_casting_materials()
+
+    def place_hiding(self, int32_t count, dict columns not None, int64_t version):
+        """List what may hide lights with exact shadows: all nodes that show and cast shadows.
+
+        ``version`` is another one whenever anything of that is other than before.
+        """
+        cdef e3d_node_rows rows
+        set_rows(&rows, count, columns, None)
+        rows.casting = True
+        self.list_draws(&self.hiding, &rows, None, NULL, True)
+        self.casters.version = version
+
+    cdef const e3d_casters *casters_now(self) except? NULL:
+        """What may hide lights; NULL where no light has an exact shadow."""
+        if not self.exact_light_count:
+            return NULL
+        self.find_casting_materials()
+        self.casters.draws, self.casters.draw_count = self.hiding.draws, self.hiding.count
+        self.casters.materials, self.casters.material_count = self.casting_materials, self.material_count
+        return &self.casters
 
     cdef int list_draws(self, e3d_draw_list *placed, const e3d_node_rows *rows, const uint64_t[::1] selection,
                         const e3d_view_volume *view, bint batch) except -1:
@@ -344,7 +369,7 @@ cdef class NativeDrawList:
         """Let no light have a shadow."""
         for k in range(self.light_count):
             self.lights[k].shadow.kind = E3D_SHADOW_NONE
-        self.shadow_map_count = 0
+        self.shadow_map_count = self.exact_light_count = 0
         self.depths = []
 
     def set_shadow(
@@ -372,6 +397,15 @@ cdef class NativeDrawList:
         self.depths.append(depths)
         shadow.depths = &depths[0, 0, 0]
         shadow.kind = E3D_SHADOW_MAP
+
+    def set_exact_shadow(self, int number):
+        """Give a light an exact shadow; lights get theirs in their order."""
+        cdef e3d_light_shadow *shadow = &self.light_at(number).shadow
+        require(self.exact_light_count < E3D_MAX_EXACT_LIGHTS,
+                f"at most {E3D_MAX_EXACT_LIGHTS} lights of a frame may have an exact shadow")
+        memset(shadow, 0, sizeof(e3d_light_shadow))
+        shadow.kind, shadow.first = E3D_SHADOW_EXACT, self.exact_light_count
+        self.exact_light_count += 1
 
     cdef e3d_light *new_light(self, e3d_light_kind kind, color, lux) except NULL:
         self.lights = <e3d_light *>grown(

@@ -394,6 +394,7 @@ cdef class NativeRenderer:
         frame.order_count = draw_list.placed.order_count
         frame.shadow_maps = draw_list.shadow_maps
         frame.shadow_map_count = draw_list.shadow_map_count
+        frame.casters = draw_list.casters_now()
         fill_targets(&outputs, targets, width, height)
         if not self.draw(&frame, &outputs, &drawn.stats):
             return drawn

@@ -35,6 +35,7 @@ from ..scene.cameras import Camera
 from ..scene.scene import Scene
 from ._bloom import Bloom
 from ._draw_list import DrawList
+from ._exact_shadows import ExactShadows
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
 from ._shadow_maps import ShadowMaps
@@ -105,6 +106,7 @@ class Renderer(Closed):
         self._native = _native.NativeRenderer(number, threads)
         self._draw_list = DrawList(self._color_space, threads)
         self._shadow_maps = ShadowMaps(self._native, self._draw_list)
+        self._exact_shadows = ExactShadows(self._draw_list)
         self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
         self._bloom = Bloom(number, threads, self._color_space == "srgb")
@@ -146,7 +148,7 @@ class Renderer(Closed):
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
         with self._turn.taken(closing=True):
-            self._native = self._draw_list = self._shadow_maps = None
+            self._native = self._draw_list = self._shadow_maps = self._exact_shadows = None
             self._turn.let_go()
             self._pool.forget()
 
@@ -385,6 +387,7 @@ class Renderer(Closed):
             if options.mode == "lit" and "color" in frame.outputs:
                 self._shadow_maps.update(scene, view, cull)
                 self._turn.check()
+                self._exact_shadows.update(scene)
             near, far = 0.0, 1.0
             if options.mode == "depth":
                 near, far = view.depth_range(scene.bounds)

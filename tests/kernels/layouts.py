@@ -143,6 +143,7 @@ BATCH_RECORD = np.dtype(
         ("energy", "f4", (3, _LANES)),
         ("shine", "f4", (3, _LANES)),
         ("alpha", "f4", _LANES),
+        ("hidden_lights", "u4", _LANES),
         ("count", "i4"),
         ("unmapped_normal", "u8"),  # an address, or 0
     ],

@@ -250,6 +250,11 @@ static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lig
 static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const vf32 position[3],
                                         const vf32 l[3])
 {
+    const e3d_light_shadow *shadow = &lighting->lights[n].shadow;
+    if (shadow->kind == E3D_SHADOW_EXACT) {
+        vi32 hidden = v_andi(v_loadi(batch->hidden_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->first)));
+        return v_self(v_eqi(hidden, v_seti(0)), v_setf(1.0f), v_setf(0.0f));
+    }
     const e3d_lane_array *normals = batch->unmapped_normal ? batch->unmapped_normal : batch->normal;
     vf32 normal[3];
     for (int k = 0; k < 3; k++)

@@ -20,6 +20,7 @@
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/anisotropic.inl"
 #include "kernels/generic/light.inl"
+#include "kernels/generic/hidden.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/albedo.inl"
 #include "kernels/generic/lobe.inl"
@@ -64,6 +65,8 @@ const e3d_kernels E3D_TABLE = {
     .interpolate = kernel_interpolate,
     .texture = kernel_texture,
     .tint = kernel_tint,
+    .receivers = kernel_receivers,
+    .hide = kernel_hide,
     .light = kernel_light,
     .combine = kernel_combine,
     .map_surfaces = kernel_map_surfaces,

@@ -63,6 +63,7 @@ typedef struct e3d_batch {
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3], alpha;
+    uint32_t hidden_lights[E3D_BATCH + E3D_PAD]; /* where lights have exact shadows: a bit for each of them, set where it is hidden */
     int count;
     const e3d_lane_array *unmapped_normal; /* where `normal` is mapped: what it was before; else NULL */
 } e3d_batch;

@@ -4,6 +4,7 @@
 #include "core/grow.h"
 #include "core/tone_tables.h"
 #include "e3d.h"
+#include "pipeline/cast/casters.h"
 #include "pipeline/cull/history.h"
 #include "pipeline/frame/prepare.h"
 #include "pipeline/frame/renderer.h"
@@ -93,10 +94,13 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
                                .plan = e3d_plan_of(frame, asked->targets),
                                .draws = &renderer->draws,
                                .view = &renderer->view,
+                               .casters = &renderer->casters.index,
                                .frustum = frame->frozen_clip_from_world ? &renderer->frozen : &renderer->view};
     out->history = e3d_history_of(&renderer->histories, frame);
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_ASKED_ALPHA));
     if (status != E3D_OK)
+        return status;
+    if (e3d_plans(&out->pass, E3D_PLAN_HIDES) && (status = e3d_casters_prepare(&renderer->casters, frame, renderer->threads)) != E3D_OK)
         return status;
     if (!prepare_views(renderer, frame, out->pass.frustum) || !prepare_gradient(renderer, frame, &out->store) || !clear_marks(renderer))
         return E3D_OUT_OF_MEMORY;

@@ -6,6 +6,7 @@
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "pipeline/cast/casters.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
 #include "pipeline/frame/renderer.h"
@@ -96,6 +97,7 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     e3d_cull_free(&renderer->cull);
     e3d_histories_free(&renderer->histories);
     e3d_kept_free(&renderer->kept);
+    e3d_casters_free(&renderer->casters);
     e3d_array_free(&renderer->marks);
     e3d_array_free(&renderer->tile_progress);
     e3d_array_free(&renderer->gradient);

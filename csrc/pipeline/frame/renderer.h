@@ -5,6 +5,7 @@
 #include "core/grow.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "pipeline/cast/casters.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
 #include "pipeline/geometry/bin.h"
@@ -36,6 +37,7 @@ typedef struct e3d_renderer {
     e3d_bins bins;
     e3d_tiles_out tiles;
     e3d_kept_memory kept;
+    e3d_caster_memory casters;
     e3d_array marks;         /* uint8_t of each instance: E3D_MARK_ */
     e3d_array tile_progress; /* e3d_tile_progress */
     e3d_array gradient;      /* uint32_t[E3D_DITHER], of each row of the picture */

@@ -63,6 +63,7 @@ static e3d_plan asked_mode(const e3d_frame *f)
     switch (f->mode) {
     case E3D_MODE_LIT:
         return ASKED(LIT) | asked_if(has_local_light(f), E3D_ASKED_LOCAL_LIGHT) | asked_if(e3d_has_shadows(f), E3D_ASKED_SHADOWS) |
+               asked_if(e3d_has_exact_shadows(f), E3D_ASKED_EXACT_SHADOWS) |
                asked_if(f->light_count > E3D_FEW_LIGHTS, E3D_ASKED_MANY_LIGHTS);
     case E3D_MODE_UNLIT: return ASKED(UNLIT);
     case E3D_MODE_DEPTH: return ASKED(DEPTH_MODE);
@@ -147,7 +148,8 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_FRAGMENTS, 0, PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(WIREFRAME)},
     {E3D_PLAN_SPANS, PLAN(SHADES), PLAN(SLOTS) | PLAN(DEPTHS)},
     {E3D_PLAN_LISTS, PLAN(SHADES), PLAN(SLOTS)},
-    {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(LIT), PLAN(OUTPUTS) | ASKED(MANY_LIGHTS)},
+    {E3D_PLAN_HIDES, PLAN(COLORS) | ASKED(EXACT_SHADOWS), 0},
+    {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(LIT), PLAN(OUTPUTS) | ASKED(MANY_LIGHTS) | PLAN(HIDES)},
     {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(UNLIT), PLAN(OUTPUTS)},
     {E3D_PLAN_ROUNDS, PLAN(FACES) | ASKED(OCCLUSION),
      PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(OTHER_FRUSTUM) | ASKED(HUGE)},

@@ -16,6 +16,7 @@ typedef struct e3d_prepared {
     e3d_plan plan;
     const e3d_draws *draws; /* the geometry finishes some instances, here and in the view */
     const e3d_view *view;
+    const e3d_caster_index *casters; /* where lights have exact shadows */
     const e3d_view *frustum; /* that tells what is drawn: the same view, or that of a camera that stands still */
 } e3d_prepared;
 

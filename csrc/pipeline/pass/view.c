@@ -39,6 +39,9 @@ static void find_viewport(e3d_view *view, const e3d_frame *frame)
     view->tiles_y = (v->height + E3D_TILE - 1) / E3D_TILE;
 }
 
+/* Where all shadows are exact. */
+static const e3d_shadow_map NO_MAPS;
+
 /* The lights' positions and ranges as the light kernel reads them, a vector of lights at a time. */
 static int find_lights(e3d_view *view, const e3d_frame *frame)
 {
@@ -67,7 +70,7 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     lighting->shadows = NULL;
     view->unshadowed = *lighting;
     if (e3d_has_shadows(frame))
-        lighting->shadows = frame->shadow_maps;
+        lighting->shadows = frame->shadow_maps ? frame->shadow_maps : &NO_MAPS;
     return 1;
 }
 

@@ -116,6 +116,12 @@ static const e3d_lighting *lighting_of(const e3d_prepared *pass, const e3d_bucke
     return bucket->unshadowed ? &pass->view->unshadowed : &pass->view->lighting;
 }
 
+/* Whether exact shadows may fall on a bucket's samples. */
+static int hides_lights(const e3d_prepared *pass, const e3d_bucket *bucket)
+{
+    return e3d_plans(pass, E3D_PLAN_HIDES) && bucket->face && !bucket->material->is_unlit && !bucket->unshadowed;
+}
+
 static void light(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_batch *batch)
 {
     const e3d_material *m = bucket->material;
@@ -128,6 +134,8 @@ static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_
 {
     switch (pass->frame->mode) {
     case E3D_MODE_LIT:
+        if (hides_lights(pass, bucket))
+            pass->kernels->hide(&memory->batch, &pass->view->lighting, pass->casters, &memory->receivers);
         if (bucket->face && bucket->material->is_physical && !bucket->material->is_unlit)
             e3d_light_physical(pass, bucket, lighting_of(pass, bucket), memory);
         else if (bucket->face && !bucket->material->is_unlit)
@@ -359,6 +367,8 @@ static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d
         end = e3d_add_surfaces(in, bucket, first, wanted, out->memory);
         if (wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(in->pass, tile, bucket, wanted, out->memory);
+        if (hides_lights(in->pass, bucket) && wanted & E3D_WANT_POSITION)
+            in->pass->kernels->receivers(&out->memory->surfaces, &out->memory->receivers);
         shade_pieces(in, bucket, first, end, wanted, out);
     }
 }

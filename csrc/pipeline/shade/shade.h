@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/grow.h"
+#include "kernels/types/casters.h"
 #include "kernels/types/maps.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
@@ -42,6 +43,7 @@ typedef struct e3d_shade_memory {
     e3d_map_memory maps;
     e3d_array pieces;                   /* e3d_visible_primitive */
     e3d_array buckets;                  /* e3d_bucket */
+    _Alignas(64) e3d_receivers receivers; /* the planes of the surfaces, where lights have exact shadows */
     int64_t shaded;                     /* samples, of all tiles */
 } e3d_shade_memory;
 

@@ -1,0 +1,12 @@
+/* Holes of casters. */
+#ifndef E3D_HOLES_H
+#define E3D_HOLES_H
+
+#include <stdint.h>
+
+#include "kernels/types/casters.h"
+
+/* Whether light passes a caster where its corners have these weights (R101). */
+int e3d_caster_is_open(const e3d_caster_index *index, uint32_t caster, const float weight[3]);
+
+#endif

@@ -1,0 +1,217 @@
+/* Exact shadow: whether something is between a sample and a light.
+ *
+ * In:  a surface, a light, every caster of the scene: none is left out, and none is tried before another for a reason.
+ * Out: whether one of them hides the light.
+ * Rules: R98 (the plane of the light), R99 (which casters the ray goes through), R100 (the plane of the sample), R101 (hits).
+ *      Source of R99: Woop, Benthin and Wald 2013 ("Watertight ray/triangle intersection").
+ */
+#include "reference/arithmetic.h"
+#include "reference/surface.h"
+
+/* R98: how places are seen from the light. */
+typedef struct eye {
+    const e3d_light *light;
+    int is_point;
+    int axis, is_negative; /* of z */
+    float slope[2];
+    float x, y, z; /* of the sample; of a point light only z */
+} eye;
+
+/* R100 */
+typedef struct plane {
+    float normal[3], slack[3], limit;
+} plane;
+
+/* A caster as the light sees it. */
+typedef struct seen {
+    float x[3], y[3], z[3];
+} seen;
+
+static int longest(const float v[3])
+{
+    float a = fabsf(v[0]), b = fabsf(v[1]), c = fabsf(v[2]);
+    return a >= b && a >= c ? 0 : b >= c ? 1 : 2;
+}
+
+/* ---- R98 ---- */
+
+/* Of a place from which a point light's is taken away already. */
+static void look(const eye *e, const float p[3], float *x, float *y, float *z)
+{
+    *x = p[(e->axis + 1) % 3];
+    *y = p[(e->axis + 2) % 3];
+    *z = e->is_negative ? 0.0f - p[e->axis] : p[e->axis];
+    if (!e->is_point) {
+        *x = *x - e->slope[0] * p[e->axis];
+        *y = *y - e->slope[1] * p[e->axis];
+    }
+}
+
+static eye open_eye(const e3d_light *light, const float p[3])
+{
+    eye out = {.light = light, .is_point = light->kind != E3D_LIGHT_DIRECTIONAL};
+    float d[3];
+    for (int c = 0; c < 3; c++)
+        d[c] = out.is_point ? p[c] - light->position[c] : light->to_light[c];
+    out.axis = longest(d);
+    out.is_negative = out.is_point ? d[out.axis] < 0.0f : d[out.axis] > 0.0f;
+    float along = out.is_point && out.is_negative ? 0.0f - d[out.axis] : d[out.axis];
+    for (int c = 0; c < 2; c++)
+        out.slope[c] = d[(out.axis + 1 + c) % 3] / along;
+    look(&out, out.is_point ? d : p, &out.x, &out.y, &out.z);
+    return out;
+}
+
+static void see(const eye *e, const ref_caster *caster, seen *out)
+{
+    for (int k = 0; k < 3; k++) {
+        float v[3];
+        for (int c = 0; c < 3; c++)
+            v[c] = e->is_point ? caster->corner[k][c] - e->light->position[c] : caster->corner[k][c];
+        look(e, v, &out->x[k], &out->y[k], &out->z[k]);
+    }
+}
+
+/* ---- R99 ---- */
+
+static int spans_zero(const float v[3])
+{
+    return ref_min(ref_min(v[0], v[1]), v[2]) <= 0.0f && ref_max(ref_max(v[0], v[1]), v[2]) >= 0.0f;
+}
+
+static int goes_through(const eye *e, const seen *s, float weight[3])
+{
+    float a[3], b[3];
+    if (!(ref_min(ref_min(s->z[0], s->z[1]), s->z[2]) < e->z))
+        return 0;
+    for (int k = 0; k < 3; k++) {
+        a[k] = s->x[k] - (e->is_point ? e->slope[0] * s->z[k] : e->x);
+        b[k] = s->y[k] - (e->is_point ? e->slope[1] * s->z[k] : e->y);
+    }
+    if (!spans_zero(a) || !spans_zero(b))
+        return 0;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 2) % 3, j = (k + 1) % 3;
+        weight[k] = a[i] * b[j] - b[i] * a[j];
+    }
+    return (weight[0] >= 0.0f && weight[1] >= 0.0f && weight[2] >= 0.0f) || (weight[0] <= 0.0f && weight[1] <= 0.0f && weight[2] <= 0.0f);
+}
+
+/* ---- R100 ---- */
+
+static plane plane_of(const ref_surface *s, const e3d_light *light)
+{
+    float e[3], f[3], most[3], sum[3], m[3], share[3];
+    plane out;
+    for (int c = 0; c < 3; c++) {
+        const float v[3] = {s->corner_position[0][c], s->corner_position[1][c], s->corner_position[2][c]};
+        e[c] = v[1] - v[0];
+        f[c] = v[2] - v[0];
+        most[c] = ref_max(ref_max(fabsf(v[0]), fabsf(v[1])), fabsf(v[2]));
+        sum[c] = fabsf(e[c]) + fabsf(f[c]);
+    }
+    ref_cross(e, f, m);
+    float i = 1.0f / ref_max(ref_max(fabsf(m[0]), fabsf(m[1])), fabsf(m[2])), towards[3];
+    for (int c = 0; c < 3; c++) {
+        int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+        out.normal[c] = m[c] * i;
+        out.slack[c] = ((most[c1] * sum[c2] + most[c2] * sum[c1]) * i) * E3D_PLANE_SLACK;
+        share[c] = fabsf(out.normal[c]) * most[c];
+        towards[c] = light->kind == E3D_LIGHT_DIRECTIONAL ? light->to_light[c] : light->position[c] - s->world_position[c];
+    }
+    out.limit = ((share[0] + share[1]) + share[2]) * E3D_PLANE_SLACK;
+    int away = ref_dot3(out.normal, towards) < 0.0f;
+    for (int c = 0; c < 3 && away; c++)
+        out.normal[c] = 0.0f - out.normal[c];
+    return out;
+}
+
+/* ---- R101 ---- */
+
+static float between(const float weight[3], const float corner[3]) { return ref_dot3(weight, corner); }
+
+static float texture_alpha(const e3d_material *material, const e3d_mesh_desc *mesh, const int32_t *face, const float weight[3])
+{
+    const e3d_texture_use *use = &material->texture;
+    const float *uvs = use->uv_set ? mesh->uvs1 : mesh->uvs, *m = use->matrix;
+    float corner[2][3], uv[2], texel;
+    if (!use->texture || !uvs)
+        return material->alpha;
+    for (int k = 0; k < 3; k++) {
+        float u = uvs[2 * (size_t)face[k]], v = uvs[2 * (size_t)face[k] + 1];
+        corner[0][k] = use->is_moved ? (m[0] * u + m[1] * v) + m[2] : u;
+        corner[1][k] = use->is_moved ? (m[3] * u + m[4] * v) + m[5] : v;
+    }
+    for (int c = 0; c < 2; c++)
+        uv[c] = between(weight, corner[c]);
+    float unit = ref_texture_alpha(e3d_texture_get_view(use->texture), uv, &texel);
+    return texel * (material->alpha * unit);
+}
+
+static float color_alpha(const e3d_frame *frame, const uint8_t *u8, const float *f32, size_t index)
+{
+    float color[4];
+    if (f32)
+        return f32[4 * index + 3];
+    ref_decode_color(frame, u8 + 4 * index, color);
+    return color[3];
+}
+
+static int has_hole(const ref_casters *casters, const ref_caster *caster, const float weight[3])
+{
+    const ref_instance *instance = &casters->instances[caster->instance];
+    const e3d_mesh_desc *mesh = instance->mesh;
+    const e3d_draw *draw = instance->draw;
+    int32_t id = draw->material_base + (mesh->material_ids ? mesh->material_ids[caster->face] : 0);
+    const e3d_material *material = &casters->source->materials[id];
+    const int32_t *face = mesh->faces + 3 * (size_t)caster->face;
+    if (material->alpha_mode == E3D_ALPHA_OPAQUE)
+        return 0;
+    float alpha = texture_alpha(material, mesh, face, weight), corner[3];
+    if (mesh->colors_u8 || mesh->colors_f32) {
+        for (int k = 0; k < 3; k++)
+            corner[k] = color_alpha(casters->frame, mesh->colors_u8, mesh->colors_f32, (size_t)face[k]);
+        alpha = alpha * between(weight, corner);
+    }
+    if (draw->instance_colors_u8 || draw->instance_colors_f32)
+        alpha = alpha * color_alpha(casters->frame, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)instance->number);
+    alpha = ref_clamp(alpha, 0.0f, 1.0f);
+    return !(alpha >= (material->alpha_mode == E3D_ALPHA_MASK ? material->alpha_cutoff : E3D_BLENDED_CASTER));
+}
+
+static int is_above(const eye *e, const plane *plane, const float p[3], const ref_caster *caster, const seen *s, float weight[3])
+{
+    float det = (weight[0] + weight[1]) + weight[2], height[3];
+    if (det == 0.0f)
+        return 0;
+    float r = 1.0f / det;
+    for (int k = 0; k < 3; k++) {
+        float d[3], size[3];
+        for (int c = 0; c < 3; c++) {
+            d[c] = caster->corner[k][c] - p[c];
+            size[c] = fabsf(d[c]);
+        }
+        height[k] = ref_dot3(plane->normal, d) - ref_dot3(plane->slack, size);
+        weight[k] = weight[k] * r;
+    }
+    if (!(between(weight, height) > plane->limit))
+        return 0;
+    return !e->is_point || between(weight, s->z) > 0.0f;
+}
+
+int ref_is_hidden(const e3d_light *light, const ref_surface *surface)
+{
+    const ref_casters *casters = surface->casters;
+    const float *p = surface->world_position;
+    eye e = open_eye(light, p);
+    plane plane = plane_of(surface, light);
+    for (int64_t n = 0; n < casters->count; n++) {
+        const ref_caster *caster = &casters->items[n];
+        seen s;
+        float weight[3];
+        see(&e, caster, &s);
+        if (goes_through(&e, &s, weight) && is_above(&e, &plane, p, caster, &s, weight) && !has_hole(casters, caster, weight))
+            return 1;
+    }
+    return 0;
+}

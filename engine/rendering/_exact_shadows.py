@@ -1,0 +1,74 @@
+"""Exact shadows: which lights have them, and what may hide these lights.
+
+In: a scene whose draw list is up to date, its lights without shadows or with maps. Out: the native
+draw list holds what casts shadows, in the picture or not. The core finds, sample by sample, whether
+any of it is between the sample and the light (docs/exactness.md, section 17); what it found out
+about the casters it keeps for as long as they have the same version.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from .._native.scene_graph import SHOWN
+from ..scene.node_arrays import CASTS_NONE, NodeArrays
+from ..scene.scene import Scene
+from ._draw_list import DrawList
+
+_versions = itertools.count(1)
+
+
+class ExactShadows:
+    """What may hide the lights of one renderer's scene.
+
+    Parameters
+    ----------
+    draw_list : DrawList
+    """
+
+    def __init__(self, draw_list: DrawList) -> None:
+        self._draw_list = draw_list
+        self._moment: tuple | None = None  # of the scene, when its casters were listed
+        self._casters: tuple | None = None
+        self._version = 0
+
+    def update(self, scene: Scene) -> None:
+        """Let lights whose ``shadow`` is "exact" have it, for a frame with lit surfaces.
+
+        Raises
+        ------
+        InvalidArgumentError
+            There are more such lights than the core takes.
+        """
+        native = self._draw_list.native
+        lights = [at[0] for at in self._draw_list.lights.placed() if at[1].shadow == "exact"]
+        for number in lights:
+            native.set_exact_shadow(number)
+        if lights:
+            self._list_casters(scene._arrays)
+
+    def _list_casters(self, arrays: NodeArrays) -> None:
+        """List the casters, unless they are listed; a version is theirs until one is another."""
+        renewals = self._draw_list.renewals
+        moment = arrays, arrays.updated, renewals
+        if moment == self._moment:
+            return
+        casters = arrays, renewals, *_placed_casters(arrays)
+        if casters != self._casters:
+            self._version = next(_versions)
+        self._moment = self._casters = None  # for if anything below raises
+        self._draw_list.native.place_hiding(arrays.count, arrays.columns, self._version)
+        self._moment, self._casters = moment, casters
+
+
+def _placed_casters(arrays: NodeArrays) -> tuple[bytes, ...]:
+    """What tells whether nodes that cast shadows are the same, where they were."""
+    columns, count = arrays.columns, arrays.count
+    casts = columns["unshadowed"][:count] & CASTS_NONE == 0
+    shown = columns["flags"][:count] & SHOWN != 0
+    slots = np.flatnonzero(casts & shown & (columns["object"][:count] >= 0))
+    return slots.tobytes(), *(
+        columns[name][slots].tobytes() for name in ("object", "world_version")
+    )

@@ -1,0 +1,311 @@
+"""Section 17 of docs/exactness.md: exact shadows, against rays cast in float64 in NumPy.
+
+A white scene without ambient light is drawn with the shadow and without: where the pictures differ,
+the light is hidden. For each pixel a ray goes from its world position to the light, past every
+triangle of the scene, from 1e-5 units above its surface: R100 tells that without a bias.
+"""
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+
+SIZE = (96, 72)
+LIGHTS = ["sun", "point", "spot"]
+LEAST_WAY = 1e-5  # world units: rays start so far along their way
+
+
+@pytest.fixture(params=LIGHTS)
+def kind(request):
+    return request.param
+
+
+def white(mesh, **options):
+    mesh.materials = [e3d.Material(color=(1, 1, 1), flat_shading=True, **options)]
+    return mesh
+
+
+def rotation(rng):
+    q, r = np.linalg.qr(rng.normal(size=(3, 3)))
+    q *= np.sign(np.diag(r))
+    return q * np.sign(np.linalg.det(q))
+
+
+def pose_of(turned, offset, scale=1.0):
+    pose = np.eye(4)
+    pose[:3, :3] = turned * scale
+    pose[:3, 3] = offset
+    return pose
+
+
+def add_light(scene, kind, shadow, to=(2.0, 3.5, 1.5)):
+    """A light from a place, or from its direction: (place, whether it is one)."""
+    to = np.asarray(to, np.float64)
+    if kind == "sun":
+        scene.add(e3d.DirectionalLight(-to, intensity=1, shadow=shadow))
+    elif kind == "point":
+        scene.add(e3d.PointLight(intensity=float(to @ to), shadow=shadow), translation=to)
+    else:
+        light = e3d.SpotLight(intensity=float(2 * to @ to), outer_cone_angle=0.7, shadow=shadow)
+        scene.add(light, pose=e3d.look_at(to, (0, 0, 0)))
+
+
+def still_life(kind, shadow):
+    scene = e3d.Scene(ambient=(0, 0, 0))
+    scene.add(white(e3d.plane(6.0)))
+    scene.add(white(e3d.box(0.8)), translation=(0, 0.4, 0), euler=(0, 0.6, 0))
+    scene.add(white(e3d.icosphere(0.5, 3)), translation=(-0.9, 0.6, 0.5))
+    scene.add(white(e3d.torus()), translation=(0.9, 1.1, -0.4), euler=(0.9, 0.4, 0))
+    add_light(scene, kind, shadow)
+    return scene, e3d.look_at((1.2, 2.2, 3.2), (0, 0.3, 0))
+
+
+def fence(kind, shadow):
+    """Thin bars, whose shadows are thinner than pixels."""
+    scene = e3d.Scene(ambient=(0, 0, 0))
+    scene.add(white(e3d.plane(6.0)))
+    for k in range(17):
+        scene.add(white(e3d.box((0.02, 0.8, 0.02))), translation=(0.12 * k - 1, 0.4, 0.2))
+    scene.add(white(e3d.box((2.2, 0.03, 0.015))), translation=(0, 0.6, 0.2))
+    add_light(scene, kind, shadow, (0.6, 1.4, -1.6))
+    return scene, e3d.look_at((0.6, 1.6, 2.8), (0, 0, 0.6))
+
+
+def heap(kind, shadow):
+    """Triangles in all directions."""
+    rng = np.random.default_rng(27)
+    middle = rng.uniform(-1, 1, (150, 1, 3))
+    corners = middle + 10.0 ** rng.uniform(-2, -0.4, (150, 1, 1)) * rng.normal(size=(150, 3, 3))
+    scene = e3d.Scene(ambient=(0, 0, 0))
+    faces = np.arange(450).reshape(-1, 3)
+    scene.add(white(e3d.Mesh(corners.reshape(-1, 3), faces), two_sided=True))
+    scene.add(white(e3d.plane(6.0)), translation=(0, -1, 0))
+    add_light(scene, kind, shadow)
+    return scene, e3d.look_at((1.2, 1.9, 3.2), (0, -0.1, 0))
+
+
+def triangles_of(scene):
+    """(N, 3, 3) float64 corners in the world, rounded as R1 and R3 round them."""
+    found = []
+    for node in scene.nodes:
+        if isinstance(node.object, e3d.Mesh):
+            world = node.world_pose.astype(np.float32)
+            points = node.object.positions
+            placed = [
+                ((row[0] * points[:, 0] + row[1] * points[:, 1]) + row[2] * points[:, 2]) + row[3]
+                for row in world[:3]
+            ]
+            found.append(np.stack(placed, -1)[node.object.faces])
+    return np.concatenate(found).astype(np.float64)
+
+
+def hits(origins, ways, far, triangles):
+    """Whether rays along unit vectors hit a triangle before they end (Moller and Trumbore)."""
+    e, f = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    hidden = np.zeros(len(origins), bool)
+    for n, (origin, way) in enumerate(zip(origins, ways, strict=True)):
+        p = np.cross(way, f)
+        with np.errstate(all="ignore"):
+            det = (e * p).sum(-1)
+            s = origin - triangles[:, 0]
+            u = (s * p).sum(-1) / det
+            q = np.cross(s, e)
+            v = (q @ way) / det
+            t = (f * q).sum(-1) / det
+        hidden[n] = ((u >= 0) & (v >= 0) & (u + v <= 1) & (t > LEAST_WAY) & (t < far[n])).any()
+    return hidden
+
+
+def picture(make, kind, shadow, backend="auto", threads=2, **options):
+    scene, pose = make(kind, shadow)
+    camera = (e3d.PerspectiveCamera(), pose)
+    outputs = ("color", "world_position", "triangle_id")
+    return e3d.render(
+        scene, camera, size=SIZE, backend=backend, threads=threads, outputs=outputs, **options
+    )
+
+
+def hidden_and_lit(make, kind, **options):
+    """Where the light would reach a pixel if nothing were in between, and where it is hidden."""
+    open_, shadowed = (picture(make, kind, shadow, **options) for shadow in (False, "exact"))
+    lit = open_.color[..., :3].any(-1)
+    changed = (open_.color != shadowed.color).any(-1)
+    assert not shadowed.color[changed][..., :3].any()  # wholly, or not at all
+    return changed, lit, open_.world_position
+
+
+@pytest.mark.parametrize("make", [still_life, fence, heap])
+def test_like_rays_cast_in_float64(make, kind):
+    hidden, lit, position = hidden_and_lit(make, kind)
+    origins = position[lit].astype(np.float64)
+    scene, _ = make(kind, "exact")
+    to = np.array((0.6, 1.4, -1.6) if make is fence else (2.0, 3.5, 1.5))
+    ways = np.broadcast_to(to, origins.shape) if kind == "sun" else to - origins
+    far = np.linalg.norm(ways, axis=1)
+    ends = far if kind != "sun" else np.full(len(far), np.inf)
+    by_rays = hits(origins, ways / far[:, None], ends, triangles_of(scene))
+    assert 0.02 < hidden[lit].mean() < 0.9
+    np.testing.assert_array_equal(by_rays, hidden[lit])
+
+
+def test_flat_and_convex_surfaces_are_never_in_their_own_shadow(kind):
+    rng = np.random.default_rng(3)
+    meshes = [white(e3d.plane(2.0, 24)), white(e3d.icosphere(1.0, 3)), white(e3d.box((1, 2, 0.5)))]
+    for trial in range(12):
+        scale = 10.0 ** rng.uniform(-2, 2)
+        offset = rng.normal(size=3) * scale * 10.0 ** rng.uniform(-1, 2)
+        turned, to = rotation(rng), scale * 4 * rng.normal(size=3)
+        pictures = []
+        for shadow in (False, "exact"):
+            scene = e3d.Scene(ambient=(0, 0, 0))
+            scene.add(meshes[trial % 3], pose=pose_of(turned, offset, scale))
+            if kind == "sun":
+                scene.add(e3d.DirectionalLight(-to, shadow=shadow))
+            else:
+                lamp = e3d.PointLight(intensity=10 * scale * scale, shadow=shadow)
+                scene.add(lamp, translation=offset + to)
+            eye = e3d.look_at(offset + scale * np.array((2.0, 2.4, 3.0)), offset)
+            pictures.append(e3d.render(scene, (e3d.PerspectiveCamera(), eye), size=SIZE).color)
+        np.testing.assert_array_equal(*pictures)
+
+
+def test_shadows_begin_where_things_touch():
+    """A wall on a floor: seen from above, no lit pixel is between the wall and its shadow."""
+    for turned in (np.eye(3), rotation(np.random.default_rng(5))):
+        rows = []
+        for shadow in (False, "exact"):
+            scene = e3d.Scene(background=(255, 0, 0), ambient=(0, 0, 0))
+            root = scene.add(None, pose=pose_of(turned, (3.0, -2.0, 5.0)))
+            scene.add(white(e3d.plane(4.0)), parent=root)
+            wall = white(e3d.box((2.0, 1.0, 0.1)))
+            scene.add(wall, translation=(0, 0.5, 0), parent=root)
+            light = e3d.DirectionalLight((0, -1, -1), shadow=shadow)
+            scene.add(light, parent=root)
+            pose = pose_of(turned, (3.0, -2.0, 5.0)) @ e3d.look_at(
+                (0, 5, 0), (0, 0, 0), up=(0, 0, -1)
+            )
+            camera = e3d.OrthographicCamera(0.4), pose
+            frame = e3d.render(scene, camera, size=(8, 400))
+            rows.append(frame.color[:, 4, 0].astype(int))
+        hidden = rows[1] < rows[0]
+        # From the top: floor in shadow, then the wall's top.
+        first = np.flatnonzero(hidden)
+        assert len(first) > 100 and first[0] == 0
+        assert hidden[: first[-1] + 1].all()
+        assert not hidden[first[-1] + 1 :].any()
+        assert first[-1] + 1 == round(400 * (0.5 - 0.05 / 0.8))
+
+
+def count_hidden(scene, size=(64, 64), **options):
+    camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
+    frame = e3d.render(scene, camera, size=size, **options)
+    return int((frame.color[..., 0] == 0).sum())
+
+
+def floor_and_caster(mesh, **options):
+    scene = e3d.Scene(background=(9, 9, 9), ambient=(0, 0, 0))
+    scene.add(white(e3d.plane(20.0)))
+    scene.add(mesh, translation=(0, 6, 0), **options)  # above the camera
+    scene.add(e3d.DirectionalLight((0, -1, 0), shadow="exact"))
+    return scene
+
+
+def test_what_is_not_in_view_casts():
+    assert count_hidden(floor_and_caster(white(e3d.box(1.0)))) > 100
+
+
+def test_either_side_casts():
+    sheet = white(e3d.plane(1.0))
+    both = [count_hidden(floor_and_caster(sheet, euler=(turn, 0, 0))) for turn in (0, np.pi)]
+    assert both[0] == both[1] > 100
+
+
+def test_switches_of_nodes():
+    caster = white(e3d.box(1.0))
+    assert count_hidden(floor_and_caster(caster, cast_shadows=False)) == 0
+    scene = floor_and_caster(caster)
+    for node in scene.nodes:
+        node.receive_shadows = False
+    assert count_hidden(scene) == 0
+
+
+def test_holes_let_light_through():
+    texture = np.full((2, 2, 4), 255, np.uint8)
+    texture[0, 0, 3] = texture[1, 1, 3] = 0
+    sheet = e3d.plane(1.0)
+    whole = white(e3d.plane(1.0))
+    holes = e3d.Texture(texture, filter="nearest")
+    sheet.materials = [e3d.Material(texture=holes, alpha_mode="mask", alpha_cutoff=0.5)]
+    half, all_ = count_hidden(floor_and_caster(sheet)), count_hidden(floor_and_caster(whole))
+    assert abs(2 * half - all_) <= 16
+
+
+@pytest.mark.parametrize(("alpha", "casts"), [(0.49, False), (0.5, True), (1.0, True)])
+def test_what_is_blended_casts_from_half_on(alpha, casts):
+    sheet = e3d.plane(1.0)
+    sheet.materials = [e3d.Material(color=(1, 1, 1, alpha), alpha_mode="blend")]
+    assert (count_hidden(floor_and_caster(sheet)) > 100) == casts
+
+
+def test_what_is_blended_receives():
+    scene = floor_and_caster(white(e3d.box(1.0)))
+    glass = e3d.plane(20.0)
+    glass.materials = [e3d.Material(color=(1, 1, 1, 0.5), alpha_mode="blend")]
+    scene.add(glass, translation=(0, 1, 0))
+    assert count_hidden(scene) > 100
+
+
+def test_casters_that_move_are_found_again():
+    scene = floor_and_caster(white(e3d.box(1.0)))
+    box = list(scene.nodes)[1]
+    camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
+    with e3d.Renderer(64, 64) as renderer:
+        frames = []
+        for x in (0.0, 0.5, 0.5, 40.0):
+            box.translation = (x, 6, 0)
+            frames.append(renderer.render(scene, camera).color.copy())
+            fresh = e3d.render(scene, camera, size=(64, 64)).color
+            np.testing.assert_array_equal(frames[-1], fresh)
+    assert (frames[0] != frames[1]).any()
+    assert frames[3].min() > 0
+
+
+def test_casters_whose_mesh_or_material_changes_are_found_again():
+    mesh = white(e3d.box(1.0))
+    scene = floor_and_caster(mesh)
+    camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
+    with e3d.Renderer(64, 64) as renderer:
+        counts = []
+        for change in ("none", "mesh", "material"):
+            if change == "mesh":
+                mesh.positions = mesh.positions * np.float32(1.5)
+            elif change == "material":
+                mesh.materials[0].alpha_mode = "blend"
+                mesh.materials[0].color = (1, 1, 1, 0.2)
+            color = renderer.render(scene, camera).color
+            np.testing.assert_array_equal(color, e3d.render(scene, camera, size=(64, 64)).color)
+            counts.append(int((color[..., 0] == 0).sum()))
+    assert counts[1] > counts[0] > 100 > counts[2] == 0
+
+
+def test_at_most_32_lights():
+    scene = floor_and_caster(white(e3d.box(1.0)))
+    for _ in range(31):
+        scene.add(e3d.DirectionalLight((0, -1, 0), intensity=0.01, shadow="exact"))
+    assert count_hidden(scene) > 100
+    scene.add(e3d.DirectionalLight((0, -1, 0), shadow="exact"))
+    with pytest.raises(e3d.InvalidArgumentError, match="at most 32 lights"):
+        count_hidden(scene)
+
+
+def test_lights_with_maps_and_exact_ones_side_by_side():
+    scene = floor_and_caster(white(e3d.box(1.0)))
+    scene.add(e3d.DirectionalLight((0.4, -1, 0), color=(0, 1, 0), shadow=True))
+    scene.add(e3d.DirectionalLight((-0.4, -1, 0), color=(0, 0, 1), shadow="exact"))
+    camera = (e3d.PerspectiveCamera(), e3d.look_at((0, 3, 0.001), (0, 0, 0)))
+    pictures = [
+        e3d.render(scene, camera, size=(64, 64), backend=backend).color
+        for backend in e3d.backends()
+    ]
+    for other in pictures[1:]:
+        np.testing.assert_array_equal(pictures[0], other)

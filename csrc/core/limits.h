@@ -62,5 +62,6 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_OVER_PI 0x1.45f306p-2f  /* 1 / pi */
 #define E3D_OVER_2PI 0x1.45f306p-3f /* 1 / (2 pi) */
 #define E3D_OVER_21 0x1.861862p-5f  /* 1 / 21 */
+#define E3D_THIRD 0x1.555556p-2f    /* 1 / 3 */
 
 #endif

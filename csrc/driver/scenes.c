@@ -428,6 +428,21 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     return status == E3D_OK ? add_draws(s, r) : status;
 }
 
+/* Light passes through some of the physical materials; some absorb it. */
+static void add_transmission(e3d_material *material, random_stream *r)
+{
+    e3d_physical *p = &material->physical;
+    int transmits = random_once_in(r, 2), absorbs = random_once_in(r, 2), usual = !random_once_in(r, 6);
+    p->transmission = transmits ? random_float(r, 0.2f, 1.0f) : 0.0f;
+    p->thickness = absorbs ? random_float(r, 0.0f, 3.0f) : 0.0f;
+    for (int k = 0; k < 3; k++)
+        p->absorption[k] = random_float(r, -3.0f, 0.0f);
+    if (!usual)
+        p->transmission = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+    if (!usual)
+        p->thickness = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+}
+
 void scene_add_alpha(scene *s, random_stream *r)
 {
     int32_t sure = random_below(r, SCENE_MAX_MATERIALS);
@@ -438,6 +453,8 @@ void scene_add_alpha(scene *s, random_stream *r)
         material->alpha_mode = i == sure || mode == 3 ? E3D_ALPHA_BLEND : (e3d_alpha_mode)mode;
         material->alpha = usual ? random_float(r, 0.2f, 1.1f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
         material->alpha_cutoff = usual ? random_float(r, 0.1f, 0.7f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+        if (material->is_physical)
+            add_transmission(material, r);
     }
     s->frame.transparent_outputs = random_below(r, 2);
 }

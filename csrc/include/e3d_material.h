@@ -49,7 +49,7 @@ typedef struct e3d_physical {
     float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
     float sheen_color[3], sheen_roughness;
     float transmission, thickness;
-    float absorption[3];       /* per world unit of thickness: minus the logarithm of what is left of light */
+    float absorption[3];       /* per world unit of thickness: the base-2 logarithm of what is left of light */
 } e3d_physical;
 
 typedef struct e3d_material {

@@ -130,6 +130,8 @@ typedef struct e3d_kernels {
                   int by_instance);
     /* Lays the colours of a batch over the samples, each of which it has once (R84). */
     void (*lay)(const e3d_batch *batch, e3d_samples *samples);
+    /* Likewise of what light passes through, as the maps say (R135). */
+    void (*lay_through)(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples);
     /* Sorts what each sample has, and lays it over the sample (R83, R84), but for samples that have much, or equal depths: these are
      * listed. Returns how many they are. */
     int (*blend)(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left);

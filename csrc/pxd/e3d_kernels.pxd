@@ -170,6 +170,7 @@ cdef extern from "kernels/kernels.h" nogil:
         const int32_t *depth
         const uint32_t *which
         const four_floats *color
+        const four_floats *through
 
     ctypedef struct e3d_fog_view:
         e3d_fog_kind kind
@@ -217,6 +218,11 @@ cdef extern from "kernels/kernels.h" nogil:
         int has_sheen
         int is_grey
         int coat_is_mapped
+        e3d_varying transmission
+        e3d_varying thickness
+        float absorption[3]
+        int transmits
+        int absorbs
 
     ctypedef struct e3d_kernels:
         uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float *clip,
@@ -283,6 +289,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*alpha)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const e3d_varying *base,
                       int by_vertex, int by_instance)
         void (*lay)(const e3d_batch *batch, e3d_samples *samples)
+        void (*lay_through)(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples)
         int (*blend)(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left)
         void (*average)(const e3d_samples *samples, int axis, int row, int width,
                         const float *background, int srgb, uint32_t *rgba)

@@ -22,11 +22,15 @@ int ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, 
         return 1;
     ref_surface surface;
     ref_surface_at(scene, piece, x, y, &surface);
+    if (ref_transmits(scene->frame, piece))
+        return ref_transmitting_alpha(piece->primitive.material, surface.alpha) >= E3D_LEAST_ALPHA;
     return surface.alpha >= (mode == E3D_ALPHA_MASK ? piece->primitive.material->alpha_cutoff : E3D_LEAST_ALPHA);
 }
 
 int ref_is_blended(const e3d_frame *frame, const ref_piece *piece)
 {
+    if (ref_transmits(frame, piece))
+        return 1;
     return alpha_mode_of(piece) == E3D_ALPHA_BLEND && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
 }
 
@@ -117,9 +121,15 @@ void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t
             continue;
         ref_surface_at(scene, piece, x, y, &surface);
         ref_show(scene->frame, &surface, shaded);
+        scene->stats.pixels_shaded++;
+        if (ref_transmits(scene->frame, piece)) {
+            float transmittance[3];
+            ref_transmittance(scene->frame, &surface, transmittance);
+            ref_lay_transmitting(shaded, ref_transmitting_alpha(piece->primitive.material, surface.alpha), transmittance, color, alpha);
+            continue;
+        }
         for (int c = 0; c < 3; c++)
             color[c] = shaded[c] * surface.alpha + color[c] * (1.0f - surface.alpha);
         *alpha = surface.alpha + *alpha * (1.0f - surface.alpha);
-        scene->stats.pixels_shaded++;
     }
 }

@@ -174,6 +174,8 @@ static void find_physical(const e3d_material *m, ref_surface *s)
     map_normal(&m->clearcoat_normal_texture, physical->clearcoat_normal_scale, s, out->coat_normal);
     multiply_three(&m->sheen_color_texture, s, physical->sheen_color, out->sheen);
     out->sheen_roughness = multiplied(&m->sheen_roughness_texture, s, 3, physical->sheen_roughness);
+    out->transmission = multiplied(&m->transmission_texture, s, 0, physical->transmission);
+    out->depth = ref_depth_below(s, multiplied(&m->thickness_texture, s, 1, physical->thickness));
 }
 
 void ref_find_maps(const ref_scene *scene, ref_surface *surface)

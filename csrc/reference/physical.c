@@ -73,6 +73,8 @@ static sample find_sample(const e3d_frame *frame, const ref_surface *s)
     for (int c = 0; c < 3; c++) {
         out.f0[c] = p->reflectance[c] + (s->albedo[c] - p->reflectance[c]) * m;
         out.diffuse[c] = (s->albedo[c] * (1.0f - m)) * E3D_OVER_PI;
+        if (s->piece->primitive.material->physical.transmission != 0.0f) /* R134 */
+            out.diffuse[c] = out.diffuse[c] * (1.0f - p->transmission);
     }
     out.f90 = p->specular + (1.0f - p->specular) * m;
     out.top = ref_max(ref_max(p->reflectance[0], p->reflectance[1]), p->reflectance[2]);
@@ -184,8 +186,10 @@ static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sa
         float albedo = s->albedo[c];
         scattering metal = scatter(albedo, 1.0f, a, b), other = scatter(p->reflectance[c], p->specular, a, b);
         float r = 1.0f / (metal.q * other.q), zt = (metal.twice * (r * other.q)) * rest, zd = (other.twice * (r * metal.q)) * rest;
-        float t = radiance[c] * metal.once + irradiance[c] * zt;
-        float d = (radiance[c] * other.once + irradiance[c] * zd) + irradiance[c] * (albedo * (1.0f - (other.once + zd)));
+        float t = radiance[c] * metal.once + irradiance[c] * zt, below = albedo * (1.0f - (other.once + zd));
+        if (s->piece->primitive.material->physical.transmission != 0.0f) /* R134 */
+            below = below * (1.0f - p->transmission);
+        float d = (radiance[c] * other.once + irradiance[c] * zd) + irradiance[c] * below;
         out[c] = d + (t - d) * p->metallic;
     }
 }
@@ -231,4 +235,27 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
         add_coat(frame, surface, &at, &lights, out);
     for (int c = 0; c < 3; c++)
         out[c] = out[c] * frame->exposure;
+}
+
+/* ---- what passes (R134) ---- */
+
+void ref_light_behind(const ref_surface *s, const float view[3], float out[3])
+{
+    const ref_physical *p = &s->physical;
+    const e3d_material *material = s->piece->primitive.material;
+    lobe base = make_lobe(s->world_normal, view, p->roughness), coat = make_lobe(p->coat_normal, view, p->coat_roughness);
+    float a = ref_albedo(E3D_DFG_A, base.roughness, base.nv), b = ref_albedo(E3D_DFG_B, base.roughness, base.nv), rest = 1.0f - (a + b);
+    float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f), e = ref_albedo(E3D_DFG_SHEEN, rough, base.nv);
+    float most = ref_max(ref_max(p->sheen[0], p->sheen[1]), p->sheen[2]);
+    float fc = p->coat * (0.04f + 0.96f * fifth_power(1.0f - ref_min(coat.nv, 1.0f)));
+    for (int c = 0; c < 3; c++) {
+        float albedo = s->albedo[c];
+        scattering metal = scatter(albedo, 1.0f, a, b), other = scatter(p->reflectance[c], p->specular, a, b);
+        float zd = (other.twice * ((1.0f / (metal.q * other.q)) * metal.q)) * rest, below = albedo * (1.0f - (other.once + zd));
+        out[c] = (below * p->transmission) * (1.0f - p->metallic);
+        if (has_sheen(material))
+            out[c] = out[c] * (1.0f - most * e);
+        if (material->physical.clearcoat != 0.0f)
+            out[c] = out[c] * (1.0f - fc);
+    }
 }

@@ -16,6 +16,7 @@ typedef struct ref_physical {
     float specular, reflectance[3]; /* F90 and F0 of what is no metal */
     float coat, coat_roughness, coat_normal[3];
     float sheen[3], sheen_roughness;
+    float transmission, depth; /* depth: world units of what absorbs (R134) */
 } ref_physical;
 
 /* What is seen at one sample. */
@@ -84,6 +85,19 @@ float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], floa
 
 /* physical.c */
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+/* R134: what the surface leaves of light from behind it, before any is absorbed. */
+void ref_light_behind(const ref_surface *surface, const float view[3], float out[3]);
+
+/* transmission.c */
+/* R133: whether a piece lets light pass. */
+int ref_transmits(const e3d_frame *frame, const ref_piece *piece);
+float ref_transmitting_alpha(const e3d_material *material, float alpha);
+/* World units below a surface, for a thickness of the mesh's own units. */
+float ref_depth_below(const ref_surface *surface, float thickness);
+/* R134 */
+void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3]);
+/* R135: lays a fragment that transmits over a sample. */
+void ref_lay_transmitting(const float color[3], float alpha, const float transmittance[3], float under[3], float *under_alpha);
 
 /* tone.c */
 void ref_map_tone(e3d_tone_mapping mapping, float color[3]);

@@ -120,6 +120,12 @@ cdef e3d_surface_model model_of(dict values):
     set_varying(&model.sheen_roughness, values["sheen_roughness"], 1)
     model.has_coat = model.coat.factor != 0
     model.has_sheen = model.sheen[0].factor != 0
+    set_varying(&model.transmission, values["transmission"], 1)
+    set_varying(&model.thickness, values["thickness"], 1)
+    for k in range(3):
+        model.absorption[k] = values["absorption"][k]
+    model.transmits = model.transmission.factor != 0
+    model.absorbs = model.transmits and model.thickness.factor != 0
     return model
 
 

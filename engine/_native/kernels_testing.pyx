@@ -587,15 +587,24 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.lay(<const e3d_batch *>&batch[0], samples_of(samples))
 
+    def lay_through(self, const uint8_t[::1] batch, const uint8_t[::1] maps, float[:, ::1] samples):
+        """``samples``: as for `keep`; ``maps``: what shares of light pass."""
+        check_size(batch, sizeof(e3d_batch))
+        check_size(maps, sizeof(e3d_map_batch))
+        for _ in range(self.rounds):
+            self.table.lay_through(<const e3d_batch *>&batch[0], <const e3d_map_batch *>&maps[0], samples_of(samples))
+
     def blend(self, const uint32_t[::1] first, const int32_t[::1] depth, const uint32_t[::1] which,
-              const float[:, ::1] color, float[:, ::1] samples, uint16_t[::1] left):
-        """Returns how many samples are left, which are listed."""
+              const float[:, ::1] color, float[:, ::1] samples, uint16_t[::1] left,
+              const float[:, ::1] through=None):
+        """Returns how many samples are left, which are listed. ``through`` is like ``color``, or None."""
         cdef e3d_alpha_layers layers
         cdef int count = 0
         if first.shape[0] != E3D_TILE_SAMPLES + 1 or left.shape[0] != E3D_TILE_SAMPLES or color.shape[1] != 4:
             raise ValueError("first and left are of a tile's samples, colours have four numbers")
         layers.first, layers.depth, layers.which = &first[0], &depth[0], &which[0]
         layers.color = <const four_floats *>&color[0, 0]
+        layers.through = NULL if through is None else <const four_floats *>&through[0, 0]
         for _ in range(self.rounds):
             count = self.table.blend(&layers, samples_of(samples), &left[0])
         return count

@@ -77,6 +77,7 @@ def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
 
 def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
     """Parse the arguments, run the command that they name, and return its exit status."""
+    from ..errors import InvalidArgumentError
     from .parser import parse
     from .quietness import set_quiet
 
@@ -91,6 +92,13 @@ def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
         return command(args)
     except UsageError as error:
         return _usage(str(error))
+    except InvalidArgumentError as error:
+        from ..viewer.clips import NoSuchClipError
+
+        # As for a camera that isn't there.
+        if isinstance(error, NoSuchClipError):
+            return _usage(str(error))
+        raise
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else 1
 

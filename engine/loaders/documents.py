@@ -300,6 +300,8 @@ class NodeRecord:
         Of the morph targets, instead of the mesh's.
     instances : (N, 4, 4) float64 or None
         node-from-instance, where the mesh is drawn many times.
+    instance_colors : (N, 4) float32 or None
+        Linear light and alpha.
     extras : object
     """
 
@@ -316,6 +318,7 @@ class NodeRecord:
     light: int | None = None
     weights: tuple[float, ...] | None = None
     instances: np.ndarray | None = None
+    instance_colors: np.ndarray | None = None
     extras: Any = None
 
 

@@ -17,7 +17,7 @@ from .gltf_lenses import read_cameras, read_lights
 from .gltf_materials import GltfMaterials, undrawn_kinds
 from .gltf_meshes import GltfMeshes
 from .gltf_motion import read_clips, read_skins
-from .gltf_nodes import read_nodes, read_roots
+from .gltf_nodes import read_nodes, read_roots, warn_of_unknown_attributes
 from .gltf_primitives import GltfPrimitives
 from .gltf_textures import GltfTextures
 from .registry import Reader
@@ -78,6 +78,7 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> T
         extras=file.tree.get("extras"),
     )
     check_skins(file, tree)
+    warn_of_unknown_attributes(file, warnings)
     warn_of_undrawn(map(undrawn_kinds, tree.materials), warnings)
     return tree
 

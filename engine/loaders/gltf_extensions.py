@@ -37,9 +37,18 @@ def check_extensions(file: GltfFile, warnings: WarningList) -> None:
     lacking = [name for name in required if name not in READ and not name.startswith(_OF_LOOKS)]
     if lacking:
         raise file.error(f"needs the extension {shown(lacking[0])}, which is not read")
-    for name in dict.fromkeys(used + required):
+    for name in dict.fromkeys(used + required + _of_materials(file)):
         if name not in READ:
             warnings.add(f"the extension {shown(name)} is not read")
+
+
+def _of_materials(file: GltfFile) -> list[str]:
+    """What materials have, listed or not: files forget the list, and readers go by the material."""
+    return [
+        name
+        for index, material in enumerate(file.entries("materials"))
+        for name in file.part(material, "extensions", f"materials[{index}]")
+    ]
 
 
 def _names(file: GltfFile, name: str) -> list[str]:

@@ -283,7 +283,12 @@ class GltfMaterials:
 
 def undrawn_kinds(material: Material) -> set[str]:
     """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
-    return {"transmission"} if material.transmission else set()
+    kinds = set()
+    if material.transmission and material.thickness and material.ior != 1.0:
+        kinds.add("refraction")
+    if material.transmission and material.roughness:
+        kinds.add("frost")
+    return kinds
 
 
 def _from_glossiness(values: dict, glossiness: float) -> dict:

@@ -12,11 +12,14 @@ from .. import linalg
 from .documents import NodeRecord
 from .gltf_accessors import GltfAccessors
 from .gltf_file import LIGHTS, GltfFile
+from .text import shown
 from .warning_list import WarningList
 
 INSTANCING, VISIBILITY = "EXT_mesh_gpu_instancing", "KHR_node_visibility"
 #: The extensions that are read here.
 READ = (INSTANCING, VISIBILITY, LIGHTS)
+_POSE_PARTS = {"TRANSLATION": 3, "ROTATION": 4, "SCALE": 3}
+_COLORS = "_COLOR_0"
 
 
 def read_nodes(file: GltfFile, accessors: GltfAccessors) -> tuple[NodeRecord, ...]:
@@ -31,6 +34,16 @@ def read_nodes(file: GltfFile, accessors: GltfAccessors) -> tuple[NodeRecord, ..
         _node(file, accessors, node, f"nodes[{index}]")
         for index, node in enumerate(file.entries("nodes"))
     )
+
+
+def warn_of_unknown_attributes(file: GltfFile, warnings: WarningList) -> None:
+    """Tell which attributes of instances are not drawn, each once."""
+    for index, node in enumerate(file.entries("nodes")):
+        where = f"nodes[{index}]"
+        extension = file.part(file.part(node, "extensions", where), INSTANCING, where)
+        for name in file.part(extension, "attributes", where):
+            if name not in (*_POSE_PARTS, _COLORS):
+                warnings.add_once(f"what instances say of {shown(name)} is left out")
 
 
 def read_roots(
@@ -110,7 +123,7 @@ def _node(file: GltfFile, accessors: GltfAccessors, node: dict, where: str) -> N
         camera=_reference(file, node, "camera", "cameras", where),
         light=_light(file, extensions, where),
         weights=file.number_list(node, "weights", where),
-        instances=_instances(file, accessors, extensions, where) if mesh is not None else None,
+        **(_instances(file, accessors, extensions, where) if mesh is not None else {}),
         extras=node.get("extras"),
     )
 
@@ -143,29 +156,41 @@ def _light(file: GltfFile, extensions: dict, where: str) -> int | None:
     )
 
 
-def _instances(file: GltfFile, accessors: GltfAccessors, extensions: dict, where: str):
-    """node-from-instance, (N, 4, 4) float64; None where the mesh is drawn once."""
+def _instances(file: GltfFile, accessors: GltfAccessors, extensions: dict, where: str) -> dict:
+    """The poses and colours of instances; none where the mesh is drawn once."""
     if INSTANCING not in extensions:
-        return None
+        return {}
     where = f"{where}.{INSTANCING}"
     entry = file.part(extensions, INSTANCING, where)
     attributes = file.part(entry, "attributes", where)
     held = {
         name: accessors.floats(attributes[name], where, width).astype(np.float64)
-        for name, width in (("TRANSLATION", 3), ("ROTATION", 4), ("SCALE", 3))
+        for name, width in _POSE_PARTS.items()
         if name in attributes
     }
-    if len({len(values) for values in held.values()}) != 1:
+    colors = _colors(accessors, attributes, where)
+    counts = {len(values) for values in (*held.values(), *([] if colors is None else [colors]))}
+    if len(counts) != 1 or not held:
         raise file.error(f"damaged: {where} has no instances, or unequal numbers of their parts")
     if not all(np.isfinite(values).all() for values in held.values()):
         raise file.error(f"damaged: {where} has instances that are nowhere")
     count = len(next(iter(held.values())))
     rotations = held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1)))
-    return poses_of(
+    poses = poses_of(
         held.get("TRANSLATION", np.zeros((count, 3))),
         rotations,
         held.get("SCALE", np.ones((count, 3))),
     )
+    return {"instances": poses, "instance_colors": colors}
+
+
+def _colors(accessors: GltfAccessors, attributes: dict, where: str) -> np.ndarray | None:
+    """(N, 4) float32, linear, as three.js and others read the attribute; None if there are none."""
+    if _COLORS not in attributes:
+        return None
+    colors = np.nan_to_num(accessors.floats(attributes[_COLORS], where, 3, 4)).clip(0, 1)
+    opaque = np.ones((len(colors), 4 - colors.shape[1]), np.float32)
+    return np.concatenate([colors, opaque], axis=1)
 
 
 def poses_of(translations: np.ndarray, rotations: np.ndarray, scales: np.ndarray) -> np.ndarray:

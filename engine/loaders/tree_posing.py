@@ -112,8 +112,10 @@ class RestPose:
             if is_bent:
                 mesh = _bent(part.mesh, mesh, matrices)
             poses = [np.eye(4)] if node.instances is None else node.instances
-            for pose in poses:
-                yield mesh, np.eye(4) if is_bent else linalg.multiply(shown.world, pose)
+            colors = [None] * len(poses) if node.instance_colors is None else node.instance_colors
+            for pose, color in zip(poses, colors, strict=True):
+                own = mesh if color is None else _tinted(mesh, color)
+                yield own, np.eye(4) if is_bent else linalg.multiply(shown.world, pose)
 
     def _weights(self, node: NodeRecord, record: MeshRecord) -> np.ndarray:
         given = record.morph_weights if node.weights is None else node.weights
@@ -127,6 +129,12 @@ class RestPose:
         """world-from-mesh of each joint, (J, 4, 4)."""
         worlds = np.array([self._worlds.get(joint, np.eye(4)) for joint in skin.joints])
         return linalg.multiply(worlds, skin.inverse_binds)
+
+
+def _tinted(mesh: Mesh, color: np.ndarray) -> Mesh:
+    """A mesh whose vertex colours, which are floats where a glTF file has some, are multiplied."""
+    held = np.ones((len(mesh.positions), 4), np.float32) if mesh.colors is None else mesh.colors
+    return _changed(mesh, {"colors": held * color})
 
 
 def _morphed(mesh: Mesh, weights: np.ndarray) -> Mesh:

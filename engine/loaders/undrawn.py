@@ -13,10 +13,15 @@ from .warning_list import WarningList
 
 #: The kinds, in the order in which they are told -> what is said of one and of several materials.
 KINDS = {
-    "transmission": (
-        "is transparent like glass (transmission)",
-        "are transparent like glass (transmission)",
-        "drawn opaque",
+    "refraction": (
+        "bends light (thickness and index of refraction)",
+        "bend light (thickness and index of refraction)",
+        "what is behind is drawn in its own place",
+    ),
+    "frost": (
+        "lets light pass and is rough",
+        "let light pass and are rough",
+        "what is behind is drawn sharp",
     ),
     "emission map": ("has an emission map", "have emission maps", "drawn without emission"),
     "displacement": ("has a displacement map", "have displacement maps", "drawn without"),

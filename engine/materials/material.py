@@ -136,9 +136,11 @@ class Material(Closed):
     sheen_roughness : float
         From 0 to 1.
     transmission : float
-        Share of the light that passes, from 0 to 1 (KHR_materials_transmission).
+        Share of the light that passes, from 0 to 1 (KHR_materials_transmission). It is neither
+        bent nor blurred.
     thickness : float
-        World units below the surface, 0 for a thin wall (KHR_materials_volume).
+        What lies below the surface, in units of the mesh, which its pose scales; 0 for a thin wall
+        (KHR_materials_volume).
     attenuation_color : sequence of 3 numbers
         What white becomes after ``attenuation_distance`` world units.
     attenuation_distance : float

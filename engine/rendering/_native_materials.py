@@ -99,5 +99,5 @@ def _physical(material: Material, color_space: str) -> dict[str, Any]:
 
 
 def _absorption(left: float, depth: float) -> float:
-    """How fast light goes, per unit: of 1, ``left`` is there after ``depth``."""
-    return max(0.0, -math.log(max(left, _LEAST_LEFT)) / depth)
+    """Log2 of what a unit leaves of light of which ``left`` is there after ``depth``."""
+    return min(0.0, math.log2(max(left, _LEAST_LEFT)) / depth)

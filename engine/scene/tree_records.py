@@ -101,7 +101,8 @@ class _Filling:
             records.setdefault(part.mesh, (part, self._tree.variants))
         if record.instances is None:
             return meshes
-        return [InstancedMesh(mesh, record.instances) for mesh in meshes]
+        colors = record.instance_colors
+        return [InstancedMesh(mesh, record.instances, colors=colors) for mesh in meshes]
 
     def _placed(self, record: NodeRecord) -> list[Camera | Light]:
         """The camera and the light of a node, each made once for all nodes that name it."""

@@ -18,13 +18,16 @@ from .viewed_scene import ViewedScene
 LOOKS = 16
 
 
+class NoSuchClipError(InvalidArgumentError):
+    """A clip is asked for that a scene doesn't have."""
+
+
 def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip, ...]:
     """Return the clip of a number, or all for -1; the first for None, if there are any.
 
     Raises
     ------
-    InvalidArgumentError
-        There is no such clip.
+    NoSuchClipError
     """
     clips = tuple(viewed.scene.animations.values())
     if index is None:
@@ -33,7 +36,7 @@ def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip,
         return clips
     if not 0 <= index < len(clips):
         known = f"the last is {len(clips) - 1}" if clips else "there are none"
-        raise InvalidArgumentError(f"{viewed.title} has no animation {index} ({known})")
+        raise NoSuchClipError(f"{viewed.title} has no animation {index} ({known})")
     return (clips[index],)
 
 
@@ -41,7 +44,7 @@ def stand_at(viewed: ViewedScene, index: int | None, time: float) -> None:
     """Let a scene stand as clips have it at a time; after the end as at the end."""
     clips = choose_clips(viewed, index)
     if not clips:
-        raise InvalidArgumentError(f"{viewed.title} has no animation")
+        raise NoSuchClipError(f"{viewed.title} has no animation")
     player = AnimationPlayer(viewed.scene, clips)
     player.loop = "once"
     player.play(clips)

@@ -102,7 +102,10 @@ class GltfTree:
         if not node.visible:
             extensions[VISIBILITY] = {"visible": False}
         if node.instances is not None:
-            extensions[INSTANCING] = {"attributes": self._instances(node.instances)}
+            attributes = self._instances(node.instances)
+            if node.instance_colors is not None:
+                attributes["_COLOR_0"] = self.arrays.add(node.instance_colors)
+            extensions[INSTANCING] = {"attributes": attributes}
         if extensions:
             self._extensions |= extensions.keys()
             entry["extensions"] = extensions

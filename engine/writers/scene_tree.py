@@ -109,10 +109,7 @@ class _Making:
         found: dict[str, Any] = {"mesh": self._mesh(meshes)}
         if instanced:
             found["instances"] = _poses(instanced[0])
-            if any(obj.colors is not None for obj in instanced):
-                self.told.append(
-                    f"node {shown(node.name)}: gltf files hold no colours of instances"
-                )
+            found["instance_colors"] = _linear(instanced[0].colors)
         if node.skin is not None:
             found["skin"] = self._number("skins", node.skin, self._skin)
         usual = self._lists["meshes"][found["mesh"]].morph_weights
@@ -282,6 +279,14 @@ def _poses(instanced: InstancedMesh) -> np.ndarray:
     poses[:, :3, :3] *= given[:, 3, np.newaxis, np.newaxis]
     poses[:, :3, 3] = given[:, :3]
     return poses
+
+
+def _linear(colors: np.ndarray | None) -> np.ndarray | None:
+    """Colours of instances in linear light, (N, 4) float32."""
+    if colors is None or colors.dtype != np.uint8:
+        return colors
+    decoded = [(*linear_color(tuple(row[:3])), row[3] / 255) for row in colors.tolist()]
+    return np.array(decoded, np.float32).reshape(-1, 4)
 
 
 def _lens(camera: PerspectiveCamera | OrthographicCamera) -> LensRecord:

@@ -125,7 +125,7 @@ def test_run_plays_into_a_file(moving):
 @pytest.mark.parametrize(
     ("arguments", "status", "message"),
     (
-        (["--animation-index", "2"], 1, "flag.gltf has no animation 2 (the last is 1)"),
+        (["--animation-index", "2"], 2, "flag.gltf has no animation 2 (the last is 1)"),
         (["--animation-index", "-2"], 2, "'-2' is not a whole number, -1 or greater"),
         (["--animation-time", "x"], 2, "'x' is not a number"),
         (["--camera-index", "2"], 2, "flag.gltf has no camera 2 (the last is 1)"),
@@ -143,7 +143,7 @@ def test_what_is_not_there_is_told(moving, capsys, arguments, status, message):
 def test_models_without_animations(model, capsys):
     assert main(["render", str(model), "--animation", "3", "-o", "a.gif"]) == 2
     assert "has no animation" in capsys.readouterr().err
-    assert main(["render", str(model), "--animation-time", "1", "-o", "a.png"]) == 1
+    assert main(["render", str(model), "--animation-time", "1", "-o", "a.png"]) == 2
     assert "has no animation" in capsys.readouterr().err
     assert main(["render", "--scene", "cube", "--animation-index", "0", "-o", "a.png"]) == 2
     assert "--animation-index needs a MODEL" in capsys.readouterr().err

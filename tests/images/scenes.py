@@ -4,6 +4,7 @@ from images import (  # noqa: F401
     scenes_alpha,
     scenes_exact_shadows,
     scenes_geometry,
+    scenes_glass,
     scenes_lights,
     scenes_looks,
     scenes_physical,

@@ -20,9 +20,12 @@ PEERS = ("cycles", "three", "pygfx", "vtk", "f3d", "pyrender")
 # ``spec`` draws triangles only, and no light that passes through; three.js has lines and points, a
 # pixel wide as here, and volumes.
 TRUTHS = {"AttenuationTest": "three", "ModesU16": "three"}
-NOT_DRAWN = {"AttenuationTest": "light that passes through surfaces is not drawn"}
-# That of this one is smooth along edges.
-SAMPLES = {"NormalTangentTest": 4}
+# Those of these are smooth along edges, and three.js's textures have levels.
+SAMPLES = {"NormalTangentTest": 4, "AttenuationTest": 4}
+LEVELS = {"AttenuationTest"}
+# Most of that difference is how the lines of the grid behind the glass are filtered: the plane
+# beside the glass is as far off, and the glass is compared by itself below.
+FARTHER = {"AttenuationTest": 0.05}
 OWN = (e3d.DirectionalLight, e3d.PointLight, e3d.SpotLight, e3d.Camera)
 ALIKE = 0.0005  # two distances that nobody sees the difference of
 
@@ -33,10 +36,7 @@ flip = pytest.importorskip("flip_evaluator", reason="FLIP is of the package flip
 
 
 def names():
-    for name in sorted(path.stem for path in PICTURES.glob("*.npz")):
-        why = NOT_DRAWN.get(name)
-        marks = () if why is None else pytest.mark.xfail(reason=why, strict=True)
-        yield pytest.param(name, marks=marks)
+    return sorted(path.stem for path in PICTURES.glob("*.npz"))
 
 
 def file_of(name):
@@ -45,8 +45,8 @@ def file_of(name):
     return next(path for path in found if path.is_file())
 
 
-def read(path):
-    """The scene of a file without lights and cameras; textures are read as ``spec`` does."""
+def read(path, levels=False):
+    """The scene of a file without lights and cameras, and textures without levels as ``spec``'s."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         scene = e3d.load_scene(path)
@@ -55,7 +55,7 @@ def read(path):
             node.object = None
         for material in getattr(node.object, "materials", ()):
             for texture in textures_of(material):
-                if texture.filter == "trilinear":
+                if texture.filter == "trilinear" and not levels:
                     texture.filter = "bilinear"
     return scene
 
@@ -67,7 +67,7 @@ def textures_of(material):
 
 def drawn(name, size):
     """What the engine shows, sRGB in 0..1."""
-    scene = read(file_of(name))
+    scene = read(file_of(name), name in LEVELS)
     scene.background = scene.ambient = (0, 0, 0)
     for light in json.loads((PICTURES / "light.json").read_text()):
         assert light["type"] == "directional"
@@ -104,5 +104,32 @@ def test_picture_is_nearer_to_the_truth_than_any_other(name):
     }
     text = ", ".join(f"{peer} {value:.4f}" for peer, value in peers.items())
     print(f"{name}: engine3d {ours:.4f}; {text}")
-    assert ours <= MOST
+    assert ours <= FARTHER.get(name, MOST)
     assert ours <= min(peers.values()) + ALIKE
+
+
+def test_glass_has_the_colours_of_three():
+    """Five rows of five blocks, dyed by colour, thickness, its texture, scale, and distance."""
+    truth = shown(np.load(PICTURES / "AttenuationTest.npz")["three"])
+    ours = drawn("AttenuationTest", truth.shape[1::-1])
+    scene = read(file_of("AttenuationTest"))
+    camera = json.loads((PICTURES / "AttenuationTest.camera.json").read_text())
+    pose = e3d.look_at(camera["eye"], camera["target"], camera["up"])
+    lens = e3d.PerspectiveCamera(camera["yfov"], znear=camera["znear"], zfar=camera["zfar"])
+    frame = e3d.render(
+        scene,
+        (lens, pose),
+        size=truth.shape[1::-1],
+        outputs=("object_id",),
+        transparent_outputs=True,
+    )
+    compared = 0
+    for node in scene.nodes:
+        seen = frame.object_id == node.id
+        materials = getattr(node.object, "materials", ())
+        if seen.sum() < 40 or not all(material.transmission for material in materials):
+            continue
+        middle, wanted = (np.median(picture[seen], axis=0) * 255 for picture in (ours, truth))
+        assert np.abs(middle - wanted).max() <= 6, node.name
+        compared += 1
+    assert compared >= 8

@@ -156,6 +156,7 @@ MAP_BATCH = np.dtype(
     + [("shading_normal", "f4", (3, _LANES)), ("coat_normal", "f4", (3, _LANES))]
     + [("metallic_roughness", "f4", (2, _LANES)), ("emissive", "f4", (3, _LANES))]
     + [("direct", "f4", (3, _LANES)), ("coat", "f4", (3, _LANES)), ("fuzz", "f4", (3, _LANES))]
+    + [("depth", "f4", _LANES), ("through", "f4", (3, _LANES))]
 )
 LIGHT_SHADOW = np.dtype(
     [

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, clamp
 from kernels.harness import all_backends, bits, check_lanes, check_poisoned, hostile
-from kernels.layouts import PAD, RECORD, SHOWN, SHOWN_ROOM, TILE
+from kernels.layouts import MAP_BATCH, PAD, RECORD, SHOWN, SHOWN_ROOM, TILE
 from kernels.pieces import Triangle, piece_of
 from kernels.surfaces import LANES, at, bytes_of, fill, planes, random_batches, random_surfaces
 from kernels.test_interpolate import dot
@@ -41,6 +41,7 @@ def over(planes, color, alpha, samples):
 def random_planes(rng):
     made = rng.random((4, SAMPLES + PAD), np.float32)
     made[3, ::3], made[:, ::5] = 1, 0
+    made[3] = made.max(axis=0)  # colours are multiplied by their alphas
     return made
 
 
@@ -59,6 +60,44 @@ def test_lay(kernels):
         expected = over(got, one["color"][:, :count], one["alpha"][:count], one["sample"][:count])
         kernels.lay(row, got)
         assert np.array_equal(bits(got), bits(expected)), f"{count} samples"
+
+
+def through_one(planes, color, through, sample):
+    """R135"""
+    alpha = color[3] if color[3] >= LEAST_ALPHA else np.float32(0)
+    rest = (ONE - alpha) + alpha * through
+    planes[:3, sample] = np.minimum(color[:3] * alpha + planes[:3, sample] * rest, ONE)
+    mean = ((rest[0] + rest[1]) + rest[2]) * np.float32(1 / 3)
+    most = planes[:3, sample].max()
+    planes[3, sample] = (ONE - mean) + planes[3, sample] * mean
+    if most >= LEAST_ALPHA:
+        planes[3, sample] = max(planes[3, sample], most)
+
+
+@all_backends
+def test_lay_through(kernels):
+    rng = np.random.default_rng(135)
+    batches = random_batches(rng)
+    random_samples(rng, batches)
+    fields = batches.fields
+    fields["color"] = hostile(rng, fields["color"].size, 1.5).reshape(fields["color"].shape)
+    fields["alpha"] = rng.choice(
+        np.array([1, 1, 0, 0.5, 2.0**-25], np.float32), fields["alpha"].shape
+    )
+    maps = np.zeros(1, MAP_BATCH)
+    for row, one in zip(batches.rows, fields, strict=True):
+        count, got = int(one["count"]), random_planes(rng)
+        maps["through"] = rng.random(maps["through"].shape, np.float32)
+        maps["through"][0, :, ::5], maps["through"][0, :, 1::7] = 1, 0
+        got[:, ::9] = 0
+        expected = got.copy()
+        color = np.concatenate([clamp(one["color"], 0, ONE), one["alpha"][np.newaxis]])
+        for n in range(count):
+            through_one(expected, color[:, n], maps["through"][0, :, n], one["sample"][n])
+        kernels.lay_through(row, maps.view(np.uint8), got)
+        assert np.array_equal(bits(got), bits(expected)), f"{count} samples"
+        assert (got[:3] <= np.maximum(got[3], LEAST_ALPHA)).all()
+        assert got.max() <= 1
 
 
 def alphas_of(texture_alpha, base, surface, w, r, by_vertex, by_instance):
@@ -215,7 +254,8 @@ def test_a_full_list_is_gone_on_with(kernels):
 
 
 @all_backends
-def test_blend(kernels):
+@pytest.mark.parametrize("transmits", [False, True])
+def test_blend(kernels, transmits):
     """Sorted by depth; samples that have much, or the same depth twice, are left."""
     rng = np.random.default_rng(84)
     for most in (1, 3, 20, 64, 80):
@@ -230,6 +270,8 @@ def test_blend(kernels):
         which = rng.permutation(total).astype(np.uint32)
         color = rng.random((max(total, 1), 4), np.float32)
         color[::5, 3], color[::7, 3], color[::9, 3] = 0, 1, -0.5
+        through = rng.random(color.shape, np.float32)
+        through[:, 3] = transmits * rng.integers(0, 2, len(color))
         got, left = random_planes(rng), np.zeros(SAMPLES, np.uint16)
         expected, skipped = got.copy(), []
         for s in np.flatnonzero(counts):
@@ -238,8 +280,12 @@ def test_blend(kernels):
                 skipped.append(s)
                 continue
             for n in which[own][np.argsort(-depth[own].astype(np.int64))]:
-                expected = _over_one(expected, color[n], s)
-        count = kernels.blend(first, depth, which, color, got, left)
+                if through[n, 3]:
+                    through_one(expected, color[n], through[n, :3], s)
+                else:
+                    expected = _over_one(expected, color[n], s)
+        shares = through if transmits else None
+        count = kernels.blend(first, depth, which, color, got, left, shares)
         assert left[:count].tolist() == skipped
         assert np.array_equal(bits(got), bits(expected))
 

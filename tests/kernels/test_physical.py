@@ -19,6 +19,9 @@ PLAIN = {
     "coat_roughness": [0],
     "sheen": [0] * 3,
     "sheen_roughness": [0],
+    "transmission": [0],
+    "thickness": [0],
+    "absorption": [0] * 3,
 }
 
 
@@ -26,12 +29,20 @@ def unit(v):
     return np.asarray(v) / np.linalg.norm(v, axis=-1, keepdims=True)
 
 
-def shown(kernels, normal, view, albedo, light=None, ambient=0.0, coat_normal=None, **model):
+def shown(kernels, *arguments, **model):
     """What one sample shows, (3,), seen along ``view`` under a light from ``light`` of 1 lux."""
+    return seen(kernels, *arguments, **model)[0]
+
+
+def seen(
+    kernels, normal, view, albedo, light=None, ambient=0.0, coat_normal=None, depth=1, **model
+):
+    """What one sample shows, and which shares of light pass through it."""
     batch, maps = np.zeros(1, BATCH_RECORD), np.zeros(1, MAP_BATCH)
     batch["count"] = 1
     for name, value in (("normal", normal), ("position", np.negative(view)), ("color", albedo)):
         batch[name][0] = np.reshape(value, (3, 1))
+    maps["depth"][0] = depth
     maps["shading_normal"][0] = np.reshape(normal if coat_normal is None else coat_normal, (3, 1))
     lights = np.zeros(0 if light is None else 1, LIGHT)
     if light is not None:
@@ -45,7 +56,7 @@ def shown(kernels, normal, view, albedo, light=None, ambient=0.0, coat_normal=No
         np.array([0, 0, 0, 1], np.float32),
         maps.view(np.uint8),
     )
-    return batch["color"][0, :, 0]
+    return batch["color"][0, :, 0], maps["through"][0, :, 0]
 
 
 def ggx(n, v, to, roughness):
@@ -126,6 +137,41 @@ def test_sheen_adds_and_dims(kernels):
         added = got - sheen * charlie(n, v, to, 0.4) * (n @ to)
         kept = added / base
         assert np.allclose(kept, kept[0], rtol=1e-4) and 0.7 < kept[0] < 1
+
+
+@all_backends
+def test_what_is_neither_shown_nor_absorbed_passes(kernels):
+    """The furnace of glass: what it shows, and what passes of light that is 1, are 1."""
+    for angle in (0.05, 0.7, 1.2, 1.5):
+        view = np.array([np.sin(angle), 0, np.cos(angle)])
+        for roughness in (0, 0.3, 1):
+            for transmission in (0.3, 1):
+                look = {"roughness": [roughness], "transmission": [transmission]}
+                for more in ({}, {"coat": [1]}, {"sheen": [0.4] * 3, "sheen_roughness": [0.5]}):
+                    args = kernels, (0, 0, 1), view, [1] * 3, None, 1
+                    own, passing = seen(*args, **look, **more)
+                    assert abs(own + passing - 1).max() < 0.01, (angle, roughness, more)
+                    assert 0 < passing.max() <= 1
+
+
+@all_backends
+def test_transmittance_of_glass(kernels):
+    """Base colour, what Fresnel leaves, and Beer's and Lambert's law, in float64."""
+    for n, v, to in zip(*directions(40, 3), strict=True):
+        albedo, depth, transmission = np.array([0.9, 0.5, 0.1]), 0.7, 0.8
+        left = np.array([0.1, 0.5, 0.9]) ** (1.5 * depth)
+        volume = {"thickness": [1.5], "absorption": np.log2([0.1, 0.5, 0.9]), "depth": depth}
+        look = {"metallic": [0.25], "roughness": [0], "transmission": [transmission]}
+        own, passing = seen(kernels, n, v, albedo, to, **look, **volume)
+        clear = seen(kernels, n, v, albedo, to, **look)[1]
+        assert np.allclose(passing, clear * left, rtol=1e-5)
+        # Very smooth, a lobe is Schlick's term, but for the table between its nodes.
+        fresnel = 0.04 + 0.96 * (1 - abs(n @ v)) ** 5
+        assert np.allclose(clear, albedo * (1 - fresnel) * transmission * 0.75, rtol=2e-3)
+        opaque = seen(kernels, n, v, albedo, to, **{**look, "transmission": [0]})[0]
+        shine = seen(kernels, n, v, albedo, to, **{**look, "transmission": [1]})[0]
+        mixed = shine * transmission + opaque * (1 - transmission)
+        assert np.allclose(own, mixed, rtol=1e-5, atol=1e-6)
 
 
 @all_backends

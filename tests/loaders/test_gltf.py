@@ -312,21 +312,43 @@ def test_factors_above_one_are_no_suspicion(write):
         e3d.Material(specular_color=(25.0, 25.0, 25.0))
 
 
-@pytest.mark.parametrize("count", [1, 3])
-def test_transmission_is_told_once(count, write):
+def glass(transmission, thickness, roughness, ior=1.5):
+    extensions = {
+        "KHR_materials_transmission": {"transmissionFactor": transmission},
+        "KHR_materials_volume": {"thicknessFactor": thickness},
+        "KHR_materials_ior": {"ior": ior},
+    }
+    return {"extensions": extensions, "pbrMetallicRoughness": {"roughnessFactor": roughness}}
+
+
+def test_what_glass_lacks_is_told_once(write):
     tree = triangle_tree()
-    glass = {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.5}}}
-    dull = {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0}}}
-    tree["materials"] = [*[glass] * count, dull]
-    tree["extensionsUsed"] = ["KHR_materials_transmission", "KHR_materials_iridescence"]
+    quiet = [glass(0, 1, 1), glass(0.5, 0, 0), glass(1, 2, 0, ior=1)]
+    tree["materials"] = [*quiet, glass(1, 2, 0), glass(0.5, 1, 0.2), glass(1, 0, 0.1)]
+    tree["extensionsUsed"] = ["KHR_materials_transmission", "KHR_materials_dispersion"]
     path = write("a.gltf", json.dumps(tree))
-    which = "1 material is" if count == 1 else "3 materials are"
     with pytest.warns(Engine3DWarning):
         document = load_document(path)
     assert document.warnings == [
-        f"{path}: the extension 'KHR_materials_iridescence' is not read",
-        f"{path}: {which} transparent like glass (transmission): drawn opaque",
+        f"{path}: the extension 'KHR_materials_dispersion' is not read",
+        f"{path}: 2 materials bend light (thickness and index of refraction): "
+        "what is behind is drawn in its own place",
+        f"{path}: 2 materials let light pass and are rough: what is behind is drawn sharp",
     ]
+    tree["materials"] = quiet
+    del tree["extensionsUsed"]
+    assert load_document(write("b.gltf", json.dumps(tree))).warnings == []
+
+
+def test_extensions_of_materials_count_listed_or_not(write):
+    tree = triangle_tree()
+    coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5}}
+    tree["materials"] = [{"extensions": {**coat, "EXT_gold": {}}}, {"extensions": {"EXT_gold": {}}}]
+    path = write("a.gltf", json.dumps(tree))
+    with pytest.warns(Engine3DWarning):
+        document = load_document(path)
+    assert document.warnings == [f"{path}: the extension 'EXT_gold' is not read"]
+    assert document.tree.materials[0].clearcoat == 0.5
 
 
 def test_what_is_left_out_is_told_once(write):

@@ -112,6 +112,32 @@ def test_instances_count(tmp_path):
     assert len(load_mesh(tmp_path / "a.gltf").faces) == 3
 
 
+def test_instances_have_colours(tmp_path):
+    """Those of three.js's name; what else instances say is told."""
+    tree = triangle_tree()
+    attributes = {"TRANSLATION": 0, "_COLOR_0": 0, "_ID": 0}
+    tree["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": attributes}}
+    with pytest.warns(Engine3DWarning, match="what instances say of '_ID' is left out"):
+        read(tree, tmp_path)
+    colors = [[0, 0, 0, 1], [1, 0, 0, 1], [0, 1, 0, 1]]
+    scene = e3d.load_scene(tmp_path / "a.gltf")
+    assert scene.nodes[0].object.colors.tolist() == colors
+    whole = load_mesh(tmp_path / "a.gltf")
+    assert whole.colors[::3].tolist() == colors
+    scene.save(tmp_path / "b.glb")
+    again = e3d.load_scene(tmp_path / "b.glb").nodes[0].object
+    assert again.colors.tolist() == colors and np.allclose(again.poses, scene.nodes[0].object.poses)
+
+
+def test_colours_of_as_many_instances(tmp_path):
+    tree = triangle_tree()
+    tree["accessors"].append({**tree["accessors"][0], "count": 2})
+    attributes = {"TRANSLATION": 0, "_COLOR_0": len(tree["accessors"]) - 1}
+    tree["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": attributes}}
+    with pytest.raises(e3d.FileFormatError, match="unequal numbers"):
+        read(tree, tmp_path)
+
+
 def test_hidden_nodes_do_not_count(tmp_path):
     tree = triangle_tree()
     tree["nodes"] = [{"children": [1]}, {"mesh": 0}]

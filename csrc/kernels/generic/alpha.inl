@@ -239,6 +239,27 @@ static void kernel_lay(const e3d_batch *batch, e3d_samples *samples)
     }
 }
 
+/* R135, sample by sample: there are few such batches, and most of their time is shading. */
+static void kernel_lay_through(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples)
+{
+    float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        int lanes = batch->count - i < V_LANES ? batch->count - i : V_LANES;
+        float color[3][V_LANES];
+        for (int k = 0; k < 3; k++)
+            v_storef(color[k], encode_clamp(v_loadf(batch->color[k] + i)));
+        for (int lane = 0; lane < lanes; lane++) {
+            const int n = i + lane, sample = batch->sample[n];
+            const float layer[4] = {color[0][lane], color[1][lane], color[2][lane], batch->alpha[n]};
+            const float through[3] = {maps->through[0][n], maps->through[1][n], maps->through[2][n]};
+            float over[4] = {planes[0][sample], planes[1][sample], planes[2][sample], planes[3][sample]};
+            e3d_lay_transmitting(layer, through, over);
+            for (int k = 0; k < 4; k++)
+                planes[k][sample] = over[k];
+        }
+    }
+}
+
 /* ---- sorting ---- */
 
 enum { ALPHA_MOST = 64 }; /* that are sorted here */
@@ -264,13 +285,10 @@ static ALWAYS_INLINE void alpha_lay_all(const e3d_alpha_layers *layers, const ui
 {
     float *const planes[4] = {samples->color[0] + sample, samples->color[1] + sample, samples->color[2] + sample, samples->counts + sample};
     float over[4] = {*planes[0], *planes[1], *planes[2], *planes[3]};
-    for (int i = 0; i < count; i++) {
-        const float *color = layers->color[order[i]];
-        float alpha = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - alpha;
-        const float whole[4] = {color[0], color[1], color[2], 1.0f};
-        for (int k = 0; k < 4; k++)
-            over[k] = whole[k] * alpha + over[k] * rest;
-    }
+    for (int i = 0; i < count && !layers->through; i++)
+        e3d_lay_layer(layers->color[order[i]], over);
+    for (int i = 0; i < count && layers->through; i++)
+        e3d_lay_any(layers->color[order[i]], layers->through[order[i]], over);
     for (int k = 0; k < 4; k++)
         *planes[k] = over[k];
 }

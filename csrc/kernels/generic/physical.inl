@@ -28,6 +28,7 @@ typedef struct model_lanes {
     vf32 metallic, albedo[3], reflectance[3], specular, top, diffuse[3], f0[3];
     vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to top, to f0 */
     vf32 sheen_power; /* 1 / alpha of the sheen */
+    vf32 transmission, rest; /* rest: 1 less it (R134) */
     vf32 direct[3], coat_light[3], fuzz[3];
 } model_lanes;
 
@@ -229,9 +230,9 @@ static ALWAYS_INLINE scatter_lanes around_scatter(vf32 f0, vf32 f90, vf32 a, vf3
     return (scatter_lanes){x, v_mul(x, y), v_sub(one, v_mul(rest, y))};
 }
 
-/* is_grey: what is no metal reflects the same of all channels. */
+/* is_grey: what is no metal reflects the same of all channels. through: NULL, or for what passes of light behind (R134). */
 static ALWAYS_INLINE void around_indirect(const e3d_lighting *lighting, const environment_plan *plan, const model_lanes *at, int is_grey,
-                                          const vf32 irradiance[3], vf32 out[3])
+                                          const vf32 irradiance[3], vf32 *through, vf32 out[3])
 {
     vf32 radiance[3], one = v_setf(1.0f);
     albedo_place place = albedo_find(at->base.roughness, at->base.nv);
@@ -247,7 +248,12 @@ static ALWAYS_INLINE void around_indirect(const e3d_lighting *lighting, const en
         vf32 zt = v_mul(v_mul(metal.twice, v_mul(r, other.q)), rest), zd = v_mul(v_mul(other.twice, v_mul(r, metal.q)), rest);
         vf32 t = v_add(v_mul(radiance[k], metal.once), v_mul(irradiance[k], zt));
         vf32 d = v_add(v_mul(radiance[k], other.once), v_mul(irradiance[k], zd));
-        d = v_add(d, v_mul(irradiance[k], v_mul(albedo, v_sub(one, v_add(other.once, zd)))));
+        vf32 below = v_mul(albedo, v_sub(one, v_add(other.once, zd)));
+        if (through) {
+            through[k] = v_mul(v_mul(below, at->transmission), v_sub(one, at->metallic));
+            below = v_mul(below, at->rest);
+        }
+        d = v_add(d, v_mul(irradiance[k], below));
         out[k] = v_add(d, v_mul(v_sub(t, d), at->metallic));
     }
 }
@@ -281,6 +287,31 @@ static ALWAYS_INLINE void model_add_layer(const e3d_surface_model *model, const 
     }
 }
 
+/* R134: what layers and the volume leave of it. */
+static ALWAYS_INLINE void model_through(const e3d_surface_model *model, int has_coat, int has_sheen, const model_lanes *at, int i,
+                                        vf32 through[3], e3d_map_batch *m)
+{
+    vf32 one = v_setf(1.0f), zero = v_setf(0.0f), depth = zero, fuzz = one, coat = one;
+    if (has_sheen) {
+        albedo_place place = albedo_find(usable_sheen_roughness(model, i), at->base.nv);
+        vf32 most = v_max(v_max(varying_at(&model->sheen[0], i), varying_at(&model->sheen[1], i)), varying_at(&model->sheen[2], i));
+        fuzz = v_sub(one, v_mul(most, albedo_of(E3D_DFG_SHEEN, &place)));
+    }
+    if (has_coat) {
+        vf32 w5 = fifth_power(v_sub(one, v_min(at->coat.nv, one)));
+        coat = v_sub(one, v_mul(varying_at(&model->coat, i), v_add(v_setf(0.04f), v_mul(v_setf(0.96f), w5))));
+    }
+    if (model->absorbs)
+        depth = v_mul(varying_at(&model->thickness, i), v_loadf(m->depth + i));
+    for (int k = 0; k < 3; k++) {
+        vf32 share = has_sheen ? v_mul(through[k], fuzz) : through[k];
+        share = has_coat ? v_mul(share, coat) : share;
+        if (model->absorbs)
+            share = v_mul(share, exp2_poly(v_mul(depth, v_setf(model->absorption[k]))));
+        v_storef(m->through[k] + i, v_self(v_gt(share, zero), v_self(v_lt(share, one), share, one), zero));
+    }
+}
+
 static ALWAYS_INLINE vf32 model_occlusion(const e3d_surface_model *model, int i)
 {
     vf32 one = v_setf(1.0f);
@@ -290,11 +321,14 @@ static ALWAYS_INLINE vf32 model_occlusion(const e3d_surface_model *model, int i)
 }
 
 static ALWAYS_INLINE void model_finish(const e3d_surface_model *model, const e3d_lighting *lighting, const environment_plan *plan,
-                                       int has_coat, int has_sheen, const model_lanes *at, int i, vf32 color[3])
+                                       int has_coat, int has_sheen, int transmits, const model_lanes *at, int i, e3d_map_batch *m,
+                                       vf32 color[3])
 {
-    vf32 irradiance[3], indirect[3], occlusion = model_occlusion(model, i);
+    vf32 irradiance[3], indirect[3], through[3], occlusion = model_occlusion(model, i);
     around_irradiance(lighting, plan, at->base.normal, irradiance);
-    around_indirect(lighting, plan, at, model->is_grey, irradiance, indirect);
+    around_indirect(lighting, plan, at, model->is_grey, irradiance, transmits ? through : NULL, indirect);
+    if (transmits)
+        model_through(model, has_coat, has_sheen, at, i, through, m);
     for (int k = 0; k < 3; k++)
         color[k] = v_add(at->direct[k], v_mul(indirect[k], occlusion));
     if (has_sheen)
@@ -325,19 +359,31 @@ static ALWAYS_INLINE void model_sums(e3d_map_batch *m, const chosen_lights *ligh
     }
 }
 
-/* All vectors; that there are neither a coat nor a sheen is a constant for the compiler. */
+/* R134: what passes is not scattered. */
+static ALWAYS_INLINE void model_transmission(const e3d_surface_model *model, int i, model_lanes *at)
+{
+    at->transmission = varying_at(&model->transmission, i);
+    at->rest = v_sub(v_setf(1.0f), at->transmission);
+    for (int k = 0; k < 3; k++)
+        at->diffuse[k] = v_mul(at->diffuse[k], at->rest);
+}
+
+/* All vectors; which parts there are is mostly a constant for the compiler. */
 static ALWAYS_INLINE void physical_vectors(e3d_batch *batch, e3d_map_batch *m, const e3d_surface_model *model, const e3d_lighting *lighting,
-                                           const environment_plan *plan, const chosen_lights *lights, int has_coat, int has_sheen)
+                                           const environment_plan *plan, const chosen_lights *lights, int has_coat, int has_sheen,
+                                           int transmits)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         model_lanes at;
         vf32 color[3];
         model_begin(batch, m, model, lighting, i, &at);
+        if (transmits)
+            model_transmission(model, i, &at);
         model_sums(m, lights, i, &at);
         for (int n = 0; n < lights->count; n++)
             model_add_light(lighting, lights->numbers[n], batch, i, has_coat, has_sheen, &at);
         if (lights->is_last) {
-            model_finish(model, lighting, plan, has_coat, has_sheen, &at, i, color);
+            model_finish(model, lighting, plan, has_coat, has_sheen, transmits, &at, i, m, color);
             for (int k = 0; k < 3; k++)
                 v_storef(batch->color[k] + i, color[k]);
             continue;
@@ -353,10 +399,12 @@ static ALWAYS_INLINE void physical_vectors(e3d_batch *batch, e3d_map_batch *m, c
 static void physical_some(e3d_batch *batch, e3d_map_batch *m, const e3d_surface_model *model, const e3d_lighting *lighting,
                           const environment_plan *plan, const chosen_lights *lights)
 {
-    if (model->has_coat || model->has_sheen)
-        physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen);
+    if (model->transmits)
+        physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen, 1);
+    else if (model->has_coat || model->has_sheen)
+        physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen, 0);
     else
-        physical_vectors(batch, m, model, lighting, plan, lights, 0, 0);
+        physical_vectors(batch, m, model, lighting, plan, lights, 0, 0, 0);
 }
 
 static void kernel_physical(e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting, e3d_map_batch *m)

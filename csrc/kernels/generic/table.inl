@@ -83,6 +83,7 @@ const e3d_kernels E3D_TABLE = {
     .tone = kernel_tone,
     .alpha = kernel_alpha,
     .lay = kernel_lay,
+    .lay_through = kernel_lay_through,
     .blend = kernel_blend,
     .encode = kernel_encode,
     .put = kernel_put,

@@ -23,6 +23,41 @@ typedef struct e3d_alpha_layers {
     const int32_t *depth;  /* greater is farther; E3D_PAD more are read */
     const uint32_t *which; /* the number of a colour */
     const float (*color)[4]; /* clamped, and alpha */
+    const float (*through)[4]; /* NULL, or of each colour: the shares of light that pass, and 1; 0 of what only has alpha */
 } e3d_alpha_layers;
+
+/* R84: lays a colour, which is clamped and followed by its alpha, over a sample; over[3] is the sum of alphas. */
+static inline void e3d_lay_layer(const float color[4], float over[4])
+{
+    float a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - a;
+    const float whole[4] = {color[0], color[1], color[2], 1.0f};
+    for (int k = 0; k < 4; k++)
+        over[k] = whole[k] * a + over[k] * rest;
+}
+
+/* R135: likewise of what shares of light pass through. */
+static inline void e3d_lay_transmitting(const float color[4], const float through[3], float over[4])
+{
+    float a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest[3];
+    for (int k = 0; k < 3; k++) {
+        rest[k] = (1.0f - a) + a * through[k];
+        float sum = color[k] * a + over[k] * rest[k];
+        over[k] = sum < 1.0f ? sum : 1.0f;
+    }
+    float mean = ((rest[0] + rest[1]) + rest[2]) * E3D_THIRD, most = over[0] > over[1] ? over[0] : over[1];
+    most = most > over[2] ? most : over[2];
+    over[3] = (1.0f - mean) + over[3] * mean;
+    if (most >= E3D_LEAST_ALPHA)
+        over[3] = over[3] > most ? over[3] : most;
+}
+
+/* One or the other. */
+static inline void e3d_lay_any(const float color[4], const float through[4], float over[4])
+{
+    if (through && through[3] != 0.0f)
+        e3d_lay_transmitting(color, through, over);
+    else
+        e3d_lay_layer(color, over);
+}
 
 #endif

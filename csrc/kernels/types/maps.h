@@ -54,6 +54,8 @@ typedef struct e3d_map_batch {
     e3d_lane_array coat_normal[3];
     e3d_lane_array metallic_roughness[2], emissive[3]; /* for outputs */
     e3d_lane_array direct[3], coat[3], fuzz[3];      /* sums over lights so far, where they are many */
+    e3d_lane_array depth;                            /* world units that a thickness of 1 is */
+    e3d_lane_array through[3];                       /* which share of the light behind is seen (R134) */
 } e3d_map_batch;
 
 /* A number of a material: a constant, or a texture's channel times a factor. */
@@ -77,6 +79,10 @@ typedef struct e3d_surface_model {
     int has_coat, has_sheen;
     int is_grey;        /* the reflectance is the same of all channels */
     int coat_is_mapped; /* coat_normal is read; else the coat's normal is shading_normal */
+    e3d_varying transmission, thickness;
+    float absorption[3]; /* base-2 logarithm of what a world unit leaves of light */
+    int transmits;       /* `through` is found */
+    int absorbs;         /* by `depth` */
 } e3d_surface_model;
 
 #endif

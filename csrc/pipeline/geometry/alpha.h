@@ -1,4 +1,4 @@
-/* Which records have alpha: those of materials that are masked or blended. */
+/* Which records have alpha: those of materials that are masked or blended, or that light passes through. */
 #ifndef E3D_ALPHA_H
 #define E3D_ALPHA_H
 
@@ -9,13 +9,15 @@
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/pass/transmits.h"
 
-/* The list that records of a material go to, or E3D_ALPHA_NONE, or E3D_ALPHA_UNSEEN (R82). */
-static inline int e3d_alpha_kind(const e3d_prepared *pass, const e3d_material *material)
+/* The list that records of a material go to, or E3D_ALPHA_NONE, or E3D_ALPHA_UNSEEN (R82, R133). */
+static inline int e3d_alpha_kind(const e3d_prepared *pass, const e3d_material *material, int is_face)
 {
-    if (material->alpha_mode == E3D_ALPHA_OPAQUE)
+    int transmits = is_face && e3d_transmits(pass->frame, material);
+    if (material->alpha_mode == E3D_ALPHA_OPAQUE && !transmits)
         return E3D_ALPHA_NONE;
-    if (material->alpha_mode == E3D_ALPHA_MASK || e3d_plans(pass, E3D_PLAN_SOLID))
+    if ((material->alpha_mode == E3D_ALPHA_MASK && !transmits) || e3d_plans(pass, E3D_PLAN_SOLID))
         return E3D_ALPHA_MASKED;
     return e3d_plans(pass, E3D_PLAN_BLENDS) ? E3D_ALPHA_BLENDED : E3D_ALPHA_UNSEEN;
 }
@@ -24,8 +26,9 @@ static inline int e3d_alpha_kind(const e3d_prepared *pass, const e3d_material *m
 static inline int e3d_alpha_kind_of(const e3d_prepared *pass, const e3d_draw_state *draw, int32_t primitive)
 {
     const e3d_mesh_desc *mesh = &draw->mesh->desc;
-    int32_t id = mesh->material_ids && primitive < mesh->faces_count ? mesh->material_ids[primitive] : 0;
-    return draw->any_alpha ? e3d_alpha_kind(pass, &pass->frame->materials[draw->draw->material_base + id]) : E3D_ALPHA_NONE;
+    int is_face = primitive < mesh->faces_count;
+    int32_t id = mesh->material_ids && is_face ? mesh->material_ids[primitive] : 0;
+    return draw->any_alpha ? e3d_alpha_kind(pass, &pass->frame->materials[draw->draw->material_base + id], is_face) : E3D_ALPHA_NONE;
 }
 
 #endif

@@ -4,6 +4,7 @@
 #include "core/mesh.h"
 #include "e3d.h"
 #include "pipeline/pass/draws.h"
+#include "pipeline/pass/transmits.h"
 
 /* ---- the table ---- */
 
@@ -17,11 +18,19 @@ static int has_two_sided(const e3d_frame *frame)
     return 0;
 }
 
-/* Whether any material of a draw is masked or blended. */
+/* Whether any material of a draw is masked or blended, or lets light pass. */
 static int has_alpha(const e3d_frame *frame, const e3d_draw *draw)
 {
     for (int32_t m = 0; m <= draw->mesh->material_most; m++)
-        if (frame->materials[draw->material_base + m].alpha_mode != E3D_ALPHA_OPAQUE)
+        if (e3d_is_seen_through(frame, &frame->materials[draw->material_base + m]))
+            return 1;
+    return 0;
+}
+
+static int has_transmission(const e3d_frame *frame, const e3d_draw *draw)
+{
+    for (int32_t m = 0; m <= draw->mesh->material_most; m++)
+        if (e3d_transmits(frame, &frame->materials[draw->material_base + m]))
             return 1;
     return 0;
 }
@@ -48,6 +57,7 @@ static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edge
     int64_t primitives = 0, instances = 0;
     int two_sided = has_two_sided(frame);
     draws->units = draws->groups = 0;
+    draws->any_transmits = 0;
     for (int32_t d = 0; d < frame->draw_count; d++) {
         const e3d_draw *draw = &frame->draws[d];
         int64_t all = primitives_of(&draw->mesh->desc);
@@ -57,6 +67,7 @@ static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edge
         *s = state_of(draw, edges, frame->faces_only);
         s->any_two_sided = two_sided;
         s->any_alpha = alpha && has_alpha(frame, draw);
+        draws->any_transmits |= s->any_alpha && has_transmission(frame, draw);
         s->instance_base = instances;
         s->unit_base = draws->units;
         s->group_base = draws->groups;

@@ -41,6 +41,7 @@ typedef struct e3d_draws {
     e3d_order_entry *order;
     int32_t count, instance_count, order_count;
     int64_t units, groups;
+    int any_transmits; /* light passes through some of their materials */
     e3d_array state_memory, instance_memory, order_memory;
 } e3d_draws;
 

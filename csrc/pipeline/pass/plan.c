@@ -7,6 +7,7 @@
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "pipeline/pass/plan.h"
+#include "pipeline/pass/transmits.h"
 
 /* ---- what is asked for ---- */
 
@@ -32,7 +33,7 @@ static int has_mapped_normals(const e3d_frame *frame)
 static int has_alpha(const e3d_frame *frame)
 {
     for (int32_t m = 0; m < frame->material_count; m++)
-        if (frame->materials[m].alpha_mode != E3D_ALPHA_OPAQUE)
+        if (e3d_is_seen_through(frame, &frame->materials[m]))
             return 1;
     return 0;
 }

@@ -36,7 +36,7 @@
     X(FORWARD, "forward shading")                                                      \
     X(SRGB, "the sRGB encoder")                                                        \
     X(OCCLUSION, "that what is hidden is left out")                                    \
-    X(ALPHA, "materials that are masked or blended")                                   \
+    X(ALPHA, "materials that are masked or blended, or that light passes through")     \
     X(TRANSPARENT_OUTPUTS, "other outputs of the nearest surface, blended or not")      \
     X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
     X(BACKDROP, "an environment, where there is light or plain colour, or a gradient as the background") \

@@ -64,7 +64,17 @@ static void keep_run(const e3d_batch *batch, int first, int end, float sign, flo
     }
 }
 
-static void keep(e3d_shade_memory *memory, float sign, e3d_alpha_shading *alpha)
+/* Likewise what passes through them. */
+static void keep_through(const e3d_map_batch *maps, int first, int end, float (*through)[4])
+{
+    for (int i = first; i < end; i++, through++) {
+        for (int k = 0; k < 3; k++)
+            (*through)[k] = maps ? maps->through[k][i] : 0.0f;
+        (*through)[3] = maps ? 1.0f : 0.0f;
+    }
+}
+
+static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_alpha_shading *alpha)
 {
     const e3d_batch *batch = &memory->batch;
     for (int i = 0, end; i < batch->count; i = end) {
@@ -72,8 +82,17 @@ static void keep(e3d_shade_memory *memory, float sign, e3d_alpha_shading *alpha)
         for (end = i + 1; end < batch->count && batch->surface[end] == batch->surface[i];)
             end++;
         keep_run(batch, i, end, sign, alpha->color + place);
+        if (alpha->through)
+            keep_through(transmits ? &memory->maps.batch : NULL, i, end, alpha->through + place);
         alpha->at = place + (end - i);
     }
+}
+
+/* R133: without the mode blend, what transmits is there or is not. */
+static void round_alphas(const e3d_material *m, e3d_batch *batch)
+{
+    for (int i = 0; i < batch->count && m->alpha_mode != E3D_ALPHA_BLEND; i++)
+        batch->alpha[i] = m->alpha_mode == E3D_ALPHA_OPAQUE || batch->alpha[i] >= m->alpha_cutoff ? 1.0f : 0.0f;
 }
 
 void e3d_alpha_batch(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
@@ -84,10 +103,14 @@ void e3d_alpha_batch(const e3d_prepared *pass, const e3d_bucket *bucket, const e
     const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &out->memory->maps) : (e3d_varying){NULL, m->alpha};
     const e3d_texture_view *texture = bucket->textured && !bucket->mapped ? e3d_texture_get_view(m->texture.texture) : NULL;
     pass->kernels->alpha(batch, &out->memory->surfaces, texture, &base, bucket->by_vertex, bucket->by_instance);
+    if (bucket->transmits)
+        round_alphas(m, batch);
     if (out->alpha->use == E3D_ALPHA_TEST)
         test(out->memory, out->alpha);
     else if (out->alpha->use == E3D_ALPHA_KEEP)
-        keep(out->memory, hidden ? -1.0f : 1.0f, out->alpha);
+        keep(out->memory, bucket->transmits, hidden ? -1.0f : 1.0f, out->alpha);
+    else if (!hidden && bucket->transmits)
+        pass->kernels->lay_through(batch, &out->memory->maps.batch, &out->pixels->samples);
     else if (!hidden)
         pass->kernels->lay(batch, &out->pixels->samples);
 }

@@ -1,4 +1,5 @@
 /* shade: materials of more than a base colour (R45-R49). Which textures count is found once for each bucket. */
+#include <math.h>
 #include <string.h>
 
 #include "core/limits.h"
@@ -33,6 +34,8 @@ static int is_lit(const e3d_prepared *pass, const e3d_bucket *bucket)
     return e3d_plans(pass, E3D_PLAN_COLORS) && pass->frame->mode == E3D_MODE_LIT && !bucket->material->is_unlit;
 }
 
+static int absorbs(const e3d_physical *p) { return p->thickness != 0.0f && e3d_adds(p->absorption); }
+
 /* Whether the fourth channel of a slot counts. */
 static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
 {
@@ -57,8 +60,8 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
     case E3D_SLOT_CLEARCOAT_NORMAL: return lit && m->physical.clearcoat != 0.0f;
     case E3D_SLOT_SHEEN_COLOR:
     case E3D_SLOT_SHEEN_ROUGHNESS: return lit && e3d_adds(m->physical.sheen_color);
-    case E3D_SLOT_TRANSMISSION:
-    case E3D_SLOT_THICKNESS:
+    case E3D_SLOT_TRANSMISSION: return lit && bucket->transmits;
+    case E3D_SLOT_THICKNESS: return lit && bucket->transmits && absorbs(&m->physical);
     case E3D_TEXTURE_SLOTS: break;
     }
     return 0;
@@ -233,8 +236,33 @@ void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
 
 /* ---- light ---- */
 
-static e3d_surface_model model_of(const e3d_material *m, const e3d_map_memory *maps)
+/* The root of the mean square of how long the axes become in world space. */
+static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *piece)
 {
+    const float *w = pass->draws->instances[piece->draw->instance_base + piece->instance].world;
+    float square[3];
+    for (int r = 0; r < 3; r++)
+        square[r] = (w[4 * r] * w[4 * r] + w[4 * r + 1] * w[4 * r + 1]) + w[4 * r + 2] * w[4 * r + 2];
+    return sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD);
+}
+
+/* R134: how many world units a thickness of 1 is below each sample. */
+static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory, float *out)
+{
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_batch *batch = &memory->batch;
+    float depth = 0.0f;
+    for (int i = 0; i < batch->count; i++) {
+        int32_t n = batch->surface[i];
+        if (!i || n != batch->surface[i - 1])
+            depth = memory->surfaces.back[n] ? 0.0f : scale_of(pass, &pieces[memory->surfaces.piece[n]]);
+        out[i] = depth;
+    }
+}
+
+static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory *maps)
+{
+    const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
     e3d_surface_model model = {
         .metallic = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 2, p->metallic),
@@ -245,6 +273,10 @@ static e3d_surface_model model_of(const e3d_material *m, const e3d_map_memory *m
         .coat = varying_of(maps, E3D_SLOT_CLEARCOAT, 0, p->clearcoat),
         .coat_roughness = varying_of(maps, E3D_SLOT_CLEARCOAT_ROUGHNESS, 1, p->clearcoat_roughness),
         .sheen_roughness = varying_of(maps, E3D_SLOT_SHEEN_ROUGHNESS, 3, p->sheen_roughness),
+        .transmission = varying_of(maps, E3D_SLOT_TRANSMISSION, 0, p->transmission),
+        .thickness = varying_of(maps, E3D_SLOT_THICKNESS, 1, p->thickness),
+        .transmits = bucket->transmits,
+        .absorbs = bucket->transmits && absorbs(p),
         .has_coat = p->clearcoat != 0.0f,
         .has_sheen = e3d_adds(p->sheen_color),
         .is_grey = maps->maps.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
@@ -255,12 +287,15 @@ static e3d_surface_model model_of(const e3d_material *m, const e3d_map_memory *m
         model.reflectance[k] = varying_of(maps, E3D_SLOT_SPECULAR_COLOR, k, p->reflectance[k]);
         model.emissive[k] = varying_of(maps, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
         model.sheen[k] = varying_of(maps, E3D_SLOT_SHEEN_COLOR, k, p->sheen_color[k]);
+        model.absorption[k] = p->absorption[k];
     }
     return model;
 }
 
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_lighting *lighting, e3d_shade_memory *memory)
 {
-    const e3d_surface_model model = model_of(bucket->material, &memory->maps);
+    const e3d_surface_model model = model_of(bucket, &memory->maps);
+    if (model.absorbs)
+        find_depths(pass, memory, memory->maps.batch.depth);
     pass->kernels->physical(&memory->batch, &model, lighting, &memory->maps.batch);
 }

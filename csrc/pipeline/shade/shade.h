@@ -60,6 +60,7 @@ typedef struct e3d_alpha_shading {
     e3d_alpha_use use;
     float *alpha;       /* E3D_ALPHA_TEST */
     float (*color)[4];  /* E3D_ALPHA_KEEP: clamped colours, with alpha; -alpha of a face that a wireframe doesn't show */
+    float (*through)[4]; /* E3D_ALPHA_KEEP: NULL, or the shares of light that pass (e3d_alpha_layers) */
     int32_t piece, at;  /* the piece of the last sample, and the place behind it */
 } e3d_alpha_shading;
 

@@ -13,6 +13,7 @@
 #include "kernels/types/visible.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/pass/transmits.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/maps.h"
 #include "pipeline/shade/shade.h"
@@ -112,6 +113,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     g.has_uvs1 = g.mapped && mesh->uvs1;
     g.has_tangents = g.mapped && mesh->tangents;
     g.unshadowed = draw->unshadowed != 0;
+    g.transmits = g.face && e3d_transmits(frame, g.material);
     g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
     g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
     return g;

@@ -16,6 +16,7 @@ typedef struct e3d_bucket {
     int8_t face, flat, textured, by_vertex, by_instance, unshadowed;
     int8_t mapped;                          /* by more than a texture of the base colour at the mesh's own coordinates: maps.h */
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
+    int8_t transmits;                       /* R133 */
     int32_t first, last; /* of its visible pieces */
 } e3d_bucket;
 

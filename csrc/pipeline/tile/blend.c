@@ -164,9 +164,9 @@ static int32_t sort_pieces(e3d_alpha_memory *memory, int32_t records[E3D_ALPHA_S
 
 /* ---- fragments ---- */
 
-static int reserve_fragments(e3d_alpha_fragments *f, size_t count, size_t ids)
+static int reserve_fragments(e3d_alpha_fragments *f, size_t count, size_t ids, int transmits)
 {
-    return e3d_array_reserve(&f->z, count, sizeof(float)) && e3d_array_reserve(&f->sample, count, sizeof(int32_t)) &&
+    return (!transmits || e3d_array_reserve(&f->through, count, sizeof(float[4]))) && e3d_array_reserve(&f->z, count, sizeof(float)) && e3d_array_reserve(&f->sample, count, sizeof(int32_t)) &&
            e3d_array_reserve(&f->of, count, sizeof(int32_t)) && e3d_array_reserve(&f->color, count, sizeof(float[4])) &&
            e3d_array_reserve(&f->ids, ids, sizeof(int32_t));
 }
@@ -180,10 +180,11 @@ static int keep_list(const e3d_tile_job *job)
     const e3d_shown *shown = &job->memory->shade.shown;
     e3d_alpha_fragments *f = &job->memory->alpha.fragments;
     size_t first = f->z.count, count = (size_t)shown->count, ids = f->ids.count;
+    int transmits = job->in->pass->draws->any_transmits;
     if (!count)
         return 1;
-    if (!reserve_fragments(f, first + count, ids + (size_t)shown->pieces) ||
-        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float (*)[4])f->color.data + first))
+    if (!reserve_fragments(f, first + count, ids + (size_t)shown->pieces, transmits) ||
+        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float (*)[4])f->color.data + first, transmits ? (float (*)[4])f->through.data + first : NULL))
         return 0;
     memcpy((float *)f->z.data + first, memory->z, count * sizeof(float));
     memcpy((int32_t *)f->sample.data + first, shown->sample, count * sizeof(int32_t));
@@ -271,16 +272,11 @@ static void sort_sample(const e3d_record_table *table, const e3d_alpha_fragments
 }
 
 /* Lays the fragments of one sample, which are sorted, over its colour (R84). */
-static void blend_sample(const e3d_alpha_fragments *f, int32_t sample, const uint32_t *which, uint32_t count, e3d_samples *samples)
+static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const uint32_t *which, uint32_t count, e3d_samples *samples)
 {
-    const float (*colors)[4] = (const float (*)[4])f->color.data;
     float over[4] = {samples->color[0][sample], samples->color[1][sample], samples->color[2][sample], samples->counts[sample]};
-    for (uint32_t i = 0; i < count; i++) {
-        const float *color = colors[which[i]], a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - a;
-        const float whole[4] = {color[0], color[1], color[2], 1.0f};
-        for (int k = 0; k < 4; k++)
-            over[k] = whole[k] * a + over[k] * rest;
-    }
+    for (uint32_t i = 0; i < count; i++)
+        e3d_lay_any(layers->color[which[i]], layers->through ? layers->through[which[i]] : NULL, over);
     for (int k = 0; k < 3; k++)
         samples->color[k][sample] = over[k];
     samples->counts[sample] = over[3];
@@ -302,7 +298,7 @@ static void find_front(e3d_alpha_memory *memory, int32_t sample, const uint32_t 
 }
 
 /* Blends samples one by one: those that the kernel leaves, or, where the nearest fragments are asked for, all. */
-static void blend_slowly(const e3d_tile_job *job, int32_t sample)
+static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers, int32_t sample)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
     e3d_alpha_fragments *f = &memory->fragments;
@@ -310,7 +306,7 @@ static void blend_slowly(const e3d_tile_job *job, int32_t sample)
     if (!count)
         return;
     sort_sample(&job->in->bins->tables[E3D_SET_SCENE], f, which, count);
-    blend_sample(f, sample, which, count, &job->memory->pixels.samples);
+    blend_sample(layers, sample, which, count, &job->memory->pixels.samples);
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         find_front(memory, sample, which, count);
 }
@@ -323,15 +319,16 @@ static int blend_fragments(const e3d_tile_job *job)
         return 1;
     if (!list_by_sample(f))
         return 0;
+    const e3d_alpha_layers layers = {f->first, f->depth.data, f->which.data, (const float (*)[4])f->color.data,
+                                     job->in->pass->draws->any_transmits ? (const float (*)[4])f->through.data : NULL};
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT)) {
         for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)
-            blend_slowly(job, s);
+            blend_slowly(job, &layers, s);
         return 1;
     }
-    const e3d_alpha_layers layers = {f->first, f->depth.data, f->which.data, (const float (*)[4])f->color.data};
     int left = job->in->pass->kernels->blend(&layers, &job->memory->pixels.samples, memory->left);
     for (int i = 0; i < left; i++)
-        blend_slowly(job, memory->left[i]);
+        blend_slowly(job, &layers, memory->left[i]);
     return 1;
 }
 
@@ -361,7 +358,7 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
             return 0;
     }
     if (!memory->fragments.z.count && !memory->list.met && !e3d_plans(job->in->pass, E3D_PLAN_FRONT))
-        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL);
+        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL);
     return keep_list(job) && blend_fragments(job);
 }
 
@@ -408,7 +405,7 @@ static int lay_later(const e3d_tile_job *job)
     if (!left)
         return 1;
     if (!e3d_plans(job->in->pass, E3D_PLAN_FRONT))
-        return e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL);
+        return e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL);
     clear_fragments(&memory->fragments);
     return keep_list(job) && blend_fragments(job);
 }
@@ -443,7 +440,7 @@ static int shade_front(const e3d_tile_job *job)
             runs->rows[count++] = (e3d_run){front[s], (uint16_t)s, 1};
     }
     e3d_show_runs(e3d_sort_runs(runs->rows, runs->spare, count), count, &job->memory->shade.shown);
-    return !count || e3d_alpha_shade(job, E3D_ALPHA_OUTPUTS, NULL);
+    return !count || e3d_alpha_shade(job, E3D_ALPHA_OUTPUTS, NULL, NULL);
 }
 
 void e3d_alpha_front(const e3d_tile_job *job)

@@ -293,7 +293,7 @@ def test_a_moving_camera_makes_no_edge_swim():
         # Where an edge goes through the middle of a texel, rounding decides: a ninth of the light,
         # which is 14 codes; and places are looked up at the middle of their pixel.
         differ = np.abs(greys - found[0])[both]
-        assert differ.max() <= 32 and differ.mean() < 1
+        assert differ.max() <= 32 and differ.mean() < 1.5
     assert len(np.unique(found[0][~np.isnan(found[0])])) > 2
 
 

@@ -16,6 +16,7 @@
 #endif
 
 #include "driver/scenes.h"
+#include "driver/shadow_scene.h"
 
 /* One run's outputs; NULL where not asked for. */
 typedef struct picture {
@@ -207,14 +208,17 @@ static outcome compare(const drawing *what, const run_plan *plan, const char *ti
     return result;
 }
 
-static outcome compare_made(random_stream r, int alpha, const run_plan *plan, const char *title)
+/* What is added to a scene; NULL: nothing. */
+typedef void (*scene_change)(scene *s, random_stream *r);
+
+static outcome compare_made(random_stream r, scene_change change, const run_plan *plan, const char *title)
 {
     scene s;
     /* Most scenes ask for everything; the others show that no output depends on another. */
     uint32_t mask = random_once_in(&r, 3) ? (uint32_t)random_bits(&r) : 0xFFFFFFFFu;
     outcome result = {.status = scene_create(&s, &r, plan->most_side), .agrees = 1};
-    if (alpha)
-        scene_add_alpha(&s, &r);
+    if (change)
+        change(&s, &r);
     if (result.status == E3D_OK) {
         drawing all = {draw_scene, &s, 0, mask};
         all.pixels = (size_t)s.frame.width * (size_t)s.frame.height;
@@ -224,9 +228,11 @@ static outcome compare_made(random_stream r, int alpha, const run_plan *plan, co
     return result;
 }
 
-outcome compare_scene(random_stream r, const run_plan *plan, const char *title) { return compare_made(r, 0, plan, title); }
+outcome compare_scene(random_stream r, const run_plan *plan, const char *title) { return compare_made(r, NULL, plan, title); }
 
-outcome compare_alpha(random_stream r, const run_plan *plan, const char *title) { return compare_made(r, 1, plan, title); }
+outcome compare_alpha(random_stream r, const run_plan *plan, const char *title) { return compare_made(r, scene_add_alpha, plan, title); }
+
+outcome compare_shadows(random_stream r, const run_plan *plan, const char *title) { return compare_made(r, scene_add_shadows, plan, title); }
 
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title)
 {

@@ -37,6 +37,8 @@ typedef struct run_plan {
 outcome compare_scene(random_stream r, const run_plan *plan, const char *title);
 /* The same scene, some of whose materials are masked or blended. */
 outcome compare_alpha(random_stream r, const run_plan *plan, const char *title);
+/* The same scene, most of whose lights have maps of shadows. */
+outcome compare_shadows(random_stream r, const run_plan *plan, const char *title);
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title);
 
 #endif

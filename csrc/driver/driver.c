@@ -83,6 +83,8 @@ int main(int count, char **arguments)
         failures += report("passes", i, compare_passes(r, &o.plan, title));
         snprintf(title, sizeof title, "alpha %04ld", i);
         failures += report("alpha", i, compare_alpha(r, &o.plan, title));
+        snprintf(title, sizeof title, "shadows %04ld", i);
+        failures += report("shadows", i, compare_shadows(r, &o.plan, title));
         snprintf(title, sizeof title, "rasterize %04ld", i);
         failures += report("rasterize", i, compare_rasterize(r, &o.plan, title));
         snprintf(title, sizeof title, "canvas %04ld", i);

@@ -29,6 +29,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     const random_stream r = {.bytes = in.at, .byte_count = in.left};
     if (how >> 5 & 1)
         CLAIM(compare_alpha(r, &plan, "alpha").agrees);
+    else if (how >> 6 & 1)
+        CLAIM(compare_shadows(r, &plan, "shadows").agrees);
     else if (how >> 5)
         CLAIM(compare_scene(r, &plan, "scene").agrees);
     else

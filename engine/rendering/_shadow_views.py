@@ -132,19 +132,23 @@ def _square(side: float, middle: tuple[float, float], inside: int) -> _Square:
 
 
 def _slices(view: View, bounds: NDArray[np.float64], count: int) -> list[tuple[float, tuple]]:
-    """Spheres around what the camera sees from depth to depth: side of the square, and middle."""
+    """Spheres around what the camera sees from depth to depth: side of the square, and middle.
+
+    The depths are shares of the scene's diagonal, so that they stay as they are when the camera
+    moves. What is farther away is for a map of the whole scene.
+    """
     near, far = view.depth_range(bounds)
-    reach = _rounded_up(far, 4)
-    ends = [reach * _RATIO ** (k + 1 - count) for k in range(count)]
+    reach = length(bounds[1] - bounds[0])
+    ends = [reach * _RATIO ** (k - count) for k in range(1, count)]
     starts = [0.0, *ends[:-1]]
-    if view.eye[3] == 0.0:  # without perspective, what is far away is no smaller
-        starts, ends = [near], [near + _rounded_up(far - near, 4)]
+    if view.eye[3] == 0.0 and count > 1:  # without perspective, what is far away is no smaller
+        starts, ends = [near], [near + _rounded_up(far - near, 1)]
     view_from_clip = linalg.inverse(view.projection)
     corners = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
     lines = [[_unproject(view_from_clip, x, y, z) for z in (-1.0, 0.0)] for x, y in corners]
     world_from_view = linalg.inverse(view.view_from_world)
     found = []
-    for start, end in zip(starts, ends, strict=True):
+    for start, end in zip(starts, ends, strict=False):
         if end < near:
             continue
         points = [_at_depth(line, depth) for depth in (start, end) for line in lines]
@@ -181,9 +185,9 @@ def directional_views(
 ) -> ShadowViews:
     """The maps of a directional light.
 
-    Each map shows a sphere around a part of what the camera sees, whichever way it looks, or
-    the whole scene where that is smaller. It moves by whole texels, so that edges stay where they
-    are. Along the light it reaches from the first thing of the scene to the last.
+    The last map shows the whole scene, each before it a sphere around a part of what the camera
+    sees, whichever way it looks, where that is smaller. It moves by whole texels, so that edges
+    stay where they are. Along the light it reaches from the first thing of the scene to the last.
     """
     axes = _axes_along(tuple(-part for part in to_light))
     size, margin = light.shadow_map_size, light._shadow_margin()
@@ -198,15 +202,11 @@ def directional_views(
     whole = _rounded_up(max(sides[1] - sides[0], downs[1] - downs[0]), 8)
     squares = []
     for side, middle in _slices(view, bounds, light.shadow_cascades):
-        if side >= whole:
-            break
-        at = tuple(_dot(axis, np.array(middle)) for axis in axes[:2])
-        squares.append(_square(side, at, size - 2 * margin))
-    else:
-        whole = math.inf
-    if whole < math.inf:
-        at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5
-        squares.append(_square(whole, at, size - 2 * margin))
+        if side < whole:
+            at = tuple(_dot(axis, middle) for axis in axes[:2])
+            squares.append(_square(side, at, size - 2 * margin))
+    at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5
+    squares.append(_square(whole, at, size - 2 * margin))
     eye = (*(float(part) for part in -axes[2]), 0.0)
     view_from_world = _view_of(axes, (0.0, 0.0, 0.0))
     maps, places = [], []

@@ -85,8 +85,8 @@ class DirectionalLight(CastsShadows):
     shadow_taps : {1, 3, 5}
         Comparisons a side: 1, 3 x 3 or 5 x 5, each between four texels.
     shadow_cascades : int
-        Most maps, 1 to 8: the first shows what is near the camera, each further one four times as
-        far. What is small beside what the camera sees takes fewer.
+        Most maps, 1 to 8: the last shows the whole scene, each before it what the camera sees to a
+        quarter of the depth. A scene that is small beside that takes fewer.
 
     Attributes
     ----------

@@ -1,0 +1,75 @@
+/* Random maps of shadows: patches of depths near and far, none and no numbers, seen from anywhere and at any scale. */
+#include "driver/shadow_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { MOST_SIDE = 40, CUBE = 6 };
+
+static const float ODD[] = {0.0f, -0.0f, 1e-30f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN};
+
+/* Mostly within limits. */
+static float number(random_stream *r, float low, float high)
+{
+    return random_once_in(r, 24) ? ODD[random_below(r, sizeof ODD / sizeof *ODD)] : random_float(r, low, high);
+}
+
+static void *kept_array(scene *s, size_t count, size_t size)
+{
+    void *array = calloc(count, size);
+    if (!array || s->array_count == SCENE_MAX_ARRAYS)
+        abort();
+    s->arrays[s->array_count++] = array;
+    return array;
+}
+
+/* Patches of a depth each, as far as possible side by side. */
+static void fill_depths(float *depths, int32_t count, random_stream *r)
+{
+    for (int32_t i = 0; i < count;) {
+        int32_t end = i + 1 + random_below(r, 30);
+        float depth = random_once_in(r, 5) ? INFINITY : number(r, -1.2f, 1.2f);
+        for (; i < end && i < count; i++)
+            depths[i] = depth;
+    }
+}
+
+static void add_map(e3d_light *light, const float *depths, e3d_shadow_map *maps, int32_t *count, random_stream *r)
+{
+    e3d_light_shadow *shadow = &light->shadow;
+    int32_t taps = 1 + 2 * random_below(r, 3);
+    shadow->kind = E3D_SHADOW_MAP;
+    shadow->first = *count;
+    shadow->count = light->kind == E3D_LIGHT_POINT ? CUBE : light->kind == E3D_LIGHT_SPOT ? 1 : 1 + random_below(r, 3);
+    shadow->size = 24 + random_below(r, MOST_SIDE - 24 + 1);
+    shadow->taps = taps;
+    shadow->step = random_once_in(r, 2) ? 256 : random_below(r, 1000);
+    shadow->bias = number(r, -0.1f, 0.1f);
+    shadow->normal_bias = number(r, -0.1f, 0.1f);
+    shadow->margin = number(r, 0.0f, 6.0f);
+    for (int k = 0; k < 9; k++)
+        shadow->axes[k / 3][k % 3] = number(r, -1.0f, 1.0f);
+    for (int k = 0; k < 2; k++)
+        shadow->depth[k] = number(r, -0.5f, 0.5f);
+    shadow->depths = depths;
+    for (int32_t k = 0; k < shadow->count; k++) {
+        float scale = number(r, 1.0f, 20.0f), middle = 0.5f * (float)shadow->size;
+        maps[(*count)++] = (e3d_shadow_map){scale, middle + number(r, -3.0f, 3.0f), middle + number(r, -3.0f, 3.0f), 1.0f / scale};
+    }
+}
+
+void scene_add_shadows(scene *s, random_stream *r)
+{
+    float *depths = kept_array(s, CUBE * MOST_SIDE * MOST_SIDE, sizeof *depths);
+    e3d_shadow_map *maps = kept_array(s, SCENE_MAX_LIGHTS * CUBE, sizeof *maps);
+    int32_t count = 0;
+    fill_depths(depths, CUBE * MOST_SIDE * MOST_SIDE, r);
+    for (int32_t n = 0; n < s->frame.light_count; n++)
+        if (!random_once_in(r, 4))
+            add_map(&s->lights[n], depths, maps, &count, r);
+    s->frame.shadow_maps = maps;
+    s->frame.shadow_map_count = count;
+    for (int32_t d = 0; d < s->frame.draw_count; d++)
+        s->draws[d].unshadowed = random_once_in(r, 4);
+    s->frame.mode = E3D_MODE_LIT;
+}

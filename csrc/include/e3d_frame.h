@@ -52,6 +52,13 @@ typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
     X(E3D_CULLING_ALWAYS, always)
 typedef enum e3d_culling { E3D_EACH_CULLING(E3D_ENUMERATOR) } e3d_culling;
 
+/* PLAIN: parallelograms with slanted ends, as R11 has them. ROUND: as wide as they say at any angle, with half a disc at each end. */
+#define E3D_EACH_LINE_SHAPE(X) X(E3D_LINES_PLAIN, plain) X(E3D_LINES_ROUND, round)
+typedef enum e3d_line_shape { E3D_EACH_LINE_SHAPE(E3D_ENUMERATOR) } e3d_line_shape;
+
+#define E3D_EACH_POINT_SHAPE(X) X(E3D_POINTS_SQUARE, square) X(E3D_POINTS_ROUND, round)
+typedef enum e3d_point_shape { E3D_EACH_POINT_SHAPE(E3D_ENUMERATOR) } e3d_point_shape;
+
 enum { E3D_MAX_SIZE = 16384 };
 
 typedef struct e3d_frame {
@@ -93,6 +100,8 @@ typedef struct e3d_frame {
     int32_t transparent_outputs; /* outputs but colour are of the nearest surface, blended or not; else of the nearest that isn't blended */
     e3d_culling culling;
     const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
+    e3d_line_shape line_shape;            /* of lines and of a wireframe's edges */
+    e3d_point_shape point_shape;
 } e3d_frame;
 
 #ifdef __cplusplus

@@ -20,8 +20,10 @@ cdef extern from "e3d.h" nogil:
         E3D_OPTION_FALLOFF
         E3D_OPTION_FILTER
         E3D_OPTION_HIDDEN
+        E3D_OPTION_LINE_SHAPE
         E3D_OPTION_MODE
         E3D_OPTION_NORMALS
+        E3D_OPTION_POINT_SHAPE
         E3D_OPTION_SHADING
         E3D_OPTION_TEXTURE_SLOT
         E3D_OPTION_WIREFRAME
@@ -240,6 +242,12 @@ cdef extern from "e3d.h" nogil:
     ctypedef enum e3d_culling:
         pass
 
+    ctypedef enum e3d_line_shape:
+        pass
+
+    ctypedef enum e3d_point_shape:
+        pass
+
     ctypedef struct e3d_frame:
         int32_t width
         int32_t height
@@ -279,6 +287,8 @@ cdef extern from "e3d.h" nogil:
         int32_t order_count
         e3d_culling culling
         const double *frozen_clip_from_world
+        e3d_line_shape line_shape
+        e3d_point_shape point_shape
 
     ctypedef enum e3d_output_kind:
         E3D_OUTPUTS

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, TypedDict, get_args
 
 from .._native import rasterizer as _native
 from .._support.numbers import real, shown
@@ -18,9 +18,12 @@ from ..choices import (
     Cull,
     Culling,
     HiddenSurfaces,
+    LineShape,
     Mode,
     Normals,
+    PointShape,
     Shading,
+    SizeUnit,
     Wireframe,
 )
 from ..errors import InvalidArgumentError
@@ -33,6 +36,8 @@ if TYPE_CHECKING:
 
 WHITE = (1.0, 1.0, 1.0)
 _MAX_LINE = 256.0
+SIZE_UNITS: tuple[SizeUnit, ...] = get_args(SizeUnit)
+_ROWS = 1000  # of a picture on which sizes in "picture" are pixels
 
 
 def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
@@ -73,6 +78,9 @@ class RenderKeywords(TypedDict, total=False):
     culling_camera: CameraChoice
     batching: bool
     transparent_outputs: bool
+    line_shape: LineShape
+    point_shape: PointShape
+    size_unit: SizeUnit
     options: RenderOptions | None
 
 
@@ -86,7 +94,8 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs
+    hidden_lines, point_size, culling, batching, transparent_outputs, line_shape, point_shape,
+    size_unit
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -108,6 +117,9 @@ class RenderOptions:
     culling: Culling = "all"
     batching: bool = True
     transparent_outputs: bool = False
+    line_shape: LineShape = "plain"
+    point_shape: PointShape = "square"
+    size_unit: SizeUnit = "pixels"
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -117,6 +129,9 @@ class RenderOptions:
         choose(self.normals, _native.NORMALS, "normals")
         choose(self.hidden_surfaces, _native.HIDDEN_SURFACES, "hidden_surfaces")
         choose(self.culling, _native.CULLINGS, "culling")
+        choose(self.line_shape, _native.LINE_SHAPES, "line_shape")
+        choose(self.point_shape, _native.POINT_SHAPES, "point_shape")
+        choose(self.size_unit, SIZE_UNITS, "size_unit")
         self.__dict__.update(  # past __setattr__, which refuses
             outputs=check_outputs(self.outputs),
             line_width=_line_size(self.line_width, "line_width"),
@@ -126,6 +141,26 @@ class RenderOptions:
             batching=bool(self.batching),
             transparent_outputs=bool(self.transparent_outputs),
         )
+
+    def pixels_of(self, size: float, height: int) -> float:
+        """Return what a line's width or a point's size is in a picture of some height.
+
+        Parameters
+        ----------
+        size : float
+            `line_width` or `point_size`.
+        height : int
+            Pixels.
+
+        Returns
+        -------
+        float
+            Pixels. A size in shares of the picture is at least 1, so that thin lines keep together
+            in small pictures, and at most 256.
+        """
+        if self.size_unit == "pixels":
+            return size
+        return min(max(1.0, size * height / _ROWS), _MAX_LINE)
 
 
 _DEFAULTS = RenderOptions()

@@ -50,6 +50,11 @@ def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
     return names
 
 
+def size_in_picture(pixels: float, height: int) -> float:
+    """Return a size of pixels as ``size_unit="picture"`` counts it in a picture of some height."""
+    return pixels * _ROWS / height
+
+
 def _line_size(value, what: str) -> float:
     number = real(value)
     if not 0 < number <= _MAX_LINE:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .filtering import Filtering
 from .surroundings import Surroundings
 from .theme import DARK, Theme
 
@@ -35,6 +36,8 @@ class Settings:
         The environment.
     textures : bool
         Whether materials show their textures.
+    filtering : Filtering
+        How textures are read.
     near, far : float or None
         Distances of the clip planes; None encloses the scene.
     walks : bool
@@ -60,6 +63,7 @@ class Settings:
     light_clamp: tuple[float, float] | None = None
     surroundings: Surroundings = field(default_factory=Surroundings)
     textures: bool = True
+    filtering: Filtering = Filtering()
     near: float | None = None
     far: float | None = None
     walks: bool = False

@@ -1,4 +1,4 @@
-"""Anisotropic and biased textures in every slot; lines with round ends, round points, sizes in shares of the picture."""
+"""Anisotropic and biased textures in every slot; round lines and points, sizes by the picture."""
 
 import numpy as np
 from images.objects import camera_at, checkerboard, clip_camera, with_material
@@ -35,9 +35,7 @@ def anisotropic_maps():
     pixels[..., 2] = pixels[..., 2] // 2 + 128
 
     def of(anisotropy, bias=0.0):
-        return e3d.Texture(
-            pixels, color_space="linear", anisotropy=anisotropy, lod_bias=bias
-        )
+        return e3d.Texture(pixels, color_space="linear", anisotropy=anisotropy, lod_bias=bias)
 
     material = e3d.Material(
         metallic=0.6,

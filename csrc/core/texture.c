@@ -182,7 +182,7 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     if (!texture)
         return E3D_OUT_OF_MEMORY;
     texture->view.level_count = levels;
-    texture->view.channel_bits = decode_srgb || levels > 1 ? 16 : 8;
+    texture->view.channel_bits = decode_srgb || sampling->filter == E3D_TRILINEAR ? 16 : 8;
     keep_sampling(sampling, &texture->view);
     texture->view.is_opaque = is_opaque(pixels, (size_t)width * (size_t)height);
     size_t bytes = chain_texels(width, height, levels) * texel_bytes(texture);

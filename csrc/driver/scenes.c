@@ -400,6 +400,8 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     frame->remove_hidden_lines = random_below(r, 2);
     frame->line_width = random_once_in(r, 3) ? random_float(r, 0.01f, 20.0f) : 1.0f;
     frame->point_size = random_once_in(r, 3) ? random_float(r, 0.01f, 20.0f) : 1.0f;
+    frame->line_shape = (e3d_line_shape)random_below(r, 2);
+    frame->point_shape = (e3d_point_shape)random_below(r, 2);
     frame->encode_srgb = random_below(r, 2);
     frame->decode_srgb = random_below(r, 2);
     for (int k = 0; k < 3; k++) {

@@ -54,6 +54,13 @@ typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
     X(E3D_CULLING_ALWAYS, always)
 typedef enum e3d_culling { E3D_EACH_CULLING(E3D_ENUMERATOR) } e3d_culling;
 
+/* PLAIN: parallelograms with slanted ends, as R11 has them. ROUND: as wide as they say at any angle, with half a disc at each end. */
+#define E3D_EACH_LINE_SHAPE(X) X(E3D_LINES_PLAIN, plain) X(E3D_LINES_ROUND, round)
+typedef enum e3d_line_shape { E3D_EACH_LINE_SHAPE(E3D_ENUMERATOR) } e3d_line_shape;
+
+#define E3D_EACH_POINT_SHAPE(X) X(E3D_POINTS_SQUARE, square) X(E3D_POINTS_ROUND, round)
+typedef enum e3d_point_shape { E3D_EACH_POINT_SHAPE(E3D_ENUMERATOR) } e3d_point_shape;
+
 enum { E3D_MAX_SIZE = 16384 };
 
 typedef struct e3d_frame {
@@ -102,6 +109,8 @@ typedef struct e3d_frame {
     e3d_fog fog;                   /* lit and unlit only */
     e3d_gradient gradient;
     const e3d_casters *casters;  /* of exact shadows, or NULL: none */
+    e3d_line_shape line_shape;            /* of lines and of a wireframe's edges */
+    e3d_point_shape point_shape;
 } e3d_frame;
 
 #ifdef __cplusplus

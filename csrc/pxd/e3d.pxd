@@ -20,8 +20,10 @@ cdef extern from "e3d.h" nogil:
         E3D_OPTION_FALLOFF
         E3D_OPTION_FILTER
         E3D_OPTION_HIDDEN
+        E3D_OPTION_LINE_SHAPE
         E3D_OPTION_MODE
         E3D_OPTION_NORMALS
+        E3D_OPTION_POINT_SHAPE
         E3D_OPTION_SHADING
         E3D_OPTION_TEXTURE_SLOT
         E3D_OPTION_TONE_MAPPING
@@ -299,6 +301,11 @@ cdef extern from "e3d.h" nogil:
         int32_t shows
         float top[3]
         float bottom[3]
+    ctypedef enum e3d_line_shape:
+        pass
+
+    ctypedef enum e3d_point_shape:
+        pass
 
     ctypedef struct e3d_frame:
         int32_t width
@@ -346,6 +353,8 @@ cdef extern from "e3d.h" nogil:
         e3d_fog fog
         e3d_gradient gradient
         const e3d_casters *casters
+        e3d_line_shape line_shape
+        e3d_point_shape point_shape
 
     ctypedef enum e3d_output_kind:
         E3D_OUTPUT_NDC_DEPTH

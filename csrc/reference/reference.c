@@ -44,6 +44,8 @@ static e3d_status check_frame(const e3d_frame *frame, const e3d_targets *targets
         return E3D_INVALID_ARGUMENT;
     if (!e3d_shadows_are_valid(frame))
         return E3D_INVALID_ARGUMENT;
+    if ((unsigned)frame->line_shape > E3D_LINES_ROUND || (unsigned)frame->point_shape > E3D_POINTS_ROUND)
+        return E3D_INVALID_ARGUMENT;
     int64_t primitives = 0;
     for (int32_t d = 0; d < frame->draw_count; d++) {
         const e3d_draw *draw = &frame->draws[d];

@@ -4,11 +4,12 @@
  * Out: pieces at the end of the scene's list, each with a positive area, a sample box that is not
  *      empty, edge functions, a depth plane and barycentric planes.
  * Rules: R8 (screen), R9 (area, facing), R10 (box), R11 (lines, points), R12 (a, b), R13 (depth),
- *      R18 (barycentrics).
+ *      R18 (barycentrics), R114 (round lines), R115 (round points).
  */
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/half_circle.h"
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
@@ -222,7 +223,53 @@ static int32_t line_offset(const ref_scene *scene, double dx, double dy)
 int32_t ref_greatest_offset(const ref_scene *scene)
 {
     int32_t half = ref_half_size(scene, scene->frame->line_width);
-    return scene->frame->line_width <= 1.0f ? half : (int32_t)lrint((double)half * sqrt(2.0));
+    return scene->frame->line_width <= 1.0f || scene->frame->line_shape == E3D_LINES_ROUND ? half : (int32_t)lrint((double)half * sqrt(2.0));
+}
+
+/* R114: how many corners a half circle has, less one. */
+static int arc_steps(int32_t radius)
+{
+    static const int32_t MOST[] = {128, 512, 2048, 8192, 32768};
+    int steps = 2;
+    for (int k = 0; k < 5 && radius > MOST[k]; k++)
+        steps = 2 * steps;
+    return steps;
+}
+
+/* R114: corner j of the half circle around v that begins across the direction u, to its left on the screen. */
+static screen_corner arc_corner(screen_corner v, int32_t radius, const double u[2], int j, int sign)
+{
+    int step = j * (E3D_HALF_CIRCLE / arc_steps(radius));
+    double c = e3d_half_circle_cosine(step), s = e3d_half_circle_sine(step);
+    int32_t dx = (int32_t)lrint((double)radius * (c * u[1] + s * u[0]));
+    int32_t dy = (int32_t)lrint((double)radius * (s * u[1] - c * u[0]));
+    return shifted(v, sign * dx, sign * dy);
+}
+
+static e3d_status setup_half_disc(ref_scene *scene, const ref_primitive *primitive, screen_corner v, int32_t radius,
+                                  const double u[2], int sign)
+{
+    e3d_status status = E3D_OK;
+    for (int j = 1; j < arc_steps(radius) && status == E3D_OK; j++) {
+        screen_corner fan[3] = {arc_corner(v, radius, u, 0, sign), arc_corner(v, radius, u, j, sign),
+                                arc_corner(v, radius, u, j + 1, sign)};
+        status = setup_piece(scene, primitive, fan);
+    }
+    return status;
+}
+
+/* R114 */
+static e3d_status setup_round_line(ref_scene *scene, const ref_primitive *primitive, const screen_corner v[2])
+{
+    int32_t half = ref_half_size(scene, scene->frame->line_width);
+    double dx = (double)v[1].x - v[0].x, dy = (double)v[1].y - v[0].y, length = sqrt(dx * dx + dy * dy);
+    double u[2] = {length > 0.0 ? dx / length : 1.0, length > 0.0 ? dy / length : 0.0};
+    screen_corner quad[4] = {arc_corner(v[0], half, u, 0, 1), arc_corner(v[1], half, u, 0, 1),
+                             arc_corner(v[1], half, u, 0, -1), arc_corner(v[0], half, u, 0, -1)};
+    e3d_status status = setup_quad(scene, primitive, quad);
+    if (status == E3D_OK)
+        status = setup_half_disc(scene, primitive, v[1], half, u, 1);
+    return status == E3D_OK ? setup_half_disc(scene, primitive, v[0], half, u, -1) : status;
 }
 
 e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, const ref_corner ends[2],
@@ -234,6 +281,8 @@ e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, cons
     if (primitive->kind == REF_EDGE)
         for (int k = 0; k < 2; k++)
             v[k].z = v[k].z - E3D_WIRE_PULL;
+    if (scene->frame->line_shape == E3D_LINES_ROUND)
+        return setup_round_line(scene, primitive, v);
     long across = labs((long)v[1].x - v[0].x), down = labs((long)v[1].y - v[0].y);
     if (across == 0 && down == 0)
         return E3D_OK;
@@ -250,6 +299,11 @@ e3d_status ref_setup_point(ref_scene *scene, const ref_primitive *primitive, con
     if (!project(scene, corner, 0, &v))
         return E3D_OK;
     int32_t half = ref_half_size(scene, scene->frame->point_size);
+    if (scene->frame->point_shape == E3D_POINTS_ROUND && half > E3D_LEAST_DISC) {
+        static const double U[2] = {1.0, 0.0};
+        e3d_status status = setup_half_disc(scene, primitive, v, half, U, 1);
+        return status == E3D_OK ? setup_half_disc(scene, primitive, v, half, U, -1) : status;
+    }
     screen_corner quad[4] = {shifted(v, -half, -half), shifted(v, half, -half), shifted(v, half, half),
                              shifted(v, -half, half)};
     return setup_quad(scene, primitive, quad);

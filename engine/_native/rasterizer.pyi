@@ -16,10 +16,12 @@ ALPHA_MODES: dict[str, int]
 FILTERS: dict[str, int]
 WRAPS: dict[str, int]
 FALLOFFS: dict[str, int]
+LINE_SHAPES: dict[str, int]
 MODES: dict[str, int]
 CULLS: dict[str, int]
 WIREFRAMES: dict[str | None, int]
 HIDDEN_SURFACES: dict[str, int]
+POINT_SHAPES: dict[str, int]
 CULLINGS: dict[str, int]
 SHADINGS: dict[str, int]
 TEXTURE_SLOTS: dict[str, int]
@@ -220,6 +222,8 @@ class NativeOptions:
         transparent_outputs: bool,
         line_width: float,
         point_size: float,
+        line_shape: int,
+        point_shape: int,
         line_color: Sequence[float],
         background: Sequence[float],
         encode_srgb: bool,

@@ -39,8 +39,10 @@ CULLINGS = values_of(E3D_OPTION_CULLING)
 FALLOFFS = values_of(E3D_OPTION_FALLOFF)
 FILTERS = values_of(E3D_OPTION_FILTER)
 HIDDEN_SURFACES = values_of(E3D_OPTION_HIDDEN)
+LINE_SHAPES = values_of(E3D_OPTION_LINE_SHAPE)
 MODES = values_of(E3D_OPTION_MODE)
 NORMALS = values_of(E3D_OPTION_NORMALS)
+POINT_SHAPES = values_of(E3D_OPTION_POINT_SHAPE)
 SHADINGS = values_of(E3D_OPTION_SHADING)
 TEXTURE_SLOTS = values_of(E3D_OPTION_TEXTURE_SLOT)
 TONE_MAPPINGS = values_of(E3D_OPTION_TONE_MAPPING)
@@ -197,6 +199,8 @@ cdef class NativeOptions:
         bint transparent_outputs,
         float line_width,
         float point_size,
+        int line_shape,
+        int point_shape,
         line_color,
         background,
         bint encode_srgb,
@@ -227,6 +231,8 @@ cdef class NativeOptions:
         frame.transparent_outputs = transparent_outputs
         frame.line_width = line_width
         frame.point_size = point_size
+        frame.line_shape = <e3d_line_shape>line_shape
+        frame.point_shape = <e3d_point_shape>point_shape
         copy_vector(frame.line_color, line_color, 3)
         copy_vector(frame.background, background, 4)
         frame.encode_srgb = encode_srgb

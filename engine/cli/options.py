@@ -24,6 +24,7 @@ from ..choices import (
 )
 from . import values
 from .environment_options import surroundings
+from .filter_options import add_line_shapes, add_texture_filters, filtering
 from .inputs import model_files
 from .light_options import SHADOWS
 from .loading_bar import LoadingBar
@@ -49,6 +50,7 @@ SIGNED_OPTIONS = frozenset(
         "--camera-azimuth-angle",
         "--camera-elevation-angle",
         "--environment-rotation",
+        "--lod-bias",
         "--camera-index",
         "--animation-index",
         "--animation-time",
@@ -228,7 +230,7 @@ def add_appearance(parser) -> None:
         "--line-width",
         type=values.width,
         metavar="PIXELS",
-        help="width of lines and edges, up to 256",
+        help="width of lines and edges, up to 256; see --size-unit",
     )
     group.add_argument(
         "--line-color",
@@ -243,6 +245,8 @@ def add_appearance(parser) -> None:
         metavar="PIXELS",
         help="size of points, up to 256; by default larger the fewer points there are",
     )
+    add_line_shapes(group)
+    add_texture_filters(group)
     normals = group.add_mutually_exclusive_group()
     normals.add_argument(
         "--flat",
@@ -470,6 +474,9 @@ def settings(args: argparse.Namespace):
         "line_color": args.line_color,
         "hidden_lines": args.hidden_lines or None,
         "point_size": args.point_size,
+        "line_shape": args.line_shape,
+        "point_shape": args.point_shape,
+        "size_unit": args.size_unit,
     }
     return Settings(
         appearance={name: value for name, value in appearance.items() if value is not None},
@@ -482,6 +489,7 @@ def settings(args: argparse.Namespace):
         shadow=None if args.shadows is None else SHADOWS[args.shadows],
         surroundings=surroundings(args),
         textures=not args.no_texture,
+        filtering=filtering(args),
         near=args.near,
         far=args.far,
         grid=args.grid,

@@ -16,6 +16,8 @@ MAX_SIDE = 16384
 MAX_THREADS = 256
 MAX_WIDTH = 256  # of lines and points
 MAX_UI_SCALE = 8
+MAX_ANISOTROPY = 16
+MAX_LOD_BIAS = 16
 CITY_TRIANGLES = 20_000, 50_000_000
 
 
@@ -65,6 +67,22 @@ def width(text: str) -> float:
     value = positive(text)
     if value > MAX_WIDTH:
         raise argparse.ArgumentTypeError(f"{text!r} is above {MAX_WIDTH} pixels")
+    return value
+
+
+def anisotropy(text: str) -> int:
+    """Parse the most places at which a texture is read, 1 to 16."""
+    value = count(text)
+    if value > MAX_ANISOTROPY:
+        raise argparse.ArgumentTypeError(f"{text!r} is above {MAX_ANISOTROPY}")
+    return value
+
+
+def lod_bias(text: str) -> float:
+    """Parse what is added to the level of detail of textures."""
+    value = number(text)
+    if abs(value) > MAX_LOD_BIAS:
+        raise argparse.ArgumentTypeError(f"{text!r} is not in -{MAX_LOD_BIAS} to {MAX_LOD_BIAS}")
     return value
 
 

@@ -42,6 +42,8 @@ class FrameOptions:
         That prepare environments; 0: all.
     color_space : {"srgb", "linear"}
     options : RenderOptions
+    height : int
+        Of the picture in pixels.
 
     Attributes
     ----------
@@ -57,7 +59,12 @@ class FrameOptions:
     """
 
     def __init__(
-        self, scene: Scene, color_space: str, options: RenderOptions, threads: int
+        self,
+        scene: Scene,
+        color_space: str,
+        options: RenderOptions,
+        threads: int,
+        height: int,
     ) -> None:
         self._options = options
         self._needs: dict[tuple[str, ...], MeshNeeds] = {}
@@ -84,6 +91,8 @@ class FrameOptions:
         color = tuple(max(0.0, 1.0 - component) for component in ambient)
         lux = math.pi if environment is None else 0.0
         self.headlight = color, tuple(lux * component for component in color)
+        line_width = options.pixels_of(options.line_width, height)
+        point_size = options.pixels_of(options.point_size, height)
         self.native = _native.NativeOptions(
             mode=_native.MODES[options.mode],
             cull=_native.CULLS["back" if options.cull == "auto" else options.cull],
@@ -94,8 +103,10 @@ class FrameOptions:
             culling=_native.CULLINGS[options.culling],
             remove_hidden_lines=not options.hidden_lines,
             transparent_outputs=options.transparent_outputs,
-            line_width=options.line_width,
-            point_size=options.point_size,
+            line_width=line_width,
+            point_size=point_size,
+            line_shape=_native.LINE_SHAPES[options.line_shape],
+            point_shape=_native.POINT_SHAPES[options.point_shape],
             line_color=convert(options.line_color, color_space),
             background=background,
             encode_srgb=encoded,
@@ -115,7 +126,7 @@ class FrameOptions:
         )
         self.has_backdrop = backdrop is not None
         # Twice as far from its middle as the widest line or point reaches, and for rounding.
-        self.mark_size = 2.0 * (max(options.line_width, options.point_size) + 2.0)
+        self.mark_size = 2.0 * (max(line_width, point_size) + 2.0)
 
     def needs(self, outputs: tuple[str, ...]) -> MeshNeeds:
         """Return which derived arrays of meshes a frame with these outputs reads."""
@@ -185,12 +196,12 @@ class OptionsCache:
             _keep(self._named, names, (given, options))
         return options
 
-    def get(self, scene: Scene, options: RenderOptions) -> FrameOptions:
-        """Return what the options are for a scene as it is now."""
-        seen = options, *(getattr(scene, name) for name in SCENE_VALUES)
+    def get(self, scene: Scene, options: RenderOptions, height: int) -> FrameOptions:
+        """Return what the options are for a scene as it is now, in a picture of some height."""
+        seen = options, height, *(getattr(scene, name) for name in SCENE_VALUES)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
-            known = seen, FrameOptions(scene, self._color_space, options, self._threads)
+            known = seen, FrameOptions(scene, self._color_space, options, self._threads, height)
             _keep(self._found, id(options), known)
         return known[1]
 

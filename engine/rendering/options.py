@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, TypedDict, get_args
 
 from .._native import rasterizer as _native
 from .._support.numbers import real, shown
@@ -19,9 +19,12 @@ from ..choices import (
     Culling,
     FrameCull,
     HiddenSurfaces,
+    LineShape,
     Mode,
     Normals,
+    PointShape,
     Shading,
+    SizeUnit,
     ToneMapping,
     Wireframe,
 )
@@ -37,6 +40,8 @@ _CULLS = (*_native.CULLS, "auto")
 WHITE = (1.0, 1.0, 1.0)
 _MAX_LINE = 256.0
 _MAX_BLOOM = 100.0
+SIZE_UNITS: tuple[SizeUnit, ...] = get_args(SizeUnit)
+_ROWS = 1000  # of a picture on which sizes in "picture" are pixels
 
 
 def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
@@ -47,6 +52,11 @@ def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
     if not names:
         raise InvalidArgumentError('outputs must name at least one output, such as "color"')
     return names
+
+
+def size_in_picture(pixels: float, height: int) -> float:
+    """Return a size of pixels as ``size_unit="picture"`` counts it in a picture of some height."""
+    return pixels * _ROWS / height
 
 
 def _line_size(value, what: str) -> float:
@@ -86,6 +96,9 @@ class RenderKeywords(TypedDict, total=False):
     transparent_outputs: bool
     tone_mapping: ToneMapping
     bloom: float
+    line_shape: LineShape
+    point_shape: PointShape
+    size_unit: SizeUnit
     options: RenderOptions | None
 
 
@@ -99,7 +112,8 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping, bloom
+    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping, bloom,
+    line_shape, point_shape, size_unit
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -123,6 +137,9 @@ class RenderOptions:
     transparent_outputs: bool = False
     tone_mapping: ToneMapping = "none"
     bloom: float = 0.0
+    line_shape: LineShape = "plain"
+    point_shape: PointShape = "square"
+    size_unit: SizeUnit = "pixels"
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -133,6 +150,9 @@ class RenderOptions:
         choose(self.hidden_surfaces, _native.HIDDEN_SURFACES, "hidden_surfaces")
         choose(self.culling, _native.CULLINGS, "culling")
         choose(self.tone_mapping, _native.TONE_MAPPINGS, "tone_mapping")
+        choose(self.line_shape, _native.LINE_SHAPES, "line_shape")
+        choose(self.point_shape, _native.POINT_SHAPES, "point_shape")
+        choose(self.size_unit, SIZE_UNITS, "size_unit")
         self.__dict__.update(  # past __setattr__, which refuses
             outputs=check_outputs(self.outputs),
             line_width=_line_size(self.line_width, "line_width"),
@@ -143,6 +163,26 @@ class RenderOptions:
             transparent_outputs=bool(self.transparent_outputs),
             bloom=_strength(self.bloom),
         )
+
+    def pixels_of(self, size: float, height: int) -> float:
+        """Return what a line's width or a point's size is in a picture of some height.
+
+        Parameters
+        ----------
+        size : float
+            `line_width` or `point_size`.
+        height : int
+            Pixels.
+
+        Returns
+        -------
+        float
+            Pixels. A size in shares of the picture is at least 1, so that thin lines keep together
+            in small pictures, and at most 256.
+        """
+        if self.size_unit == "pixels":
+            return size
+        return min(max(1.0, size * height / _ROWS), _MAX_LINE)
 
 
 _DEFAULTS = RenderOptions()

@@ -22,10 +22,13 @@ from ..choices import (
     Culling,
     FrameCull,
     HiddenSurfaces,
+    LineShape,
     Mode,
     Normals,
+    PointShape,
     Samples,
     Shading,
+    SizeUnit,
     ToneMapping,
     Wireframe,
 )
@@ -193,7 +196,7 @@ class Renderer(Closed):
                 mode=mode, wireframe=wireframe, outputs=outputs, normals=normals
             )
             options = either(options, keywords)
-            frame_options = self._options.get(scene, options)
+            frame_options = self._options.get(scene, options, self._height)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
             needs = frame_options.needs(options.outputs)
             census = scene._census()
@@ -244,6 +247,9 @@ class Renderer(Closed):
         transparent_outputs: bool = False,
         tone_mapping: ToneMapping = "none",
         bloom: float = 0.0,
+        line_shape: LineShape = "plain",
+        point_shape: PointShape = "square",
+        size_unit: SizeUnit = "pixels",
         options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
@@ -279,7 +285,7 @@ class Renderer(Closed):
             The method of hidden-surface removal: depth buffer, painter's algorithm (drawing from
             far to near), or none.
         line_width, point_size : float
-            Pixels, more than 0 and up to 256.
+            In ``size_unit``, more than 0 and up to 256.
         line_color : sequence of 3 numbers
             Colour of the wireframe.
         hidden_lines : bool
@@ -309,6 +315,16 @@ class Renderer(Closed):
             How much of the light above 1 glows around where it comes from, in modes "lit" and
             "unlit", 0 to 100; 1 is a lot. It changes no alpha, so that before a transparent
             background only what is drawn glows.
+        line_shape : {"plain", "round"}
+            Of lines and of a wireframe's edges. ``"plain"``: their ends are cut along a row or a
+            column, and lines of up to a pixel take one pixel for each step, so that slanted ones
+            are thinner across. ``"round"``: as wide as they say at any angle, with half a disc at
+            each end, so that lines that meet have round joins.
+        point_shape : {"square", "round"}
+        size_unit : {"pixels", "picture"}
+            What line_width and point_size count: pixels, or thousandths of the picture's height, so
+            that a scene looks alike at every size; of these at least 1 pixel is drawn, and at
+            most 256.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 
@@ -345,6 +361,9 @@ class Renderer(Closed):
                 transparent_outputs,
                 tone_mapping,
                 bloom,
+                line_shape,
+                point_shape,
+                size_unit,
             )
             named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)
@@ -358,7 +377,7 @@ class Renderer(Closed):
         culling_camera: CameraChoice,
     ) -> Frame:
         """Draw a frame in the turn that the caller has."""
-        frame_options = self._options.get(scene, options)
+        frame_options = self._options.get(scene, options, self._height)
         frame = self._new_frame(options.outputs) if out is None else self._check_out(out)
         census = scene._census()
         try:

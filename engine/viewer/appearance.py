@@ -37,8 +37,8 @@ class Appearance:
     """The drawing options of one frame; the fields are those of `Renderer.render`.
 
     ``line_color`` is (r, g, b), integers 0 to 255, sRGB; None is dark over faces, and without them
-    what is seen before the background. Widths and sizes are in pixels; a ``point_size`` of None
-    goes by the picture and by how many points there are.
+    what is seen before the background. Widths and sizes are in ``size_unit``; a ``point_size`` of
+    None goes by the picture and by how many points there are.
     """
 
     mode: str = "lit"
@@ -52,6 +52,9 @@ class Appearance:
     line_color: tuple[int, int, int] | None = None
     hidden_lines: bool = False
     point_size: float | None = None
+    line_shape: str = "plain"
+    point_shape: str = "square"
+    size_unit: str = "pixels"
 
     def arguments(self, background, point_size: float) -> dict:
         """Return the keyword arguments for `Renderer.render`.

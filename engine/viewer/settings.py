@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ..choices import LightShadow
+from .filtering import Filtering
 from .surroundings import Surroundings
 from .theme import DARK, Theme
 
@@ -38,6 +39,8 @@ class Settings:
         The environment.
     textures : bool
         Whether materials show their textures.
+    filtering : Filtering
+        How textures are read.
     near, far : float or None
         Distances of the clip planes; None encloses the scene.
     walks : bool
@@ -64,6 +67,7 @@ class Settings:
     shadow: LightShadow | None = None
     surroundings: Surroundings = field(default_factory=Surroundings)
     textures: bool = True
+    filtering: Filtering = Filtering()
     near: float | None = None
     far: float | None = None
     walks: bool = False

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import linalg
+from ..rendering.options import size_in_picture
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
 from ..scene.lights import DirectionalLight
@@ -118,6 +119,7 @@ class ViewRenderer:
         """
         settings = self.settings
         self.viewed = viewed
+        settings.filtering.put(viewed.scene)
         self._textures = Textures(viewed.scene)
         self.show_textures(settings.textures)
         if settings.light_clamp is not None:
@@ -316,10 +318,15 @@ class ViewRenderer:
 
     @property
     def point_size(self) -> float:
-        """How large points are, in pixels."""
+        """How large points are, in the appearance's `size_unit`."""
         if self.appearance.point_size is not None:
             return self.appearance.point_size
-        return point_size(self._points, self.size)
+        pixels = point_size(self._points, self.size)
+        return (
+            pixels
+            if self.appearance.size_unit == "pixels"
+            else size_in_picture(pixels, self.size[1])
+        )
 
     def _camera(self, view: Viewpoint):
         clearance = self.viewed.clearance

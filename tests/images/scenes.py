@@ -3,6 +3,7 @@
 from images import (  # noqa: F401
     scenes_alpha,
     scenes_exact_shadows,
+    scenes_filters,
     scenes_geometry,
     scenes_glass,
     scenes_lights,

@@ -1,10 +1,11 @@
-/* geometry: lines, points and wireframe edges, each a parallelogram of two triangles (R6-R8, R11). */
+/* geometry: lines, points and wireframe edges, each a parallelogram of two triangles (R6-R8, R11), or with round ends (R114, R115). */
 #include <math.h>
 
 #include "core/limits.h"
 #include "e3d.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/geometry/alpha.h"
+#include "pipeline/geometry/arc.h"
 #include "pipeline/geometry/clip.h"
 #include "pipeline/geometry/lines.h"
 #include "pipeline/geometry/records.h"
@@ -31,7 +32,9 @@ e3d_line_style e3d_line_style_of(const e3d_frame *frame)
     int32_t line = (int32_t)lrintf(frame->line_width * axis * 128.0f);
     int32_t point = (int32_t)lrintf(frame->point_size * axis * 128.0f);
     e3d_line_style style = {.half = line > 1 ? line : 1, .point_half = point > 1 ? point : 1, .wide = frame->line_width > 1.0f};
-    style.reach = style.wide ? (int32_t)lrint((double)style.half * sqrt(2.0)) : style.half;
+    style.round_lines = frame->line_shape == E3D_LINES_ROUND;
+    style.round_points = frame->point_shape == E3D_POINTS_ROUND && style.point_half > E3D_LEAST_DISC;
+    style.reach = style.wide && !style.round_lines ? (int32_t)lrint((double)style.half * sqrt(2.0)) : style.half;
     return style;
 }
 
@@ -46,10 +49,15 @@ static void position_of(const unit_walk *w, int32_t vertex, float out[4])
                      : ((m[4 * r] * p[0] + m[4 * r + 1] * p[1]) + m[4 * r + 2] * p[2]) + m[4 * r + 3];
 }
 
-static void emit_quad(unit_walk *w, const e3d_corner q[4], uint32_t order, int which)
+static e3d_primitive primitive_of(const unit_walk *w, uint32_t order, int which)
 {
     int alpha = which == E3D_SET_SCENE ? w->alpha : E3D_ALPHA_NONE;
-    e3d_primitive primitive = {.order = order, .set = which, .cut = 1, .cull = E3D_CULL_NONE, .alpha = alpha};
+    return (e3d_primitive){.order = order, .set = which, .cut = 1, .cull = E3D_CULL_NONE, .alpha = alpha};
+}
+
+static void emit_quad(unit_walk *w, const e3d_corner q[4], uint32_t order, int which)
+{
+    const e3d_primitive primitive = primitive_of(w, order, which);
     const e3d_corner first[3] = {q[0], q[1], q[2]}, second[3] = {q[0], q[2], q[3]};
     e3d_emit(w->pass, w->state, first, &primitive);
     e3d_emit(w->pass, w->state, second, &primitive);
@@ -70,6 +78,39 @@ static int32_t offset_of(const e3d_line_style *lines, double dx, double dy)
     if (!lines->wide)
         return lines->half;
     return (int32_t)lrint((double)lines->half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
+}
+
+/* Draws the half disc on one side of an arc around a point of the screen; sign -1: on the other side. */
+static void draw_half_disc(unit_walk *w, const e3d_corner *middle, const e3d_arc *arc, int sign, const e3d_primitive *primitive)
+{
+    for (int j = 1; j < arc->steps; j++) {
+        const e3d_corner corner[3] = {moved(*middle, sign * arc->x[0], sign * arc->y[0]), moved(*middle, sign * arc->x[j], sign * arc->y[j]),
+                                      moved(*middle, sign * arc->x[j + 1], sign * arc->y[j + 1])};
+        e3d_emit(w->pass, w->state, corner, primitive);
+    }
+}
+
+/* R114 */
+static void draw_round_line(unit_walk *w, const e3d_corner end[2], uint32_t order, int which)
+{
+    const e3d_primitive primitive = primitive_of(w, order, which);
+    e3d_arc arc;
+    e3d_arc_of(w->lines.half, (double)end[1].x - end[0].x, (double)end[1].y - end[0].y, &arc);
+    int32_t x = arc.x[0], y = arc.y[0];
+    const e3d_corner band[4] = {moved(end[0], x, y), moved(end[1], x, y), moved(end[1], -x, -y), moved(end[0], -x, -y)};
+    emit_quad(w, band, order, which);
+    draw_half_disc(w, &end[1], &arc, 1, &primitive);
+    draw_half_disc(w, &end[0], &arc, -1, &primitive);
+}
+
+/* R115: the two halves of a disc. */
+static void draw_disc(unit_walk *w, const e3d_corner *middle, uint32_t order)
+{
+    const e3d_primitive primitive = primitive_of(w, order, E3D_SET_SCENE);
+    e3d_arc arc;
+    e3d_arc_of(w->lines.point_half, 0.0, 0.0, &arc);
+    draw_half_disc(w, middle, &arc, 1, &primitive);
+    draw_half_disc(w, middle, &arc, -1, &primitive);
 }
 
 /* Draws a line between two points of the screen as a parallelogram. */
@@ -110,7 +151,10 @@ static void draw_line(unit_walk *w, const int32_t *ends, uint32_t order, int whi
         if (which == E3D_SET_EDGES)
             end[i].zn = end[i].zn - E3D_WIRE_PULL;
     }
-    draw_band(w, end, order, which);
+    if (w->lines.round_lines)
+        draw_round_line(w, end, order, which);
+    else
+        draw_band(w, end, order, which);
 }
 
 static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
@@ -125,6 +169,10 @@ static void draw_point(unit_walk *w, int32_t vertex, uint32_t order)
         return;
     c.c[0] = 1;
     c.c[1] = c.c[2] = 0;
+    if (w->lines.round_points) {
+        draw_disc(w, &c, order);
+        return;
+    }
     int32_t h = w->lines.point_half;
     const e3d_corner quad[4] = {moved(c, -h, -h), moved(c, h, -h), moved(c, h, h), moved(c, -h, h)};
     emit_quad(w, quad, order, E3D_SET_SCENE);

@@ -14,6 +14,7 @@ typedef struct e3d_line_style {
     int32_t half, point_half;
     int32_t reach; /* of any line along its minor axis: no less than half, where */
     int wide;      /* lines are as wide across as they say */
+    int round_lines, round_points; /* have round ends (R114); are discs (R115) */
 } e3d_line_style;
 
 /* Units of E3D_LINES_A_UNIT lines, then of points, then of edges of an instance. */

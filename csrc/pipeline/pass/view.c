@@ -8,6 +8,7 @@
 #include "core/mesh.h"
 #include "core/pool.h"
 #include "e3d.h"
+#include "kernels/types/fog.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/pass/boxes.h"

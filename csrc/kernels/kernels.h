@@ -12,6 +12,7 @@
 #include "e3d_canvas.h"
 #include "kernels/types/alpha.h"
 #include "kernels/types/casters.h"
+#include "kernels/types/fog.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/lobe.h"
 #include "kernels/types/maps.h"
@@ -121,8 +122,8 @@ typedef struct e3d_kernels {
     void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block);
     /* Finds the colours of an environment behind `count` pixels of a row, from (x, y) on; they are neither tone mapped nor clamped. */
     void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]);
-    /* color: fog over it, by the samples' positions. */
-    void (*fog)(e3d_batch *batch, const e3d_fog_view *fog);
+    /* Lays fog over colours that are at these positions. */
+    void (*fog)(const e3d_fog_view *fog, const float *const position[3], int count, float *const color[3]);
     /* Maps planes of colours to [0, 1]. */
     void (*tone)(e3d_tone_mapping mapping, float *const color[3], int count);
     /* alpha (R80): base, times the texture's (NULL: base has it already), the vertices' and the instance's. */

@@ -279,7 +279,7 @@ cdef extern from "kernels/kernels.h" nogil:
         void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out)
         void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block)
         void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const *color)
-        void (*fog)(e3d_batch *batch, const e3d_fog_view *fog)
+        void (*fog)(const e3d_fog_view *fog, const float *const *position, int count, float *const *color)
         void (*tone)(e3d_tone_mapping mapping, float *const *color, int count)
         void (*encode)(const float *red, const float *green, const float *blue, int count, int srgb,
                        uint32_t *rgba)

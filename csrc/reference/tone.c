@@ -6,7 +6,6 @@
  */
 #include "core/srgb_tables.h"
 #include "core/tone_tables.h"
-#include "reference/arithmetic.h"
 #include "reference/surface.h"
 
 static void limit(float color[3])

@@ -516,12 +516,15 @@ cdef class Kernels:
         for _ in range(self.rounds):
             self.table.lobe(<const e3d_cell_group *>&group[0], <e3d_lobe_block *>&block[0])
 
-    def fog(self, uint8_t[::1] batch, fog):
-        """``fog``: as for `fog_view`."""
+    def fog(self, fog, const float[:, ::1] position, int count, float[:, ::1] color):
+        """``fog``: as for `fog_view`; the others: (3, count + PAD). Colours are changed in place."""
         cdef e3d_fog_view view = fog_view(fog)
-        check_size(batch, sizeof(e3d_batch))
+        cdef const float *positions[3]
+        cdef float *colors[3]
+        for k in range(3):
+            positions[k], colors[k] = &position[k, 0], &color[k, 0]
         for _ in range(self.rounds):
-            self.table.fog(<e3d_batch *>&batch[0], &view)
+            self.table.fog(&view, positions, count, colors)
 
     def tone(self, int mapping, float[:, ::1] color, int count):
         """``color``: (3, count + PAD), changed in place."""

@@ -3,10 +3,11 @@
 import numpy as np
 from kernels.arithmetic import ONE, ZERO, clamp, dot, exp2, greatest, least, log2
 from kernels.harness import POISON, all_backends, bits, every_count, hostile
-from kernels.layouts import BATCH, BATCH_RECORD, PAD
+from kernels.layouts import BATCH, BATCH_RECORD, PAD, kernels_testing
 
 from engine3d._native.rasterizer import BACKENDS, TONE_MAPPINGS
 
+STRUCT_SIZES = kernels_testing.STRUCT_SIZES
 F = np.float32
 MOST = F(2.0**16)
 LINEAR, EXPONENTIAL = 1, 2
@@ -159,10 +160,9 @@ def test_formulas_that_were_published(kernels):
 
 def test_light_that_shows_is_the_way_back():
     """A mapper makes a colour of the light that shows as it, where any does."""
-    from engine3d._native.kernels_testing import Kernels
     from engine3d.rendering._tone_inverse import light_that_shows
 
-    kernels = Kernels(BACKENDS["portable"])
+    kernels = kernels_testing.Kernels(BACKENDS["portable"])
     greys = np.repeat(np.linspace(0.01, 0.95, 40), 3).reshape(-1, 3)
     soft = 0.25 + 0.35 * np.random.default_rng(13).random((200, 3))
     for name in TONE_MAPPINGS:
@@ -188,51 +188,45 @@ def share(kind, row, position, near, scale, density):
 def test_fog(kernels):
     rng = np.random.default_rng(14)
     with np.errstate(all="ignore"):
-        for count in every_count(rng, BATCH, 300):
-            batch = np.zeros(1, BATCH_RECORD)
-            batch["count"] = count
-            batch["position"][0] = hostile(rng, batch["position"][0].shape, 9.0, 0.02)
-            batch["color"][0] = hostile(rng, batch["color"][0].shape, 3.0, 0.02)
+        for count in every_count(rng, 3 * PAD, 200):
+            position, before = (hostile(rng, (3, count + 2 * PAD), s, 0.02) for s in (9.0, 3.0))
             row, color = rng.uniform(-1, 1, 4).astype(F), rng.random(3).astype(F)
             near, scale, density = rng.random(3).astype(F)
             for kind in (LINEAR, EXPONENTIAL):
-                fogged = batch.copy()
-                fog = (kind, row.tolist(), color.tolist(), (near, scale), density)
-                kernels.fog(fogged.view(np.uint8), fog)
-                f = share(kind, row, batch["position"][0][:, :count], near, scale, density)
-                before = limited(batch["color"][0][:, :count])
-                expected = before + (color[:, None] - before) * f
-                assert np.array_equal(bits(fogged["color"][0][:, :count]), bits(expected))
-                assert np.array_equal(fogged["sample"], batch["sample"])
+                got = before.copy()
+                kernels.fog(
+                    (kind, row.tolist(), color.tolist(), (near, scale), density),
+                    position,
+                    count,
+                    got,
+                )
+                f = share(kind, row, position[:, :count], near, scale, density)
+                bright = limited(before[:, :count])
+                expected = bright + (color[:, None] - bright) * f
+                assert np.array_equal(bits(got[:, :count]), bits(expected))
+                assert np.array_equal(bits(got[:, count + PAD :]), bits(before[:, count + PAD :]))
 
 
 @all_backends
 def test_paint_does_both(kernels):
     """The pixels of a batch under fog and a mapper are those of each kernel in turn."""
     rng = np.random.default_rng(15)
+    count = BATCH - 3
     position = hostile(rng, (3, BATCH + PAD), 5.0, 0.0)
-    position[:, BATCH - 3 :] = position[:, BATCH - 4 : BATCH - 3]
+    position[:, count:] = position[:, count - 1 : count]
+    fog = (EXPONENTIAL, [0.1, 0.2, -1.0, -2.0], [0.5, 0.6, 0.7], (0.0, 1.0), 0.3)
     for srgb, name in ((s, n) for s in (False, True) for n in TONE_MAPPINGS):
         batch = np.zeros(1, BATCH_RECORD)
-        batch["count"], batch["sample"][0] = BATCH - 3, np.arange(BATCH + PAD)
-        batch["sample"][0, BATCH - 3 :] = BATCH - 4
-        batch["position"][0] = position
+        batch["count"], batch["position"][0] = count, position
+        batch["sample"][0] = np.minimum(np.arange(BATCH + PAD), count - 1)
         base = (2 * rng.random(3)).astype(F)
-        fog = (EXPONENTIAL, [0.1, 0.2, -1.0, -2.0], [0.5, 0.6, 0.7], (0.0, 1.0), 0.3)
-        apart = batch.copy()
-        apart["color"][0] = base[:, None]
-        kernels.fog(apart.view(np.uint8), fog)
-        color = np.ascontiguousarray(apart["color"][0])
-        kernels.tone(TONE_MAPPINGS[name], color, BATCH - 3)
+        color = np.repeat(base[:, None], BATCH + PAD, axis=1)
+        kernels.fog(fog, position, count, color)
+        kernels.tone(TONE_MAPPINGS[name], color, count)
         expected, got = (np.zeros(64 * 64 + PAD, np.uint32) for _ in range(2))
-        kernels.encode(*color, BATCH - 3, srgb, expected)
-        surfaces = np.zeros(kernels_size("surfaces"), np.uint8)
+        kernels.encode(*color, count, srgb, expected)
+        surfaces = np.zeros(STRUCT_SIZES["surfaces"], np.uint8)
         arguments = (0, None, base, False, False, None, 0.0, None, None, srgb, got)
-        kernels.paint(batch.view(np.uint8), surfaces, *arguments, None, fog, TONE_MAPPINGS[name])
-        assert np.array_equal(got[: BATCH - 3], expected[: BATCH - 3])
-
-
-def kernels_size(struct):
-    from engine3d._native.kernels_testing import STRUCT_SIZES
-
-    return STRUCT_SIZES[struct]
+        mapping = TONE_MAPPINGS[name]
+        kernels.paint(batch.view(np.uint8), surfaces, *arguments, None, fog, mapping)
+        assert np.array_equal(got[:count], expected[:count])

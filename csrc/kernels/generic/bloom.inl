@@ -10,7 +10,7 @@
 #include "core/always_inline.h"
 #include "kernels/generic/encode.inl"
 
-static ALWAYS_INLINE vf32 bloom_bright(const float *light)
+static ALWAYS_INLINE vf32 bloom_above(const float *light)
 {
     return v_min(v_max(v_sub(v_loadf(light), v_setf(1.0f)), v_setf(0.0f)), v_setf(E3D_MOST_BLOOM));
 }
@@ -18,8 +18,8 @@ static ALWAYS_INLINE vf32 bloom_bright(const float *light)
 /* One vector; the channels of pixels follow each other. */
 static ALWAYS_INLINE void bloom_bright_vector(const float *const rows[4], int i, float *out)
 {
-    vf32 outer = v_add(bloom_bright(rows[0] + i), bloom_bright(rows[3] + i));
-    vf32 inner = v_add(bloom_bright(rows[1] + i), bloom_bright(rows[2] + i));
+    vf32 outer = v_add(bloom_above(rows[0] + i), bloom_above(rows[3] + i));
+    vf32 inner = v_add(bloom_above(rows[1] + i), bloom_above(rows[2] + i));
     v_storef(out, v_mul(v_add(outer, v_mul(inner, v_setf(3.0f))), v_setf(0.125f)));
 }
 
@@ -82,7 +82,7 @@ static void kernel_bloom_mix(const float *restrict near, const float *restrict f
 static ALWAYS_INLINE void bloom_put(float value, int add, float *out) { *out = add ? *out + value : value; }
 
 /* Whether it adds is a constant for the compiler. */
-static ALWAYS_INLINE void bloom_spread(const float *restrict row, int width, int add, float *restrict out)
+static ALWAYS_INLINE void bloom_widen(const float *restrict row, int width, int add, float *restrict out)
 {
     int half = (width + 1) / 2, pairs = width / 2;
     bloom_put(row[0] * 0.75f + row[0] * 0.25f, add, out);
@@ -97,9 +97,9 @@ static ALWAYS_INLINE void bloom_spread(const float *restrict row, int width, int
 static void kernel_bloom_spread(const float *row, int width, int add, float *out)
 {
     if (add)
-        bloom_spread(row, width, 1, out);
+        bloom_widen(row, width, 1, out);
     else
-        bloom_spread(row, width, 0, out);
+        bloom_widen(row, width, 0, out);
 }
 
 static ALWAYS_INLINE vi32 bloom_lay_vector(const vcurve *curve, const vf32 glow[3], vf32 scale, const float *decode, int srgb, vi32 rgba)

@@ -128,7 +128,8 @@ static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint,
 /* Fog and tone mapping are loops of their own. */
 static void paint_toned(e3d_batch *batch, const e3d_paint *paint, int colored, uint32_t *rgba)
 {
-    float *const planes[3] = {batch->color[0], batch->color[1], batch->color[2]};
+    float *const color[3] = {batch->color[0], batch->color[1], batch->color[2]};
+    const float *const position[3] = {batch->position[0], batch->position[1], batch->position[2]};
     if (!paint->lighting)
         paint_colors(batch, paint, colored, PAINT_UNLIT, 0.0f);
     else if (paint->lighting->shadows)
@@ -138,9 +139,9 @@ static void paint_toned(e3d_batch *batch, const e3d_paint *paint, int colored, u
     else
         paint_colors(batch, paint, colored, PAINT_LIT, 0.0f);
     if (paint->fog)
-        kernel_fog(batch, paint->fog);
+        kernel_fog(paint->fog, position, batch->count, color);
     if (paint->tone != E3D_TONE_NONE)
-        kernel_tone(paint->tone, planes, batch->count);
+        kernel_tone(paint->tone, color, batch->count);
     if (paint->samples)
         paint_samples(batch, paint, 1, PAINT_UNLIT, 0.0f);
     else

@@ -5,7 +5,7 @@
 #include "core/always_inline.h"
 #include "core/tone_tables.h"
 #include "e3d.h"
-#include "kernels/types/shading.h"
+#include "kernels/types/fog.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/encode.inl"
@@ -121,12 +121,12 @@ static void kernel_tone(e3d_tone_mapping mapping, float *const planes[3], int co
 
 /* ---- fog ---- */
 
-static ALWAYS_INLINE vf32 fog_share(const e3d_fog_view *fog, const e3d_batch *batch, int i, e3d_fog_kind kind)
+static ALWAYS_INLINE vf32 fog_share(const e3d_fog_view *fog, const float *const position[3], int i, e3d_fog_kind kind)
 {
     const float *row = fog->row;
-    vf32 sum = v_mul(v_setf(row[0]), v_loadf(batch->position[0] + i)), zero = v_setf(0.0f), one = v_setf(1.0f);
-    sum = v_add(sum, v_mul(v_setf(row[1]), v_loadf(batch->position[1] + i)));
-    sum = v_add(v_add(sum, v_mul(v_setf(row[2]), v_loadf(batch->position[2] + i))), v_setf(row[3]));
+    vf32 sum = v_mul(v_setf(row[0]), v_loadf(position[0] + i)), zero = v_setf(0.0f), one = v_setf(1.0f);
+    sum = v_add(sum, v_mul(v_setf(row[1]), v_loadf(position[1] + i)));
+    sum = v_add(v_add(sum, v_mul(v_setf(row[2]), v_loadf(position[2] + i))), v_setf(row[3]));
     vf32 depth = v_max(v_sub(zero, sum), zero);
     if (kind == E3D_FOG_LINEAR)
         return encode_clamp(v_mul(v_sub(depth, v_setf(fog->near)), v_setf(fog->scale)));
@@ -134,23 +134,25 @@ static ALWAYS_INLINE vf32 fog_share(const e3d_fog_view *fog, const e3d_batch *ba
     return v_sub(one, exp2_poly(v_mul(v_mul(u, u), v_setf(E3D_MINUS_LOG2_E))));
 }
 
-static ALWAYS_INLINE void fog_batch(e3d_batch *batch, const e3d_fog_view *fog, e3d_fog_kind kind)
+/* The kind is a constant for the compiler. */
+static ALWAYS_INLINE void fog_planes(const e3d_fog_view *fog, const float *const position[3], int count, float *const color[3],
+                                     e3d_fog_kind kind)
 {
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        vf32 share = fog_share(fog, batch, i, kind);
+    for (int i = 0; i < count; i += V_LANES) {
+        vf32 share = fog_share(fog, position, i, kind);
         for (int k = 0; k < 3; k++) {
-            vf32 color = tone_limit(v_loadf(batch->color[k] + i));
-            v_storef(batch->color[k] + i, v_add(color, v_mul(v_sub(v_setf(fog->color[k]), color), share)));
+            vf32 before = tone_limit(v_loadf(color[k] + i));
+            v_storef(color[k] + i, v_add(before, v_mul(v_sub(v_setf(fog->color[k]), before), share)));
         }
     }
 }
 
-static void kernel_fog(e3d_batch *batch, const e3d_fog_view *fog)
+static void kernel_fog(const e3d_fog_view *fog, const float *const position[3], int count, float *const color[3])
 {
     if (fog->kind == E3D_FOG_LINEAR)
-        fog_batch(batch, fog, E3D_FOG_LINEAR);
+        fog_planes(fog, position, count, color, E3D_FOG_LINEAR);
     else
-        fog_batch(batch, fog, E3D_FOG_EXPONENTIAL);
+        fog_planes(fog, position, count, color, E3D_FOG_EXPONENTIAL);
 }
 
 #endif

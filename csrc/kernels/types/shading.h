@@ -6,6 +6,7 @@
 
 #include "core/limits.h"
 #include "e3d.h"
+#include "kernels/types/fog.h"
 #include "kernels/types/samples.h"
 
 enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
@@ -91,15 +92,6 @@ typedef struct e3d_lighting {
     const e3d_environment_light *environment; /* NULL where there is none */
     const e3d_shadow_map *shadows; /* NULL: no light has a shadow, or none falls on what is lit */
 } e3d_lighting;
-
-/* Fog as an eye sees it. */
-typedef struct e3d_fog_view {
-    e3d_fog_kind kind;
-    float row[4]; /* of view_from_world: depth is 0 - z */
-    float color[3];
-    float near, scale; /* linear: scale is 1 over the range of depths */
-    float density;     /* exponential */
-} e3d_fog_view;
 
 /* How the kernel `paint` turns the samples of a batch into pixels. */
 typedef struct e3d_paint {

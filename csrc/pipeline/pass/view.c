@@ -9,6 +9,7 @@
 #include "core/pool.h"
 #include "core/shadows.h"
 #include "e3d.h"
+#include "kernels/types/fog.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/pass/boxes.h"

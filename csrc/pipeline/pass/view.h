@@ -7,6 +7,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "e3d.h"
+#include "kernels/types/fog.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/pass/draws.h"

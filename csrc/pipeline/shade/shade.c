@@ -4,6 +4,7 @@
 #include "core/srgb_tables.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/fog.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "pipeline/pass/draws.h"
@@ -172,9 +173,12 @@ static e3d_tone_mapping tone_of(const e3d_prepared *pass, const e3d_bucket *buck
 static void find_radiance(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
     const e3d_fog_view *fog = fog_of(pass, bucket);
+    e3d_batch *batch = &memory->batch;
+    float *const color[3] = {batch->color[0], batch->color[1], batch->color[2]};
+    const float *const position[3] = {batch->position[0], batch->position[1], batch->position[2]};
     find_colors(pass, bucket, memory);
     if (fog)
-        pass->kernels->fog(&memory->batch, fog);
+        pass->kernels->fog(fog, position, batch->count, color);
 }
 
 static void map_tone(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_batch *batch)

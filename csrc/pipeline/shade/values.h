@@ -2,6 +2,7 @@
 #ifndef E3D_VALUES_H
 #define E3D_VALUES_H
 
+#include "kernels/types/shading.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 #include "pipeline/store/store.h"

@@ -7,6 +7,7 @@ parsed into what the viewer takes. Spellings follow f3d where it has the option.
 from __future__ import annotations
 
 import argparse
+import functools
 import math
 import re
 from typing import get_args
@@ -524,6 +525,8 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
 
     Where they leave it open, all of the scene shows: however it turns, or filling the picture.
     """
+    from ..viewer.near_origin import from_file
+
     if args.camera_view_angle is None:
         view = view_renderer.view()
     else:
@@ -533,16 +536,20 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
         return _through_camera(args, view_renderer, view)
     if args.camera_view_up is not None:
         view.up = args.camera_view_up
+    place = functools.partial(from_file, view_renderer.viewed)
+    focal_point = None
+    if args.camera_focal_point is not None:
+        focal_point = place(args.camera_focal_point)
     if args.camera_position is not None:
         if args.camera_position == args.camera_focal_point:
             raise UsageError("--camera-position and --camera-focal-point are the same")
-        view.look_from(args.camera_position, args.camera_focal_point or view_renderer.bounds.center)
+        view.look_from(place(args.camera_position), focal_point or view_renderer.bounds.center)
     view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
     view.elevation += math.radians(args.camera_elevation_angle or 0.0)
     if args.camera_position is None:
         (view_renderer.frame if turns else view_renderer.fill)(view)
         if args.camera_focal_point is not None:
-            view.target[:] = args.camera_focal_point
+            view.target[:] = focal_point
     view.distance /= args.camera_zoom_factor or 1.0
     return view
 

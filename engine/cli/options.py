@@ -104,6 +104,11 @@ def add_viewed_scene(parser) -> None:
         help="with --scene city: about how many triangles, 20,000 to 50,000,000",
     )
     group.add_argument(
+        "--dusk",
+        action="store_true",
+        help="with --scene city: let the sun set, and lamps and windows shine",
+    )
+    group.add_argument(
         "--texture",
         metavar="FILE",
         help="texture for a model without materials; by default an image of the same name "
@@ -576,6 +581,8 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         raise UsageError("--side-by-side needs several MODELs")
     if args.triangles is not None and args.scene != "city":
         raise UsageError("--triangles goes with --scene city")
+    if args.dusk and args.scene != "city":
+        raise UsageError("--dusk goes with --scene city")
     if not args.models:
         needing = ("texture", "variant", "animation_index", "animation_time", "crease_angle")
         for option in needing:
@@ -585,8 +592,9 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
             raise UsageError("give a MODEL or --scene NAME")
         from ..demos import load_demo
 
-        size = {} if args.triangles is None else {"triangles": args.triangles}
-        viewed = load_demo(args.scene or default_scene, **size)
+        how = {} if args.triangles is None else {"triangles": args.triangles}
+        how |= {"dusk": True} if args.dusk else {}
+        viewed = load_demo(args.scene or default_scene, **how)
         if args.color is not None:
             from ..viewer.open_model import dress_scene
 

@@ -140,7 +140,6 @@ def text_of(kind, positions, faces):
 @pytest.mark.parametrize("kind", ["obj", "off", "ply", "stl"])
 def test_models_of_maps(tmp_path, kind, recwarn):
     ball = icosphere(0.5, 2)
-    corners = ball.positions[ball.faces].reshape(-1, 3)
     places, faces = np.unique(
         ball.positions[ball.faces].reshape(-1, 3), axis=0, return_inverse=True
     )

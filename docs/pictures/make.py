@@ -248,9 +248,9 @@ def viewer() -> np.ndarray:
 def city() -> np.ndarray:
     """The city as one who walks sees it, and from above."""
     tiles = []
-    size = (630, 354)
-    with ViewRenderer(load_demo("city"), Settings(appearance={}), size, samples=4) as view_renderer:
-        for caption, walks in (("--camera fps", True), ("--scene city", False)):
+    size, viewed = (630, 354), load_demo("city", dusk=True)
+    with ViewRenderer(viewed, Settings(appearance={}), size, samples=4) as view_renderer:
+        for caption, walks in (("--dusk --camera fps", True), ("--scene city --dusk", False)):
             view = view_renderer.view()
             if walks:
                 controller(view_renderer, view).place(view)

@@ -7,6 +7,7 @@ parsed into what the viewer takes. Spellings follow f3d where it has the option.
 from __future__ import annotations
 
 import argparse
+import functools
 import math
 import re
 from typing import get_args
@@ -104,6 +105,11 @@ def add_viewed_scene(parser) -> None:
         type=values.city_triangles,
         metavar="N",
         help="with --scene city: about how many triangles, 20,000 to 50,000,000",
+    )
+    group.add_argument(
+        "--dusk",
+        action="store_true",
+        help="with --scene city: let the sun set, and lamps and windows shine",
     )
     group.add_argument(
         "--texture",
@@ -504,6 +510,8 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
 
     Where they leave it open, all of the scene shows: however it turns, or filling the picture.
     """
+    from ..viewer.near_origin import from_file
+
     if args.camera_view_angle is None:
         view = view_renderer.view()
     else:
@@ -513,16 +521,20 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
         return _through_camera(args, view_renderer, view)
     if args.camera_view_up is not None:
         view.up = args.camera_view_up
+    place = functools.partial(from_file, view_renderer.viewed)
+    focal_point = None
+    if args.camera_focal_point is not None:
+        focal_point = place(args.camera_focal_point)
     if args.camera_position is not None:
         if args.camera_position == args.camera_focal_point:
             raise UsageError("--camera-position and --camera-focal-point are the same")
-        view.look_from(args.camera_position, args.camera_focal_point or view_renderer.bounds.center)
+        view.look_from(place(args.camera_position), focal_point or view_renderer.bounds.center)
     view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
     view.elevation += math.radians(args.camera_elevation_angle or 0.0)
     if args.camera_position is None:
         (view_renderer.frame if turns else view_renderer.fill)(view)
         if args.camera_focal_point is not None:
-            view.target[:] = args.camera_focal_point
+            view.target[:] = focal_point
     view.distance /= args.camera_zoom_factor or 1.0
     return view
 
@@ -549,6 +561,8 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         raise UsageError("--side-by-side needs several MODELs")
     if args.triangles is not None and args.scene != "city":
         raise UsageError("--triangles goes with --scene city")
+    if args.dusk and args.scene != "city":
+        raise UsageError("--dusk goes with --scene city")
     if not args.models:
         needing = ("texture", "variant", "animation_index", "animation_time", "crease_angle")
         for option in needing:
@@ -558,8 +572,9 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
             raise UsageError("give a MODEL or --scene NAME")
         from ..demos import load_demo
 
-        size = {} if args.triangles is None else {"triangles": args.triangles}
-        viewed = load_demo(args.scene or default_scene, **size)
+        how = {} if args.triangles is None else {"triangles": args.triangles}
+        how |= {"dusk": True} if args.dusk else {}
+        viewed = load_demo(args.scene or default_scene, **how)
         if args.color is not None:
             from ..viewer.open_model import dress_scene
 

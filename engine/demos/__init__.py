@@ -37,7 +37,7 @@ def load_demo(name: str, **options):
     name : str
         One of `DEMO_NAMES`.
     **options
-        ``triangles`` : int, of ``"city"``: how many, about.
+        ``triangles`` : int, of ``"city"``: how many, about. ``dusk`` : bool, of the same.
 
     Returns
     -------

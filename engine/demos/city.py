@@ -1,4 +1,4 @@
-"""A city at dusk: street lamps that light what is round the viewer, and cars that drive."""
+"""A city with sun and sky, and cars that drive; at dusk, with street lamps and lit windows."""
 
 from __future__ import annotations
 
@@ -14,12 +14,18 @@ from ..scene.scene import Scene
 from ..viewer.viewed_scene import ViewedScene
 from ..worlds import World
 from ..worlds import city as make_city
-from .city_lights import LIGHTS, PERIOD, Lamps, Traffic
+from .city_lights import CARS_AT_LEAST, LIGHTS, PERIOD, Lamps, Traffic
+from .city_sky import DAY, DUSK, sky
 from .skyline import Skyline
 
 TRIANGLES = 500_000
-BACKGROUND = (78, 96, 138)
 VIEW_RADIUS = 150.0
+#: What is higher than this is a tower, whose top the first view shows.
+TOWER = 60.0
+#: Where the sun's light travels, by day and at dusk.
+SUN, LOW_SUN = (-0.55, -0.62, -0.42), (0.70, -0.20, 0.50)
+#: Lit windows are so many times as bright at dusk as they are by day.
+LIT = 2.4
 #: Where one starts to walk, and where one looks: yaw and pitch.
 START = (7.2, 62.0)
 GAZE = (0.14, 0.02)
@@ -28,18 +34,23 @@ WALK_RADIUS = 160.0
 NEAREST = 0.1
 
 
-def city(triangles: int | None = None) -> ViewedScene:
-    """Return a city of about as many triangles, half a million if left out."""
+def city(triangles: int | None = None, *, dusk: bool = False) -> ViewedScene:
+    """Return a city of about as many triangles, half a million if left out.
+
+    Parameters
+    ----------
+    triangles : int, optional
+    dusk : bool
+        Whether the sun is about to set, and lamps and windows shine.
+    """
     town = make_city(TRIANGLES if triangles is None else triangles)
-    scene = Scene(BACKGROUND, ambient=(0.11, 0.13, 0.20))
+    scene = Scene()
     town.add_to(scene)
-    scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.42))
-    scene.add(DirectionalLight((0.7, -0.25, 0.5), (1.0, 0.62, 0.45), 0.16))
-    lamps = Lamps(scene, town.lamps)
-    traffic = Traffic(scene, town, LIGHTS - lamps.count)
+    (_dusk if dusk else _day)(scene, town)
+    lamps = Lamps(scene, town.lamps if dusk else town.lamps[:0])
+    traffic = Traffic(scene, town, max(CARS_AT_LEAST, LIGHTS - lamps.count) if dusk else 0)
     traffic.drive(0.0)
     lamps.follow(np.zeros(3))
-    size = (2.0 * VIEW_RADIUS, 40.0, 2.0 * VIEW_RADIUS)
     return ViewedScene(
         scene,
         "city",
@@ -47,13 +58,44 @@ def city(triangles: int | None = None) -> ViewedScene:
         elevation=math.radians(24.0),
         update=traffic.drive,
         period=PERIOD,
-        follow=lamps.follow,
+        follow=lamps.follow if dusk else None,
         walker=functools.cache(lambda: _walker(town)),
         gaze=GAZE,
         nearest=NEAREST,
         clearance=Skyline(town.districts).clearance,
-        focus=box(size).positions.astype(np.float64) + np.array((-30.0, 10.0, -30.0)),
+        focus=_focus(town),
     )
+
+
+def _day(scene: Scene, town: World) -> None:
+    """Light a city by day: the sun, and what the sky gives."""
+    scene.background = sky(DAY, np.negative(SUN))
+    scene.ambient = (0.30, 0.36, 0.46)
+    scene.add(DirectionalLight(SUN, (1.0, 0.93, 0.80), 0.85), name="sun")
+
+
+def _dusk(scene: Scene, town: World) -> None:
+    """Light a city by the last of the sun and the blue of the sky; its lit windows are brighter."""
+    scene.background = sky(DUSK, np.negative(LOW_SUN))
+    scene.ambient = (0.11, 0.13, 0.20)
+    scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.36), name="sky")
+    scene.add(DirectionalLight(LOW_SUN, (1.0, 0.55, 0.34), 0.30), name="sun")
+    for material in town.materials:
+        if material.name.endswith("lit"):
+            material.emissive = tuple(LIT * component for component in material.emissive)
+
+
+def _focus(town: World) -> np.ndarray:
+    """Points that the first view shows: the middle of the city, and the tops of towers."""
+    size = (2.0 * VIEW_RADIUS, 40.0, 2.0 * VIEW_RADIUS)
+    middle = box(size).positions.astype(np.float64) + np.array((-30.0, 10.0, -30.0))
+    tops = [mesh.positions[mesh.positions[:, 1].argmax()] for mesh in town.districts]
+    towers = [top.astype(np.float64) for top in tops if top[1] > TOWER and _is_near(top)]
+    return np.concatenate([middle, *(tower[np.newaxis] for tower in towers)])
+
+
+def _is_near(point: np.ndarray) -> bool:
+    return bool(max(abs(point[0]), abs(point[2])) < 3.0 * VIEW_RADIUS)
 
 
 def _walker(town: World) -> Walker:

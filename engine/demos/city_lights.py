@@ -1,8 +1,8 @@
-"""The lights of the city: street lamps near the viewer, and cars that drive with theirs.
+"""The lights of the city: street lamps round the viewer, and cars that drive with theirs.
 
-Of the many lamps only the nearest shine, and the farthest of these are dim: a fixed number of
-lights moves along with the viewer, and none is switched on or off in sight. Where there are fewer
-lamps than that, the cars carry more lights: together they are always as many.
+Lamps shine as far as the viewer overlooks the city: from the street those of the next blocks, from
+above the roofs all. Towards the farthest they grow dim, so that none is switched on or off in
+sight. Where there are few lamps, the cars carry more lights.
 """
 
 from __future__ import annotations
@@ -16,11 +16,15 @@ from ..worlds import World
 from ..worlds.furniture import CARS, car
 from ..worlds.plan import PITCH
 
-#: Lights that shine at a time: at least one for each of so many cars, the others for lamps.
+#: Lights that there are at least: one for each of so many cars, the others for lamps.
 LIGHTS = 256
 CARS_AT_LEAST = 40
+#: Lamps that shine at a time, at most.
+MOST_LAMPS = 472
 LAMP = {"color": (1.0, 0.74, 0.42), "intensity": 1.5, "range": 17.0, "falloff": "window"}
-#: The share of the way to the nearest lamp that is dark on which lamps grow dim.
+#: How far lamps shine round one who walks, and how much farther for each metre above the ground.
+REACH, REACH_OF_HEIGHT = 205.0, 4.0
+#: The share of that way on which lamps grow dim.
 FADE = 0.25
 _HEADLIGHT = {"color": (0.95, 0.95, 1.0), "intensity": 1.2, "range": 14.0, "falloff": "window"}
 _TAIL_LIGHT = {"color": (1.0, 0.08, 0.05), "intensity": 0.5, "range": 5.0, "falloff": "window"}
@@ -42,7 +46,7 @@ LANE = 2.4
 
 
 class Lamps:
-    """A number of lights, put to the lamps that are nearest to the viewer.
+    """Lights that are put to the lamps round the viewer.
 
     Parameters
     ----------
@@ -53,20 +57,23 @@ class Lamps:
     Attributes
     ----------
     count : int
-        How many lights there are.
+        How many lights there are; those that are dark are hidden.
     """
 
     def __init__(self, scene: Scene, lamps: np.ndarray) -> None:
-        self.count = min(LIGHTS - CARS_AT_LEAST, len(lamps))
+        self.count = min(MOST_LAMPS, len(lamps))
         self._lamps = lamps
         self._nodes = [scene.add(PointLight(**LAMP)) for _ in range(self.count)]
         self._shining: list[int] = []
 
     def follow(self, eye: np.ndarray) -> None:
-        """Let the lamps nearest to ``eye`` shine, the dimmer the nearer they are to the last."""
+        """Let the lamps round ``eye`` shine, the dimmer the nearer they are to the dark ones."""
         offsets = (self._lamps - eye) * (1.0, 0.0, 1.0)  # over the ground: all are equally high
         distances = np.sqrt(linalg.dot(offsets, offsets))
+        dark = REACH + REACH_OF_HEIGHT * max(float(eye[1]), 0.0)
         order = np.argsort(distances, kind="stable")
+        if self.count < len(self._lamps):
+            dark = min(dark, float(distances[order[self.count]]))
         # In the lamps' own order: what shines is a function of the eye alone, not of its way there.
         nearest = np.sort(order[: self.count])
         shining = nearest.tolist()
@@ -74,15 +81,15 @@ class Lamps:
             self._shining = shining
             for node, lamp in zip(self._nodes, shining, strict=True):
                 node.translation = self._lamps[lamp]
-        if self.count < len(self._lamps):
-            strengths = self._strengths(distances[nearest], float(distances[order[self.count]]))
-            for node, strength in zip(self._nodes, strengths, strict=True):
-                node.object.intensity = strength
+        for node, strength in zip(self._nodes, _strengths(distances[nearest], dark), strict=True):
+            node.visible = strength > 0.0
+            node.object.intensity = strength
 
-    def _strengths(self, distances: np.ndarray, dark: float) -> list[float]:
-        """Return intensities that fall smoothly to 0 at the distance of the first dark lamp."""
-        share = np.clip((dark - distances) / (FADE * dark), 0.0, 1.0)
-        return (LAMP["intensity"] * share * share * (3.0 - 2.0 * share)).tolist()
+
+def _strengths(distances: np.ndarray, dark: float) -> list[float]:
+    """Return intensities that fall smoothly to 0 at the distance of the first dark lamp."""
+    share = np.clip((dark - distances) / (FADE * dark), 0.0, 1.0)
+    return (LAMP["intensity"] * share * share * (3.0 - 2.0 * share)).tolist()
 
 
 class Traffic:

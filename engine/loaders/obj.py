@@ -49,7 +49,7 @@ def read_obj(source: Source, split: bool = False) -> Document:
     # What the file says of smoothing holds whatever the angle.
     crease_angle = SMOOTH if states.has_smoothing else source.crease_angle
     normals = _fill_normals(file, triangles, states, crease_angle)
-    parts = ObjParts(file, triangles, normals, states, materials, crease_angle)
+    parts = ObjParts(file, triangles, normals, states, materials, crease_angle, moves=split)
     objects = parts.objects(source.stem, warnings) if split else [parts.whole(source.stem)]
     return Document("obj", objects, counts=parts.counts(), warnings=warnings.messages())
 

@@ -13,6 +13,7 @@ import numpy as np
 from ..materials.material import Material
 from .corner_mesh import Geometry, Triangles, build_mesh
 from .documents import DocumentObject
+from .far_coordinates import moved_near
 from .obj_file import Elements, ObjFile
 from .obj_states import ObjStates
 from .smoothing import join_seams
@@ -36,6 +37,8 @@ class ObjParts(NamedTuple):
     materials : list of Material
     crease_angle : float
         Radians, of normals that neither the file nor its smoothing groups give.
+    moves : bool
+        Whether objects far from the origin get one of their own.
     """
 
     file: ObjFile
@@ -44,6 +47,7 @@ class ObjParts(NamedTuple):
     states: ObjStates
     materials: list[Material]
     crease_angle: float
+    moves: bool = False
 
     def counts(self) -> dict:
         """Return the lists of the file, as `Document.counts` shows them."""
@@ -125,11 +129,15 @@ class ObjParts(NamedTuple):
         return self._built(geometry.with_own_positions(), name, starts, chosen)
 
     def _built(self, geometry: Geometry, name: str, starts, chosen: slice) -> DocumentObject:
+        pose = None
+        if self.moves:
+            positions, pose = moved_near(geometry.vertices.positions)
+            geometry = geometry._replace(vertices=geometry.vertices._replace(positions=positions))
         mesh = build_mesh(geometry, self.materials, name)
         if not mesh.has_normals:
             join_seams(mesh)
         mesh._groups = self._groups(starts, chosen)
-        return DocumentObject(name, mesh)
+        return DocumentObject(name, mesh, pose)
 
     def _starts(self) -> np.ndarray:
         """The first triangle behind each ``g``, and the number of triangles."""

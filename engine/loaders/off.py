@@ -18,6 +18,7 @@ from .._native import loaders as native
 from ..errors import FileFormatError
 from ..materials.material import Material
 from .documents import Document, DocumentObject
+from .far_coordinates import moved_near
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .linked_textures import give_companion_texture
 from .number_arrays import NotANumberError, NumberRows, read_numbers
@@ -38,7 +39,7 @@ def read_off(source: Source, split: bool = False) -> Document:
     ----------
     source : Source
     split : bool
-        Of no effect: the format knows one object.
+        Give coordinates far from the origin another one; the format knows one object.
 
     Raises
     ------
@@ -48,6 +49,9 @@ def read_off(source: Source, split: bool = False) -> Document:
     reader = _OffReader(source, warnings)
     geometry = reader.read()
     geometry.crease_angle = source.crease_angle
+    pose = None
+    if split:
+        geometry.positions, pose = moved_near(geometry.positions)
     mesh = build_indexed_mesh(geometry, source.stem)
     mesh.materials = [Material()]
     if mesh.uvs is not None:
@@ -57,7 +61,7 @@ def read_off(source: Source, split: bool = False) -> Document:
         "faces": reader.face_count,
         "triangles": len(geometry.corners),
     }
-    entry = DocumentObject(source.stem, mesh)
+    entry = DocumentObject(source.stem, mesh, pose)
     return Document("off", [entry], counts=counts, warnings=warnings.messages())
 
 

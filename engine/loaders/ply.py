@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
 from .documents import Document, DocumentObject
+from .far_coordinates import moved_near
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .ply_body import open_body
 from .ply_faces import PlyFaces, read_edges, read_faces, read_strips
@@ -33,7 +34,7 @@ def read_ply(source: Source, split: bool = False) -> Document:
     ----------
     source : Source
     split : bool
-        Of no effect: the format knows one object.
+        Give coordinates far from the origin another one; the format knows one object.
 
     Raises
     ------
@@ -56,11 +57,13 @@ def read_ply(source: Source, split: bool = False) -> Document:
     if len(strips) and not len(faces.corners):
         faces = PlyFaces(strips)
     has_uvs = vertices.uvs is not None or faces.uvs is not None
+    positions, pose = moved_near(vertices.positions) if split else (vertices.positions, None)
+    vertices = vertices._replace(positions=positions)
     mesh = _mesh(vertices, faces, lines, source)
     mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
     mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
     counts = _counts(tables, vertices, faces, lines)
-    entry = DocumentObject(source.stem, mesh)
+    entry = DocumentObject(source.stem, mesh, pose)
     return Document("ply", [entry], counts=counts, warnings=warnings.messages())
 
 

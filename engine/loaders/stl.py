@@ -17,6 +17,7 @@ from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
 from .documents import Document, DocumentObject
+from .far_coordinates import moved_near
 from .registry import Reader
 from .sources import Source
 from .text import decoded, shown, text_lines
@@ -56,6 +57,8 @@ class _Facets(NamedTuple):
         Corners of all facets together.
     solids : list of (str, int)
         The name of each solid, and its first facet; none in the binary form.
+    pose : (4, 4) float64 or None
+        Takes the positions to where they are in the file.
     """
 
     count: int
@@ -65,6 +68,7 @@ class _Facets(NamedTuple):
     edge_visible: np.ndarray | None
     corner_count: int
     solids: list[tuple[str, int]]
+    pose: np.ndarray | None
 
 
 def read_stl(source: Source, split: bool = False) -> Document:
@@ -81,7 +85,7 @@ def read_stl(source: Source, split: bool = False) -> Document:
     FileFormatError
     """
     warnings = WarningList(source.path)
-    facets = (_read_text if _is_text(source) else _read_binary)(source, warnings)
+    facets = (_read_text if _is_text(source) else _read_binary)(source, warnings, split)
     whole = Mesh(
         facets.positions,
         facets.faces,
@@ -92,10 +96,13 @@ def read_stl(source: Source, split: bool = False) -> Document:
     )
     groups = [] if facets.polygons is None else _groups(facets.solids, facets.polygons)
     whole._groups = {name: indices for name, indices in groups if name}
-    objects = [DocumentObject(source.stem, whole)]
+    objects = [DocumentObject(source.stem, whole, facets.pose)]
     if split and 1 < len(groups) <= _MAX_OBJECTS:
         named = [(name or source.stem, indices) for name, indices in groups]
-        objects = [DocumentObject(name, _part(whole, indices, name)) for name, indices in named]
+        objects = [
+            DocumentObject(name, _part(whole, indices, name), facets.pose)
+            for name, indices in named
+        ]
     counts = {
         "vertices": facets.corner_count,
         "faces": facets.count,
@@ -118,7 +125,7 @@ def _has_binary_length(head: bytes, size: int) -> bool:
     return size == _HEADER + _FACET_SIZE * count
 
 
-def _read_binary(source: Source, warnings: WarningList) -> _Facets:
+def _read_binary(source: Source, warnings: WarningList, split: bool) -> _Facets:
     size = source.size
     if size < _HEADER:
         raise FileFormatError("too short for an STL file", source.path)
@@ -134,7 +141,8 @@ def _read_binary(source: Source, warnings: WarningList) -> _Facets:
     _require_facets(count, source)
     pieces = source.pieces(_HEADER, _FACET_SIZE, count)
     faces, positions = native.weld_facets(pieces, _CORNERS_AT, _FACET_SIZE, count)
-    return _Facets(count, positions, faces, None, None, 3 * count, [])
+    positions, pose = moved_near(positions) if split else (positions, None)
+    return _Facets(count, positions, faces, None, None, 3 * count, [], pose)
 
 
 def _require_facets(count: int, source: Source) -> None:
@@ -142,7 +150,7 @@ def _require_facets(count: int, source: Source) -> None:
         raise FileFormatError("no triangles in this STL file", source.path)
 
 
-def _read_text(source: Source, warnings: WarningList) -> _Facets:
+def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
     """Read the text form: what counts are the lines of vertices and of loops' ends."""
     text = text_lines(source)
     reader = native.FormReader(text, _FORMS, True)
@@ -163,6 +171,7 @@ def _read_text(source: Source, warnings: WarningList) -> _Facets:
     corners = reader.take_rows(0)
     if ends[-1] != len(corners):
         raise FileFormatError("the file ends within a facet", source.path, text.count(b"\n"))
+    corners, pose = moved_near(corners) if split else (corners, None)
     with np.errstate(over="ignore"):
         corners = corners.astype(np.float32)
     count = len(ends) - 1
@@ -177,7 +186,7 @@ def _read_text(source: Source, warnings: WarningList) -> _Facets:
         warnings.add("too many concave polygons: some are cut as if they were convex")
     place, first = number_rows(corners)
     faces, visible = place[cut.corners], cut.edge_visible
-    return _Facets(count, corners[first], faces, cut.polygons, visible, len(corners), solids)
+    return _Facets(count, corners[first], faces, cut.polygons, visible, len(corners), solids, pose)
 
 
 def _fail_at(path: str, text: bytes, place: int):

@@ -72,7 +72,7 @@ class View:
         else:
             world_from_view = linalg.inverse(self.view_from_world)[:3, :3]
             right, up, _, far = view_from_clip[:3].T
-            middle = view_from_clip[:3, 2] + far  # on the far plane
+            middle = view_from_clip[:3, 2] * self.camera._far_depth + far  # on the far plane
             corner, across, down = middle - right + up, right * 2.0, up * -2.0
             _, _, width, height = self._lens
             scaled = np.stack([corner, across / width, down / height])

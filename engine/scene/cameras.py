@@ -28,6 +28,10 @@ from .._support.validation import (
 from ..errors import InvalidArgumentError
 from ._placed_by_node import PlacedByNode
 
+#: Nearer near planes are of models that are too small for the clip space of others.
+_SMALL = 2.0**-18
+_MOST = 100  # a power that floats take
+
 
 def _angle(value: float, what: str) -> float:
     number = real(value)
@@ -51,6 +55,16 @@ def _check_range(camera) -> None:
         raise InvalidArgumentError(
             f"znear must be less than zfar: {camera.znear:g} and {camera.zfar:g}"
         )
+
+
+def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
+    """A projection of what may be tiny: the same, times a power of two if the near plane is near.
+
+    What has a w of less than a millionth is clipped away (WMIN in docs/exactness.md).
+    """
+    if znear >= _SMALL:
+        return matrix
+    return matrix * 2.0 ** min(-math.frexp(znear)[1], _MOST)
 
 
 class Camera(PlacedByNode):
@@ -77,6 +91,8 @@ class Camera(PlacedByNode):
     )
     znear: float | None = None
     zfar: float | None = None
+    #: Depth of the far plane in clip space, divided by w; the near plane's is -1.
+    _far_depth = 1.0
 
     def __init__(self, projection: ArrayLike) -> None:
         self.matrix = projection
@@ -103,6 +119,10 @@ class PerspectiveCamera(Camera):
         Distances of the near and far planes, ``0 < znear < zfar``; ``zfar`` may be infinite.
     aspect : float, optional
         Width over height; the image's own if left out.
+    reversed_depth : bool
+        Keep depth such that what is far away has as many significant digits as what is near: -1 at
+        the near plane, 0 at the far one, which is no limit then. Things close together are told
+        apart from far away, however near the near plane is.
 
     Raises
     ------
@@ -116,24 +136,37 @@ class PerspectiveCamera(Camera):
         znear: float = 0.05,
         zfar: float = 100.0,
         aspect: float | None = None,
+        reversed_depth: bool = False,
     ) -> None:
         self.yfov = yfov
         self.znear, self.zfar = znear, zfar
         self.aspect = aspect
+        self.reversed_depth = reversed_depth
         _check_range(self)
 
     yfov: NumberAttribute = CheckedAttribute(_angle)
     znear: NumberAttribute = CheckedAttribute(positive)
     zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
     aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
+    reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(lambda value, _: bool(value))
+
+    @property
+    def _far_depth(self) -> float:
+        return 0.0 if self.reversed_depth else 1.0
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
         aspect = width / height if self.aspect is None else self.aspect
-        return linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
+        matrix = linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
+        if self.reversed_depth:
+            ratio = self.znear / self.zfar
+            matrix[2, 2] = -ratio / (1.0 - ratio)
+            matrix[2, 3] = -self.znear / (1.0 - ratio)
+        return _enlarged(matrix, self.znear)
 
     def _parameters(self) -> str:
-        return f"yfov={self.yfov:g}, znear={self.znear:g}, zfar={self.zfar:g}"
+        reversed_depth = ", reversed_depth=True" if self.reversed_depth else ""
+        return f"yfov={self.yfov:g}, znear={self.znear:g}, zfar={self.zfar:g}{reversed_depth}"
 
 
 class OrthographicCamera(Camera):
@@ -233,7 +266,7 @@ class IntrinsicsCamera(Camera):
         matrix[1, 1] = 2.0 * self.fy / height
         matrix[0, 2] = 1.0 - 2.0 * self.cx / width
         matrix[1, 2] = 2.0 * self.cy / height - 1.0
-        return matrix
+        return _enlarged(matrix, self.znear)
 
     def _parameters(self) -> str:
         return f"fx={self.fx:g}, fy={self.fy:g}, cx={self.cx:g}, cy={self.cy:g}"

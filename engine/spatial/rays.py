@@ -175,7 +175,9 @@ def _pixel_ray(frame, x: int, y: int):
     world_from_clip = linalg.inverse(view.clip_from_world)
     across = 2.0 * (x + 0.5) / frame.width - 1.0
     upward = 1.0 - 2.0 * (y + 0.5) / frame.height
-    near, within, far = (_unproject(world_from_clip, across, upward, z) for z in (-1.0, 0.0, 1.0))
+    end = view.camera._far_depth
+    depths = -1.0, (end - 1.0) * 0.5, end
+    near, within, far = (_unproject(world_from_clip, across, upward, z) for z in depths)
     direction = linalg.normalize(within - near)
     length = math.inf if far is None else float(linalg.dot(far - near, direction))
     return near, direction, length, view.eye

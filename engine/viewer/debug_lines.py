@@ -74,6 +74,7 @@ def frustum_lines(camera, pose: np.ndarray, size: tuple[int, int]) -> list[Lines
     """Return the frustum of a camera at a pose."""
     view_from_clip = linalg.inverse(np.asarray(camera.projection(*size), np.float64))
     signs = np.array([[(k >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for k in range(8)])
+    signs[signs[:, 2] > 0.0, 2] = camera._far_depth
     corners = view_from_clip[:, 3] + sum(
         signs[:, axis, np.newaxis] * view_from_clip[:, axis] for axis in range(3)
     )

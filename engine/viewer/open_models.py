@@ -17,6 +17,7 @@ from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.lights import LIGHTS
 from ..scene.scene import Scene
+from .near_origin import moved_near
 from .open_model import open_model
 from .viewed_scene import ViewedScene
 from .viewpoint import UP_DIRECTIONS, home_axes
@@ -56,7 +57,7 @@ def open_models(
     """
     viewed_scenes = [open_model(path, **options) for path in paths]
     if len(viewed_scenes) == 1:
-        return viewed_scenes[0]
+        return moved_near(viewed_scenes[0])
     for viewed in viewed_scenes:
         viewed.up = up or viewed.up
     first = viewed_scenes[0]
@@ -64,7 +65,7 @@ def open_models(
     poses = _row(viewed_scenes) if side_by_side else _own_places(viewed_scenes)
     for viewed, pose in zip(viewed_scenes, poses, strict=True):
         _add(scene, viewed, pose)
-    return ViewedScene(
+    viewed = ViewedScene(
         scene,
         ", ".join(viewed.title for viewed in viewed_scenes),
         up=first.up,
@@ -73,6 +74,7 @@ def open_models(
         details=[line for one in viewed_scenes for line in (one.title, *one.details)],
         warnings=[f"{one.title}: {line}" for one in viewed_scenes for line in one.warnings],
     )
+    return moved_near(viewed)
 
 
 def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:

@@ -18,7 +18,7 @@ OUTLINE = (255, 160, 40, 255)
 WIDTH = 2
 
 
-def selection_lines(hit: RayHit, thing) -> list[str]:
+def selection_lines(hit: RayHit, thing, origin=(0.0, 0.0, 0.0)) -> list[str]:
     """Return what a corner of the window says of what was clicked at.
 
     Parameters
@@ -27,6 +27,8 @@ def selection_lines(hit: RayHit, thing) -> list[str]:
         Its face is one of the mesh's.
     thing : Mesh, InstancedMesh or None
         What the node holds, hidden or not.
+    origin : (3,) sequence of float
+        Where the scene's origin is in the file's coordinates, which are shown.
     """
     lines = [hit.node.name or f"object {hit.node.id}"]
     if isinstance(thing, InstancedMesh):
@@ -38,7 +40,9 @@ def selection_lines(hit: RayHit, thing) -> list[str]:
     if mesh.materials:
         number = 0 if mesh.material_ids is None else int(mesh.material_ids[hit.face])
         lines.append(f"material {mesh.materials[number].name or number}")
-    return [*lines, "at " + ", ".join(f"{value:.4g}" for value in hit.position)]
+    digits = 10 if any(origin) else 4
+    place = (value + moved for value, moved in zip(hit.position, origin, strict=True))
+    return [*lines, "at " + ", ".join(f"{value:.{digits}g}" for value in place)]
 
 
 def draw_outline(frame, hit: RayHit, width: int = WIDTH) -> None:

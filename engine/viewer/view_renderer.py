@@ -12,12 +12,14 @@ from .. import linalg
 from ..rendering.options import size_in_picture
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
+from ..scene.cameras import PerspectiveCamera
 from ..scene.lights import DirectionalLight
 from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .grid_lines import grid
 from .lighting import Lighting, OnlyLight, placed_light
+from .near_origin import from_file
 from .output_pictures import (
     COVERAGE,
     OUTPUT_MODES,
@@ -175,7 +177,8 @@ class ViewRenderer:
         scene, settings = self.viewed.scene, self.settings
         intensity = settings.light_intensity
         if settings.light_position is not None:
-            return placed_light(scene, settings.light_position, self.bounds, intensity)
+            position = from_file(self.viewed, settings.light_position)
+            return placed_light(scene, position, self.bounds, intensity)
         intensity = 1.0 if intensity is None else intensity
         if settings.light_direction is not None:
             light = DirectionalLight(settings.light_direction, (1.0, 1.0, 1.0), intensity, "white")
@@ -332,7 +335,10 @@ class ViewRenderer:
         clearance = self.viewed.clearance
         free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
         camera = view.camera(self._clip_bounds(), self.viewed.nearest, free)
-        return with_clip_planes(camera, self.settings.near, self.settings.far)
+        camera = with_clip_planes(camera, self.settings.near, self.settings.far)
+        if isinstance(camera, PerspectiveCamera) and self.settings.far is None:
+            camera.reversed_depth = True
+        return camera
 
     def freeze_culling(self, view: Viewpoint | None) -> None:
         """Draw only what this view shows, wherever it is seen from; None: what each frame shows.

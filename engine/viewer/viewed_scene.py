@@ -61,6 +61,8 @@ class ViewedScene:
         Returns the `Walker` on the scene's ground, always the same; without it, walking is flying.
     gaze : (float, float)
         Where the walker looks first: yaw and pitch in radians.
+    origin : (float, float, float)
+        Where the scene's origin is in the files' coordinates.
     nearest : float
         World units: inside the scene the near plane is not farther than this.
     clearance : callable or None
@@ -91,6 +93,7 @@ class ViewedScene:
     detail: Callable[..., object] | None = None
     walker: Callable[[], Walker] | None = None
     gaze: tuple[float, float] = (0.0, 0.0)
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
     nearest: float = math.inf
     clearance: Callable[[np.ndarray], float] | None = None
     themed: bool = False

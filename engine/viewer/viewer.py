@@ -204,7 +204,8 @@ class Viewer:
         draw_block(canvas, self.messages.lines(), corner="bottom", **look)
 
     def _selection(self) -> list[str]:
-        return selection_lines(self.selected, self.visibility.object_of(self.selected.node))
+        thing = self.visibility.object_of(self.selected.node)
+        return selection_lines(self.selected, thing, self.view_renderer.viewed.origin)
 
     def _statistics(self) -> list[str]:
         view_renderer = self.view_renderer

@@ -32,7 +32,7 @@ def test_numbered_pictures_of_a_turntable(model, tmp_path):
         pictures = [pixels(folder / one) for one in names]
         assert (pictures[0] != pictures[1]).any()
     assert main(["render", str(model), *SMALL, "-o", "one.png", "--cull", "none"]) == 0
-    arguments = ["--headless", "--frames", "2", *SMALL, "-o", "run{:02}.png"]
+    arguments = ["--headless", "--frames", "3", *SMALL, "-o", "run{:02}.png"]
     assert main(["run", str(model), *arguments]) == 0
     assert (pixels("run00.png") != pixels("run01.png")).any()
 

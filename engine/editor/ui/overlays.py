@@ -90,7 +90,9 @@ class Overlays:
         """The eight corners of what a camera sees, in world space."""
         projection = node.object.projection(frame.width, frame.height)
         unprojected = linalg.inverse(projection)
-        points = linalg.transform_points(unprojected, 2.0 * _CORNERS - 1.0)
+        corners = 2.0 * _CORNERS - 1.0
+        corners[1::2, 2] = node.object._far_depth
+        points = linalg.transform_points(unprojected, corners)
         reach = LONGEST * self._workspace.bounds.radius
         near, far = points[::2], points[1::2]  # the last index is that of depth
         length = float(np.abs(far).max())

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from .frame import Frame
 
 WHITE = (1.0, 1.0, 1.0)
-_MAX_LINE = 256.0
+MAX_LINE = 256.0  # pixels: the widest line, the largest point
 
 
 def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
@@ -47,7 +47,7 @@ def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
 
 def _line_size(value, what: str) -> float:
     number = real(value)
-    if not 0 < number <= _MAX_LINE:
+    if not 0 < number <= MAX_LINE:
         raise InvalidArgumentError(
             f"{what} must be more than 0 and at most 256, not {shown(value)}"
         )

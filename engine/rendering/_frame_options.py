@@ -20,7 +20,7 @@ from ..scene.gradients import Gradient
 from ..scene.scene import SCENE_VALUES, Scene
 from ._native_handles import MeshNeeds, native_environment
 from ._tone_inverse import light_that_shows
-from .options import RenderOptions, check_outputs
+from .options import MAX_LINE, RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
@@ -68,6 +68,7 @@ class FrameOptions:
     ) -> None:
         self._options = options
         self._needs: dict[tuple[str, ...], MeshNeeds] = {}
+        self._surfaces: dict[int, _native.NativeOptions] = {}
         encoded = options.mode in _ENCODED_MODES and color_space == "srgb"
         convert = shading_color if encoded else display_color
         backdrop = gradient = None
@@ -127,6 +128,38 @@ class FrameOptions:
         self.has_backdrop = backdrop is not None
         # Twice as far from its middle as the widest line or point reaches, and for rounding.
         self.mark_size = 2.0 * (max(line_width, point_size) + 2.0)
+
+    def surfaces(self, samples_axis: int) -> _native.NativeOptions:
+        """Return options that draw what these keep, without colour, at each sample of a pixel.
+
+        Parameters
+        ----------
+        samples_axis : int
+            Along each axis of a pixel: what is drawn is as many times as wide and as high.
+        """
+        known, options = self._surfaces.get(samples_axis), self._options
+        if known is None:
+            known = self._surfaces[samples_axis] = _native.NativeOptions(
+                mode=_native.MODES["unlit"],  # what is blended is left out, as in mode lit
+                cull=_native.CULLS[options.cull],
+                wireframe=_native.WIREFRAMES[None],
+                hidden=_native.HIDDEN_SURFACES[options.hidden_surfaces],
+                shading=_native.SHADINGS[options.shading],
+                normals=_native.NORMALS[options.normals],
+                culling=_native.CULLINGS[options.culling],
+                remove_hidden_lines=True,
+                transparent_outputs=False,
+                line_width=min(options.line_width * samples_axis, MAX_LINE),
+                point_size=min(options.point_size * samples_axis, MAX_LINE),
+                line_color=(0.0, 0.0, 0.0),
+                background=(0.0, 0.0, 0.0, 0.0),
+                encode_srgb=False,
+                decode_srgb=False,
+                ambient=(0.0, 0.0, 0.0),
+                light_clamp=_NO_CLAMP,
+                exposure=1.0,
+            )
+        return known
 
     def needs(self, outputs: tuple[str, ...]) -> MeshNeeds:
         """Return which derived arrays of meshes a frame with these outputs reads."""

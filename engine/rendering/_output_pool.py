@@ -13,6 +13,8 @@ import weakref
 
 import numpy as np
 
+from .frame import OUTPUTS
+
 _LINE = 64
 _MAX_FREE = 2  # frames' worth of blocks that are kept: a steady loop needs one or two
 
@@ -22,6 +24,17 @@ def _aligned(size: int) -> np.ndarray:
     room = np.empty(size + _LINE, np.uint8)
     start = -room.ctypes.data % _LINE
     return room[start : start + size]
+
+
+def shapes_of(
+    outputs: tuple[str, ...], width: int, height: int
+) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
+    """Return shape and dtype of each output of a picture."""
+    wanted = {}
+    for name in outputs:
+        dtype, channels = OUTPUTS[name]
+        wanted[name] = ((height, width, channels) if channels else (height, width), dtype)
+    return wanted
 
 
 class OutputPool:

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 _CULLS = (*_native.CULLS, "auto")
 WHITE = (1.0, 1.0, 1.0)
-_MAX_LINE = 256.0
+MAX_LINE = 256.0  # pixels: the widest line, the largest point
 _MAX_BLOOM = 100.0
 SIZE_UNITS: tuple[SizeUnit, ...] = get_args(SizeUnit)
 _ROWS = 1000  # of a picture on which sizes in "picture" are pixels
@@ -61,7 +61,7 @@ def size_in_picture(pixels: float, height: int) -> float:
 
 def _line_size(value, what: str) -> float:
     number = real(value)
-    if not 0 < number <= _MAX_LINE:
+    if not 0 < number <= MAX_LINE:
         raise InvalidArgumentError(
             f"{what} must be more than 0 and at most 256, not {shown(value)}"
         )
@@ -182,7 +182,7 @@ class RenderOptions:
         """
         if self.size_unit == "pixels":
             return size
-        return min(max(1.0, size * height / _ROWS), _MAX_LINE)
+        return min(max(1.0, size * height / _ROWS), MAX_LINE)
 
 
 _DEFAULTS = RenderOptions()

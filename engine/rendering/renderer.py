@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from .._native import rasterizer as _native
 from .._support.image_size import check_side, check_size
 from .._support.validation import Closed, choose
@@ -34,19 +32,19 @@ from ..choices import (
 )
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..materials.colors import COLOR_SPACES
-from ..scene.cameras import Camera
 from ..scene.scene import Scene
 from ._bloom import Bloom
 from ._draw_list import DrawList
 from ._exact_shadows import ExactShadows
 from ._frame_options import OptionsCache
-from ._output_pool import OutputPool
+from ._output_pool import OutputPool, shapes_of
 from ._shadow_maps import ShadowMaps
+from ._surface_pass import SurfacePass
 from ._turn import RendererTurn
-from ._view import CameraChoice, View, find_camera
+from ._view import CameraChoice
+from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
-from .frame import OUTPUTS, Frame, Output
-from .framing import frame_scene
+from .frame import Frame, Output
 from .options import WHITE, RenderKeywords, RenderOptions, either, with_both_sides
 
 if TYPE_CHECKING:
@@ -114,9 +112,8 @@ class Renderer(Closed):
         self._pool = OutputPool()
         self._bloom = Bloom(number, threads, self._color_space == "srgb")
         self._asked, self._wanted = (), {}
-        self._view: View | None = None
-        self._framing: tuple[Camera, np.ndarray] | None = None
-        self._framed = ()
+        self._viewpoint = Viewpoint(self._draw_list)
+        self._surfaces = SurfacePass()
         self._turn = RendererTurn(self._native)
 
     @property
@@ -147,13 +144,16 @@ class Renderer(Closed):
             self._asked = ()
             self._pool.forget()
             self._bloom.forget()
+            self._surfaces.forget()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
         with self._turn.taken(closing=True):
-            self._native = self._draw_list = self._shadow_maps = self._exact_shadows = None
+            self._native = self._draw_list = self._viewpoint = None
+            self._shadow_maps = self._exact_shadows = None
             self._turn.let_go()
             self._pool.forget()
+            self._surfaces.forget()
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
@@ -214,7 +214,7 @@ class Renderer(Closed):
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
-            self._pool.prepare(self._arrays_of(options.outputs))
+            self._pool.prepare(shapes_of(options.outputs, self._width, self._height))
             axis = _SAMPLES[self._samples]
             self._native.prepare(self._width * axis, self._height * axis)
 
@@ -381,11 +381,9 @@ class Renderer(Closed):
         frame = self._new_frame(options.outputs) if out is None else self._check_out(out)
         census = scene._census()
         try:
-            view = self._look(scene, camera)
+            view = self._viewpoint.look(scene, camera, self._width, self._height)
             headlight = (*frame_options.headlight, view.towards_viewer)
-            chosen = None
-            if culling_camera is not None:
-                chosen = self._clip_from_world(scene, culling_camera)
+            chosen = frustum_of(scene, culling_camera, self._width, self._height)
             frustum = view.clip_from_world if chosen is None else chosen
             by_mesh = options.cull == "auto"
             self._draw_list.update(
@@ -440,23 +438,11 @@ class Renderer(Closed):
         frame._drawn = scene._arrays.count - scene._removed, drawn
         return frame
 
-    def _clip_from_world(self, scene: Scene, camera) -> np.ndarray:
-        camera, pose = find_camera(scene, camera)
-        return View(camera, pose, self._width, self._height).clip_from_world
-
     def _new_frame(self, outputs: tuple[str, ...]) -> Frame:
         if outputs is not self._asked:
-            self._wanted, self._asked = self._arrays_of(outputs), outputs
+            self._wanted = shapes_of(outputs, self._width, self._height)
+            self._asked = outputs
         return Frame(self._width, self._height, self._pool.take(self._wanted))
-
-    def _arrays_of(self, outputs: tuple[str, ...]) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
-        """Shape and dtype of each output."""
-        wanted = {}
-        for name in outputs:
-            dtype, channels = OUTPUTS[name]
-            shape = (self._height, self._width, channels)
-            wanted[name] = (shape if channels else shape[:2], dtype)
-        return wanted
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):
@@ -466,22 +452,6 @@ class Renderer(Closed):
                 f"out must be {self._width}x{self._height}, not {out.width}x{out.height}"
             )
         return out
-
-    def _look(self, scene: Scene, camera) -> View:
-        """Find the camera; a view that has not changed is used again."""
-        camera, pose = find_camera(scene, camera) or self._frame_scene(scene)
-        view = self._view
-        if view is None or not view.is_of(camera, pose, self._width, self._height):
-            view = self._view = View(camera, pose, self._width, self._height, view)
-        return view
-
-    def _frame_scene(self, scene: Scene) -> tuple[Camera, np.ndarray]:
-        """A camera that shows the whole scene, kept until something in it changes or moves."""
-        state = self._draw_list.changes, self._width, self._height
-        if self._framing is None or self._framed != state or not self._draw_list.shows(scene):
-            self._framing = frame_scene(scene, aspect=self._width / self._height)
-            self._framed = state
-        return self._framing
 
     def __repr__(self) -> str:
         return f"<Renderer {self._width}x{self._height}, {self._backend}>"

@@ -1,0 +1,55 @@
+"""From where a renderer looks: the camera that was chosen, or one that shows the whole scene.
+
+In: a scene, a choice of camera and the image's size. Out: a `View`, the last one again where
+nothing has changed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..scene.cameras import Camera
+from ..scene.scene import Scene
+from ._draw_list import DrawList
+from ._view import CameraChoice, View, find_camera
+from .framing import frame_scene
+
+
+class Viewpoint:
+    """The view of one renderer.
+
+    Parameters
+    ----------
+    draw_list : DrawList
+        Of the renderer: it knows whether the scene is as it was.
+    """
+
+    def __init__(self, draw_list: DrawList) -> None:
+        self._draw_list = draw_list
+        self._view: View | None = None
+        self._framing: tuple[Camera, np.ndarray] | None = None
+        self._framed = ()
+
+    def look(self, scene: Scene, camera: CameraChoice, width: int, height: int) -> View:
+        """Find the camera; a view that has not changed is used again."""
+        camera, pose = find_camera(scene, camera) or self._frame_scene(scene, width, height)
+        view = self._view
+        if view is None or not view.is_of(camera, pose, width, height):
+            view = self._view = View(camera, pose, width, height, view)
+        return view
+
+    def _frame_scene(self, scene: Scene, width: int, height: int) -> tuple[Camera, np.ndarray]:
+        """A camera that shows the whole scene, kept until something in it changes or moves."""
+        state = self._draw_list.changes, width, height
+        if self._framing is None or self._framed != state or not self._draw_list.shows(scene):
+            self._framing = frame_scene(scene, aspect=width / height)
+            self._framed = state
+        return self._framing
+
+
+def frustum_of(scene: Scene, camera: CameraChoice, width: int, height: int) -> np.ndarray | None:
+    """Return clip_from_world of a camera to cull by; None for no camera."""
+    if camera is None:
+        return None
+    chosen, pose = find_camera(scene, camera)
+    return View(chosen, pose, width, height).clip_from_world

@@ -93,6 +93,8 @@ typedef struct e3d_frame {
     int32_t transparent_outputs; /* outputs but colour are of the nearest surface, blended or not; else of the nearest that isn't blended */
     e3d_culling culling;
     const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
+    int32_t msaa_samples; /* 2, 4, 8 or 16: multisampling, with samples_axis 1; else 0 */
+    int32_t alpha_to_coverage; /* with multisampling: alpha tells how many of a pixel's samples E3D_ALPHA_MASK covers */
 } e3d_frame;
 
 #ifdef __cplusplus

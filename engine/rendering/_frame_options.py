@@ -87,6 +87,7 @@ class FrameOptions:
             culling=_native.CULLINGS[options.culling],
             remove_hidden_lines=not options.hidden_lines,
             transparent_outputs=options.transparent_outputs,
+            alpha_to_coverage=options.alpha_to_coverage,
             line_width=options.line_width,
             point_size=options.point_size,
             line_color=convert(options.line_color, color_space),

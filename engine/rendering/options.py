@@ -73,6 +73,7 @@ class RenderKeywords(TypedDict, total=False):
     culling_camera: CameraChoice
     batching: bool
     transparent_outputs: bool
+    alpha_to_coverage: bool
     options: RenderOptions | None
 
 
@@ -86,7 +87,7 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs
+    hidden_lines, point_size, culling, batching, transparent_outputs, alpha_to_coverage
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -108,6 +109,7 @@ class RenderOptions:
     culling: Culling = "all"
     batching: bool = True
     transparent_outputs: bool = False
+    alpha_to_coverage: bool = False
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -125,6 +127,7 @@ class RenderOptions:
             point_size=_line_size(self.point_size, "point_size"),
             batching=bool(self.batching),
             transparent_outputs=bool(self.transparent_outputs),
+            alpha_to_coverage=bool(self.alpha_to_coverage),
         )
 
 

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/limits.h"
+#include "core/sample_patterns.h"
 #include "e3d.h"
 #include "kernels/types/samples.h"
 
@@ -38,6 +39,7 @@ typedef struct e3d_surfaces {
     int32_t irregular;             /* how many surface.c must finish: clipped pieces, lines, points, clip-space meshes */
     int32_t projected;             /* how many have no record, so that `project` has work to do */
     float texels[2];               /* the size of the texture, for E3D_WANT_LEVEL */
+    int32_t reach;                 /* of the viewport */
 } e3d_surfaces;
 
 /* R30: what texels are counted in. */
@@ -61,6 +63,9 @@ typedef struct e3d_batch {
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3], alpha;
     int count;
+    const e3d_sample_pattern *pattern;     /* NULL: values are those of samples' centres; else R105 tells where they are found: */
+    int32_t number[E3D_BATCH + E3D_PAD];   /* which sample of the pattern takes the place of the centre, where that won't do */
+    e3d_lane_array shift[2];               /* from the centre, in samples: where they are found */
 } e3d_batch;
 
 /* What shading needs of a bucket's samples, and so what interpolation fills. */

@@ -40,7 +40,8 @@
     X(TRANSPARENT_OUTPUTS, "other outputs of the nearest surface, blended or not")      \
     X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
     X(BACKDROP, "an environment as the background")                                    \
-    X(HUGE, "more samples than tiles are kept for")
+    X(HUGE, "more samples than tiles are kept for")                                    \
+    X(MULTISAMPLING, "several samples a pixel, of which each surface is shaded once")
 
 /* What is done about it: X(name, what that is). */
 #define E3D_PLANNED(X)                                                                   \

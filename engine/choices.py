@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 Backend = Literal["auto", "scalar", "portable", "sse41", "avx2", "avx512"]
 ColorSpace = Literal["srgb", "linear"]
-Samples = Literal[1, 4, 16]
+Samples = Literal[1, 2, 4, 8, 16]
+Antialias = Literal["ssaa", "msaa"]
 
 Mode = Literal["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]
 #: What the viewer and the command line draw besides: outputs as pictures.

@@ -111,6 +111,8 @@ typedef struct e3d_frame {
     const e3d_casters *casters;  /* of exact shadows, or NULL: none */
     e3d_line_shape line_shape;            /* of lines and of a wireframe's edges */
     e3d_point_shape point_shape;
+    int32_t msaa_samples; /* 2, 4, 8 or 16: multisampling, with samples_axis 1; else 0 */
+    int32_t alpha_to_coverage; /* with multisampling: alpha tells how many of a pixel's samples E3D_ALPHA_MASK covers */
 } e3d_frame;
 
 #ifdef __cplusplus

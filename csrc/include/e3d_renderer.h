@@ -45,8 +45,9 @@ typedef struct e3d_renderer e3d_renderer;
 /* threads: 0 is e3d_thread_count(). */
 e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_renderer **out);
 void e3d_renderer_destroy(e3d_renderer *renderer);
-/* Has the memory ready, with all its pages, that frames of so many samples take where one thing hides another. */
-e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height);
+/* Has the memory ready, with all its pages, that frames of so many samples, in so many planes (1, or msaa_samples), take where one thing
+ * hides another. */
+e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height, int32_t planes);
 /* Called by the calling thread now and then; non-zero stops the frame between tiles. */
 void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *user);
 /* stats may be NULL. */

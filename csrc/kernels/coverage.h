@@ -12,7 +12,8 @@ typedef struct e3d_box {
     int32_t x0, y0, x1, y1;
 } e3d_box;
 
-/* The samples whose centres lie in the corners' rectangle, within the viewport (R10). */
+/* The samples whose centres lie in the corners' rectangle, within the viewport (R10); with multisampling, the pixels that have samples
+ * there (R104). */
 static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], const e3d_viewport *viewport)
 {
     int32_t xlo = x[0], xhi = x[0], ylo = y[0], yhi = y[0];
@@ -22,7 +23,8 @@ static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], con
         ylo = ylo < y[k] ? ylo : y[k];
         yhi = yhi > y[k] ? yhi : y[k];
     }
-    e3d_box box = {(xlo + 127) >> 8, (ylo + 127) >> 8, (xhi - 128) >> 8, (yhi - 128) >> 8};
+    int32_t before = 127 - viewport->reach, behind = 128 - viewport->reach;
+    e3d_box box = {(xlo + before) >> 8, (ylo + before) >> 8, (xhi - behind) >> 8, (yhi - behind) >> 8};
     box.x0 = box.x0 > 0 ? box.x0 : 0;
     box.y0 = box.y0 > 0 ? box.y0 : 0;
     box.x1 = box.x1 < viewport->width - 1 ? box.x1 : viewport->width - 1;
@@ -42,23 +44,25 @@ typedef struct e3d_edge {
     int32_t a, b;
 } e3d_edge;
 
-static inline e3d_edge e3d_edge_at(const e3d_record *r, int k, int32_t x, int32_t y)
+/* (u, v) from the centre of sample (x, y), in 1/256 sample. */
+static inline e3d_edge e3d_edge_beside(const e3d_record *r, int k, int32_t x, int32_t y, int32_t u, int32_t v)
 {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     e3d_edge edge = {0, r->y[i] - r->y[j], r->x[j] - r->x[i]};
-    int64_t value = (int64_t)edge.a * (256 * (int64_t)x + 128 - r->x[i]) +
-                    (int64_t)edge.b * (256 * (int64_t)y + 128 - r->y[i]);
+    int64_t value = (int64_t)edge.a * (256 * (int64_t)x + 128 + u - r->x[i]) +
+                    (int64_t)edge.b * (256 * (int64_t)y + 128 + v - r->y[i]);
     int top_left = edge.a > 0 || (edge.a == 0 && edge.b > 0);
     edge.e = (value - !top_left) >> 8;
     return edge;
 }
 
-/* Edge k of a piece (R12) at the first sample (x, y) of a tile; 0 if the whole tile lies outside it. An edge with the whole tile
+static inline e3d_edge e3d_edge_at(const e3d_record *r, int k, int32_t x, int32_t y) { return e3d_edge_beside(r, k, x, y, 0, 0); }
+
+/* An edge of a piece at the first sample of a tile; 0 if the whole tile lies outside it. An edge with the whole tile
  * on its inner side is left out, so that those that cross the tile fit 32 bits. */
-static inline int e3d_piece_edge(const e3d_record *r, int k, int32_t x, int32_t y, e3d_piece *piece)
+static inline int e3d_keep_edge(e3d_edge edge, int k, e3d_piece *piece)
 {
     const int64_t span = E3D_TILE - 1;
-    e3d_edge edge = e3d_edge_at(r, k, x, y);
     int64_t a = edge.a * span, b = edge.b * span;
     if (edge.e + (a > 0 ? a : 0) + (b > 0 ? b : 0) < 0)
         return 0;
@@ -67,6 +71,12 @@ static inline int e3d_piece_edge(const e3d_record *r, int k, int32_t x, int32_t 
     piece->a[k] = crosses ? edge.a : 0;
     piece->b[k] = crosses ? edge.b : 0;
     return 1;
+}
+
+/* Edge k of a piece (R12) at the first sample (x, y) of a tile. */
+static inline int e3d_piece_edge(const e3d_record *r, int k, int32_t x, int32_t y, e3d_piece *piece)
+{
+    return e3d_keep_edge(e3d_edge_at(r, k, x, y), k, piece);
 }
 
 static inline int32_t e3d_in_tile(int32_t v) { return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1 : v; }

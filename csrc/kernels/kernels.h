@@ -58,9 +58,22 @@ typedef struct e3d_kernels {
     void (*raster_settle)(e3d_visible_tile *tile, const e3d_record_table *table, int depths);
     /* Measures each block that isn't noted: its zmax, and the farthest depth of each column. */
     void (*raster_measure)(e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
+    /* Multisampling: a plane of a tile for each sample of its pixels, in which `noted`, `stale`, `zmin` and `zmax` of the first one stand for
+     * all. Draws records; writes all noted blocks; measures the others for all planes (see raster_measure). */
+    void (*raster_planes)(e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table, const uint32_t *ids,
+                          int count);
+    void (*planes_settle)(e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table);
+    void (*planes_measure)(e3d_visible_tile *planes, int count, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]);
+    /* Finds the pixels whose samples don't all show the same, a bit each, row by row. `shared` gets the IDs of the others, and
+     * E3D_NO_SLOT for these. Returns whether some of the others, of the first width x height, show nothing. */
+    int (*planes_split)(const e3d_visible_tile *planes, int count, int width, int height, uint64_t mixed[E3D_TILE], e3d_visible_tile *shared);
     /* Adds the samples that a piece, whose slot is its ID, covers in front of what shows: row by row from y0 on, while there is room
      * for a whole one. Returns the row that comes next. */
     int32_t (*raster_alpha)(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out);
+    /* Adds the pixels of rows y to last that pieces of one record, one in each plane that is `live` (a bit each), cover in front of what
+     * shows there. Returns the row that comes next. */
+    int32_t (*cover_planes)(const e3d_piece *pieces, uint32_t live, int32_t y, int32_t last, const e3d_record_table *table,
+                            e3d_planes_list *out);
     /* Finds the runs of the first width x height samples that show something, row by row; returns how many. `gaps`: whether some
      * samples show nothing. It writes the IDs of noted blocks where it must look at samples; the blocks stay noted. */
     int (*find_runs)(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps);
@@ -81,6 +94,7 @@ typedef struct e3d_kernels {
      * Piece `piece` is surface 0, and the next ones follow. */
     int (*take_runs)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);
     int (*take_shown)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch);
+    int (*take_placed)(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch); /* where it has a pattern */
     /* Finds the corners on the screen (R3, R8, R9) of the pieces that have no record. */
     void (*project)(e3d_surfaces *surfaces, const e3d_viewport *viewport);
     /* Finds the planes of R18 of pieces that weren't clipped, and what is wanted of their vertices. (tile_x, tile_y) is the tile's

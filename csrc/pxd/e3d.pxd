@@ -323,6 +323,8 @@ cdef extern from "e3d.h" nogil:
         e3d_normals normals
         int32_t remove_hidden_lines
         int32_t transparent_outputs
+        int32_t msaa_samples
+        int32_t alpha_to_coverage
         float line_width
         float point_size
         float line_color[3]
@@ -404,7 +406,7 @@ cdef extern from "e3d.h" nogil:
 
     e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_renderer **out)
     void e3d_renderer_destroy(e3d_renderer *renderer)
-    e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height)
+    e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height, int32_t planes)
     void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *) noexcept nogil, void *user)
     ctypedef struct e3d_bloom:
         const float *radiance

@@ -2,7 +2,7 @@
  *
  * In:  pieces whose materials are masked or blended, and the samples that they cover.
  * Out: whether they show there; of blended ones, fragments sorted by sample, and their colours laid over the sample's.
- * Rules: R81 (coverage), R82 (what is kept), R83 (order), R84 (composition). The alpha of a surface is R80, in surface.c.
+ * Rules: R81 (coverage), R82 (what is kept), R83 (order), R84 (composition), R105 and R108 (multisampling). The alpha of a surface is R80, in surface.c.
  */
 #include <stdlib.h>
 
@@ -15,16 +15,47 @@ static e3d_alpha_mode alpha_mode_of(const ref_piece *piece)
     return material ? material->alpha_mode : E3D_ALPHA_OPAQUE; /* a wireframe's edge has none */
 }
 
-int ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y)
+static int32_t first_of(uint32_t samples)
+{
+    int32_t n = 0;
+    while (!(samples >> n & 1))
+        n++;
+    return n;
+}
+
+static float alpha_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, uint32_t samples)
+{
+    ref_surface surface;
+    const ref_place at = {x, y, first_of(samples)};
+    ref_surface_at(scene, piece, &at, &surface);
+    return surface.alpha;
+}
+
+/* R108: the samples that an alpha covers. */
+static uint32_t coverage_of(const ref_scene *scene, float alpha, float cutoff)
+{
+    uint32_t covered = 0;
+    float share = alpha < cutoff ? (0.5f * alpha) / cutoff : 1.0f;
+    if (alpha >= cutoff && cutoff < 1.0f)
+        share = 0.5f + (0.5f * (alpha - cutoff)) / (1.0f - cutoff);
+    for (int32_t n = 0; n < scene->pixel_samples; n++)
+        if (share * (float)scene->pixel_samples >= (float)n + 0.5f)
+            covered |= (uint32_t)1 << n;
+    return covered;
+}
+
+uint32_t ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, uint32_t covered)
 {
     e3d_alpha_mode mode = alpha_mode_of(piece);
-    if (mode == E3D_ALPHA_OPAQUE)
-        return 1;
-    ref_surface surface;
-    ref_surface_at(scene, piece, x, y, &surface);
+    if (mode == E3D_ALPHA_OPAQUE || (scene->pattern && ref_is_blended(scene->frame, piece)))
+        return covered;
+    float alpha = alpha_at(scene, piece, x, y, covered);
     if (ref_transmits(scene->frame, piece))
-        return ref_transmitting_alpha(piece->primitive.material, surface.alpha) >= E3D_LEAST_ALPHA;
-    return surface.alpha >= (mode == E3D_ALPHA_MASK ? piece->primitive.material->alpha_cutoff : E3D_LEAST_ALPHA);
+        return ref_transmitting_alpha(piece->primitive.material, alpha) >= E3D_LEAST_ALPHA ? covered : 0;
+    float cutoff = mode == E3D_ALPHA_MASK ? piece->primitive.material->alpha_cutoff : E3D_LEAST_ALPHA;
+    if (scene->pattern && scene->frame->alpha_to_coverage && mode == E3D_ALPHA_MASK)
+        return covered & coverage_of(scene, alpha, cutoff);
+    return alpha >= cutoff ? covered : 0;
 }
 
 int ref_is_blended(const e3d_frame *frame, const ref_piece *piece)
@@ -88,7 +119,7 @@ static int farther_first(const void *left, const void *right)
 /* Where the fragments of each sample start. */
 static void index_fragments(ref_band *band)
 {
-    size_t samples = (size_t)band->rows * (size_t)band->width;
+    size_t samples = (size_t)band->rows * (size_t)band->width * (size_t)band->pixel_samples;
     int64_t at = 0;
     for (size_t sample = 0; sample <= samples; sample++) {
         while (at < band->fragment_count && band->fragments[at].sample < sample)
@@ -110,22 +141,41 @@ void ref_sort_fragments(const ref_scene *scene, ref_band *band)
     index_fragments(band);
 }
 
-void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float color[3], float *alpha)
+/* The first sample of the pixel that the piece has a fragment in: R105. */
+static ref_place first_with(const ref_band *band, const ref_place *at, int64_t piece)
 {
-    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    ref_place first = {at->x, at->y, 0};
+    for (; first.number < at->number; first.number++) {
+        size_t sample = ref_sample_at(band, &first);
+        for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++)
+            if (band->fragments[i].piece == piece)
+                return first;
+    }
+    return first;
+}
+
+void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *at, float color[3], float *alpha)
+{
+    size_t sample = ref_sample_at(band, at);
     for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++) {
         const ref_piece *piece = &scene->pieces.items[band->fragments[i].piece];
+        const ref_place first = first_with(band, at, band->fragments[i].piece);
         ref_surface surface;
         float shaded[3];
         if (scene->frame->wireframe == E3D_WIRE_ONLY && piece->primitive.kind == REF_FACE)
             continue;
-        ref_surface_at(scene, piece, x, y, &surface);
+        ref_surface_at(scene, piece, &first, &surface);
+        scene->stats.pixels_shaded += first.number == at->number;
+        int transmits = ref_transmits(scene->frame, piece);
+        if (transmits)
+            surface.alpha = ref_transmitting_alpha(piece->primitive.material, surface.alpha);
+        if (surface.alpha < E3D_LEAST_ALPHA)
+            continue;
         ref_show(scene->frame, &surface, shaded);
-        scene->stats.pixels_shaded++;
-        if (ref_transmits(scene->frame, piece)) {
+        if (transmits) {
             float transmittance[3];
             ref_transmittance(scene->frame, &surface, transmittance);
-            ref_lay_transmitting(shaded, ref_transmitting_alpha(piece->primitive.material, surface.alpha), transmittance, color, alpha);
+            ref_lay_transmitting(shaded, surface.alpha, transmittance, color, alpha);
             continue;
         }
         for (int c = 0; c < 3; c++)

@@ -3,7 +3,7 @@
  * In:  the scene's pieces, in the order of R16 or sorted for the painter.
  * Out: depth, visible piece, layers of overdraw and wireframe edges of each sample of the band.
  * Rules: R12 (coverage, in exact integers), R14 and R15 (depth), R16 (order), R17 (overdraw),
- *      R36 (wireframe), R81 and R82 through alpha.c.
+ *      R36 (wireframe), R103 and R104 (multisampling), R81, R82 and R108 through alpha.c.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -11,13 +11,23 @@
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
-/* R12: the centre is inside, or on a top or left edge. */
-static int covers(const ref_piece *piece, int32_t x, int32_t y)
+/* R103: how far a sample lies from its pixel's centre, in 1/256 pixel. */
+typedef struct offset {
+    int32_t x, y;
+} offset;
+
+static offset offset_of(const ref_scene *scene, int32_t number)
+{
+    return scene->pattern ? (offset){scene->pattern->x[number], scene->pattern->y[number]} : (offset){0, 0};
+}
+
+/* R12: the sample is inside, or on a top or left edge. */
+static int covers(const ref_piece *piece, int32_t x, int32_t y, offset from_centre)
 {
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
         int64_t a = piece->a[k], b = piece->b[k];
-        int64_t e = a * (256 * x + 128 - piece->x[i]) + b * (256 * y + 128 - piece->y[i]);
+        int64_t e = a * (256 * x + 128 + from_centre.x - piece->x[i]) + b * (256 * y + 128 + from_centre.y - piece->y[i]);
         int top_left = a > 0 || (a == 0 && b > 0);
         if (e < 0 || (e == 0 && !top_left))
             return 0;
@@ -25,10 +35,15 @@ static int covers(const ref_piece *piece, int32_t x, int32_t y)
     return 1;
 }
 
-float ref_depth_at(const ref_piece *piece, int32_t x, int32_t y)
+/* R14 and R104 */
+static float depth_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, offset from_centre)
 {
-    float dx = (float)(x - piece->left), dy = (float)(y - piece->top);
-    float z = (piece->z0 + dx * piece->z_dx) + dy * piece->z_dy;
+    float dx = (float)(x - piece->left), dy = (float)(y - piece->top), z0 = piece->z0;
+    if (scene->pattern) {
+        float u = (float)from_centre.x * (1.0f / 256.0f), v = (float)from_centre.y * (1.0f / 256.0f);
+        z0 = (z0 + u * piece->z_dx) + v * piece->z_dy;
+    }
+    float z = (z0 + dx * piece->z_dx) + dy * piece->z_dy;
     return ref_clamp(z, piece->z_min, piece->z_max);
 }
 
@@ -66,29 +81,49 @@ static void keep_edge(const ref_scene *scene, float z, ref_band *band, size_t sa
         band->edge[sample] = 1;
 }
 
+/* The samples of a pixel that a piece covers, no farther than the far plane: a bit each, and their depths. */
+static uint32_t covered_samples(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, float z[E3D_MOST_MSAA_SAMPLES])
+{
+    uint32_t covered = 0;
+    for (int32_t n = 0; n < scene->pixel_samples; n++) {
+        offset from_centre = offset_of(scene, n);
+        if (!covers(piece, x, y, from_centre))
+            continue;
+        z[n] = depth_at(scene, piece, x, y, from_centre);
+        if (!(z[n] > 1.0f))
+            covered |= (uint32_t)1 << n;
+    }
+    return covered;
+}
+
+static e3d_status raster_pixel(const ref_scene *scene, const ref_piece *piece, int64_t number, int32_t x, int32_t y, ref_band *band)
+{
+    float z[E3D_MOST_MSAA_SAMPLES];
+    uint32_t covered = covered_samples(scene, piece, x, y, z);
+    e3d_status status = E3D_OK;
+    covered = covered ? ref_alpha_covers(scene, piece, x, y, covered) : 0;
+    for (int32_t n = 0; n < scene->pixel_samples && status == E3D_OK; n++) {
+        const ref_place at = {x, y, n};
+        if (!(covered >> n & 1))
+            continue;
+        if (piece->primitive.kind == REF_EDGE)
+            keep_edge(scene, z[n], band, ref_sample_at(band, &at));
+        else
+            status = keep_fragment(scene, piece, number, z[n], band, ref_sample_at(band, &at));
+    }
+    return status;
+}
+
 static e3d_status raster_piece(const ref_scene *scene, const ref_piece *piece, int64_t number, ref_band *band)
 {
     int32_t last_row = band->first_row + band->rows - 1;
     int32_t top = piece->top > band->first_row ? piece->top : band->first_row;
     int32_t bottom = piece->bottom < last_row ? piece->bottom : last_row;
-    for (int32_t y = top; y <= bottom; y++) {
-        size_t row = (size_t)(y - band->first_row) * (size_t)band->width;
-        for (int32_t x = piece->left; x <= piece->right; x++) {
-            if (!covers(piece, x, y))
-                continue;
-            float z = ref_depth_at(piece, x, y);
-            if (z > 1.0f || !ref_alpha_covers(scene, piece, x, y))
-                continue;
-            e3d_status status = E3D_OK;
-            if (piece->primitive.kind == REF_EDGE)
-                keep_edge(scene, z, band, row + (size_t)x);
-            else
-                status = keep_fragment(scene, piece, number, z, band, row + (size_t)x);
-            if (status != E3D_OK)
-                return status;
-        }
-    }
-    return E3D_OK;
+    e3d_status status = E3D_OK;
+    for (int32_t y = top; y <= bottom; y++)
+        for (int32_t x = piece->left; x <= piece->right && status == E3D_OK; x++)
+            status = raster_pixel(scene, piece, number, x, y, band);
+    return status;
 }
 
 static int farther_first(const void *left, const void *right)
@@ -107,7 +142,7 @@ void ref_sort_for_painter(ref_piece_list *pieces)
 
 e3d_status ref_raster_band(const ref_scene *scene, ref_band *band)
 {
-    size_t samples = (size_t)band->rows * (size_t)band->width;
+    size_t samples = (size_t)band->rows * (size_t)band->width * (size_t)band->pixel_samples;
     for (size_t sample = 0; sample < samples; sample++) {
         band->depth[sample] = INFINITY;
         band->piece[sample] = -1;

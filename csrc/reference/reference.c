@@ -40,6 +40,8 @@ static e3d_status check_frame(const e3d_frame *frame, const e3d_targets *targets
         return E3D_INVALID_ARGUMENT;
     if (frame->samples_axis != 1 && frame->samples_axis != 2 && frame->samples_axis != 4)
         return E3D_INVALID_ARGUMENT;
+    if (frame->msaa_samples && (frame->samples_axis != 1 || !e3d_sample_pattern_of(frame->msaa_samples)))
+        return E3D_INVALID_ARGUMENT;
     if (!size_is_valid(frame->line_width) || !size_is_valid(frame->point_size))
         return E3D_INVALID_ARGUMENT;
     if (!e3d_shadows_are_valid(frame))
@@ -65,6 +67,8 @@ static void init_scene(ref_scene *scene, const e3d_frame *frame)
     *scene = (ref_scene){.frame = frame};
     scene->width = frame->width * frame->samples_axis;
     scene->height = frame->height * frame->samples_axis;
+    scene->pattern = e3d_sample_pattern_of(frame->msaa_samples);
+    scene->pixel_samples = scene->pattern ? scene->pattern->count : 1;
     scene->guard_x = ref_guard_factor(scene->width);
     scene->guard_y = ref_guard_factor(scene->height);
     ref_round_rows(scene->view_from_world, frame->view_from_world, 3);
@@ -83,11 +87,12 @@ static void free_scene(ref_scene *scene)
 static e3d_status allocate_band(ref_band *band, const ref_scene *scene)
 {
     int32_t n = scene->frame->samples_axis;
-    int32_t pixel_rows = BAND_SAMPLES / (scene->width * n);
+    int32_t pixel_rows = BAND_SAMPLES / (scene->width * n * scene->pixel_samples);
     pixel_rows = pixel_rows < 1 ? 1 : pixel_rows;
     band->width = scene->width;
+    band->pixel_samples = scene->pixel_samples;
     band->rows = (pixel_rows < scene->frame->height ? pixel_rows : scene->frame->height) * n;
-    size_t samples = (size_t)band->rows * (size_t)band->width;
+    size_t samples = (size_t)band->rows * (size_t)band->width * (size_t)band->pixel_samples;
     band->depth = malloc(samples * sizeof *band->depth);
     band->piece = malloc(samples * sizeof *band->piece);
     band->layers = malloc(samples);

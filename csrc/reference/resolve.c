@@ -52,9 +52,9 @@ static int shows_backdrop(const e3d_frame *frame)
 }
 
 /* R63, R122: of the pixel that a sample belongs to. */
-static void background_color(const e3d_frame *frame, int32_t x, int32_t y, float out[3])
+static void background_color(const e3d_frame *frame, const ref_place *at, float out[3])
 {
-    int32_t column = x / frame->samples_axis, row = y / frame->samples_axis;
+    int32_t column = at->x / frame->samples_axis, row = at->y / frame->samples_axis;
     float color[3] = {frame->background[0], frame->background[1], frame->background[2]};
     if (shows_backdrop(frame)) {
         ref_backdrop(&frame->backdrop, column, row, color);
@@ -66,11 +66,21 @@ static void background_color(const e3d_frame *frame, int32_t x, int32_t y, float
     clamp_color(color, out);
 }
 
+/* R105: the first sample of the pixel that keeps what this one keeps. */
+static ref_place first_kept(const ref_band *band, const ref_place *at)
+{
+    int64_t number = band->piece[ref_sample_at(band, at)];
+    ref_place first = {at->x, at->y, 0};
+    while (band->piece[ref_sample_at(band, &first)] != number)
+        first.number++;
+    return first;
+}
+
 /* The colour of what is kept at a sample, clamped; returns 0, and the background's colour, where nothing shows. */
-static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
+static int kept_color(ref_scene *scene, const ref_band *band, const ref_place *at, float out[3])
 {
     const e3d_frame *frame = scene->frame;
-    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    size_t sample = ref_sample_at(band, at);
     int64_t number = band->piece[sample];
     const ref_piece *piece = number < 0 ? NULL : &scene->pieces.items[number];
     int only_edges = frame->wireframe == E3D_WIRE_ONLY;
@@ -84,48 +94,81 @@ static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t
         return 1;
     }
     if (overdraw || !piece || (only_edges && piece->primitive.kind == REF_FACE)) {
-        background_color(frame, x, y, out);
+        background_color(frame, at, out);
         return 0;
     }
     ref_surface surface;
-    ref_surface_at(scene, piece, x, y, &surface);
+    const ref_place first = first_kept(band, at);
+    ref_surface_at(scene, piece, &first, &surface);
     ref_show(frame, &surface, out);
-    scene->stats.pixels_shaded++;
+    scene->stats.pixels_shaded += first.number == at->number;
     return 1;
 }
 
 /* The colour of a sample, multiplied by its alpha, which it returns. */
-static float sample_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
+static float sample_color(ref_scene *scene, const ref_band *band, const ref_place *at, float out[3])
 {
     int has_background = shows_backdrop(scene->frame) || scene->frame->background[3] != 0.0f;
-    float alpha = kept_color(scene, band, x, y, out) || has_background ? 1.0f : 0.0f;
-    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    float alpha = kept_color(scene, band, at, out) || has_background ? 1.0f : 0.0f;
     for (int c = 0; c < 3 && alpha == 0.0f; c++)
         out[c] = 0.0f;
-    if (!band->edge[sample])
-        ref_blend_sample(scene, band, x, y, out, &alpha);
+    if (!band->edge[ref_sample_at(band, at)])
+        ref_blend_sample(scene, band, at, out, &alpha);
     return alpha;
 }
 
-/* R33, R85 and R34 of the pixel whose first sample is (x, y). */
-static void resolve_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, uint8_t out[4])
+/* R33, R85 and R34, of sums over a pixel's samples: colours, and alphas. */
+static void resolve_sums(const e3d_frame *frame, const float sum[4], int32_t samples, const float background[3], uint8_t out[4])
 {
-    const e3d_frame *frame = scene->frame;
-    int32_t n = frame->samples_axis;
-    float count = 0.0f; /* the sum of alphas */
-    float sum[3] = {0.0f, 0.0f, 0.0f}, color[3];
+    float scale = sum[3] == 0.0f ? 1.0f : 1.0f / sum[3];
+    for (int c = 0; c < 3; c++)
+        out[c] = encode(frame, (sum[3] == 0.0f ? background[c] : sum[c]) * scale);
+    out[3] = (uint8_t)ref_rint(255.0f * (sum[3] / (float)samples));
+}
+
+/* Of the pixel whose first sample is (x, y), row by row. */
+static void sum_rows(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float sum[4])
+{
+    int32_t n = scene->frame->samples_axis;
+    float color[3];
+    for (int c = 0; c < 4; c++)
+        sum[c] = 0.0f;
     for (int32_t j = 0; j < n; j++)
         for (int32_t i = 0; i < n; i++) {
-            count = count + sample_color(scene, band, x + i, y + j, color);
+            const ref_place at = {x + i, y + j, 0};
+            sum[3] = sum[3] + sample_color(scene, band, &at, color);
             for (int c = 0; c < 3; c++)
                 sum[c] = sum[c] + color[c];
         }
-    if (count == 0.0f)
-        clamp_color(frame->background, sum);
-    float scale = count == 0.0f ? 1.0f : 1.0f / count;
-    for (int c = 0; c < 3; c++)
-        out[c] = encode(frame, sum[c] * scale);
-    out[3] = (uint8_t)ref_rint(255.0f * (count / (float)(n * n)));
+}
+
+/* R106: in pairs, then pairs of these, until one sum is left. */
+static void sum_pairs(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float sum[4])
+{
+    float samples[E3D_MOST_MSAA_SAMPLES][4];
+    int32_t count = scene->pixel_samples;
+    for (int32_t n = 0; n < count; n++) {
+        const ref_place at = {x, y, n};
+        samples[n][3] = sample_color(scene, band, &at, samples[n]);
+    }
+    for (; count > 1; count /= 2)
+        for (int32_t n = 0; n < count / 2; n++)
+            for (int c = 0; c < 4; c++)
+                samples[n][c] = samples[2 * n][c] + samples[2 * n + 1][c];
+    for (int c = 0; c < 4; c++)
+        sum[c] = samples[0][c];
+}
+
+static void resolve_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, uint8_t out[4])
+{
+    const e3d_frame *frame = scene->frame;
+    float sum[4], background[3];
+    clamp_color(frame->background, background);
+    if (scene->pattern)
+        sum_pairs(scene, band, x, y, sum);
+    else
+        sum_rows(scene, band, x, y, sum);
+    resolve_sums(frame, sum, frame->samples_axis * frame->samples_axis * scene->pixel_samples, background, out);
 }
 
 static void write_floats(float *target, size_t pixel, const float *values, int components)
@@ -198,7 +241,8 @@ static void write_surface(const e3d_frame *frame, const e3d_targets *targets, si
 static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_t x, int32_t y,
                             const e3d_targets *targets, size_t pixel)
 {
-    size_t sample = (size_t)(y - band->first_row) * (size_t)band->width + (size_t)x;
+    const ref_place at = {x, y, 0};
+    size_t sample = ref_sample_at(band, &at);
     int64_t end = band->first_fragment[sample + 1], number = band->piece[sample];
     float depth = band->depth[sample];
     if (scene->frame->transparent_outputs && end > band->first_fragment[sample]) { /* R86 */
@@ -211,7 +255,7 @@ static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_
         return;
     }
     ref_surface surface;
-    ref_surface_at(scene, &scene->pieces.items[number], x, y, &surface);
+    ref_surface_at(scene, &scene->pieces.items[number], &at, &surface);
     write_surface(scene->frame, targets, pixel, &surface, depth);
 }
 

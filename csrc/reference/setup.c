@@ -68,13 +68,14 @@ static int32_t max3(const int32_t v[3])
     return m > v[2] ? m : v[2];
 }
 
-/* R10. Returns 0 where the box holds no sample of the viewport. */
+/* R10 and R104. Returns 0 where the box holds no sample of the viewport. */
 static int setup_box(const ref_scene *scene, ref_piece *piece)
 {
-    piece->left = ref_floor_256(min3(piece->x) - 128 + 255);
-    piece->right = ref_floor_256(max3(piece->x) - 128);
-    piece->top = ref_floor_256(min3(piece->y) - 128 + 255);
-    piece->bottom = ref_floor_256(max3(piece->y) - 128);
+    int32_t reach = scene->pattern ? scene->pattern->reach : 0;
+    piece->left = ref_floor_256(min3(piece->x) - reach - 128 + 255);
+    piece->right = ref_floor_256(max3(piece->x) + reach - 128);
+    piece->top = ref_floor_256(min3(piece->y) - reach - 128 + 255);
+    piece->bottom = ref_floor_256(max3(piece->y) + reach - 128);
     if (piece->left < 0)
         piece->left = 0;
     if (piece->top < 0)

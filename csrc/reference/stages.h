@@ -10,6 +10,7 @@
 #define E3D_REFERENCE_STAGES_H
 
 #include "core/limits.h"
+#include "core/sample_patterns.h"
 #include "e3d.h"
 
 typedef enum ref_kind { REF_FACE, REF_LINE, REF_POINT, REF_EDGE } ref_kind;
@@ -79,6 +80,8 @@ typedef struct ref_casters {
 typedef struct ref_scene {
     const e3d_frame *frame;
     int32_t width, height;       /* of the viewport, in samples */
+    const e3d_sample_pattern *pattern; /* NULL: no multisampling */
+    int32_t pixel_samples;       /* of the pattern, or 1 */
     float guard_x, guard_y;      /* guard factors, powers of two */
     float view_from_world[3][4];
     ref_instance *instances;
@@ -96,9 +99,9 @@ typedef struct ref_fragment {
     int64_t piece;
 } ref_fragment;
 
-/* One band of samples: full rows of the viewport. */
+/* One band of samples: full rows of the viewport. With multisampling the samples of a pixel follow each other (ref_sample_at). */
 typedef struct ref_band {
-    int32_t first_row, rows, width;
+    int32_t first_row, rows, width, pixel_samples;
     float *depth;                /* z_ndc that R16 kept, +inf where nothing is */
     int64_t *piece;              /* index of the visible piece, -1 where nothing is */
     uint8_t *layers;             /* overdraw, R17: saturates at 255 */
@@ -107,6 +110,17 @@ typedef struct ref_band {
     int64_t fragment_count, fragment_capacity;
     int64_t *first_fragment;     /* of each sample, and behind the last */
 } ref_band;
+
+/* A sample: its column and row in the viewport, and with multisampling its number in the pixel. */
+typedef struct ref_place {
+    int32_t x, y, number;
+} ref_place;
+
+static inline size_t ref_sample_at(const ref_band *band, const ref_place *at)
+{
+    size_t pixel = (size_t)(at->y - band->first_row) * (size_t)band->width + (size_t)at->x;
+    return pixel * (size_t)band->pixel_samples + (size_t)at->number;
+}
 
 /* transform.c */
 void ref_instance_init(ref_instance *out, const e3d_frame *frame, const e3d_draw *draw, int32_t number);
@@ -143,18 +157,17 @@ void ref_free_casters(ref_casters *casters);
 /* raster.c */
 void ref_sort_for_painter(ref_piece_list *pieces);
 e3d_status ref_raster_band(const ref_scene *scene, ref_band *band);
-float ref_depth_at(const ref_piece *piece, int32_t x, int32_t y);
 
 /* alpha.c */
-/* R81: whether a piece, which covers the sample by R12, shows anything there. */
-int ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y);
+/* R81 and R108: of the samples that a piece covers in a pixel by R12 and R15, a bit each, those that its alpha leaves. */
+uint32_t ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, uint32_t covered);
 /* R82: whether a piece is laid over what is kept, rather than kept. */
 int ref_is_blended(const e3d_frame *frame, const ref_piece *piece);
 e3d_status ref_add_fragment(ref_band *band, size_t sample, float depth, int64_t piece);
 /* R83: drops those that are hidden, and sorts the others. */
 void ref_sort_fragments(const ref_scene *scene, ref_band *band);
 /* R84: lays the fragments of a sample over its colour, which is multiplied by its alpha. */
-void ref_blend_sample(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float color[3], float *alpha);
+void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *at, float color[3], float *alpha);
 
 /* resolve.c */
 /* R34 of a clamped value. */

@@ -9,16 +9,26 @@
 #include "core/srgb_tables.h"
 #include "reference/surface.h"
 
-/* R19 */
-static void find_weights(ref_surface *s, int32_t x, int32_t y)
+/* R19, before the weights are limited. */
+static void find_planes(ref_surface *s, float dx, float dy)
 {
     const ref_piece *piece = s->piece;
-    s->dx = (float)(x - piece->left);
-    s->dy = (float)(y - piece->top);
-    for (int k = 0; k < 3; k++) {
-        float weight = (piece->bary0[k] + s->dx * piece->bary_dx[k]) + s->dy * piece->bary_dy[k];
-        s->weight[k] = ref_max(weight, k == 0 ? E3D_LEAST_WEIGHT : 0.0f);
-    }
+    s->dx = dx;
+    s->dy = dy;
+    for (int k = 0; k < 3; k++)
+        s->weight[k] = (piece->bary0[k] + dx * piece->bary_dx[k]) + dy * piece->bary_dy[k];
+}
+
+/* R19 and R105 */
+static void find_weights(const ref_scene *scene, ref_surface *s, const ref_place *at)
+{
+    float dx = (float)(at->x - s->piece->left), dy = (float)(at->y - s->piece->top);
+    find_planes(s, dx, dy);
+    if (scene->pattern && !(s->weight[0] >= 0.0f && s->weight[1] >= 0.0f && s->weight[2] >= 0.0f))
+        find_planes(s, dx + (float)scene->pattern->x[at->number] * (1.0f / 256.0f),
+                    dy + (float)scene->pattern->y[at->number] * (1.0f / 256.0f));
+    for (int k = 0; k < 3; k++)
+        s->weight[k] = ref_max(s->weight[k], k == 0 ? E3D_LEAST_WEIGHT : 0.0f);
     s->r = 1.0f / ((s->weight[0] + s->weight[1]) + s->weight[2]);
     for (int k = 0; k < 3; k++)
         s->barycentric[k] = ref_min(s->weight[k] * s->r, 1.0f);
@@ -162,12 +172,12 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     }
 }
 
-void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, ref_surface *out)
+void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
 {
     out->piece = piece;
     out->casters = &scene->casters;
     out->instance = &scene->instances[piece->primitive.instance];
-    find_weights(out, x, y);
+    find_weights(scene, out, at);
     find_position(scene, out);
     find_normal(scene, out);
     find_uv(out);

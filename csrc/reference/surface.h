@@ -45,7 +45,8 @@ static inline float ref_interpolate(const ref_surface *surface, const float corn
 }
 
 /* surface.c */
-void ref_surface_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, ref_surface *out);
+/* With multisampling, R105: at the pixel's centre, or at the sample where the piece's corners leave no choice. */
+void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out);
 void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[4]);
 
 /* texture.c */

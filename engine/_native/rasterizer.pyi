@@ -220,6 +220,7 @@ class NativeOptions:
         culling: int,
         remove_hidden_lines: bool,
         transparent_outputs: bool,
+        alpha_to_coverage: bool,
         line_width: float,
         point_size: float,
         line_shape: int,
@@ -249,7 +250,7 @@ class NativeStats:
 class NativeRenderer:
     def __init__(self, backend: int, threads: int) -> None: ...
     def abandon(self) -> None: ...
-    def prepare(self, width: int, height: int) -> None: ...
+    def prepare(self, width: int, height: int, planes: int) -> None: ...
     def render(
         self,
         draw_list: NativeDrawList,
@@ -258,6 +259,7 @@ class NativeRenderer:
         width: int,
         height: int,
         samples_axis: int,
+        msaa_samples: int,
         clip_from_world: _Doubles,
         view_from_world: _Doubles,
         eye: Sequence[float],

@@ -197,6 +197,7 @@ cdef class NativeOptions:
         int culling,
         bint remove_hidden_lines,
         bint transparent_outputs,
+        bint alpha_to_coverage,
         float line_width,
         float point_size,
         int line_shape,
@@ -229,6 +230,7 @@ cdef class NativeOptions:
         frame.culling = <e3d_culling>culling
         frame.remove_hidden_lines = remove_hidden_lines
         frame.transparent_outputs = transparent_outputs
+        frame.alpha_to_coverage = alpha_to_coverage
         frame.line_width = line_width
         frame.point_size = point_size
         frame.line_shape = <e3d_line_shape>line_shape
@@ -335,12 +337,12 @@ cdef class NativeRenderer:
         """Use the handle no more, nor free it: a fork may have caught a frame in mid-write."""
         self.handle = NULL
 
-    def prepare(self, int width, int height):
-        """Have memory ready that frames of so many samples may need."""
+    def prepare(self, int width, int height, int planes):
+        """Have memory ready that frames of so many samples may need, in as many planes."""
         cdef e3d_status status
         require(self.handle != NULL, "the renderer was abandoned")
         with nogil:
-            status = e3d_renderer_prepare(self.handle, width, height)
+            status = e3d_renderer_prepare(self.handle, width, height, planes)
         check(status)
 
     def render(
@@ -351,6 +353,7 @@ cdef class NativeRenderer:
         int width,
         int height,
         int samples_axis,
+        int msaa_samples,
         const double[:, ::1] clip_from_world not None,
         const double[:, ::1] view_from_world not None,
         eye,
@@ -375,6 +378,7 @@ cdef class NativeRenderer:
         frame.width = width
         frame.height = height
         frame.samples_axis = samples_axis
+        frame.msaa_samples = msaa_samples
         memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
         memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
         if frozen_clip_from_world is not None:

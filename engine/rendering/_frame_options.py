@@ -108,6 +108,7 @@ class FrameOptions:
             point_size=point_size,
             line_shape=_native.LINE_SHAPES[options.line_shape],
             point_shape=_native.POINT_SHAPES[options.point_shape],
+            alpha_to_coverage=options.alpha_to_coverage,
             line_color=convert(options.line_color, color_space),
             background=background,
             encode_srgb=encoded,

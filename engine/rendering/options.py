@@ -99,6 +99,7 @@ class RenderKeywords(TypedDict, total=False):
     line_shape: LineShape
     point_shape: PointShape
     size_unit: SizeUnit
+    alpha_to_coverage: bool
     options: RenderOptions | None
 
 
@@ -113,7 +114,7 @@ class RenderOptions:
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
     hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping, bloom,
-    line_shape, point_shape, size_unit
+    line_shape, point_shape, size_unit, alpha_to_coverage
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -140,6 +141,7 @@ class RenderOptions:
     line_shape: LineShape = "plain"
     point_shape: PointShape = "square"
     size_unit: SizeUnit = "pixels"
+    alpha_to_coverage: bool = False
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -162,6 +164,7 @@ class RenderOptions:
             batching=bool(self.batching),
             transparent_outputs=bool(self.transparent_outputs),
             bloom=_strength(self.bloom),
+            alpha_to_coverage=bool(self.alpha_to_coverage),
         )
 
     def pixels_of(self, size: float, height: int) -> float:

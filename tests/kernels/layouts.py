@@ -44,6 +44,7 @@ VIEWPORT = np.dtype(
         ("scale_y", "f4"),
         ("guard_x", "f4"),
         ("guard_y", "f4"),
+        ("reach", "i4"),
     ]
 )
 CLUSTER = np.dtype(
@@ -94,7 +95,8 @@ SHOWN_ROOM = TILE * TILE + TILE
 SHOWN = np.dtype(
     [("sample", "i4", SHOWN_ROOM + 2 * PAD), ("of", "i4", SHOWN_ROOM + 2 * PAD)]
     + [("piece", [("id", "u4"), ("first", "i4")], SHOWN_ROOM + 1)]
-    + [("count", "i4"), ("pieces", "i4"), ("runs", "i4")]
+    + [(name, "i4") for name in ("count", "pieces", "runs", "unused")]
+    + [("pattern", "u8")]
 )
 RUN_LENGTH = 16  # of a run in that list: the bit that its length begins at
 COVERING = np.dtype([("record", "u8"), ("id", "u4"), ("y0", "i4"), ("y1", "i4"), ("at", "i4")])
@@ -125,7 +127,7 @@ SURFACES = np.dtype(
     + [("slope", "f4", (2, 3, _ELEMENTS))]
     + [("not_read", "i4", (2, _ELEMENTS))]  # identities
     + [(name, "i4") for name in ("count", "matrices", "irregular", "projected")]
-    + [("texels", "f4", 2)]
+    + [("texels", "f4", 2), ("reach", "i4")]
 )
 _LANES = BATCH + PAD
 BATCH_RECORD = np.dtype(
@@ -146,6 +148,9 @@ BATCH_RECORD = np.dtype(
         ("hidden_lights", "u4", _LANES),
         ("count", "i4"),
         ("unmapped_normal", "u8"),  # an address, or 0
+        ("pattern", "u8"),  # likewise
+        ("number", "i4", _LANES),
+        ("shift", "f4", (2, _LANES)),
     ],
     align=True,
 )
@@ -238,6 +243,7 @@ STRUCTS = {
 
 
 def viewport_of(width, height):
-    """A viewport record: sizes in samples, and the guard factors of section 2 of the rules."""
+    """A viewport record: sizes in samples, and the guard factors of section 2 of the rules; one
+    sample a pixel."""
     guard_x, guard_y = (2.0 ** np.floor(np.log2(65536 / size)) for size in (width, height))
-    return np.array([(width, height, 128 * width, 128 * height, guard_x, guard_y)], VIEWPORT)
+    return np.array([(width, height, 128 * width, 128 * height, guard_x, guard_y, 0)], VIEWPORT)

@@ -90,7 +90,7 @@ static inline void fragment_sort(e3d_small_triangles *triangles, int first, int 
         x[k] = v_loadi(triangles->x[k] + first);
         y[k] = v_loadi(triangles->y[k] + first);
     }
-    setup_span across = setup_box(x, viewport->width), down = setup_box(y, viewport->height);
+    setup_span across = setup_box(x, viewport->width, 0), down = setup_box(y, viewport->height, 0);
     uint32_t tinies = v_bits(v_mand(setup_narrow(across, 2), setup_narrow(down, 2))), asked = setup_tail(left);
     if (asked & ~tinies)
         fragment_move(triangles, first, asked & ~tinies, wide);
@@ -128,8 +128,8 @@ static inline uint32_t fragment_begin(const e3d_small_triangles *triangles, int 
         c->at.zn[k] = c->at.iw[k] = v_loadf(triangles->zn[k] + first);
     }
     record_swap(&c->at, v_negi(setup_area(c->at.x, c->at.y)));
-    c->across = setup_box(c->at.x, viewport->width);
-    c->down = setup_box(c->at.y, viewport->height);
+    c->across = setup_box(c->at.x, viewport->width, 0);
+    c->down = setup_box(c->at.y, viewport->height, 0);
     v->plane = record_plane_of(&c->at, c->across, c->down, &finite);
     v->x = c->across.first;
     v->y = c->down.first;

@@ -16,11 +16,17 @@ typedef struct weight_lanes {
     vf32 dx, dy, w[3], r;
 } weight_lanes;
 
-static ALWAYS_INLINE void interpolate_weights(const e3d_surfaces *s, const element_lanes *lanes, int same, vi32 sample, weight_lanes *out)
+static ALWAYS_INLINE void interpolate_base(const e3d_surfaces *s, const element_lanes *lanes, int same, vi32 sample, weight_lanes *out)
 {
-    vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT)), px[3], py[3];
+    vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT));
     out->dx = v_sub(x, take(s->base_x, lanes, same));
     out->dy = v_sub(y, take(s->base_y, lanes, same));
+}
+
+static ALWAYS_INLINE void interpolate_weights(const e3d_surfaces *s, const element_lanes *lanes, int same, vi32 sample, weight_lanes *out)
+{
+    vf32 px[3], py[3];
+    interpolate_base(s, lanes, same, sample, out);
     take_three(s->p, lanes, same, out->w);
     take_three(s->px, lanes, same, px);
     take_three(s->py, lanes, same, py);
@@ -28,6 +34,41 @@ static ALWAYS_INLINE void interpolate_weights(const e3d_surfaces *s, const eleme
         vf32 weight = v_add(v_add(out->w[k], v_mul(out->dx, px[k])), v_mul(out->dy, py[k]));
         out->w[k] = v_max(weight, v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
     }
+}
+
+/* The offset along one axis of each lane's sample, in samples. */
+static ALWAYS_INLINE vf32 interpolate_offset(const int32_t *offsets, vi32 number)
+{
+    return v_mul(v_float(v_gatheri(offsets, number)), v_setf(1.0f / E3D_SUBPIXEL));
+}
+
+/* R105: at the centre, where none of the weights is negative there, else at the sample of that number. */
+static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_surfaces *s, const element_lanes *lanes, int same,
+                                             weight_lanes *out)
+{
+    vf32 p[3], px[3], py[3], zero = v_setf(0.0f), u = zero, v = zero;
+    interpolate_base(s, lanes, same, v_loadi(batch->sample + i), out);
+    take_three(s->p, lanes, same, p);
+    take_three(s->px, lanes, same, px);
+    take_three(s->py, lanes, same, py);
+    vmask inside = v_eqi(v_seti(0), v_seti(0));
+    for (int k = 0; k < 3; k++) {
+        out->w[k] = v_add(v_add(p[k], v_mul(out->dx, px[k])), v_mul(out->dy, py[k]));
+        inside = v_mand(inside, v_ge(out->w[k], zero));
+    }
+    if (v_any(v_mnot(inside))) {
+        vi32 number = v_loadi(batch->number + i);
+        u = v_self(inside, zero, interpolate_offset(batch->pattern->x, number));
+        v = v_self(inside, zero, interpolate_offset(batch->pattern->y, number));
+        out->dx = v_add(out->dx, u);
+        out->dy = v_add(out->dy, v);
+        for (int k = 0; k < 3; k++)
+            out->w[k] = v_add(v_add(p[k], v_mul(out->dx, px[k])), v_mul(out->dy, py[k]));
+    }
+    v_storef(batch->shift[0] + i, u);
+    v_storef(batch->shift[1] + i, v);
+    for (int k = 0; k < 3; k++)
+        out->w[k] = v_max(out->w[k], v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
 }
 
 /* The weighted sum of one component, whose values at the three corners are in `rows`. */
@@ -117,12 +158,14 @@ static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], 
 }
 
 /* Divisions and roots have a long latency, so r is only found if something needs it. */
-static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vector *v, const void *how)
+static ALWAYS_INLINE void interpolate_vector(e3d_batch *batch, const sample_vector *v, int wanted, int placed)
 {
-    int wanted = *(const int *)how;
     weight_lanes weights = {.r = v_setf(0.0f)};
     const vf32 *w = weights.w;
-    interpolate_weights(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), &weights);
+    if (placed)
+        interpolate_placed(batch, v->i, v->s, &v->elements, v->same, &weights);
+    else
+        interpolate_weights(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), &weights);
     if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_LEVEL | E3D_WANT_POSITION))
         weights.r = v_div(v_setf(1.0f), v_add(v_add(w[0], w[1]), w[2]));
     if (wanted & E3D_WANT_WEIGHTS)
@@ -137,9 +180,23 @@ static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vecto
         interpolate_normal(batch, w, wanted & E3D_WANT_FLAT, v);
 }
 
+static ALWAYS_INLINE void stage_interpolate(e3d_batch *batch, const sample_vector *v, const void *how)
+{
+    interpolate_vector(batch, v, *(const int *)how, 0);
+}
+
+static ALWAYS_INLINE void stage_interpolate_placed(e3d_batch *batch, const sample_vector *v, const void *how)
+{
+    interpolate_vector(batch, v, *(const int *)how, 1);
+}
+
 static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
 {
-    if (wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_LEVEL | E3D_WANT_POSITION | E3D_WANT_NORMAL))
+    if (!(wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_LEVEL | E3D_WANT_POSITION | E3D_WANT_NORMAL)))
+        return;
+    if (batch->pattern)
+        each_vector(batch, surfaces, stage_interpolate_placed, &wanted);
+    else
         each_vector(batch, surfaces, stage_interpolate, &wanted);
 }
 

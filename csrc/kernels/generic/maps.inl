@@ -98,10 +98,11 @@ typedef struct map_stage {
 static ALWAYS_INLINE weight_lanes map_weights(const e3d_batch *batch, const sample_vector *v)
 {
     weight_lanes weights;
-    vi32 sample = v_loadi(batch->sample + v->i);
-    vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT));
-    weights.dx = v_sub(x, take(v->s->base_x, &v->elements, v->same));
-    weights.dy = v_sub(y, take(v->s->base_y, &v->elements, v->same));
+    interpolate_base(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), &weights);
+    if (batch->pattern) {
+        weights.dx = v_add(weights.dx, v_loadf(batch->shift[0] + v->i));
+        weights.dy = v_add(weights.dy, v_loadf(batch->shift[1] + v->i));
+    }
     for (int k = 0; k < 3; k++)
         weights.w[k] = v_loadf(batch->weight[k] + v->i);
     weights.r = v_loadf(batch->r + v->i);

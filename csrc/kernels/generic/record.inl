@@ -169,8 +169,8 @@ static inline void record_try(const e3d_record_request *q, int first, record_lis
         y[k] = v_gatheri(q->vertices->sy, i);
     }
     vi32 xlo = setup_least(x), xhi = setup_most(x), ylo = setup_least(y), yhi = setup_most(y);
-    setup_span across = setup_samples(xlo, xhi, q->viewport->width);
-    setup_span down = setup_samples(ylo, yhi, q->viewport->height);
+    setup_span across = setup_samples(xlo, xhi, q->viewport->width, q->viewport->reach);
+    setup_span down = setup_samples(ylo, yhi, q->viewport->height, q->viewport->reach);
     vmask large = v_gti(v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo)), v_seti(32767)); /* 32 bits don't hold their products */
     vmask tiny = v_mandnot(v_mand(setup_narrow(across, 2), setup_narrow(down, 2)), large);
     uint32_t tinies = v_bits(tiny), keep = setup_tail(q->count - first);
@@ -243,7 +243,8 @@ static inline int record_vector(const e3d_record_request *q, const record_list *
     if (q->cull > 0)
         drop = v_mor(drop, v_gt(sign, none));
     record_swap(&c, swapped);
-    setup_span across = setup_box(c.x, q->viewport->width), down = setup_box(c.y, q->viewport->height);
+    int32_t reach = q->viewport->reach;
+    setup_span across = setup_box(c.x, q->viewport->width, reach), down = setup_box(c.y, q->viewport->height, reach);
     drop = v_mor(drop, v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last)));
     vmask finite;
     record_plane p = record_plane_of(&c, across, down, &finite);

@@ -14,22 +14,25 @@ static inline vi32 setup_fetch(const int32_t *table, const uint8_t *indices, int
     return v_gatheri(table, v_loadu8(indices + i));
 }
 
-/* First and last sample of each lane's box along one axis (R10). */
+/* First and last sample of each lane's box along one axis (R10, R104). */
 typedef struct setup_span {
     vi32 first, last;
 } setup_span;
 
-static inline setup_span setup_samples(vi32 lo, vi32 hi, int32_t size)
+static inline setup_span setup_samples(vi32 lo, vi32 hi, int32_t size, int32_t reach)
 {
-    return (setup_span){v_maxi(v_sra(v_addi(lo, v_seti(127)), 8), v_seti(0)),
-                        v_mini(v_sra(v_subi(hi, v_seti(128)), 8), v_seti(size - 1))};
+    return (setup_span){v_maxi(v_sra(v_addi(lo, v_seti(127 - reach)), 8), v_seti(0)),
+                        v_mini(v_sra(v_subi(hi, v_seti(128 - reach)), 8), v_seti(size - 1))};
 }
 
 static inline vi32 setup_least(const vi32 v[3]) { return v_mini(v_mini(v[0], v[1]), v[2]); }
 static inline vi32 setup_most(const vi32 v[3]) { return v_maxi(v_maxi(v[0], v[1]), v[2]); }
 
 /* The same of three corners. */
-static inline setup_span setup_box(const vi32 v[3], int32_t size) { return setup_samples(setup_least(v), setup_most(v), size); }
+static inline setup_span setup_box(const vi32 v[3], int32_t size, int32_t reach)
+{
+    return setup_samples(setup_least(v), setup_most(v), size, reach);
+}
 
 static inline vi32 setup_area(const vi32 x[3], const vi32 y[3])
 {
@@ -62,8 +65,8 @@ typedef struct setup_boxes {
 static inline setup_boxes setup_boxes_of(const vi32 x[3], const vi32 y[3], int cull, const e3d_viewport *viewport)
 {
     vi32 xlo = setup_least(x), xhi = setup_most(x), ylo = setup_least(y), yhi = setup_most(y);
-    setup_span across = setup_samples(xlo, xhi, viewport->width);
-    setup_span down = setup_samples(ylo, yhi, viewport->height);
+    setup_span across = setup_samples(xlo, xhi, viewport->width, viewport->reach);
+    setup_span down = setup_samples(ylo, yhi, viewport->height, viewport->reach);
     vmask empty = v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last));
     vi32 size = v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo));
     vmask wide = v_gti(size, v_seti(32767)), large = v_gti(size, v_seti(E3D_SMALL_REACH));
@@ -123,11 +126,14 @@ static inline vmask setup_negative(vi32 a)
     return v_mnot(v_eqi(v_andi(a, v_seti((int32_t)0x80008000)), v_seti(0)));
 }
 
+/* A number in both halves of each word. */
+static inline vi32 setup_halves(int32_t n) { return v_seti((int32_t)(((uint32_t)n & 0xFFFF) * 0x10001u)); }
+
 /* setup_boxes_of in 16-bit halves, for packed vertices that are all inside the viewport. */
-static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull)
+static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull, int32_t reach)
 {
     vi32 lo = v_min16(v_min16(p[0], p[1]), p[2]), hi = v_max16(v_max16(p[0], p[1]), p[2]);
-    vi32 first = v_sra16(v_add16(lo, v_seti(127 * 0x10001)), 8), last = v_sra16(v_sub16(hi, v_seti(128 * 0x10001)), 8);
+    vi32 first = v_sra16(v_add16(lo, setup_halves(127 - reach)), 8), last = v_sra16(v_sub16(hi, setup_halves(128 - reach)), 8);
     vi32 more = v_sub16(last, first);
     vi32 spare = v_ori(v_sub16(v_seti((E3D_SMALL - 1) * 0x10001), more),
                        v_sub16(v_seti(E3D_SMALL_REACH * 0x10001), v_sub16(hi, lo)));
@@ -137,7 +143,7 @@ static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull)
 }
 
 /* With both coordinates in a word: half the look-ups, half the arithmetic. 0 if the vertices are too far apart for that. */
-static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, uint64_t *draw,
+static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int32_t reach, uint64_t *draw,
                              uint64_t *small)
 {
     int32_t packed[E3D_CLUSTER_VERTICES + E3D_PAD];
@@ -150,7 +156,7 @@ static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int 
         vi32 p[3];
         for (int k = 0; k < 3; k++)
             p[k] = v_lookup(&table, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i));
-        setup_boxes boxes = setup_boxes_near(p, cull);
+        setup_boxes boxes = setup_boxes_near(p, cull, reach);
         shown |= (uint64_t)v_bits(v_mnot(boxes.miss)) << i;
         narrow |= (uint64_t)v_bits(boxes.small) << i;
     }
@@ -191,7 +197,7 @@ static int kernel_setup(const e3d_vertices *v, const uint8_t *indices, int trian
                         const e3d_viewport *viewport, e3d_survivors *out)
 {
     uint64_t draw = 0, small = 0, clip = 0, asked = triangles ? ~(uint64_t)0 >> (E3D_CLUSTER_TRIANGLES - triangles) : 0;
-    if (V_LANES == 1 || v->special || !setup_near(v, indices, triangles, cull, &draw, &small))
+    if (V_LANES == 1 || v->special || !setup_near(v, indices, triangles, cull, viewport->reach, &draw, &small))
         clip = setup_far(v, indices, triangles, cull, viewport, &draw, &small);
     small &= fragments ? draw & asked : 0;
     *out = (e3d_survivors){draw & asked & ~small, small, clip & asked};

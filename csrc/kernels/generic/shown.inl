@@ -137,7 +137,7 @@ static inline void shown_boxes(const e3d_record *const r[V_LANES], const e3d_vis
 {
     vi32 corners[8], first[2];
     v_load_rows((const void *const *)r, corners);
-    records_boxes(corners, corners + 3, tile, first, out);
+    records_boxes(corners, corners + 3, tile, 0, first, out);
 }
 
 static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count,
@@ -196,6 +196,22 @@ static int kernel_take_shown(const e3d_shown *shown, int first, int count, int32
         v_storei(batch->surface + n + i, v_subi(v_loadi(shown->of + first + i), v_seti(piece)));
     }
     batch_pad(batch, n + some);
+    return some;
+}
+
+/* Pixels with the numbers of R105. */
+static int kernel_take_placed(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+{
+    int n = batch->count, some = count < E3D_BATCH - n ? count : E3D_BATCH - n;
+    for (int i = 0; i < some; i += V_LANES) {
+        vi32 sample = v_loadi(shown->sample + first + i);
+        v_storei(batch->sample + n + i, v_andi(sample, v_seti(E3D_TILE_SAMPLES - 1)));
+        v_storei(batch->number + n + i, v_shr(sample, E3D_SHOWN_NUMBER));
+        v_storei(batch->surface + n + i, v_subi(v_loadi(shown->of + first + i), v_seti(piece)));
+    }
+    batch_pad(batch, n + some);
+    for (int pad = 0; pad < E3D_PAD; pad += V_LANES)
+        v_storei(batch->number + n + some + pad, v_seti(batch->number[n + some - 1]));
     return some;
 }
 

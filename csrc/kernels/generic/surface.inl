@@ -12,10 +12,10 @@ typedef struct plane_numbers {
     vi32 dx[3], dy[3]; /* from corner (k + 1) % 3 to the base's centre */
 } plane_numbers;
 
-static inline void surface_base(const vi32 corner[3], int tile, vi32 *centre, float *out)
+static inline void surface_base(const vi32 corner[3], int tile, int32_t reach, vi32 *centre, float *out)
 {
     vi32 low = v_mini(v_mini(corner[0], corner[1]), corner[2]);
-    vi32 base = v_maxi(v_sra(v_addi(low, v_seti(127)), 8), v_seti(0));
+    vi32 base = v_maxi(v_sra(v_addi(low, v_seti(127 - reach)), 8), v_seti(0));
     *centre = v_addi(v_shl(base, 8), v_seti(128));
     v_storef(out, v_float(v_subi(base, v_seti(tile))));
 }
@@ -28,8 +28,8 @@ static inline plane_numbers surface_edges(e3d_surfaces *s, int n, int tile_x, in
         x[k] = v_loadi(s->x[k] + n);
         y[k] = v_loadi(s->y[k] + n);
     }
-    surface_base(x, tile_x, &centre_x, s->base_x + n);
-    surface_base(y, tile_y, &centre_y, s->base_y + n);
+    surface_base(x, tile_x, s->reach, &centre_x, s->base_x + n);
+    surface_base(y, tile_y, s->reach, &centre_y, s->base_y + n);
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
         e.a[k] = v_subi(y[i], y[j]);

@@ -10,6 +10,7 @@
 #include "kernels/generic/block_rows.inl"
 #include "kernels/generic/visible.inl"
 #include "kernels/generic/visible_records.inl"
+#include "kernels/generic/planes.inl"
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/shown.inl"
 #include "kernels/generic/spans.inl"
@@ -31,6 +32,7 @@
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
 #include "kernels/generic/alpha.inl"
+#include "kernels/generic/alpha_planes.inl"
 #include "kernels/generic/stream.inl"
 #include "kernels/generic/bloom.inl"
 #include "kernels/generic/ui.inl"
@@ -52,6 +54,11 @@ const e3d_kernels E3D_TABLE = {
     .raster_settle = kernel_raster_settle,
     .raster_alpha = kernel_raster_alpha,
     .raster_measure = kernel_raster_measure,
+    .raster_planes = kernel_raster_planes,
+    .planes_settle = kernel_planes_settle,
+    .planes_measure = kernel_planes_measure,
+    .planes_split = kernel_planes_split,
+    .cover_planes = kernel_cover_planes,
     .find_runs = kernel_find_runs,
     .take_runs = kernel_take_runs,
     .show_records = kernel_show_records,
@@ -60,6 +67,7 @@ const e3d_kernels E3D_TABLE = {
     .show_alone = kernel_show_alone,
     .show_layers = kernel_show_layers,
     .take_shown = kernel_take_shown,
+    .take_placed = kernel_take_placed,
     .project = kernel_project,
     .surface = kernel_surface,
     .interpolate = kernel_interpolate,

@@ -4,6 +4,7 @@
 #ifndef E3D_KERNELS_VISIBLE_RECORDS_INL
 #define E3D_KERNELS_VISIBLE_RECORDS_INL
 
+#include "core/always_inline.h"
 #include "core/limits.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
@@ -59,10 +60,11 @@ static inline void records_keep_edge(const record_edge *e, int k, records_lanes 
     v_storei(out->steps[k], v_ori(v_andi(e->a, v_seti(0xFFFF)), v_shl(e->b, RECORDS_DOWN)));
 }
 
-/* R10. Strips start at the box's first column, or as far to the right as the tile allows. */
-static inline void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_visible_tile *tile, vi32 first[2], records_lanes *out)
+/* R10, R104. Strips start at the box's first column, or as far to the right as the tile allows. */
+static ALWAYS_INLINE void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_visible_tile *tile, int32_t reach, vi32 first[2],
+                                        records_lanes *out)
 {
-    vi32 zero = v_seti(0), up = v_seti(127), down = v_seti(128), side = v_seti(256 * RECORDS_SIDE);
+    vi32 zero = v_seti(0), up = v_seti(127 - reach), down = v_seti(128 - reach), side = v_seti(256 * RECORDS_SIDE);
     vi32 left = setup_least(x), right = setup_most(x), top = setup_least(y), bottom = setup_most(y);
     vi32 base_x = v_subi(v_maxi(v_sra(v_addi(left, up), 8), zero), v_seti(tile->x));
     vi32 base_y = v_subi(v_maxi(v_sra(v_addi(top, up), 8), zero), v_seti(tile->y));
@@ -140,7 +142,7 @@ static inline void records_find(const e3d_record *const r[V_LANES], const e3d_vi
     vi32 corners[8], first[2];
     record_edge e[3];
     v_load_rows((const void *const *)r, corners);
-    records_boxes(corners, corners + 3, tile, first, out);
+    records_boxes(corners, corners + 3, tile, 0, first, out);
     for (int k = 0; k < 3; k++) {
         e[k] = records_edge_of(corners, corners + 3, k, first[0], first[1], v_seti(tile->x), v_seti(tile->y));
         records_keep_edge(&e[k], k, out);
@@ -197,11 +199,11 @@ static inline void records_tell(records_touched *touched, e3d_visible_tile *tile
 
 /* ---- record by record ---- */
 
-/* Draws a record in strips: columns of vectors, side by side. */
-static inline void records_strips(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
-                                  const e3d_record_table *table)
+/* Draws a record in strips: columns of vectors, side by side. `edges`: at the tile's first sample; z0: of the plane of depths. */
+static ALWAYS_INLINE void records_strips_of(const records_lanes *in, int32_t edges[3][V_LANES], float z0, int lane, const e3d_record *r,
+                                            int32_t id, e3d_visible_tile *tile, const e3d_record_table *table)
 {
-    raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
+    raster_constants c = {v_setf(z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
     vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])); /* whole numbers: sums are exact */
     for (int s = 0; s <= in->strips[lane]; s++) {
         size_t i = records_sample(in->from[s][lane]);
@@ -209,7 +211,7 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
         vf32 row = v_add(v_float(rows_y()), v_setf(in->row[s][lane])), column = v_add(c.z0, v_mul(along, c.gx));
         vi32 e[3], down[3];
         for (int k = 0; k < 3; k++) {
-            e[k] = v_addi(v_seti(in->e[k][lane]), v_madd16(v_seti(in->steps[k][lane]), at));
+            e[k] = v_addi(v_seti(edges[k][lane]), v_madd16(v_seti(in->steps[k][lane]), at));
             down[k] = v_seti(in->down[k][lane]);
         }
         for (int32_t left = in->vectors[s][lane]; left > 0; left--, i += ROWS * E3D_TILE) {
@@ -222,6 +224,12 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
         }
         along = v_add(along, v_setf(ROW_LANES));
     }
+}
+
+static inline void records_strips(records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
+                                  const e3d_record_table *table)
+{
+    records_strips_of(in, in->e, r->z0, lane, r, id, tile, table);
 }
 
 /* Draws a record of at most 2 x 2 samples, whose cover setup has found. */
@@ -269,7 +277,7 @@ static inline void records_wide(const records_lanes *in, int lane, const e3d_rec
 }
 
 /* Draws a record, unless what is there hides it: by the zmax of the blocks that it meets, or by the samples of its strips. */
-static inline void records_draw(const records_lanes *in, int lane, const e3d_record *r, int32_t id, uint64_t open,
+static inline void records_draw(records_lanes *in, int lane, const e3d_record *r, int32_t id, uint64_t open,
                                 records_touched *touched, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     uint64_t met = records_met(in, lane);

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/limits.h"
+#include "core/sample_patterns.h"
 #include "e3d.h"
 #include "kernels/types/fog.h"
 #include "kernels/types/samples.h"
@@ -39,6 +40,7 @@ typedef struct e3d_surfaces {
     int32_t irregular;             /* how many surface.c must finish: clipped pieces, lines, points, clip-space meshes */
     int32_t projected;             /* how many have no record, so that `project` has work to do */
     float texels[2];               /* the counted size of the texture, for E3D_WANT_LEVEL */
+    int32_t reach;                 /* of the viewport */
 } e3d_surfaces;
 
 /* R30: what texels are counted in. */
@@ -67,6 +69,9 @@ typedef struct e3d_batch {
     uint32_t hidden_lights[E3D_BATCH + E3D_PAD]; /* where lights have exact shadows: a bit for each of them, set where it is hidden */
     int count;
     const e3d_lane_array *unmapped_normal; /* where `normal` is mapped: what it was before; else NULL */
+    const e3d_sample_pattern *pattern;     /* NULL: values are those of samples' centres; else R105 tells where they are found: */
+    int32_t number[E3D_BATCH + E3D_PAD];   /* which sample of the pattern takes the place of the centre, where that won't do */
+    e3d_lane_array shift[2];               /* from the centre, in samples: where they are found */
 } e3d_batch;
 
 /* What shading needs of a bucket's samples, and so what interpolation fills. */

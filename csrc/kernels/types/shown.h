@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/limits.h"
+#include "core/sample_patterns.h"
 #include "kernels/types/records.h"
 
 /* Neighbouring samples of one row of a tile that show the same owner, a slot or an ID. */
@@ -29,9 +30,10 @@ typedef struct e3d_shown {
     e3d_shown_piece piece[E3D_SHOWN_ROOM + 1];
     int32_t count, pieces; /* how many samples or runs, and how many pieces */
     int runs;              /* whether `sample` has runs */
+    const e3d_sample_pattern *pattern; /* not NULL: samples are pixels | the number of a sample of the pattern << E3D_SHOWN_NUMBER (R105) */
 } e3d_shown;
 
-enum { E3D_RUN_LENGTH = 16 };
+enum { E3D_RUN_LENGTH = 16, E3D_SHOWN_NUMBER = 2 * E3D_TILE_SHIFT };
 
 /* A record in a tile: the rows of its box, and where their spans begin in e3d_cover.span. */
 typedef struct e3d_covering {
@@ -66,6 +68,7 @@ typedef struct e3d_layers {
 static inline void e3d_shown_begin(e3d_shown *shown, int runs)
 {
     shown->runs = runs;
+    shown->pattern = NULL;
     shown->count = shown->pieces = 0;
 }
 

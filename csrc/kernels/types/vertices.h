@@ -35,6 +35,7 @@ typedef struct e3d_viewport {
     int32_t width, height;   /* samples */
     float scale_x, scale_y;  /* 128 * width, 128 * height */
     float guard_x, guard_y;
+    int32_t reach;           /* of the samples from their pixel's centre, in 1/256 (R104); 0 without multisampling */
 } e3d_viewport;
 
 /* A cluster's vertices in clip space and on the screen, as structure of arrays. Every array fills whole cache lines, since a vector

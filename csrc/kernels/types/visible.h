@@ -62,6 +62,13 @@ static inline uint32_t e3d_order_at(const e3d_record_table *table, uint32_t id)
     return drawn->order + (uint32_t)drawn->faces[triangle];
 }
 
+/* Whether an ID comes before what is kept, where both are as near (R16). */
+static inline int e3d_id_comes_first(const e3d_record_table *table, int32_t id, int32_t kept)
+{
+    uint32_t order = e3d_order_at(table, (uint32_t)id), other = e3d_order_at(table, (uint32_t)kept);
+    return order < other || (order == other && id < kept);
+}
+
 enum { E3D_TILE_BLOCKS = E3D_TILE_SAMPLES / 64 };
 
 /* The visible surface of a tile: depth and ID of each sample, and bounds of each block of 8 x 8 samples, row by row. A noted block

@@ -28,9 +28,12 @@ static float farthest(const e3d_visible_tile *visible)
     return a > b ? a : b;
 }
 
-void e3d_note_depths(const e3d_kernels *kernels, e3d_visible_tile *visible, e3d_tile_depths *out)
+void e3d_note_depths(const e3d_kernels *kernels, int planes, e3d_visible_tile *visible, e3d_tile_depths *out)
 {
-    kernels->raster_measure(visible, out->columns);
+    if (planes > 1)
+        kernels->planes_measure(visible, planes, out->columns);
+    else
+        kernels->raster_measure(visible, out->columns);
     memcpy(out->zmax, visible->zmax, sizeof out->zmax);
     out->noted = visible->noted;
     out->most = farthest(visible);

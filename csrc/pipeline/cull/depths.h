@@ -18,7 +18,7 @@ typedef struct e3d_tile_depths {
 int e3d_is_hidden(const e3d_tile_depths *depths, int32_t tiles_x, const e3d_box_view *view);
 /* Says that nothing is drawn in a tile, which therefore hides nothing. */
 void e3d_depths_clear(e3d_tile_depths *depths);
-/* Notes a tile's farthest depths. */
-void e3d_note_depths(const e3d_kernels *kernels, e3d_visible_tile *visible, e3d_tile_depths *out);
+/* Notes a tile's farthest depths, of all of so many planes. */
+void e3d_note_depths(const e3d_kernels *kernels, int planes, e3d_visible_tile *visible, e3d_tile_depths *out);
 
 #endif

@@ -4,6 +4,7 @@
 #include "core/clock.h"
 #include "core/fpenv.h"
 #include "core/shadows.h"
+#include "core/sample_patterns.h"
 #include "e3d.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/cull/history.h"
@@ -31,6 +32,8 @@ static int frame_is_valid(const e3d_frame *f)
 {
     if (f->width < 1 || f->height < 1 || f->width > E3D_MAX_SIZE || f->height > E3D_MAX_SIZE ||
         (f->samples_axis != 1 && f->samples_axis != 2 && f->samples_axis != 4))
+        return 0;
+    if (f->msaa_samples && (f->samples_axis != 1 || !e3d_sample_pattern_of(f->msaa_samples)))
         return 0;
     if (!(f->line_width > 0 && f->line_width <= 256) || !(f->point_size > 0 && f->point_size <= 256))
         return 0;
@@ -97,6 +100,46 @@ static e3d_status run_pass(e3d_renderer *renderer, const e3d_pass *pass)
     return status;
 }
 
+/* R107: with multisampling, outputs beside colour, and the mode overdraw, are those of one sample a pixel. */
+static e3d_status run_outputs(e3d_renderer *renderer, const e3d_pass *asked, e3d_stats *stats)
+{
+    e3d_frame frame = *asked->frame;
+    e3d_targets targets = *asked->targets;
+    int some = 0;
+    if (frame.mode != E3D_MODE_OVERDRAW)
+        targets.color = NULL;
+    for (int output = 0; output < E3D_OUTPUTS; output++)
+        some |= e3d_targets_get(&targets, (e3d_output_kind)output) != NULL;
+    frame.msaa_samples = 0;
+    const e3d_pass pass = {&frame, &targets, stats};
+    return some ? run_pass(renderer, &pass) : E3D_OK;
+}
+
+static void add_times(const e3d_stats *of, e3d_stats *to)
+{
+    to->ms_total += of->ms_total;
+    to->ms_geometry += of->ms_geometry;
+    to->ms_raster += of->ms_raster;
+    to->ms_shade += of->ms_shade;
+    to->ms_resolve += of->ms_resolve;
+}
+
+static e3d_status run_multisampled(e3d_renderer *renderer, const e3d_pass *asked)
+{
+    e3d_stats stats[2] = {{0}, {0}};
+    e3d_targets targets = {.color = asked->targets->color};
+    const e3d_pass pass = {asked->frame, &targets, &stats[0]};
+    int colored = targets.color && asked->frame->mode != E3D_MODE_OVERDRAW;
+    e3d_status status = colored ? run_pass(renderer, &pass) : E3D_OK;
+    if (status == E3D_OK)
+        status = run_outputs(renderer, asked, &stats[1]);
+    if (asked->stats) {
+        *asked->stats = stats[!colored];
+        add_times(&stats[colored], asked->stats);
+    }
+    return status;
+}
+
 e3d_status e3d_render_passes(e3d_renderer *renderer, const e3d_pass *passes, int32_t count)
 {
     e3d_status status = E3D_OK;
@@ -104,7 +147,7 @@ e3d_status e3d_render_passes(e3d_renderer *renderer, const e3d_pass *passes, int
         if (!frame_is_valid(passes[p].frame))
             return E3D_INVALID_ARGUMENT;
     for (int32_t p = 0; p < count && status == E3D_OK; p++)
-        status = run_pass(renderer, &passes[p]);
+        status = passes[p].frame->msaa_samples ? run_multisampled(renderer, &passes[p]) : run_pass(renderer, &passes[p]);
     return status;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/grow.h"
 #include "core/tone_tables.h"
+#include "core/sample_patterns.h"
 #include "e3d.h"
 #include "pipeline/cast/casters.h"
 #include "pipeline/cull/history.h"
@@ -19,6 +20,7 @@
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/multisample.h"
 #include "pipeline/tile/tile.h"
 
 /* Before a pass, no tile is drawn and no instance shows. */
@@ -40,6 +42,8 @@ static int reset_workers(e3d_renderer *renderer, const e3d_store *store)
         e3d_tile_memory *memory = renderer->tiles.of[t];
         memory->ns_raster = memory->ns_shade = memory->ns_resolve = memory->shade.shaded = 0;
         if (!e3d_array_reserve(&memory->pixels.words, store->words, sizeof(int32_t)))
+            return 0;
+        if (store->pass->pattern && !e3d_multisample_reserve(&memory->multisample, store->pass->pattern->count))
             return 0;
     }
     return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view), e3d_plans(store->pass, E3D_ASKED_ALPHA));
@@ -95,6 +99,7 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
                                .draws = &renderer->draws,
                                .view = &renderer->view,
                                .casters = &renderer->casters.index,
+                               .pattern = e3d_sample_pattern_of(frame->msaa_samples),
                                .frustum = frame->frozen_clip_from_world ? &renderer->frozen : &renderer->view};
     out->history = e3d_history_of(&renderer->histories, frame);
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_ASKED_ALPHA));

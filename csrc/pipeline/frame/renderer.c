@@ -17,6 +17,7 @@
 #include "pipeline/shade/shade.h"
 #include "pipeline/tile/alpha.h"
 #include "pipeline/tile/kept.h"
+#include "pipeline/tile/multisample.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/tile.h"
 
@@ -39,6 +40,7 @@ static void destroy_worker(e3d_worker *worker)
     e3d_slots_free(&worker->tile.slots);
     e3d_alpha_free(&worker->tile.alpha);
     e3d_shade_free(&worker->tile.shade);
+    e3d_multisample_free(worker->tile.multisample);
     e3d_array_free(&worker->tile.pixels.words);
     free(worker);
 }
@@ -104,12 +106,12 @@ void e3d_renderer_destroy(e3d_renderer *renderer)
     free(renderer);
 }
 
-e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height)
+e3d_status e3d_renderer_prepare(e3d_renderer *renderer, int32_t width, int32_t height, int32_t planes)
 {
     int64_t across = ((int64_t)width + E3D_TILE - 1) / E3D_TILE, down = ((int64_t)height + E3D_TILE - 1) / E3D_TILE;
-    if (renderer->backend == E3D_BACKEND_SCALAR || (int64_t)width * height > E3D_MOST_KEPT_SAMPLES)
+    if (renderer->backend == E3D_BACKEND_SCALAR || (int64_t)width * height * planes > E3D_MOST_KEPT_SAMPLES)
         return E3D_OK;
-    return e3d_kept_prepare(&renderer->kept, across * down) ? E3D_OK : E3D_OUT_OF_MEMORY;
+    return e3d_kept_prepare(&renderer->kept, across * down * planes) ? E3D_OK : E3D_OUT_OF_MEMORY;
 }
 
 void e3d_renderer_set_poll(e3d_renderer *renderer, int (*poll)(void *), void *user)

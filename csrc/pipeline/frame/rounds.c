@@ -122,7 +122,8 @@ e3d_status e3d_rounds(const e3d_context *context, e3d_stats *stats)
 {
     e3d_renderer *renderer = context->renderer;
     int64_t count = (int64_t)renderer->cull.candidates.count;
-    if (!pay(context) || !e3d_kept_begin(&renderer->kept, e3d_tile_count(context->pass.view), &renderer->tiles))
+    int32_t planes = context->pass.pattern ? context->pass.pattern->count : 1;
+    if (!pay(context) || !e3d_kept_begin(&renderer->kept, e3d_tile_count(context->pass.view), planes, &renderer->tiles))
         return draw_round(context, stats, (e3d_round){.end = count, .last = 1}, 0);
     int remembered = e3d_history_remember(context->history, context->pass.draws);
     if (remembered < 0)

@@ -162,12 +162,14 @@ typedef struct tile_edges {
     int64_t most[3], across[3], down[3];
 } tile_edges;
 
-static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, tile_edges *out)
+static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, int32_t reach, tile_edges *out)
 {
     for (int k = 0; k < 3; k++) {
         e3d_edge edge = e3d_edge_at(record, k, x, y);
         int64_t a = edge.a, b = edge.b;
         out->most[k] = edge.e + (a > 0 ? a * (E3D_TILE - 1) : 0) + (b > 0 ? b * (E3D_TILE - 1) : 0);
+        if (reach) /* no sample is farther inside */
+            out->most[k] += (((a < 0 ? -a : a) + (b < 0 ? -b : b)) * reach) / E3D_SUBPIXEL + 1;
         out->across[k] = a * E3D_TILE;
         out->down[k] = b * E3D_TILE;
     }
@@ -183,7 +185,7 @@ static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry
     int32_t x1 = (int32_t)(span.last & 0xFFFF), y1 = (int32_t)(span.last >> 16);
     tile_edges edges = {{0}, {0}, {0}};
     if (x0 < x1 && y0 < y1)
-        find_tile_edges(record, x0 * E3D_TILE, y0 * E3D_TILE, &edges);
+        find_tile_edges(record, x0 * E3D_TILE, y0 * E3D_TILE, view->viewport.reach, &edges);
     for (int32_t ty = y0; ty <= y1; ty++) {
         int64_t most[3] = {edges.most[0], edges.most[1], edges.most[2]};
         for (int32_t tx = x0; tx <= x1; tx++) {

@@ -164,6 +164,7 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
     int count = 0;
     if (!triangles)
         return;
+    tiny = tiny && !w->pass->view->viewport.reach; /* with several samples in a pixel, a cover isn't found ahead */
     for (uint64_t left = triangles; left; left &= left - 1)
         list[count++] = (uint8_t)__builtin_ctzll(left);
     memset(list + count, 0, E3D_PAD);

@@ -41,7 +41,8 @@ static e3d_box samples_of(const e3d_viewport *viewport, float4 lo, float4 hi)
     float half_x = 0.5f * (float)viewport->width, half_y = 0.5f * (float)viewport->height;
     float last_x = (float)(viewport->width - 1), last_y = (float)(viewport->height - 1);
     const float4 sides = {lo[0], hi[1], hi[0], lo[1]}, scale = {half_x, -half_y, half_x, -half_y};
-    const float4 centre = {half_x, half_y, half_x, half_y}, before = {0.75f, 0.75f, 0.25f, 0.25f}, last = {last_x, last_y, last_x, last_y};
+    float reach = (float)viewport->reach * (1.0f / E3D_SUBPIXEL), up = 0.75f + reach, down = 0.25f - reach;
+    const float4 centre = {half_x, half_y, half_x, half_y}, before = {up, up, down, down}, last = {last_x, last_y, last_x, last_y};
     int4 at = __builtin_convertvector(less_of(more_of(centre + sides * scale - before, splat(0.0f)), last), int4); /* a NaN: 0 */
     return (e3d_box){at[0], at[1], at[2], at[3]};
 }

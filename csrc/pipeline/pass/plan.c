@@ -89,14 +89,15 @@ static e3d_plan asked_wireframe(const e3d_frame *f)
 
 static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
 {
-    int64_t samples = (int64_t)f->width * f->height * f->samples_axis * f->samples_axis;
+    int64_t a_pixel = f->msaa_samples ? f->msaa_samples : (int64_t)f->samples_axis * f->samples_axis, samples = a_pixel * f->width * f->height;
     return asked_outputs(targets) | asked_mode(f) | asked_wireframe(f) | asked_if(f->hidden == E3D_HIDDEN_ZBUFFER, E3D_ASKED_ZBUFFER) |
            asked_if(has_mapped_normals(f), E3D_ASKED_MAPPED_NORMALS) | asked_if(f->shading == E3D_SHADING_FORWARD, E3D_ASKED_FORWARD) |
            asked_if(f->encode_srgb, E3D_ASKED_SRGB) | asked_if(e3d_culls_parts(f), E3D_ASKED_OCCLUSION) |
            asked_if(has_alpha(f), E3D_ASKED_ALPHA) | asked_if(f->transparent_outputs, E3D_ASKED_TRANSPARENT_OUTPUTS) |
            asked_if(f->frozen_clip_from_world != NULL, E3D_ASKED_OTHER_FRUSTUM) |
            asked_if(e3d_shows_environment(f) || f->gradient.shows, E3D_ASKED_BACKDROP) |
-           asked_if(e3d_has_light_or_color(f) && f->fog.kind != E3D_FOG_NONE, E3D_ASKED_FOG) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE);
+           asked_if(e3d_has_light_or_color(f) && f->fog.kind != E3D_FOG_NONE, E3D_ASKED_FOG) | asked_if(samples > E3D_MOST_KEPT_SAMPLES, E3D_ASKED_HUGE) |
+           asked_if(f->msaa_samples, E3D_ASKED_MULTISAMPLING);
 }
 
 /* ---- what is done about it ---- */
@@ -141,14 +142,14 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_SOLID, ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), PLAN(COLORS)},
     {E3D_PLAN_FRONT, PLAN(BLENDS) | PLAN(OUTPUTS) | ASKED(TRANSPARENT_OUTPUTS), 0},
     {E3D_PLAN_FRONT, PLAN(BLENDS) | ASKED(NDC_DEPTH) | ASKED(TRANSPARENT_OUTPUTS), 0},
-    {E3D_PLAN_AT_ONCE, PLAN(SHADES) | ASKED(FORWARD), ASKED(ALPHA)}, /* what is cut out or laid over is known last */
+    {E3D_PLAN_AT_ONCE, PLAN(SHADES) | ASKED(FORWARD), ASKED(ALPHA) | ASKED(MULTISAMPLING)}, /* what is cut out or laid over is known last */
     {E3D_PLAN_SLOTS, PLAN(SORTS), 0},
     {E3D_PLAN_SLOTS, PLAN(AT_ONCE), 0},
     {E3D_PLAN_DEPTHS, ASKED(NDC_DEPTH), 0},
     {E3D_PLAN_DEPTHS, ASKED(WIREFRAME), 0},
-    {E3D_PLAN_FRAGMENTS, 0, PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(WIREFRAME)},
-    {E3D_PLAN_SPANS, PLAN(SHADES), PLAN(SLOTS) | PLAN(DEPTHS)},
-    {E3D_PLAN_LISTS, PLAN(SHADES), PLAN(SLOTS)},
+    {E3D_PLAN_FRAGMENTS, 0, PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(WIREFRAME) | ASKED(MULTISAMPLING)},
+    {E3D_PLAN_SPANS, PLAN(SHADES), PLAN(SLOTS) | PLAN(DEPTHS) | ASKED(MULTISAMPLING)},
+    {E3D_PLAN_LISTS, PLAN(SHADES), PLAN(SLOTS) | ASKED(MULTISAMPLING)},
     {E3D_PLAN_HIDES, PLAN(COLORS) | ASKED(EXACT_SHADOWS), 0},
     {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(LIT), PLAN(OUTPUTS) | ASKED(MANY_LIGHTS) | PLAN(HIDES)},
     {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(UNLIT), PLAN(OUTPUTS)},

@@ -44,7 +44,8 @@
     X(RADIANCE, "the output radiance")                                                 \
     X(HUGE, "more samples than tiles are kept for")                                   \
     X(SHADOWS, "lights that have shadows")                                             \
-    X(EXACT_SHADOWS, "lights that have exact shadows")
+    X(EXACT_SHADOWS, "lights that have exact shadows")                                 \
+    X(MULTISAMPLING, "several samples a pixel, of which each surface is shaded once")
 
 /* What is done about it: X(name, what that is). */
 #define E3D_PLANNED(X)                                                                   \

@@ -2,6 +2,7 @@
 #ifndef E3D_PREPARED_H
 #define E3D_PREPARED_H
 
+#include "core/sample_patterns.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "pipeline/pass/draws.h"
@@ -17,6 +18,7 @@ typedef struct e3d_prepared {
     const e3d_draws *draws; /* the geometry finishes some instances, here and in the view */
     const e3d_view *view;
     const e3d_caster_index *casters; /* where lights have exact shadows */
+    const e3d_sample_pattern *pattern; /* NULL: no multisampling */
     const e3d_view *frustum; /* that tells what is drawn: the same view, or that of a camera that stands still */
 } e3d_prepared;
 

@@ -99,6 +99,12 @@ void e3d_alpha_batch(const e3d_prepared *pass, const e3d_bucket *bucket, const e
 {
     const e3d_material *m = bucket->material;
     e3d_batch *batch = &out->memory->batch;
+    if (out->alpha->use == E3D_SOLID_KEEP) {
+        for (int i = 0; i < batch->count; i++)
+            batch->alpha[i] = 1.0f;
+        keep(out->memory, 0, 1.0f, out->alpha);
+        return;
+    }
     int hidden = bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY;
     const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &out->memory->maps) : (e3d_varying){NULL, m->alpha};
     const e3d_texture_view *texture = bucket->textured && !bucket->mapped ? e3d_texture_get_view(m->texture.texture) : NULL;

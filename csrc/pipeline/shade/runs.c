@@ -106,6 +106,7 @@ void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out)
         out->of[i] = pieces - 1;
     }
     out->runs = 1;
+    out->pattern = NULL;
     out->count = count;
     out->pieces = pieces;
 }

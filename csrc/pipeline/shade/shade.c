@@ -209,7 +209,7 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
 
 static int wanted_of(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
 {
-    if (!out->alpha || out->alpha->use == E3D_ALPHA_OUTPUTS)
+    if (!out->alpha || out->alpha->use == E3D_ALPHA_OUTPUTS || out->alpha->use == E3D_SOLID_KEEP)
         return wanted_to_show(pass, bucket);
     return e3d_alpha_wanted(bucket) | (out->alpha->use == E3D_ALPHA_TEST ? 0 : wanted_to_show(pass, bucket));
 }
@@ -339,7 +339,9 @@ static int32_t find_stretch(const e3d_shade_memory *memory, int32_t first, int32
 static void take(const e3d_kernels *kernels, e3d_shade_memory *memory, int32_t piece, stretch *s)
 {
     const e3d_shown *shown = &memory->shown;
-    s->at += (shown->runs ? kernels->take_runs : kernels->take_shown)(shown, s->at, s->behind - s->at, piece, &memory->batch);
+    s->at += (shown->runs      ? kernels->take_runs
+              : shown->pattern ? kernels->take_placed
+                               : kernels->take_shown)(shown, s->at, s->behind - s->at, piece, &memory->batch);
 }
 
 /* The samples of pieces whose surfaces, 0 and so on, are known. */
@@ -348,6 +350,7 @@ static void shade_pieces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
     e3d_batch *batch = &out->memory->batch;
     int32_t surface = 0;
     batch->count = 0;
+    batch->pattern = out->memory->shown.pattern;
     for (int32_t p = first; p != end;) {
         stretch s;
         p = find_stretch(out->memory, p, end, &s);

@@ -52,7 +52,8 @@ typedef enum e3d_alpha_use {
     E3D_ALPHA_TEST = 0, /* their alphas are found */
     E3D_ALPHA_KEEP,     /* their alphas and colours are found */
     E3D_ALPHA_LAY,      /* they are laid over the tile's samples: each is in the list once */
-    E3D_ALPHA_OUTPUTS   /* all but their colours is stored */
+    E3D_ALPHA_OUTPUTS,  /* all but their colours is stored */
+    E3D_SOLID_KEEP      /* their colours are found, whose alphas are 1 */
 } e3d_alpha_use;
 
 /* How, and where to: by the places of the list. */

@@ -489,6 +489,7 @@ void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d
     e3d_surfaces *s = &memory->surfaces;
     for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
         s->matrix[n] = s->matrix[s->count - 1];
+    s->reach = pass->view->viewport.reach;
     if (s->projected)
         pass->kernels->project(s, &pass->view->viewport);
     pass->kernels->surface(s, tile->x, tile->y, wanted);

@@ -147,6 +147,18 @@ void e3d_backdrop_fill(const e3d_store *store, e3d_store_memory *memory)
     }
 }
 
+void e3d_backdrop_pixel(const e3d_store *store, int32_t x, int32_t y, float color[4])
+{
+    const e3d_prepared *pass = store->pass;
+    colors row;
+    float *const planes[3] = {row.red, row.green, row.blue};
+    pass->kernels->backdrop(&pass->frame->backdrop, x, y, 1, planes);
+    color[0] = row.red[0];
+    color[1] = row.green[0];
+    color[2] = row.blue[0];
+    color[3] = 1.0f;
+}
+
 /* How many samples from one on follow each other in a row. */
 static int run_length(const e3d_batch *batch, int first)
 {

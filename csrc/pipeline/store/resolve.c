@@ -138,6 +138,15 @@ void e3d_resolve_wire(const e3d_store *store, const int32_t *counts, const e3d_t
                 set_sample(memory, y * E3D_TILE + x, store->line.sample, store->line.rgba);
 }
 
+void e3d_resolve_wire_samples(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_samples *samples)
+{
+    float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
+    for (int y = 0; y < tile->height; y++)
+        for (int x = 0; x < tile->width; x++)
+            for (int k = 0; k < 4 && counts[y * E3D_TILE + x]; k++)
+                planes[k][y * E3D_TILE + x] = store->line.sample[k];
+}
+
 /* The pixels of one sample or several each, row by row, to where pixels of one sample are. */
 static void average(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory)
 {

@@ -22,6 +22,8 @@ void e3d_resolve_hidden(const e3d_store *store, const e3d_batch *batch, e3d_stor
 /* `counts`: of faces, or of edges, at each sample. */
 void e3d_resolve_overdraw(const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory);
 void e3d_resolve_wire(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_store_memory *memory);
+/* The same over the colours of samples of one plane. */
+void e3d_resolve_wire_samples(const e3d_store *store, const int32_t *counts, const e3d_tile *tile, e3d_samples *samples);
 /* The tile's pixels, and what `visible` tells of depths, go to the targets. */
 void e3d_resolve(const e3d_store *store, const e3d_visible_tile *visible, const e3d_tile *tile, e3d_store_memory *memory);
 

@@ -95,19 +95,12 @@ static int act_on(const e3d_tile_job *job, sample_action act)
     return 1;
 }
 
-/* Whether a record, nearer or not, comes before what is kept (R16). */
-static int comes_first(const e3d_record_table *table, int32_t id, int32_t kept)
-{
-    uint32_t order = e3d_order_at(table, (uint32_t)id), other = e3d_order_at(table, (uint32_t)kept);
-    return order < other || (order == other && id < kept);
-}
-
 /* The list was made when less was kept. Sorted records are numbered as they are drawn. */
 static void show(const e3d_tile_job *job, int32_t id, int32_t sample, float z)
 {
     e3d_visible_tile *visible = job->visible;
     int32_t kept = visible->id[sample];
-    int wins = z < visible->z[sample] || (z == visible->z[sample] && kept >= 0 && comes_first(&job->in->bins->tables[E3D_SET_SCENE], id, kept));
+    int wins = z < visible->z[sample] || (z == visible->z[sample] && kept >= 0 && e3d_id_comes_first(&job->in->bins->tables[E3D_SET_SCENE], id, kept));
     if (e3d_plans(job->in->pass, E3D_PLAN_SORTS))
         wins = z < E3D_BEYOND_FAR && id > kept;
     if (!wins)

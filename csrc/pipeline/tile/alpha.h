@@ -7,6 +7,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/samples.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/shade/shade.h"
@@ -52,6 +53,12 @@ int e3d_alpha_count(const e3d_tile_job *job);
 int e3d_alpha_blend(const e3d_tile_job *job);
 /* The depths of the nearest fragments become those of the visible surface. */
 void e3d_alpha_front(const e3d_tile_job *job);
+
+/* Room for so many fragments of so many IDs, some of which light may pass through; 0 when memory is out. */
+int e3d_alpha_reserve_fragments(e3d_alpha_fragments *f, size_t count, size_t ids, int transmits);
+void e3d_alpha_clear_fragments(e3d_alpha_fragments *f);
+/* Sorts the fragments of the memory, and lays them over samples; 0 when memory is out. */
+int e3d_alpha_blend_fragments(const e3d_tile_job *job, e3d_samples *samples);
 
 /* What is done with a list when it is full, or done. */
 typedef int (*e3d_alpha_action)(const e3d_tile_job *job);

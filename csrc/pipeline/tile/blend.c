@@ -164,14 +164,15 @@ static int32_t sort_pieces(e3d_alpha_memory *memory, int32_t records[E3D_ALPHA_S
 
 /* ---- fragments ---- */
 
-static int reserve_fragments(e3d_alpha_fragments *f, size_t count, size_t ids, int transmits)
+int e3d_alpha_reserve_fragments(e3d_alpha_fragments *f, size_t count, size_t ids, int transmits)
 {
-    return (!transmits || e3d_array_reserve(&f->through, count, sizeof(float[4]))) && e3d_array_reserve(&f->z, count, sizeof(float)) && e3d_array_reserve(&f->sample, count, sizeof(int32_t)) &&
+    return (!transmits || e3d_array_reserve(&f->through, count, sizeof(float[4]))) && e3d_array_reserve(&f->z, count, sizeof(float)) &&
+           e3d_array_reserve(&f->sample, count, sizeof(int32_t)) &&
            e3d_array_reserve(&f->of, count, sizeof(int32_t)) && e3d_array_reserve(&f->color, count, sizeof(float[4])) &&
            e3d_array_reserve(&f->ids, ids, sizeof(int32_t));
 }
 
-static void clear_fragments(e3d_alpha_fragments *f) { f->z.count = f->ids.count = 0; }
+void e3d_alpha_clear_fragments(e3d_alpha_fragments *f) { f->z.count = f->ids.count = 0; }
 
 /* Shades what is listed, and keeps it to be sorted. */
 static int keep_list(const e3d_tile_job *job)
@@ -183,7 +184,7 @@ static int keep_list(const e3d_tile_job *job)
     int transmits = job->in->pass->draws->any_transmits;
     if (!count)
         return 1;
-    if (!reserve_fragments(f, first + count, ids + (size_t)shown->pieces, transmits) ||
+    if (!e3d_alpha_reserve_fragments(f, first + count, ids + (size_t)shown->pieces, transmits) ||
         !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float (*)[4])f->color.data + first, transmits ? (float (*)[4])f->through.data + first : NULL))
         return 0;
     memcpy((float *)f->z.data + first, memory->z, count * sizeof(float));
@@ -298,7 +299,7 @@ static void find_front(e3d_alpha_memory *memory, int32_t sample, const uint32_t 
 }
 
 /* Blends samples one by one: those that the kernel leaves, or, where the nearest fragments are asked for, all. */
-static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers, int32_t sample)
+static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers, int32_t sample, e3d_samples *samples)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
     e3d_alpha_fragments *f = &memory->fragments;
@@ -306,12 +307,12 @@ static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers
     if (!count)
         return;
     sort_sample(&job->in->bins->tables[E3D_SET_SCENE], f, which, count);
-    blend_sample(layers, sample, which, count, &job->memory->pixels.samples);
+    blend_sample(layers, sample, which, count, samples);
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         find_front(memory, sample, which, count);
 }
 
-static int blend_fragments(const e3d_tile_job *job)
+int e3d_alpha_blend_fragments(const e3d_tile_job *job, e3d_samples *samples)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
     e3d_alpha_fragments *f = &memory->fragments;
@@ -323,12 +324,12 @@ static int blend_fragments(const e3d_tile_job *job)
                                      job->in->pass->draws->any_transmits ? (const float (*)[4])f->through.data : NULL};
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT)) {
         for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)
-            blend_slowly(job, &layers, s);
+            blend_slowly(job, &layers, s, samples);
         return 1;
     }
-    int left = job->in->pass->kernels->blend(&layers, &job->memory->pixels.samples, memory->left);
+    int left = job->in->pass->kernels->blend(&layers, samples, memory->left);
     for (int i = 0; i < left; i++)
-        blend_slowly(job, &layers, memory->left[i]);
+        blend_slowly(job, &layers, memory->left[i], samples);
     return 1;
 }
 
@@ -349,7 +350,7 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
     e3d_alpha_begin(job, 0);
-    clear_fragments(&memory->fragments);
+    e3d_alpha_clear_fragments(&memory->fragments);
     for (int32_t i = 0; i < count; i++) {
         e3d_piece rows = pieces[i];
         rows.y0 = rows.y0 > y ? rows.y0 : y;
@@ -359,7 +360,7 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
     }
     if (!memory->fragments.z.count && !memory->list.met && !e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL);
-    return keep_list(job) && blend_fragments(job);
+    return keep_list(job) && e3d_alpha_blend_fragments(job, &job->memory->pixels.samples);
 }
 
 static int blend_group(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count)
@@ -406,8 +407,8 @@ static int lay_later(const e3d_tile_job *job)
         return 1;
     if (!e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         return e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL);
-    clear_fragments(&memory->fragments);
-    return keep_list(job) && blend_fragments(job);
+    e3d_alpha_clear_fragments(&memory->fragments);
+    return keep_list(job) && e3d_alpha_blend_fragments(job, &job->memory->pixels.samples);
 }
 
 static int blend_sequence(const e3d_tile_job *job)

@@ -49,9 +49,9 @@ int e3d_kept_prepare(e3d_kept_memory *kept, int64_t tiles)
     return 1;
 }
 
-int e3d_kept_begin(e3d_kept_memory *kept, int64_t tiles, e3d_tiles_out *out)
+int e3d_kept_begin(e3d_kept_memory *kept, int64_t tiles, int32_t planes, e3d_tiles_out *out)
 {
-    if (!reserve_tiles(kept, (size_t)tiles) || !e3d_array_reserve(&kept->depths, (size_t)tiles, sizeof(e3d_tile_depths)))
+    if (!reserve_tiles(kept, (size_t)tiles * (size_t)planes) || !e3d_array_reserve(&kept->depths, (size_t)tiles, sizeof(e3d_tile_depths)))
         return 0;
     out->kept = kept->tiles;
     out->depths = kept->depths.data;
@@ -70,13 +70,13 @@ typedef struct keep_job {
 static void keep_tile(const e3d_tiles_in *in, e3d_tiles_out *out, int64_t number)
 {
     const e3d_prepared *pass = in->pass;
-    e3d_visible_tile *visible = &out->kept[number];
+    e3d_visible_tile *visible = e3d_kept_tile(pass, out, number);
     if (e3d_tile_state_of(&out->progress[number]) == E3D_TILE_UNTOUCHED) {
         e3d_tile tile = e3d_tile_at(pass->view, number);
         e3d_visible_clear(visible, &tile);
     }
-    e3d_visible_draw(pass->kernels, in->bins, number, 0, visible);
-    e3d_note_depths(pass->kernels, visible, &out->depths[number]);
+    e3d_visible_draw(pass, in->bins, number, 0, visible);
+    e3d_note_depths(pass->kernels, pass->pattern ? pass->pattern->count : 1, visible, &out->depths[number]);
     e3d_tile_set_state(&out->progress[number], E3D_TILE_KEPT);
 }
 

@@ -18,8 +18,8 @@ typedef struct e3d_kept_memory {
 void e3d_kept_free(e3d_kept_memory *kept);
 /* Makes room for so many tiles, and touches it; 0 when memory is out. */
 int e3d_kept_prepare(e3d_kept_memory *kept, int64_t tiles);
-/* From now on tiles are kept, which hide nothing yet; 0 when memory is out. */
-int e3d_kept_begin(e3d_kept_memory *kept, int64_t tiles, e3d_tiles_out *out);
+/* From now on tiles are kept, of so many planes each, which hide nothing yet; 0 when memory is out. */
+int e3d_kept_begin(e3d_kept_memory *kept, int64_t tiles, int32_t planes, e3d_tiles_out *out);
 /* Adds what the bins hold to the kept tiles, and notes their depths. */
 void e3d_keep_tiles(const e3d_tiles_in *in, e3d_tiles_out *out);
 

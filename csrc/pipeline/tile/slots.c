@@ -56,13 +56,21 @@ static const e3d_record *record_of(const e3d_tile_job *job, int which, uint32_t 
     return e3d_record_at(&job->in->bins->tables[which], ((const uint32_t *)job->memory->slots.ids.data)[slot]);
 }
 
+/* In the tile, or in the plane of it that the job is about. */
+static int find_piece(const e3d_tile_job *job, const e3d_record *record, uint32_t slot, e3d_piece *piece)
+{
+    const e3d_prepared *pass = job->in->pass;
+    return pass->pattern ? e3d_piece_in_plane(pass, job->plane, record, &job->tile, slot, piece)
+                         : e3d_piece_in_tile(&pass->view->viewport, record, &job->tile, slot, piece);
+}
+
 static int visit_block(const e3d_tile_job *job, int which, const e3d_bin_block *block, piece_action action)
 {
     e3d_slots_state *slots = &job->memory->slots;
     for (uint32_t i = 0; i < block->count; i++) {
         const e3d_record *record = e3d_record_at(&job->in->bins->tables[which], block->id[i]);
         e3d_piece piece;
-        if (!e3d_piece_in_tile(&job->in->pass->view->viewport, record, &job->tile, (uint32_t)slots->ids.count, &piece))
+        if (!find_piece(job, record, (uint32_t)slots->ids.count, &piece))
             continue;
         if (!add_slot(slots, block->id[i], record->order) || !action(job, &piece))
             return 0;
@@ -120,7 +128,7 @@ static void find_edge_limits(const e3d_tile_job *job)
         marks->edge_limit[i] = E3D_BEYOND_FAR;
         if (visible->id[i] < 0)
             continue;
-        const e3d_record *kept = e3d_plans(job->in->pass, E3D_PLAN_SLOTS)
+        const e3d_record *kept = e3d_plans(job->in->pass, E3D_PLAN_SLOTS) && !job->in->pass->pattern
                                      ? record_of(job, E3D_SET_SCENE, (uint32_t)visible->id[i])
                                      : e3d_record_at(table, (uint32_t)visible->id[i]);
         float slope = (fabsf(kept->gx) + fabsf(kept->gy)) * reach, range = kept->zmax - kept->zmin;
@@ -195,6 +203,24 @@ void e3d_slots_to_ids(const e3d_slots_state *slots, e3d_run *runs, int32_t count
 {
     for (int32_t i = 0; i < count; i++)
         runs[i].owner = ((const int32_t *)slots->ids.data)[runs[i].owner];
+}
+
+int e3d_slots_mark_planes(const e3d_tile_job *job)
+{
+    const e3d_prepared *pass = job->in->pass;
+    e3d_marks_memory *marks = &job->memory->marks;
+    e3d_tile_job plane = *job;
+    for (plane.plane = 0; plane.plane < pass->pattern->count; plane.plane++, plane.visible++) {
+        e3d_samples *samples = &job->memory->multisample->samples[plane.plane];
+        if (e3d_plans(pass, E3D_PLAN_EDGE_DEPTHS))
+            find_edge_limits(&plane);
+        clear_marks(marks);
+        if (!visit_bins(&plane, E3D_SET_EDGES, act_mark))
+            return 0;
+        e3d_resolve_wire_samples(job->in->shade->store, marks->count, &job->tile, samples);
+    }
+    e3d_lap(job->memory, &job->memory->ns_raster);
+    return 1;
 }
 
 int e3d_slots_mark(const e3d_tile_job *job)

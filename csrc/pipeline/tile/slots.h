@@ -29,5 +29,7 @@ int e3d_slots_draw(const e3d_tile_job *job);
 void e3d_slots_to_ids(const e3d_slots_state *slots, e3d_run *runs, int32_t count);
 /* Draws what there is beside the visible surfaces: overdraw counts, or the edges of a wireframe; 0 when memory is out. */
 int e3d_slots_mark(const e3d_tile_job *job);
+/* Draws the edges of a wireframe over the colours of samples, plane by plane; 0 when memory is out. */
+int e3d_slots_mark_planes(const e3d_tile_job *job);
 
 #endif

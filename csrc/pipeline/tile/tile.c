@@ -177,9 +177,9 @@ static void raster_visible(const e3d_tile_job *job)
     const e3d_bins *bins = job->in->bins;
     if (job->state != E3D_TILE_KEPT)
         e3d_visible_clear(job->visible, &job->tile);
-    e3d_visible_draw(kernels, bins, job->number, job->state == E3D_TILE_DRAWN, job->visible);
+    e3d_visible_draw(job->in->pass, bins, job->number, job->state == E3D_TILE_DRAWN, job->visible);
     if (job->in->finishes)
-        e3d_note_depths(kernels, job->visible, &job->out->depths[job->number]);
+        e3d_note_depths(kernels, 1, job->visible, &job->out->depths[job->number]);
     if (e3d_plans(job->in->pass, E3D_PLAN_DEPTHS) || has_alpha(job))
         kernels->raster_settle(job->visible, &bins->tables[E3D_SET_SCENE], 1);
 }
@@ -202,19 +202,35 @@ static int draw_visible(const e3d_tile_job *job)
     return shaded;
 }
 
-static int draw_job(const e3d_tile_job *job)
+/* To pixels, or samples that become pixels. */
+static int draw_samples(const e3d_tile_job *job)
 {
-    e3d_tile_memory *memory = job->memory;
     int drawn = e3d_plans(job->in->pass, E3D_PLAN_SLOTS) ? draw_pieces(job) : draw_visible(job);
     if (!drawn || !e3d_slots_mark(job))
         return 0;
     e3d_alpha_front(job);
+    return 1;
+}
+
+static int draw_job(const e3d_tile_job *job)
+{
+    e3d_tile_memory *memory = job->memory;
+    if (!(job->in->pass->pattern ? e3d_multisample_draw(job) : draw_samples(job)))
+        return 0;
     e3d_resolve(job->in->shade->store, job->visible, &job->tile, &memory->pixels);
     e3d_lap(memory, &memory->ns_resolve);
     return 1;
 }
 
 /* ---- all tiles ---- */
+
+/* Where the tile's visible surface is: the first plane of it. */
+static e3d_visible_tile *visible_of(const e3d_prepared *pass, const e3d_tiles_out *out, e3d_tile_memory *memory, int64_t number, e3d_tile_state state)
+{
+    if (state == E3D_TILE_KEPT)
+        return e3d_kept_tile(pass, out, number);
+    return pass->pattern ? memory->multisample->planes : &memory->visible;
+}
 
 /* 0 when memory is out. */
 static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory *memory, int64_t number)
@@ -228,13 +244,13 @@ static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory
                               .out = out,
                               .memory = memory,
                               .shades = {&memory->shade, &memory->pixels, &memory->blank},
-                              .visible = state == E3D_TILE_KEPT ? &out->kept[number] : &memory->visible,
+                              .visible = visible_of(in->pass, out, memory, number, state),
                               .tile = e3d_tile_at(in->pass->view, number),
                               .number = number,
                               .state = state,
                               .masked = e3d_has_alpha(in->bins, E3D_ALPHA_MASKED, number),
                               .blended = blended};
-    memory->pixels.sampled = in->pass->frame->samples_axis > 1 || blended;
+    memory->pixels.sampled = !in->pass->pattern && (in->pass->frame->samples_axis > 1 || blended);
     int64_t before = memory->shade.shaded;
     memory->pixels.tile = job.tile;
     if (!draw_job(&job))

@@ -18,6 +18,7 @@
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
 #include "pipeline/tile/alpha.h"
+#include "pipeline/tile/multisample.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/spans.h"
 
@@ -30,6 +31,7 @@ typedef struct e3d_tile_memory {
     e3d_spans_memory spans;
     e3d_slots_state slots;
     e3d_alpha_memory alpha;
+    e3d_multisample_memory *multisample; /* or NULL: it hasn't been asked for */
     e3d_blank_state blank;
     int64_t ns_raster, ns_shade, ns_resolve; /* of all tiles */
     int64_t lap;                             /* when the last stage of a tile ended (e3d_lap) */
@@ -71,12 +73,19 @@ typedef struct e3d_tile_job {
     e3d_tiles_out *out;
     e3d_tile_memory *memory; /* the thread's, */
     e3d_shade_out shades;    /* and what of it shading writes */
-    e3d_visible_tile *visible;
+    e3d_visible_tile *visible; /* with multisampling one for each sample */
     e3d_tile tile;
+    int plane; /* with multisampling: the sample whose plane is meant, where one is */
     int64_t number;
     e3d_tile_state state; /* before this */
     int masked, blended;  /* whether it has such records */
 } e3d_tile_job;
+
+/* A tile that is kept, or the first of its planes. */
+static inline e3d_visible_tile *e3d_kept_tile(const e3d_prepared *pass, const e3d_tiles_out *out, int64_t number)
+{
+    return &out->kept[pass->pattern ? number * pass->pattern->count : number];
+}
 
 /* Draws all tiles that something is in, and clears the others, until memory is out or the poll says stop. */
 e3d_status e3d_tiles(const e3d_tiles_in *in, e3d_tiles_out *out);

@@ -7,6 +7,7 @@
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/records.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/tile/visible.h"
 
@@ -23,8 +24,9 @@ void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
 }
 
 /* The next block of each thread in turn: all of them list records from near to far. */
-static void draw_records(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
+static void draw_records(const e3d_prepared *pass, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
 {
+    const e3d_record_table *table = &bins->tables[E3D_SET_SCENE];
     const e3d_bin_block *next[E3D_MAX_THREADS];
     int32_t left = bins->threads;
     for (int32_t t = 0; t < bins->threads; t++) {
@@ -36,7 +38,10 @@ static void draw_records(const e3d_kernels *kernels, const e3d_bins *bins, int64
         for (int32_t t = 0; t < bins->threads; t++) {
             if (!next[t])
                 continue;
-            kernels->raster_visible(out, &bins->tables[E3D_SET_SCENE], next[t]->id, (int)next[t]->count);
+            if (pass->pattern)
+                pass->kernels->raster_planes(out, pass->pattern, table, next[t]->id, (int)next[t]->count);
+            else
+                pass->kernels->raster_visible(out, table, next[t]->id, (int)next[t]->count);
             next[t] = e3d_bin_block_at(&bins->of[t]->sets[E3D_SET_SCENE], next[t]->next);
             left += next[t] != NULL;
         }
@@ -65,11 +70,11 @@ static void draw_fragments(const e3d_kernels *kernels, const e3d_bins *bins, int
     }
 }
 
-void e3d_visible_draw(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
+void e3d_visible_draw(const e3d_prepared *pass, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
 {
     for (; earlier >= 0; earlier--) {
-        draw_records(kernels, bins, tile_number, earlier, out);
-        draw_fragments(kernels, bins, tile_number, earlier, out);
+        draw_records(pass, bins, tile_number, earlier, out);
+        draw_fragments(pass->kernels, bins, tile_number, earlier, out);
     }
 }
 

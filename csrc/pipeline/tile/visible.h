@@ -8,11 +8,12 @@
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
+#include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
-/* Draws what is in a tile's bins; `earlier`: first what was in them when the tile was finished. */
-void e3d_visible_draw(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out);
+/* Draws what is in a tile's bins, with multisampling into all planes; `earlier`: first what was in them when the tile was finished. */
+void e3d_visible_draw(const e3d_prepared *pass, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out);
 /* Makes the list of what shows, where the tile's bins hold all of it. */
 void e3d_visible_show(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, const e3d_visible_tile *visible,
                       e3d_shown *out);

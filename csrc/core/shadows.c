@@ -21,7 +21,8 @@ int e3d_has_shadows(const e3d_frame *frame)
 static int has_maps(const e3d_light *light)
 {
     int32_t count = light->shadow.count;
-    return light->kind == E3D_LIGHT_POINT ? count == 6 : light->kind == E3D_LIGHT_SPOT ? count == 1 : count >= 1;
+    return light->kind == E3D_LIGHT_POINT ? count == 6 : light->kind == E3D_LIGHT_SPOT ? count == 1
+                                                                                       : count >= 1;
 }
 
 static int map_is_valid(const e3d_frame *frame, const e3d_light *light)

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_SIDE = 40, CUBE = 6 };
+enum { MOST_SIDE = 40,
+       CUBE = 6 };
 
 static const float ODD[] = {0.0f, -0.0f, 1e-30f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN};
 
@@ -40,7 +41,8 @@ static void add_map(e3d_light *light, const float *depths, e3d_shadow_map *maps,
     int32_t taps = 1 + 2 * random_below(r, 3);
     shadow->kind = E3D_SHADOW_MAP;
     shadow->first = *count;
-    shadow->count = light->kind == E3D_LIGHT_POINT ? CUBE : light->kind == E3D_LIGHT_SPOT ? 1 : 1 + random_below(r, 3);
+    shadow->count = light->kind == E3D_LIGHT_POINT ? CUBE : light->kind == E3D_LIGHT_SPOT ? 1
+                                                                                          : 1 + random_below(r, 3);
     shadow->size = 24 + random_below(r, MOST_SIDE - 24 + 1);
     shadow->taps = taps;
     shadow->step = random_once_in(r, 2) ? 256 : random_below(r, 1000);

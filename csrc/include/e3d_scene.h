@@ -36,7 +36,8 @@ enum {
 };
 
 /* What a node has nothing to do with. */
-enum { E3D_NODE_CASTS_NONE = 1, E3D_NODE_RECEIVES_NONE = 2 };
+enum { E3D_NODE_CASTS_NONE = 1,
+       E3D_NODE_RECEIVES_NONE = 2 };
 
 typedef struct e3d_graph {
     int32_t count;             /* slots in use, removed nodes included */

@@ -92,7 +92,9 @@ static place place_point(const e3d_light *light, const e3d_shadow_map *map, cons
     for (int k = 0; k < 3; k++)
         moved[k] = p[k] + normal[k] * shift;
     float a = fabsf(moved[0]), b = fabsf(moved[1]), c = fabsf(moved[2]);
-    int axis = a >= b && a >= c ? 0 : b >= c ? 1 : 2, face = 2 * axis + (moved[axis] < 0.0f);
+    int axis = a >= b && a >= c ? 0 : b >= c ? 1
+                                             : 2,
+        face = 2 * axis + (moved[axis] < 0.0f);
     for (int k = 0; k < 2; k++) {
         float v = moved[FACE_AXES[face][k]];
         at[k] = FACE_SIGNS[face][k] < 0 ? 0.0f - v : v;
@@ -103,7 +105,8 @@ static place place_point(const e3d_light *light, const e3d_shadow_map *map, cons
 
 /* ---- R93 ---- */
 
-static int32_t within(int32_t a, int32_t most) { return a < 0 ? 0 : a > most ? most : a; }
+static int32_t within(int32_t a, int32_t most) { return a < 0 ? 0 : a > most ? most
+                                                                             : a; }
 
 /* Four comparisons about a place in 1/256 texel, which share a weight of 65536. */
 static int32_t tap(const e3d_light_shadow *shadow, const float *map, int32_t x, int32_t y, float depth)

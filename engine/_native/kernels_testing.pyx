@@ -437,9 +437,11 @@ cdef class Kernels:
 
     def light(self, uint8_t[::1] batch, const uint8_t[::1] lights, const float[:, ::1] reach,
               const float[::1] ambient, const float[::1] clamp, const float[::1] eye,
-              float shininess):
-        """``reach``: (5, lights + PAD)."""
+              float shininess, const uint8_t[::1] shadow_maps=None):
+        """``reach``: (5, lights + PAD); ``shadow_maps``: those of all lights, or None."""
         cdef e3d_lighting lighting = lighting_of(lights, reach, ambient, clamp, eye)
+        if shadow_maps is not None:
+            lighting.shadows = <const e3d_shadow_map *>&shadow_maps[0]
         check_size(batch, sizeof(e3d_batch))
         for _ in range(self.rounds):
             self.table.light(<e3d_batch *>&batch[0], &lighting, shininess)

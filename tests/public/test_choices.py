@@ -17,7 +17,7 @@ from engine3d.motion import clips, player
 from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
-from engine3d.scene import lights
+from engine3d.scene import _shadow_casting, lights
 from engine3d.viewer import pixels
 from engine3d.viewer.window import POINTERS
 
@@ -44,6 +44,8 @@ ACCEPTED = {
     "Falloff": native.FALLOFFS,
     "AlphaMode": native.ALPHA_MODES,
     "LightUnit": lights.UNITS,
+    "LightShadow": _shadow_casting.SHADOWS,
+    "ShadowTaps": _shadow_casting.TAPS,
     "MotionPath": clips.PATHS,
     "Interpolation": clips.INTERPOLATIONS,
     "Loop": player.LOOPS,

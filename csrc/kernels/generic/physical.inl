@@ -10,6 +10,7 @@
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/light.inl"
+#include "kernels/generic/shadow.inl"
 #include "kernels/generic/albedo.inl"
 #include "kernels/generic/environment.inl"
 #include "kernels/generic/maps.inl"

@@ -46,6 +46,12 @@ int e3d_view_prepare(e3d_view *view, const e3d_view *frustum, const double clip_
 void e3d_view_finish_instance(e3d_view *view, e3d_draws *draws, uint32_t number);
 void e3d_view_free(e3d_view *view);
 
+/* The lights, with their shadows or without. */
+static inline const e3d_lighting *e3d_lighting_of(const e3d_view *view, int unshadowed)
+{
+    return unshadowed ? &view->unshadowed : &view->lighting;
+}
+
 static inline int64_t e3d_tile_count(const e3d_view *view) { return (int64_t)view->tiles_x * view->tiles_y; }
 
 static inline e3d_tile e3d_tile_at(const e3d_view *view, int64_t number)

@@ -292,10 +292,10 @@ static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory
     return model;
 }
 
-void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_lighting *lighting, e3d_shade_memory *memory)
+void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
     const e3d_surface_model model = model_of(bucket, &memory->maps);
     if (model.absorbs)
         find_depths(pass, memory, memory->maps.batch.depth);
-    pass->kernels->physical(&memory->batch, &model, lighting, &memory->maps.batch);
+    pass->kernels->physical(&memory->batch, &model, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->maps.batch);
 }

@@ -23,6 +23,6 @@ void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
 /* The alpha of a batch of which texels are found, but for the vertices' and the instance's. */
 e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_map_memory *maps);
 /* The colours of a physically based material. */
-void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_lighting *lighting, e3d_shade_memory *memory);
+void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory);
 
 #endif

@@ -111,12 +111,6 @@ static void find_albedo(const e3d_kernels *kernels, const e3d_bucket *bucket, e3
         kernels->tint(batch, &memory->surfaces, bucket->by_vertex, bucket->by_instance);
 }
 
-/* The lights, with their shadows or without. */
-static const e3d_lighting *lighting_of(const e3d_prepared *pass, const e3d_bucket *bucket)
-{
-    return bucket->unshadowed ? &pass->view->unshadowed : &pass->view->lighting;
-}
-
 /* Whether exact shadows may fall on a bucket's samples. */
 static int hides_lights(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
@@ -127,7 +121,7 @@ static void light(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_batch 
 {
     const e3d_material *m = bucket->material;
     int shiny = e3d_adds(m->specular);
-    pass->kernels->light(batch, lighting_of(pass, bucket), shiny ? m->shininess : 0.0f);
+    pass->kernels->light(batch, e3d_lighting_of(pass->view, bucket->unshadowed), shiny ? m->shininess : 0.0f);
     pass->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive, pass->view->lighting.exposure);
 }
 
@@ -138,7 +132,7 @@ static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_
         if (hides_lights(pass, bucket))
             pass->kernels->hide(&memory->batch, &pass->view->lighting, pass->casters, &memory->receivers);
         if (bucket->face && bucket->material->is_physical && !bucket->material->is_unlit)
-            e3d_light_physical(pass, bucket, lighting_of(pass, bucket), memory);
+            e3d_light_physical(pass, bucket, memory);
         else if (bucket->face && !bucket->material->is_unlit)
             light(pass, bucket, &memory->batch);
         break;
@@ -230,7 +224,7 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
         .base = m->color,
         .by_vertex = bucket->by_vertex,
         .by_instance = bucket->by_instance,
-        .lighting = lit ? lighting_of(pass, bucket) : NULL,
+        .lighting = lit ? e3d_lighting_of(pass->view, bucket->unshadowed) : NULL,
         .shininess = shiny ? m->shininess : 0.0f,
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,

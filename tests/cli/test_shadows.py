@@ -1,0 +1,63 @@
+"""The option --shadows, of pictures and of what the viewer shows."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import engine3d as e3d
+from engine3d.cli import main
+from engine3d.scene.lights import DirectionalLight, PointLight
+from engine3d.viewer.shadow_switch import ShadowSwitch
+
+SUN = ["--light-direction=-0.5,-1,-0.6"]
+
+
+def picture(tmp_path, *options):
+    path = tmp_path / "out.png"
+    arguments = ["--scene", "shapes", "--resolution", "96x64", *options, "-o", str(path)]
+    assert main(["render", *arguments]) == 0
+    with Image.open(path) as image:
+        return np.asarray(image.convert("L")).astype(int)
+
+
+def test_maps_darken_what_lies_behind(tmp_path):
+    lit, none = picture(tmp_path, *SUN), picture(tmp_path, *SUN, "--shadows", "none")
+    shadowed = picture(tmp_path, *SUN, "--shadows", "map")
+    assert (lit == none).all()
+    assert (shadowed <= lit).all()
+    assert (shadowed < lit - 40).sum() > 30
+
+
+def test_none_takes_the_shadows_of_a_file_away(tmp_path):
+    scene = e3d.Scene(ambient=(0.2, 0.2, 0.2))
+    scene.add(e3d.plane((4.0, 4.0)))
+    scene.add(e3d.box(0.5), translation=(0, 1, 0))
+    scene.add(e3d.DirectionalLight((0.2, -1, 0.1), shadow=True))
+    e3d.save_scene(scene, tmp_path / "scene.e3d")
+    pictures = []
+    for options in ([], ["--shadows", "none"]):
+        path = tmp_path / "out.png"
+        arguments = [str(tmp_path / "scene.e3d"), "--resolution", "64x48", *options]
+        assert main(["render", *arguments, "-o", str(path)]) == 0
+        with Image.open(path) as image:
+            pictures.append(np.asarray(image.convert("L")).astype(int))
+    assert (pictures[0] <= pictures[1]).all() and (pictures[0] < pictures[1]).any()
+
+
+def test_other_kinds_are_refused(capsys, tmp_path):
+    with pytest.raises(SystemExit):
+        main(["render", "--scene", "cube", "--shadows", "soft", "-o", str(tmp_path / "a.png")])
+    assert "--shadows" in capsys.readouterr().err
+
+
+def test_main_lights_cast_and_are_as_before_when_left():
+    key, fill = DirectionalLight(intensity=1.0), DirectionalLight(intensity=0.2, shadow=True)
+    lamps = [PointLight(shadow=True) for _ in range(5)]
+    few = [PointLight() for _ in range(2)]
+    switch = ShadowSwitch([[key, fill, *lamps], few], True)
+    assert [light.shadow for light in (key, fill)] == [True, False]
+    assert not any(lamp.shadow for lamp in lamps)
+    assert all(lamp.shadow for lamp in few)
+    switch.leave()
+    assert [light.shadow for light in (key, fill)] == [False, True]
+    assert all(lamp.shadow for lamp in lamps) and not any(lamp.shadow for lamp in few)

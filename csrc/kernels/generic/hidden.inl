@@ -203,7 +203,8 @@ static ALWAYS_INLINE vi32 hidden_column(const e3d_caster_grid *grid, vf32 x, int
     return v_trunc(v_min(v_max(at, v_setf(0.0f)), v_setf(last)));
 }
 
-/* The lanes of these that a caster of the grid hides: of each level, cell by cell of those that lanes are in. */
+/* The lanes of these that a caster of the grid hides: of each level, the coarsest first, since what is large
+ * hides most, cell by cell of those that lanes are in. */
 static ALWAYS_INLINE vmask hidden_in_grid(hidden_lanes *at, const e3d_caster_grid *grid, int is_point, vmask lanes)
 {
     if (!grid->levels)
@@ -212,9 +213,13 @@ static ALWAYS_INLINE vmask hidden_in_grid(hidden_lanes *at, const e3d_caster_gri
     for (int axis = 0; axis < 2; axis++)
         within = v_mand(within, v_mand(v_ge(at->place[axis], v_setf(grid->low[axis])), v_ge(v_setf(grid->high[axis]), at->place[axis])));
     vmask open = within;
-    vi32 column = hidden_column(grid, at->place[0], 0), row = hidden_column(grid, at->place[1], 1);
-    for (int level = 0; level < grid->levels && v_any(open); level++) {
+    vf32 finest_column = v_float(hidden_column(grid, at->place[0], 0)), finest_row = v_float(hidden_column(grid, at->place[1], 1));
+    for (int level = grid->levels - 1; level >= 0 && v_any(open); level--) {
+        if (!(grid->filled >> level & 1))
+            continue;
         int32_t columns[V_LANES], rows[V_LANES];
+        vf32 scale = v_setf(1.0f / (float)(1 << level));
+        vi32 column = v_trunc(v_mul(finest_column, scale)), row = v_trunc(v_mul(finest_row, scale));
         v_storei(columns, column);
         v_storei(rows, row);
         for (vmask left = open; v_any(left);) {
@@ -224,8 +229,6 @@ static ALWAYS_INLINE vmask hidden_in_grid(hidden_lanes *at, const e3d_caster_gri
             open = v_mandnot(open, hidden_in_cell(at, grid->boxes + start[0], grid->boxes + start[1], is_point, here));
             left = v_mandnot(left, here);
         }
-        column = v_shr(column, 1);
-        row = v_shr(row, 1);
     }
     return v_mandnot(within, open);
 }

@@ -20,13 +20,14 @@ typedef struct e3d_caster_box {
     uint32_t caster;
 } e3d_caster_box;
 
-/* Casters by where they are: level l has 2^(levels - 1 - l) cells a side, and each caster is in the finest level where it touches at
- * most two cells along each axis. */
+/* Casters by where they are: level l has 2^(levels - 1 - l) cells a side. Each caster is in the finest level where it touches at most two
+ * cells along each axis; large ones, which are few, are two levels below that, in the cells alone that they touch. */
 typedef struct e3d_caster_grid {
     float low[2], high[2];
     float scale[2]; /* cells of level 0 in a unit */
     float near;     /* of all boxes */
     int32_t levels; /* 0: there are no casters */
+    uint32_t filled; /* a bit for each level that has some */
     const uint32_t *starts[E3D_CASTER_LEVELS]; /* of the cells of each level, row by row, and the end of the last */
     const e3d_caster_box *boxes;               /* of each cell the near ones first */
 } e3d_caster_grid;

@@ -15,7 +15,14 @@
 #include "kernels/types/casters.h"
 #include "pipeline/cast/casters.h"
 
-enum { CASTERS_A_TASK = 4096, CELLS_A_TASK = 4096 };
+enum {
+    CASTERS_A_TASK = 4096,
+    CELLS_A_TASK = 4096,
+    LARGE = 4, /* casters of this level and above go to cells some levels finer: a city from above takes half of the time */
+    FINER = 2
+};
+#define SHAPE_MARGIN 0x1p-18 /* of the squared size: six roundings of R99, each of 2^-24 */
+#define CELL_MARGIN 0.51     /* of a side: half a cell, and more than cell_of rounds */
 #define SLOPE_MARGIN 0x1p-20f /* four roundings of a slope below 2 */
 
 /* One light's work: what all tasks read, and the counters that they share. */
@@ -161,26 +168,71 @@ static int32_t cell_of(const e3d_caster_grid *grid, float x, int axis)
     return (int32_t)(at < last ? at : last);
 }
 
-/* The cells of a box: those of the level where they are two along an axis at most. */
+/* The cells of a box at some level. */
 typedef struct cell_range {
     int32_t level, first[2], last[2];
 } cell_range;
 
-static cell_range cells_of(const e3d_caster_grid *grid, const e3d_caster_box *box)
+static int32_t most_across(const cell_range *range)
 {
-    cell_range range = {.level = 0};
+    int32_t columns = range->last[0] - range->first[0], rows = range->last[1] - range->first[1];
+    return columns > rows ? columns : rows;
+}
+
+static cell_range cells_at(const e3d_caster_grid *grid, const e3d_caster_box *box, int32_t level)
+{
+    cell_range range = {.level = level};
     for (int axis = 0; axis < 2; axis++) {
-        range.first[axis] = cell_of(grid, box->low[axis], axis);
-        range.last[axis] = cell_of(grid, box->high[axis], axis);
-    }
-    while (range.last[0] - range.first[0] > 1 || range.last[1] - range.first[1] > 1) {
-        range.level++;
-        for (int axis = 0; axis < 2; axis++) {
-            range.first[axis] >>= 1;
-            range.last[axis] >>= 1;
-        }
+        range.first[axis] = cell_of(grid, box->low[axis], axis) >> level;
+        range.last[axis] = cell_of(grid, box->high[axis], axis) >> level;
     }
     return range;
+}
+
+static cell_range cells_of(const e3d_caster_grid *grid, const e3d_caster_box *box)
+{
+    int32_t level = 0;
+    cell_range range = cells_at(grid, box, 0);
+    while (most_across(&range) > 1)
+        range = cells_at(grid, box, ++level);
+    return level >= LARGE ? cells_at(grid, box, level - FINER) : range;
+}
+
+/* ---- cells that a large caster touches ---- */
+
+/* The edges of a caster of a directional light, inside where all are at least -slack; slack is more than what the roundings of R99 come
+ * to. */
+typedef struct caster_shape {
+    double a[3], b[3], c[3], slack;
+} caster_shape;
+
+static int find_shape(const float corners[9], caster_shape *out)
+{
+    const float *x = corners, *y = corners + 3;
+    double width = (double)most(x) - least(x), height = (double)most(y) - least(y), size = width > height ? width : height;
+    double area = ((double)x[1] - x[0]) * ((double)y[2] - y[0]) - ((double)x[2] - x[0]) * ((double)y[1] - y[0]);
+    double sign = area < 0 ? -1 : 1;
+    out->slack = SHAPE_MARGIN * size * size;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        out->a[k] = sign * ((double)y[i] - y[j]);
+        out->b[k] = sign * ((double)x[j] - x[i]);
+        out->c[k] = -(out->a[k] * x[i] + out->b[k] * y[i]);
+    }
+    return sign * area > out->slack;
+}
+
+/* Whether a cell surely lies outside of an edge; it is a little larger than it is, for the rounding of cell_of. */
+static int misses_cell(const caster_shape *shape, const e3d_caster_grid *grid, int32_t level, int32_t column, int32_t row)
+{
+    double side = 1 << level, x = (column + 0.5) * side / grid->scale[0] + grid->low[0], y = (row + 0.5) * side / grid->scale[1] + grid->low[1];
+    double half_x = CELL_MARGIN * side / grid->scale[0], half_y = CELL_MARGIN * side / grid->scale[1];
+    for (int k = 0; k < 3; k++) {
+        double inside = shape->a[k] * x + shape->b[k] * y + shape->c[k];
+        if (inside + fabs(shape->a[k]) * half_x + fabs(shape->b[k]) * half_y < -shape->slack)
+            return 1;
+    }
+    return 0;
 }
 
 /* Where the cells of a level begin among those of all. */
@@ -196,8 +248,12 @@ static void visit_cells(const grid_job *job, const e3d_caster_box *box, int puts
 {
     cell_range range = cells_of(job->grid, box);
     size_t start = level_start(job->grid, range.level);
+    caster_shape shape;
+    int shaped = job->face < 0 && most_across(&range) > 1 && find_shape(job->corners[box->caster], &shape);
     for (int32_t y = range.first[1]; y <= range.last[1]; y++)
         for (int32_t x = range.first[0]; x <= range.last[0]; x++) {
+            if (shaped && misses_cell(&shape, job->grid, range.level, x, y))
+                continue;
             size_t cell = start + ((size_t)y << (job->grid->levels - 1 - range.level)) + (size_t)x;
             uint32_t at = atomic_fetch_add_explicit(&job->counts[cell], 1, memory_order_relaxed);
             if (puts)
@@ -292,8 +348,11 @@ static int find_grid(grid_job *job, e3d_array *starts, e3d_array *boxes, int32_t
     e3d_pool_share(threads, tasks, put_some, job);
     e3d_pool_share(threads, tasks_of((int64_t)cells, CELLS_A_TASK), sort_some, job);
     grid->boxes = boxes->data;
-    for (int level = 0; level < grid->levels; level++)
+    grid->filled = 0;
+    for (int level = 0; level < grid->levels; level++) {
         grid->starts[level] = (const uint32_t *)starts->data + level_start(grid, level);
+        grid->filled |= (uint32_t)(grid->starts[level][0] != grid->starts[level][(size_t)1 << 2 * (grid->levels - 1 - level)]) << level;
+    }
     return 1;
 }
 

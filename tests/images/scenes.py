@@ -5,6 +5,7 @@ from images import (  # noqa: F401
     scenes_geometry,
     scenes_lights,
     scenes_looks,
+    scenes_multisampled,
     scenes_physical,
     scenes_textures,
     scenes_views,

@@ -36,7 +36,13 @@ class Peer:
             self.scene.add(light, translation=place)
         self.frames = 0
         self.camera = e3d.Camera(np.asarray(scene.proj, np.float64))
-        self.renderer = e3d.Renderer(scene.width, scene.height, color_space="linear")
+        self.renderer = e3d.Renderer(
+            scene.width,
+            scene.height,
+            color_space="linear",
+            samples=scene.samples,
+            antialias="msaa" if scene.samples > 1 else "ssaa",
+        )
 
     def info(self):
         return {"version": "engine3d " + e3d.__version__, "backend": self.renderer.backend}

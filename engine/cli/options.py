@@ -19,11 +19,10 @@ from ..choices import (
     HiddenSurfaces,
     Mode,
     OutputMode,
-    Samples,
     Shading,
     Wireframe,
 )
-from . import values
+from . import antialiasing, values
 from .environment_options import surroundings
 from .filter_options import add_line_shapes, add_texture_filters, filtering
 from .inputs import model_files
@@ -171,13 +170,7 @@ def add_picture(parser) -> None:
         metavar="WxH",
         help="size in pixels; 1280x720 by default",
     )
-    group.add_argument(
-        "--samples",
-        type=int,
-        choices=get_args(Samples),
-        help="samples per pixel: more give smoother edges. In a window 4 while nothing moves, and "
-        "fewer in motion where it would be slow, if this is not given",
-    )
+    antialiasing.add(group)
     group.add_argument(
         "--backend",
         choices=BACKENDS,

@@ -8,6 +8,7 @@ from ..files.animation_files import save_animation
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
 from . import options
+from .antialiasing import antialiasing
 from .outputs import (
     STANDARD_OUTPUT,
     check_animation,
@@ -30,13 +31,15 @@ def render(args: argparse.Namespace) -> int:
     viewed = options.viewed_scene(args)
     report.loaded(viewed)
     settings = options.settings(args)
+    antialias, samples = antialiasing(args)
     with ViewRenderer(
         viewed,
         settings,
         args.resolution or DEFAULT_SIZE,
         backend=args.backend,
         threads=args.threads,
-        samples=args.samples or 1,
+        samples=samples,
+        antialias=antialias,
         transparent=args.no_background,
         report=report.frame if args.verbose else None,
     ) as view_renderer:

@@ -12,6 +12,7 @@ from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
 from ..viewer.walking import GroundController, controller
 from . import options
+from .antialiasing import WINDOW, antialiasing
 from .inputs import STANDARD_INPUT
 from .outputs import check_animation, check_picture, with_progress
 from .quietness import remark
@@ -70,20 +71,22 @@ def _missing_screen() -> str | None:
 
 
 def _view_renderer(
-    args: argparse.Namespace, viewed, size, samples: int, report: Report
+    args: argparse.Namespace, viewed, size, method: str, samples: int, report: Report
 ) -> ViewRenderer:
     settings = options.settings(args)
     asked = args.walkable is not None or args.slope is not None
     settings.walks = args.camera == "fps" or asked
     settings.walkable = args.walkable
     settings.slope = None if args.slope is None else math.radians(args.slope)
+    antialias, samples = antialiasing(args, method, samples)
     return ViewRenderer(
         viewed,
         settings,
         args.resolution or size,
         backend=args.backend,
         threads=args.threads,
-        samples=args.samples or samples,
+        samples=samples,
+        antialias=antialias,
         report=report.frame if args.verbose else None,
     )
 
@@ -100,7 +103,7 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
     size = args.resolution or WINDOW_SIZE
     with (
         Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync) as window,
-        _view_renderer(args, viewed, size, AT_REST, report) as view_renderer,
+        _view_renderer(args, viewed, size, WINDOW, AT_REST, report) as view_renderer,
     ):
         viewer = Viewer(
             view_renderer,
@@ -112,7 +115,7 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
             files=ModelFiles(
                 args.models, watch=args.watch, remembered=True, **options.opening(args)
             ),
-            sampling=Sampling(args.samples),
+            sampling=Sampling(1 if args.antialiasing == "none" else args.samples),
         )
         viewer.time = (args.animation_time or 0.0) % viewed.period
         remember([] if STANDARD_INPUT in args.models else args.models)
@@ -130,7 +133,7 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
     path = Path(args.output) if args.output else _new_path(viewed, count)
     if reason is not None:
         remark(f"{reason}: rendering a turntable to {path} instead")
-    with _view_renderer(args, viewed, FILE_SIZE, FILE_SAMPLES, report) as view_renderer:
+    with _view_renderer(args, viewed, FILE_SIZE, "ssaa", FILE_SAMPLES, report) as view_renderer:
         view = options.place_view(args, view_renderer)
         walks = args.camera == "fps"
         if count == 1:

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import get_args
 
-from ..choices import Samples
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
 from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
@@ -26,7 +24,7 @@ from .theme import THEMES
 from .viewpoint import QUARTER_TURN, UP_DIRECTIONS
 from .walking import GroundController, controller
 
-SAMPLES = get_args(Samples)
+SAMPLES = (1, 4, 16)  # that supersampling and multisampling have
 STATISTICS = (None, "short", "long")
 LINE_WIDTHS = (1.0, 16.0)
 #: How far a key turns the camera.

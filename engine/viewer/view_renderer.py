@@ -50,7 +50,7 @@ class ViewRenderer:
         What the user asked for.
     size : (int, int)
         Width and height in pixels.
-    backend, threads, samples
+    backend, threads, samples, antialias
         As in `Renderer`.
     transparent : bool
         Whether pixels that show no surface get alpha 0.
@@ -82,12 +82,13 @@ class ViewRenderer:
         backend: str = "auto",
         threads: int = 0,
         samples: int = 1,
+        antialias: str = "ssaa",
         transparent: bool = False,
         report=None,
     ):
         self._transparent = transparent
         self._report = report
-        self._options = {"backend": backend, "threads": threads}
+        self._options = {"backend": backend, "threads": threads, "antialias": antialias}
         self.samples = samples
         self.size = size
         self._culling_camera = None

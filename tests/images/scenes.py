@@ -8,6 +8,7 @@ from images import (  # noqa: F401
     scenes_glass,
     scenes_lights,
     scenes_looks,
+    scenes_multisampled,
     scenes_physical,
     scenes_shadows,
     scenes_textures,

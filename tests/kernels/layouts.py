@@ -88,7 +88,7 @@ _BLOCKS = (TILE // BLOCK) ** 2
 VISIBLE_TILE = np.dtype(
     [("z", "f4", TILE * TILE + PAD), ("id", "i4", TILE * TILE + PAD)]
     + [("zmin", "f4", _BLOCKS), ("zmax", "f4", _BLOCKS), ("noted_id", "i4", _BLOCKS)]
-    + [("noted", "u8"), ("stale", "u8"), ("x", "i4"), ("y", "i4")]
+    + [("noted", "u8"), ("stale", "u8"), ("x", "i4"), ("y", "i4"), ("unused", "i4", 10)]
 )
 RUN = np.dtype([("owner", "i4"), ("sample", "u2"), ("length", "u2")])
 SHOWN_ROOM = TILE * TILE + TILE

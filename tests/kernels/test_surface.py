@@ -41,6 +41,7 @@ def random_surfaces(rng, count):
     surfaces = words.view(np.uint8).view(SURFACES)[0]
     shape = surfaces["matrix"].shape
     surfaces["count"] = count
+    surfaces["reach"] = 0
     surfaces["x"], surfaces["y"] = random_triangles(rng)
     surfaces["iw"] = 2.0 ** rng.uniform(-20, 20, surfaces["iw"].shape)
     surfaces["swapped"] = rng.integers(0, 2, shape)

@@ -280,6 +280,72 @@ static inline void planes_find(const e3d_record *const r[V_LANES], const e3d_vis
     records_rows(e, &out->in);
 }
 
+/* What all planes of a strip share. */
+typedef struct planes_strip {
+    vf32 zmin, zmax;
+    vi32 down[3];
+} planes_strip;
+
+/* One vector of one plane; its edge functions go on to the next row. */
+static ALWAYS_INLINE void planes_vector(const planes_strip *strip, vi32 e[3], vf32 z, size_t at, const e3d_record *r, int32_t id,
+                                        e3d_visible_tile *plane, const e3d_record_table *table)
+{
+    visible_write(visible_inside(e), v_min(v_max(z, strip->zmin), strip->zmax), at, r, id, plane, table);
+    for (int k = 0; k < 3; k++)
+        e[k] = v_addi(e[k], strip->down[k]);
+}
+
+/* Draws a record in strips, as records_strips does, in all planes side by side. */
+static ALWAYS_INLINE void planes_strips_of(const planes_lanes *lanes, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *planes,
+                                           const e3d_sample_pattern *pattern, const e3d_record_table *table, int count)
+{
+    const records_lanes *in = &lanes->in;
+    planes_strip shared = {.zmin = v_setf(r->zmin), .zmax = v_setf(r->zmax)};
+    vf32 gx = v_setf(r->gx), gy = v_setf(r->gy);
+    vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])), z0[E3D_MOST_MSAA_SAMPLES];
+    for (int s = 0; s < count; s++)
+        z0[s] = v_setf(planes_z0(r, pattern, s));
+    for (int strip = 0; strip <= in->strips[lane]; strip++) {
+        size_t i = records_sample(in->from[strip][lane]);
+        vi32 at = v_addi(v_seti((int32_t)in->from[strip][lane]), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
+        vf32 row = v_add(v_float(rows_y()), v_setf(in->row[strip][lane])), step = v_mul(along, gx), column[E3D_MOST_MSAA_SAMPLES];
+        vi32 e[E3D_MOST_MSAA_SAMPLES][3], from[3];
+        for (int k = 0; k < 3; k++) {
+            from[k] = v_madd16(v_seti(in->steps[k][lane]), at);
+            shared.down[k] = v_seti(in->down[k][lane]);
+        }
+        for (int s = 0; s < count; s++) {
+            column[s] = v_add(z0[s], step);
+            for (int k = 0; k < 3; k++)
+                e[s][k] = v_addi(v_seti(lanes->e[s][k][lane]), from[k]);
+        }
+        for (int32_t left = in->vectors[strip][lane]; left > 0; left--, i += ROWS * E3D_TILE) {
+            vf32 below = v_mul(row, gy);
+            for (int s = 0; s < count; s += 2) {
+                planes_vector(&shared, e[s], v_add(column[s], below), i, r, id, &planes[s], table);
+                planes_vector(&shared, e[s + 1], v_add(column[s + 1], below), i, r, id, &planes[s + 1], table);
+                if (count == 4) { /* a constant: no loop is left */
+                    planes_vector(&shared, e[2], v_add(column[2], below), i, r, id, &planes[2], table);
+                    planes_vector(&shared, e[3], v_add(column[3], below), i, r, id, &planes[3], table);
+                    break;
+                }
+            }
+            row = v_add(row, v_setf(ROWS));
+        }
+        along = v_add(along, v_setf(ROW_LANES));
+    }
+}
+
+/* Four samples are the common number: a constant for the compiler. */
+static void planes_strips(const planes_lanes *lanes, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *planes,
+                          const e3d_sample_pattern *pattern, const e3d_record_table *table)
+{
+    if (pattern->count == 4)
+        planes_strips_of(lanes, lane, r, id, planes, pattern, table, 4);
+    else
+        planes_strips_of(lanes, lane, r, id, planes, pattern, table, pattern->count);
+}
+
 /* Draws a record, unless what is there hides it (see records_draw). */
 static inline void planes_draw(planes_lanes *lanes, int lane, const e3d_record *r, int32_t id, uint64_t open, records_touched *touched,
                                e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table)
@@ -298,8 +364,7 @@ static inline void planes_draw(planes_lanes *lanes, int lane, const e3d_record *
         planes_unfold(planes, pattern, table, __builtin_ctzll(left));
     touched->met |= met;
     touched->near = r->zmin < touched->near ? r->zmin : touched->near;
-    for (int s = 0; s < pattern->count; s++)
-        records_strips_of(in, lanes->e[s], planes_z0(r, pattern, s), lane, r, id, &planes[s], table);
+    planes_strips(lanes, lane, r, id, planes, pattern, table);
 }
 
 static void kernel_raster_planes(e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table,

@@ -199,11 +199,11 @@ static inline void records_tell(records_touched *touched, e3d_visible_tile *tile
 
 /* ---- record by record ---- */
 
-/* Draws a record in strips: columns of vectors, side by side. `edges`: at the tile's first sample; z0: of the plane of depths. */
-static ALWAYS_INLINE void records_strips_of(const records_lanes *in, int32_t edges[3][V_LANES], float z0, int lane, const e3d_record *r,
-                                            int32_t id, e3d_visible_tile *tile, const e3d_record_table *table)
+/* Draws a record in strips: columns of vectors, side by side. */
+static inline void records_strips(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
+                                  const e3d_record_table *table)
 {
-    raster_constants c = {v_setf(z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
+    raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
     vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])); /* whole numbers: sums are exact */
     for (int s = 0; s <= in->strips[lane]; s++) {
         size_t i = records_sample(in->from[s][lane]);
@@ -211,7 +211,7 @@ static ALWAYS_INLINE void records_strips_of(const records_lanes *in, int32_t edg
         vf32 row = v_add(v_float(rows_y()), v_setf(in->row[s][lane])), column = v_add(c.z0, v_mul(along, c.gx));
         vi32 e[3], down[3];
         for (int k = 0; k < 3; k++) {
-            e[k] = v_addi(v_seti(edges[k][lane]), v_madd16(v_seti(in->steps[k][lane]), at));
+            e[k] = v_addi(v_seti(in->e[k][lane]), v_madd16(v_seti(in->steps[k][lane]), at));
             down[k] = v_seti(in->down[k][lane]);
         }
         for (int32_t left = in->vectors[s][lane]; left > 0; left--, i += ROWS * E3D_TILE) {
@@ -224,12 +224,6 @@ static ALWAYS_INLINE void records_strips_of(const records_lanes *in, int32_t edg
         }
         along = v_add(along, v_setf(ROW_LANES));
     }
-}
-
-static inline void records_strips(records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
-                                  const e3d_record_table *table)
-{
-    records_strips_of(in, in->e, r->z0, lane, r, id, tile, table);
 }
 
 /* Draws a record of at most 2 x 2 samples, whose cover setup has found. */
@@ -277,7 +271,7 @@ static inline void records_wide(const records_lanes *in, int lane, const e3d_rec
 }
 
 /* Draws a record, unless what is there hides it: by the zmax of the blocks that it meets, or by the samples of its strips. */
-static inline void records_draw(records_lanes *in, int lane, const e3d_record *r, int32_t id, uint64_t open,
+static inline void records_draw(const records_lanes *in, int lane, const e3d_record *r, int32_t id, uint64_t open,
                                 records_touched *touched, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     uint64_t met = records_met(in, lane);

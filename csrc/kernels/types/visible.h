@@ -81,7 +81,10 @@ typedef struct e3d_visible_tile {
     int32_t noted_id[E3D_TILE_BLOCKS];
     uint64_t noted, stale;
     int32_t x, y; /* first sample */
+    int32_t unused[10]; /* padding: the next tile of an array, or plane of a tile, begins at a cache line, too */
 } e3d_visible_tile;
+
+_Static_assert(sizeof(e3d_visible_tile) % 64 == 0, "tiles are whole lines of the cache");
 
 typedef struct e3d_tile_buffers {
     float *z;               /* E3D_TILE_SAMPLES, 64-byte aligned */

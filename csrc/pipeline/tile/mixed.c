@@ -7,6 +7,7 @@
  */
 #include <math.h>
 
+#include "core/always_inline.h"
 #include "core/limits.h"
 #include "core/sample_patterns.h"
 #include "core/vectors.h"
@@ -45,6 +46,27 @@ static int32_t background_of(const e3d_tile_job *job, int32_t pixel, e3d_mixed_l
     e3d_backdrop_pixel(job->in->shade->store, job->tile.x + pixel % E3D_TILE, job->tile.y + pixel / E3D_TILE, list->color[place]);
     list->place[number] = (uint16_t)place;
     return number;
+}
+
+/* The same where the background has one colour and faces show. Which samples show the same is unpredictable: nothing branches on it. */
+static ALWAYS_INLINE int32_t list_simple(const e3d_visible_tile *planes, int32_t samples, int32_t pixel, e3d_run *runs, int32_t count,
+                                         e3d_mixed_list *list)
+{
+    uint16_t *of = list->of + list->pixels * samples;
+    int32_t ids[E3D_MOST_MSAA_SAMPLES];
+    list->pixel[list->pixels++] = (uint16_t)pixel;
+    for (int32_t s = 0; s < samples; s++) {
+        int32_t id = ids[s] = planes[s].id[pixel], number = id < 0 ? E3D_MIXED_BACKGROUND : count, fresh = id >= 0;
+        for (int32_t t = 0; t < s; t++) {
+            number = ids[t] == id ? of[t] : number;
+            fresh = ids[t] == id ? 0 : fresh;
+        }
+        of[s] = (uint16_t)number;
+        runs[count] = (e3d_run){id, (uint16_t)(pixel | s << E3D_SHOWN_NUMBER), (uint16_t)count};
+        count += fresh;
+    }
+    list->colors = count;
+    return count;
 }
 
 /* Lists a pixel: a colour for each piece that shows in it, at the first sample that shows it; how many there are to be shaded then. */
@@ -163,12 +185,21 @@ static int finish_list(const e3d_tile_job *job, int32_t count, int layered)
     return 1;
 }
 
+static ALWAYS_INLINE int32_t list_any(const e3d_tile_job *job, int32_t pixel, int only_edges, int simple, int32_t count, e3d_mixed_list *list)
+{
+    int32_t samples = job->in->pass->pattern->count;
+    e3d_run *runs = job->memory->shade.runs.rows;
+    if (!simple)
+        return list_pixel(job, pixel, only_edges, runs, count, list);
+    return samples == 4 ? list_simple(job->visible, 4, pixel, runs, count, list) : list_simple(job->visible, samples, pixel, runs, count, list);
+}
+
 int e3d_mixed_shade(const e3d_tile_job *job, int layered)
 {
     e3d_multisample_memory *memory = job->memory->multisample;
     e3d_mixed_list *list = &memory->list;
     int32_t samples = job->in->pass->pattern->count, count = 0;
-    int only_edges = e3d_plans(job->in->pass, E3D_ASKED_WIRE_ONLY);
+    int only_edges = e3d_plans(job->in->pass, E3D_ASKED_WIRE_ONLY), simple = !only_edges && !e3d_plans(job->in->pass, E3D_PLAN_BACKDROP);
     list->pixels = list->colors = memory->average.count = 0;
     list->place[E3D_MIXED_BACKGROUND] = E3D_MIXED_BACKGROUND;
     store4(list->color[E3D_MIXED_BACKGROUND], load4(job->in->shade->store->background.sample));
@@ -179,7 +210,7 @@ int e3d_mixed_shade(const e3d_tile_job *job, int layered)
                     return 0;
                 count = 0;
             }
-            count = list_pixel(job, y * E3D_TILE + __builtin_ctzll(left), only_edges, job->memory->shade.runs.rows, count, list);
+            count = list_any(job, y * E3D_TILE + __builtin_ctzll(left), only_edges, simple, count, list);
         }
     return !list->pixels || finish_list(job, count, layered);
 }

@@ -1,0 +1,174 @@
+"""Multisampling (section 18 of exactness.md): coverage by integers at the exact positions, the average, shading once.
+
+Triangles are in clip space with w = 1; white on black in the linear space, so that a pixel tells how many of its samples are covered.
+"""
+
+import numpy as np
+import pytest
+from images.objects import clip_camera
+from images.scenes import SCENES
+
+import engine3d as e3d
+
+SIZE = (37, 29)
+# In 1/16 pixel: the standard patterns of Direct3D 11.
+PATTERNS = {
+    2: [(4, 4), (-4, -4)],
+    4: [(-2, -6), (6, -2), (-6, 2), (2, 6)],
+    8: [(1, -3), (-1, 3), (5, 1), (-3, -5), (-5, 5), (-7, -1), (3, 7), (7, -7)],
+    16: [(1, 1), (-1, -3), (-3, 2), (4, -1), (-5, -2), (2, 5), (5, 3), (3, -5)]
+    + [(-2, 6), (0, -7), (-4, -6), (-6, 4), (-8, 0), (7, -4), (6, 7), (-7, -8)],
+}
+
+
+@pytest.fixture(params=[name for name in ("scalar", "avx2", "avx512") if name in e3d.backends()])
+def backend(request):
+    return request.param
+
+
+def snapped(corners):
+    """R8, of (n, 3, 2) float32 corners in clip space: columns and rows in 1/256 pixel."""
+    half = np.float32(128) * np.array(SIZE, np.float32)
+    x = np.rint(corners[..., 0] * half[0] + half[0]).astype(np.int64)
+    y = np.rint(half[1] - corners[..., 1] * half[1]).astype(np.int64)
+    return x, y
+
+
+def covered(x, y, offset):
+    """R12 at one sample of every pixel: (height, width) bool."""
+    if (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]) < 0:
+        x, y = x[[0, 2, 1]], y[[0, 2, 1]]
+    at_x = 256 * np.arange(SIZE[0]) + 128 + 16 * offset[0]
+    at_y = (256 * np.arange(SIZE[1]) + 128 + 16 * offset[1])[:, None]
+    inside = np.ones(SIZE[::-1], bool)
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        a, b = y[i] - y[j], x[j] - x[i]
+        e = a * (at_x - x[i]) + b * (at_y - y[i])
+        inside &= (e > 0) | ((e == 0) & (a > 0 or (a == 0 and b > 0)))
+    return inside
+
+
+def draw(corners, samples, backend, colors=None, **options):
+    """Triangles, each of one colour, in front of black; later ones nearer."""
+    depth = np.linspace(0.5, -0.5, len(corners), dtype=np.float32)
+    points = np.concatenate([corners, np.broadcast_to(depth[:, None, None], (*corners.shape[:2], 1))], -1)
+    colors = np.ones((len(corners), 4), np.float32) if colors is None else colors
+    mesh = e3d.Mesh(
+        points.reshape(-1, 3),
+        np.arange(3 * len(corners)).reshape(-1, 3),
+        colors=np.repeat(colors, 3, axis=0),
+        materials=[e3d.Material(two_sided=True)],
+    )
+    scene = e3d.Scene(background=(0, 0, 0))
+    scene.add(mesh)
+    with e3d.Renderer(
+        *SIZE, backend=backend, color_space="linear", samples=samples, antialias="msaa"
+    ) as renderer:
+        return renderer.render(scene, clip_camera(), mode="unlit", **options).color
+
+
+def triangles(rng, count):
+    """Large, small and tiny ones, some with corners on samples."""
+    size = rng.choice([2.0, 0.3, 0.05, 0.02], (count, 1, 1))
+    corners = rng.uniform(-1.1, 1.1, (count, 1, 2)) + size * rng.uniform(-1, 1, (count, 3, 2))
+    grid = 16 * np.array(SIZE) / 2
+    on_grid = rng.random((count, 1, 1)) < 0.5
+    return np.where(on_grid, np.rint(corners * grid) / grid, corners).astype(np.float32)
+
+
+@pytest.mark.parametrize("samples", PATTERNS)
+def test_each_pixel_counts_its_covered_samples(samples, backend):
+    rng = np.random.default_rng(samples)
+    for _ in range(12):
+        corners = triangles(rng, 9)
+        x, y = snapped(corners)
+        count = sum(
+            np.any([covered(x[n], y[n], offset) for n in range(len(corners))], axis=0)
+            for offset in PATTERNS[samples]
+        )
+        color = draw(corners, samples, backend)
+        assert np.array_equal(color[..., 0], np.rint(255 * (count / samples)).astype(np.uint8))
+        assert (color[..., 3] == 255).all()
+
+
+@pytest.mark.parametrize("samples", PATTERNS)
+def test_the_nearest_shows_at_each_sample(samples, backend):
+    rng = np.random.default_rng(10 + samples)
+    corners, colors = triangles(rng, 12), rng.integers(0, 2, (12, 4)).astype(np.float32)
+    x, y = snapped(corners)
+    total = np.zeros((*SIZE[::-1], 3))
+    for offset in PATTERNS[samples]:
+        shown = np.zeros((*SIZE[::-1], 3))
+        for n in range(len(corners)):
+            shown[covered(x[n], y[n], offset)] = colors[n, :3]
+        total += shown
+    assert np.array_equal(draw(corners, samples, backend, colors)[..., :3], np.rint(255 * (total / samples)))
+
+
+def test_no_colour_is_extrapolated(backend):
+    """A triangle as thin as a sample has no colour that its corners don't hold."""
+    rng = np.random.default_rng(5)
+    corners = triangles(rng, 1)
+    for _ in range(60):
+        corners = triangles(rng, 1)
+        mesh = e3d.Mesh(
+            np.concatenate([corners[0], np.zeros((3, 1), np.float32)], 1),
+            [[0, 1, 2]],
+            colors=np.array([(1, 0.5, 0.5, 1)] * 3, np.float32),
+            uvs=[(0.4, 0.5), (0.6, 0.5), (0.5, 0.6)],
+            materials=[e3d.Material(two_sided=True, texture=middle())],
+        )
+        scene = e3d.Scene(background=(0, 0, 0))
+        scene.add(mesh)
+        with e3d.Renderer(
+            *SIZE, backend=backend, color_space="linear", samples=8, antialias="msaa"
+        ) as renderer:
+            color = renderer.render(scene, clip_camera(), mode="unlit").color
+        assert not color[..., 1].any()  # green lies outside the corners' coordinates
+
+
+def middle():
+    """Red where coordinates are from 0.4 to 0.6, green around."""
+    pixels = np.zeros((40, 40, 4), np.uint8)
+    pixels[..., 1], pixels[..., 3] = 255, 255
+    pixels[15:25, 15:25] = 255, 0, 0, 255
+    return e3d.Texture(pixels, filter="nearest")
+
+
+@pytest.mark.parametrize("name", ["mode_lit", "alpha_mode_lit", "mode_overdraw"])
+def test_other_outputs_and_overdraw_are_those_of_one_sample(name, backend):
+    plain, many = SCENES[name](), SCENES[f"msaa_4_{name}"]()
+    one, four = plain.draw(backend), many.draw(backend)
+    for output in one.outputs:
+        same = np.array_equal(getattr(one, output), getattr(four, output))
+        assert same or (output == "color" and name != "mode_overdraw")
+    assert np.array_equal(many.draw(backend, 2, ("color",)).color, four.color)
+
+
+def test_inside_a_surface_a_pixel_is_that_of_one_sample(backend):
+    corners = np.array([[(-3, -3), (3, -3), (0, 4)]], np.float32)
+    colors = np.random.default_rng(2).random((1, 4)).astype(np.float32)
+    assert np.array_equal(draw(corners, 16, backend, colors), draw(corners, 1, backend, colors))
+
+
+def test_alpha_to_coverage_covers_half_at_the_cutoff(backend):
+    corners = np.array([[(-3, -3), (3, -3), (0, 4)]], np.float32)
+    for alpha, share in ((0.0, 0), (0.2, 0.25), (0.4, 0.5), (0.7, 0.75), (1.0, 1)):
+        scene = e3d.Scene(background=(0, 0, 0))
+        points = np.concatenate([corners[0], np.zeros((3, 1), np.float32)], 1)
+        material = e3d.Material(color=(1.0, 1.0, 1.0, alpha), alpha_mode="mask", alpha_cutoff=0.4, two_sided=True)
+        scene.add(e3d.Mesh(points, [[0, 1, 2]], materials=[material]))
+        with e3d.Renderer(*SIZE, backend=backend, color_space="linear", samples=4, antialias="msaa") as r:
+            smooth = r.render(scene, clip_camera(), mode="unlit", alpha_to_coverage=True).color
+            sharp = r.render(scene, clip_camera(), mode="unlit").color
+        assert (smooth[..., 0] == np.rint(255 * share)).all()
+        assert (sharp[..., 0] == 255 * (alpha >= 0.4)).all()
+
+
+def test_numbers_of_samples_that_methods_lack():
+    with pytest.raises(e3d.InvalidArgumentError, match="samples"):
+        e3d.Renderer(8, 8, samples=8)
+    with pytest.raises(e3d.InvalidArgumentError, match="antialias"):
+        e3d.Renderer(8, 8, antialias="fxaa")
+    assert e3d.Renderer(8, 8, samples=8, antialias="msaa").antialias == "msaa"

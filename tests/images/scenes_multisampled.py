@@ -1,0 +1,71 @@
+"""Pictures of the other modules with multisampling: every mode, wireframe, hidden-surface method and kind of surface."""
+
+from dataclasses import replace
+
+from images import scenes_alpha, scenes_geometry, scenes_lights, scenes_looks, scenes_physical
+from images import scenes_textures, scenes_views  # noqa: F401
+from images.picture import SCENES, variant
+
+_SUBJECTS = {
+    2: ("mode_lit", "alpha_mode_lit", "wireframe_overlay", "lines"),
+    4: (
+        "alpha_hidden_none",
+        "alpha_mode_depth",
+        "alpha_mode_lit",
+        "alpha_painter",
+        "alpha_wireframe_only",
+        "alpha_wireframe_overlay",
+        "alpha_without_background",
+        "coplanar",
+        "far_plane_cuts",
+        "floor_to_the_horizon",
+        "forward_lit",
+        "giant_triangles",
+        "hidden_none",
+        "intersecting",
+        "lines",
+        "many_lights",
+        "many_small_triangles",
+        "mode_depth",
+        "mode_lit",
+        "mode_lit_linear",
+        "mode_normal",
+        "mode_overdraw",
+        "mode_random",
+        "mode_unlit",
+        "near_plane_cuts",
+        "painter",
+        "physical_floor",
+        "physical_maps_trilinear",
+        "points",
+        "size_257x31",
+        "size_2x3",
+        "size_large",
+        "slivers",
+        "specular",
+        "texture_trilinear_repeat",
+        "transparent_background",
+        "two_sided_beside_culled",
+        "wireframe_only",
+        "wireframe_only_hidden_lines",
+        "wireframe_overlay_wide",
+    ),
+    8: ("alpha_leaf_bilinear_srgb", "alpha_mode_lit", "layers", "mode_lit", "transparent_background"),
+    16: ("alpha_leaf_bilinear_linear", "alpha_mode_lit", "hills", "lines", "mode_lit", "wireframe_overlay"),
+}
+
+
+def multisampled(name, samples, **options):
+    """A picture of another module, drawn with so many samples a pixel."""
+    picture = SCENES[name]()
+    options = picture.options | options
+    return replace(picture, samples=samples, antialias="msaa", options=options)
+
+
+for _samples, _names in _SUBJECTS.items():
+    for _name in _names:
+        variant(f"msaa_{_samples}_{_name}", multisampled, _name, _samples)
+    for _name in ("alpha_mode_lit", "alpha_leaf_bilinear_srgb"):
+        variant(f"msaa_{_samples}_{_name}_to_coverage", multisampled, _name, _samples, alpha_to_coverage=True)
+variant("msaa_4_painter_to_coverage", multisampled, "alpha_painter", 4, alpha_to_coverage=True)
+variant("msaa_4_wireframe_to_coverage", multisampled, "alpha_wireframe_only", 4, alpha_to_coverage=True)

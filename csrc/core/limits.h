@@ -16,7 +16,7 @@ enum {
     E3D_SUBPIXEL = 256,          /* positions are snapped to 1/256 sample */
     E3D_GUARD = 32768,           /* samples from the viewport's centre to the guard band */
     E3D_MAX_POINT_SAMPLES = 1024, /* point size, or line width across: 256 pixels of 4 samples */
-    E3D_LEAST_DISC = 181,        /* 1/256 sample: a disc of no more may miss every sample, and is a square instead */
+    E3D_LEAST_DISC = 197,        /* 1/256 sample: an octagon of no more may miss every sample, and is a square instead */
     E3D_MAX_LINE_SAMPLES = 1449, /* samples of a column or row that a line covers: at 45 degrees its width times the root of 2 */
     E3D_CLUSTER_TRIANGLES = 64,  /* a cluster's triangles and vertices: 8-bit local indices */
     E3D_CLUSTER_VERTICES = 128,

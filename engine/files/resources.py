@@ -300,6 +300,7 @@ def _content(thing) -> tuple:
     if isinstance(thing, Texture):
         digest.update(thing.pixels)
         kind = thing.pixels.shape, thing.color_space, thing.filter, thing.wrap
+        kind += thing.anisotropy, thing.lod_bias
         return ("texture", digest.digest(), *kind)
     shapes = []
     for name, array in sorted(thing._arrays.items()):

@@ -154,7 +154,8 @@ def load_texture(
     format : str, optional
         The format's name, such as ``"tga"``. Left out, it is told by the content and the name.
     **options
-        Passed on to `Texture`: ``color_space``, ``filter``, ``wrap``, ``name``.
+        Passed on to `Texture`: ``color_space``, ``filter``, ``wrap``, ``name``, ``anisotropy``,
+        ``lod_bias``.
 
     Raises
     ------

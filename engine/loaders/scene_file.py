@@ -163,8 +163,10 @@ class _Reading:
 
     def _texture(self, entry: JsonValue) -> Texture:
         held = entry.members()
-        texts = (key for key in held if key not in ("file", "png", "wrap"))
+        numbers = [key for key in held if key in ("anisotropy", "lod_bias")]
+        texts = (key for key in held if key not in ("file", "png", "wrap", *numbers))
         options: dict[str, Any] = {key: held[key].text() for key in texts}
+        options |= {key: held[key].value for key in numbers}  # which Texture checks
         if (wrap := entry.get("wrap")) is not None:
             pair = isinstance(wrap.value, list)
             options["wrap"] = tuple(side.text() for side in wrap) if pair else wrap.text()

@@ -75,6 +75,8 @@ def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
         things += [] if is_held else [f"the texture's wrap {texture.wrap!r}"]
         is_usual = texture.filter == "trilinear"
         things += [] if is_usual else [f"the texture's filter {texture.filter!r}"]
+        things += [] if texture.anisotropy == 1 else ["the texture's anisotropy"]
+        things += [] if texture.lod_bias == 0.0 else ["the texture's lod_bias"]
         is_srgb = texture.color_space == "srgb"
         things += [] if is_srgb else [f"the texture's colour space {texture.color_space!r}"]
         if not linear_color(material.rgb).any():

@@ -201,3 +201,23 @@ def test_without_a_command_all_are_named():
     with pytest.raises(UsageError) as error:
         parse().load_command()
     assert all(name in str(error.value) for name in commands())
+
+
+def test_filters_of_textures_and_shapes_of_lines():
+    given = options.settings(
+        parse("run", "a.obj", "--anisotropy", "3", "--lod-bias", "-0.5", "--line-shape", "round")
+    )
+    assert (given.filtering.anisotropy, given.filtering.lod_bias) == (3, -0.5)
+    assert given.appearance == {"line_shape": "round"}
+
+
+@pytest.mark.parametrize("text", ["0", "17", "2.5", "many"])
+def test_bad_anisotropy(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.anisotropy(text)
+
+
+@pytest.mark.parametrize("text", ["17", "-16.5", "nan", "low"])
+def test_bad_lod_bias(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        values.lod_bias(text)

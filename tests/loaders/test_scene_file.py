@@ -122,6 +122,8 @@ WRONG = [
     (changed("textures", 0, {"png": "?"}), r"textures\[0\].png: is not base64"),
     (changed("textures", 0, "wrap", "round"), r"textures\[0\]: wrap"),
     (changed("textures", 0, "wrap", ["clamp"]), r"textures\[0\]: wrap must be one name or a pair"),
+    (changed("textures", 0, "anisotropy", 17), r"textures\[0\]: anisotropy must be a whole number"),
+    (changed("textures", 0, "lod_bias", "low"), r"textures\[0\]: lod_bias must be in -16..16"),
     (changed("textures", 0, "wrap", ["clamp", 1]), r"textures\[0\]\.wrap\[1\]"),
 ]  # fmt: skip
 

@@ -58,6 +58,28 @@ def test_what_is_no_image_is_refused(pixels):
         Texture(pixels)
 
 
+@pytest.mark.parametrize("value", [0, 17, -1, 2.5, True, "4", None, float("nan")])
+def test_anisotropies_are_whole_numbers_up_to_16(value):
+    with pytest.raises(InvalidArgumentError, match=r"anisotropy must be a whole number in 1..16"):
+        Texture(image(1, 1), anisotropy=value)
+
+
+@pytest.mark.parametrize("value", [16.5, -17, float("nan"), "sharp", None])
+def test_biases_are_numbers_of_levels(value):
+    with pytest.raises(InvalidArgumentError, match=r"lod_bias must be in -16..16"):
+        Texture(image(1, 1), lod_bias=value)
+
+
+def test_both_count_as_changes():
+    texture = Texture(image(1, 1), anisotropy=8.0, lod_bias=1)
+    assert (texture.anisotropy, texture.lod_bias) == (8, 1.0)
+    before = texture.version
+    texture.anisotropy = 16
+    between = texture.version
+    texture.lod_bias = -0.5
+    assert before < between < texture.version
+
+
 @pytest.mark.parametrize("option", ["color_space", "filter", "wrap"])
 def test_unknown_options_are_refused(option):
     with pytest.raises(InvalidArgumentError, match=option):

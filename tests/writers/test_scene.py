@@ -66,7 +66,14 @@ def random_scene(random):
         light_clamp=(0.1, 1.0) if random.random() < 0.3 else None,
     )
     pixels = random.integers(0, 255, (3, 5, 4), np.uint8)
-    texture = e3d.Texture(pixels, filter="nearest", wrap=("mirror", "clamp"), name="t\ud800")
+    texture = e3d.Texture(
+        pixels,
+        filter="nearest",
+        wrap=("mirror", "clamp"),
+        name="t\ud800",
+        anisotropy=6,
+        lod_bias=-0.25,
+    )
     material = e3d.Material(
         color=(200, 30, 20), texture=texture, emissive=(0.1, 0.0, 0.3), extras={"note": [1, None]}
     )

@@ -1,6 +1,7 @@
 /* geometry: round ends of lines, and round points (R114, R115). Larger ones have more corners, so that all look as round. */
 #include <math.h>
 
+#include "core/half_circle.h"
 #include "pipeline/geometry/arc.h"
 
 /* A power of two that lets a chord part from its circle by at most 0.16 of a sample. */

@@ -491,6 +491,8 @@ def settings(args: argparse.Namespace):
         "line_color": args.line_color,
         "hidden_lines": args.hidden_lines or None,
         "point_size": args.point_size,
+        "tone_mapping": args.tone_mapping,
+        "bloom": args.bloom,
     }
     return Settings(
         appearance={name: value for name, value in appearance.items() if value is not None},
@@ -501,6 +503,7 @@ def settings(args: argparse.Namespace):
         light_intensity=args.light_intensity,
         light_clamp=args.light_clamp,
         surroundings=surroundings(args),
+        exposure=args.exposure,
         textures=not args.no_texture,
         near=args.near,
         far=args.far,

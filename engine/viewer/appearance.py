@@ -14,6 +14,7 @@ from ..choices import Cull, Culling, HiddenSurfaces, Mode, OutputMode, Wireframe
 from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
+from ..scene.gradients import Gradient
 from ..scene.instances import InstancedMesh
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
@@ -52,13 +53,15 @@ class Appearance:
     line_color: tuple[int, int, int] | None = None
     hidden_lines: bool = False
     point_size: float | None = None
+    tone_mapping: str = "none"
+    bloom: float = 0.0
 
     def arguments(self, background, point_size: float) -> dict:
         """Return the keyword arguments for `Renderer.render`.
 
         Parameters
         ----------
-        background : (3,) sequence, Environment or None
+        background : (3,) sequence, Gradient, Environment or None
             The scene's.
         point_size : float
             What suits the scene and the picture.
@@ -78,6 +81,9 @@ def contrasting(background) -> tuple[int, int, int]:
     """Return a dark or a light colour, whichever is seen better before a background."""
     if background is None or isinstance(background, Environment):
         return LIGHT
+    if isinstance(background, Gradient):
+        background = linear_color(background.top) + linear_color(background.bottom)
+        background = tuple(float(component) / 2 for component in background)
     here, dark, light = (
         float(linalg.dot(linear_color(color), _LUMINANCE)) + 0.05
         for color in (background, DARK, LIGHT)

@@ -33,6 +33,8 @@ class Settings:
         See `Scene`.
     surroundings : Surroundings
         The environment.
+    exposure : float or None
+        Stops.
     textures : bool
         Whether materials show their textures.
     near, far : float or None
@@ -59,6 +61,7 @@ class Settings:
     light_direction: tuple[float, float, float] | None = None
     light_clamp: tuple[float, float] | None = None
     surroundings: Surroundings = field(default_factory=Surroundings)
+    exposure: float | None = None
     textures: bool = True
     near: float | None = None
     far: float | None = None

@@ -34,6 +34,7 @@ ACCEPTED = {
     "Normals": native.NORMALS,
     "HiddenSurfaces": native.HIDDEN_SURFACES,
     "Culling": native.CULLINGS,
+    "ToneMapping": native.TONE_MAPPINGS,
     "Filter": native.FILTERS,
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,

@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import engine3d as e3d
 from engine3d.cli import main
 
-SMALL = ["--scene", "cube", "--resolution", "64x36", "--mode", "lit", "--exposure", "3"]
+SMALL = ["--resolution", "64x36", "--exposure", "1"]
 
 
 def picture(tmp_path, *options):
-    path = tmp_path / "out.png"
-    assert main(["render", *SMALL, *options, "-o", str(path)]) == 0
+    path, model = tmp_path / "out.png", tmp_path / "ball.obj"
+    e3d.save_mesh(e3d.icosphere(1.0, 3), model)
+    assert main(["render", str(model), *SMALL, *options, "-o", str(path)]) == 0
     with Image.open(path) as image:
         return np.asarray(image.convert("RGB")).astype(int)
 
@@ -38,6 +40,6 @@ def test_they_change_the_picture(tmp_path):
     ],
 )
 def test_what_is_no_value(capsys, tmp_path, options, told):
-    arguments = ["render", *SMALL, *options, "-o", str(tmp_path / "out.png")]
+    arguments = ["render", "ball.obj", *SMALL, *options, "-o", str(tmp_path / "out.png")]
     assert main(arguments) == 2
     assert told in capsys.readouterr().err

@@ -68,7 +68,8 @@ class Appearance:
         """
         arguments = dict(vars(self))
         if self.mode in get_args(OutputMode):
-            arguments["mode"] = "unlit"  # an output is painted over it
+            # An output is painted over it.
+            arguments["mode"] = "lit" if self.mode == "radiance" else "unlit"
         if self.line_color is None:
             alone = self.wireframe == "only"
             arguments["line_color"] = contrasting(background) if alone else DARK

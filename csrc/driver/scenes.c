@@ -416,6 +416,26 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     frame->exposure = random_once_in(r, 2) ? 1.0f : random_float(r, 0.1f, 4.0f);
 }
 
+/* Fog near and far, thick and thin; what no display value may be is left out. */
+static void choose_tone(e3d_frame *frame, random_stream *r)
+{
+    e3d_fog *fog = &frame->fog;
+    frame->tone_mapping = random_once_in(r, 2) ? E3D_TONE_NONE : (e3d_tone_mapping)random_below(r, E3D_TONE_MAPPINGS);
+    fog->kind = random_once_in(r, 3) ? E3D_FOG_NONE : (e3d_fog_kind)random_below(r, 3);
+    fog->near = random_float(r, -1.0f, 4.0f);
+    fog->far = fog->near + random_float(r, 0.001f, 20.0f);
+    fog->density = random_once_in(r, 8) ? 1e20f : random_float(r, 0.0f, 2.0f);
+    frame->gradient.shows = random_once_in(r, 3);
+    if (frame->gradient.shows)
+        frame->background[3] = 1.0f;
+    for (int k = 0; k < 3; k++) {
+        fog->color[k] = random_float(r, 0.0f, 1.5f);
+        fog->lit_color[k] = random_float(r, 0.0f, 100.0f);
+        frame->gradient.top[k] = random_float(r, 0.0f, 1.0f);
+        frame->gradient.bottom[k] = random_float(r, 0.0f, 1.0f);
+    }
+}
+
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
 {
     memset(s, 0, sizeof *s);
@@ -427,7 +447,10 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     aim_camera(s, r);
     add_lights(s, r);
     e3d_status status = add_materials(s, r);
-    return status == E3D_OK ? add_draws(s, r) : status;
+    if (status == E3D_OK)
+        status = add_draws(s, r);
+    choose_tone(&s->frame, r);
+    return status;
 }
 
 /* Light passes through some of the physical materials; some absorb it. */

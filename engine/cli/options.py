@@ -476,6 +476,8 @@ def settings(args: argparse.Namespace):
         "line_shape": args.line_shape,
         "point_shape": args.point_shape,
         "size_unit": args.size_unit,
+        "tone_mapping": args.tone_mapping,
+        "bloom": args.bloom,
     }
     return Settings(
         appearance={name: value for name, value in appearance.items() if value is not None},
@@ -487,6 +489,7 @@ def settings(args: argparse.Namespace):
         light_clamp=args.light_clamp,
         shadow=None if args.shadows is None else SHADOWS[args.shadows],
         surroundings=surroundings(args),
+        exposure=args.exposure,
         textures=not args.no_texture,
         filtering=filtering(args),
         near=args.near,

@@ -9,7 +9,7 @@ import argparse
 
 from ..benchmarking.names import WORKLOADS
 from ..version import __version__
-from . import environment_options, light_options, options, suggestions, values
+from . import environment_options, light_options, options, suggestions, tone_options, values
 from .suggestions import Parser
 from .usage import UsageError
 
@@ -125,6 +125,7 @@ def _add_shared(command) -> None:
     options.add_appearance(command)
     light_options.add_light(command)
     environment_options.add_environment(command)
+    tone_options.add_tone(command)
     options.add_camera(command)
 
 

@@ -18,6 +18,8 @@ MAX_WIDTH = 256  # of lines and points
 MAX_UI_SCALE = 8
 MAX_ANISOTROPY = 16
 MAX_LOD_BIAS = 16
+MAX_EXPOSURE = 64  # stops
+MAX_BLOOM = 100
 CITY_TRIANGLES = 20_000, 50_000_000
 
 
@@ -91,6 +93,24 @@ def not_negative(text: str) -> float:
     value = number(text)
     if value < 0.0:
         raise argparse.ArgumentTypeError(f"{text!r} is negative")
+    return value
+
+
+def stops(text: str) -> float:
+    """Parse a number of stops of exposure."""
+    value = number(text)
+    if not abs(value) <= MAX_EXPOSURE:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number from -{MAX_EXPOSURE} to {MAX_EXPOSURE}"
+        )
+    return value
+
+
+def bloom(text: str) -> float:
+    """Parse the strength of a glow."""
+    value = not_negative(text)
+    if value > MAX_BLOOM:
+        raise argparse.ArgumentTypeError(f"{text!r} is above {MAX_BLOOM}")
     return value
 
 

@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._support.numbers import floats, shown
-from .._support.validation import Closed, freeze
+from .._support.numbers import floats, real, shown
+from .._support.validation import Closed, freeze, vector3
 from ..choices import BuiltInEnvironment
 from ..errors import InvalidArgumentError
+from ..linalg.single import normalize
 
 if TYPE_CHECKING:
     from ..loaders.sources import File, Source
@@ -55,6 +56,8 @@ class Environment(Closed):
         The file that it was loaded from.
     built_in : str or None
         ``"studio"``, ``"sky"`` or ``"hall"`` for what these make.
+    sun : (sun_direction, turbidity, sun_disc) or None
+        What `sky` was given.
 
     Raises
     ------
@@ -65,12 +68,14 @@ class Environment(Closed):
     _name: str
     _path: str | None
     _built_in: BuiltInEnvironment | None
+    _sun: tuple[tuple[float, float, float], float, bool] | None
 
     def __init__(self, pixels: ArrayLike, *, name: str = "") -> None:
         self._pixels = _checked(pixels)
         self._name = str(name)
         self._path = None
         self._built_in = None
+        self._sun = None
 
     @staticmethod
     def load(path: File) -> Environment:
@@ -108,12 +113,34 @@ class Environment(Closed):
         return _made("studio")
 
     @staticmethod
-    def sky() -> Environment:
+    def sky(
+        sun_direction: ArrayLike | None = None, turbidity: float = 3.0, *, sun_disc: bool = True
+    ) -> Environment:
         """Return a clear sky over bare ground.
 
-        The sun stands behind the right shoulder of who looks along -Z, and so lights what they see.
+        Without a direction it is a painted one: the sun stands behind the right shoulder of who
+        looks along -Z, and so lights what they see. With one it is what the sky is like when the
+        sun stands there (Preetham, Shirley and Smits 1999): blue at noon, red at dusk.
+
+        Parameters
+        ----------
+        sun_direction : (3,) float, optional
+            Towards the sun, of any length but zero; not below the horizon, where Y is 0.
+        turbidity : float
+            How hazy the air is, 2 to 10: 2 is clear, 6 a light haze. Only with a direction.
+        sun_disc : bool
+            Whether the sun itself shows, and lights; without it, `DirectionalLight.sun` of the same
+            direction and turbidity is its light, which can cast shadows. Only with a direction.
+
+        Raises
+        ------
+        InvalidArgumentError
         """
-        return _made("sky")
+        if sun_direction is None:
+            if turbidity != 3.0 or not sun_disc:
+                raise InvalidArgumentError("turbidity and sun_disc go with a sun_direction")
+            return _made("sky")
+        return _daylight(*daylight_arguments(sun_direction, turbidity), bool(sun_disc))
 
     @staticmethod
     def hall() -> Environment:
@@ -135,6 +162,10 @@ class Environment(Closed):
     @property
     def built_in(self) -> BuiltInEnvironment | None:
         return self._built_in
+
+    @property
+    def sun(self) -> tuple[tuple[float, float, float], float, bool] | None:
+        return self._sun
 
     @property
     def width(self) -> int:
@@ -189,6 +220,40 @@ def _made(name: BuiltInEnvironment) -> Environment:
     }
     environment = Environment(makers[name](), name=name)
     environment._built_in = name
+    return environment
+
+
+def daylight_arguments(
+    sun_direction: ArrayLike, turbidity: float
+) -> tuple[tuple[float, float, float], float]:
+    """Return the unit vector towards the sun, and the turbidity, checked.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    from .daylight import LEAST_TURBIDITY, MOST_TURBIDITY
+
+    x, y, z = normalize(vector3(sun_direction, "sun_direction").tolist())
+    if not (x or y or z):
+        raise InvalidArgumentError("sun_direction must not be the zero vector")
+    if y < 0:
+        raise InvalidArgumentError(f"the sun is below the horizon: {shown(sun_direction)}")
+    haze = real(turbidity)
+    if not LEAST_TURBIDITY <= haze <= MOST_TURBIDITY:
+        raise InvalidArgumentError(
+            f"turbidity must be in {LEAST_TURBIDITY:g}..{MOST_TURBIDITY:g}, not {shown(turbidity)}"
+        )
+    return (x, y, z), haze
+
+
+@functools.lru_cache(maxsize=8)
+def _daylight(sun: tuple[float, float, float], turbidity: float, sun_disc: bool) -> Environment:
+    from . import daylight
+
+    environment = Environment(daylight.pixels(sun, turbidity, sun_disc), name="sky")
+    environment._built_in = "sky"
+    environment._sun = sun, turbidity, sun_disc
     return environment
 
 

@@ -101,6 +101,19 @@ def _check_format(root: JsonValue) -> None:
         raise root.error(f"a scene of version {version}, which a newer engine3d reads")
 
 
+def _sky(entry: JsonValue) -> Environment:
+    """The sky of an entry, by where the sun stands."""
+    turbidity, disc = entry.get("turbidity"), entry.get("sun_disc")
+    try:
+        return Environment.sky(
+            entry.need("sun_direction").value,
+            3.0 if turbidity is None else turbidity.value,
+            sun_disc=disc is None or disc.flag(),
+        )
+    except (InvalidArgumentError, TypeError) as error:
+        raise entry.error(str(error)) from None
+
+
 class _Reading:
     """Makes textures, materials and meshes, in this order."""
 
@@ -146,6 +159,8 @@ class _Reading:
         if (name := entry.get("built_in")) is not None:
             if name.text() not in BUILT_IN:
                 raise name.wrong(f"one of {', '.join(BUILT_IN)}")
+            if name.text() == "sky" and "sun_direction" in entry.members():
+                return _sky(entry)
             return named_environment(name.text())
         if (file := entry.get("file")) is not None:
             try:

@@ -7,6 +7,7 @@ file. What is wrong is a `FileFormatError` that names its place.
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 from typing import Any
 
 from ..environments.environment import Environment
@@ -15,6 +16,8 @@ from ..loaders.documents import SceneRecord
 from ..loaders.json_values import JsonValue
 from ..loaders.scene_tree import mesh_of
 from ..spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
+from .fog import ExponentialFog, Fog
+from .gradients import Gradient
 from .instances import InstancedMesh
 from .motion_records import MOTION_KEYS, fill_animator
 from .nodes import Node
@@ -38,7 +41,9 @@ def fill_scene(scene: Scene, record: SceneRecord) -> None:
         if key == "environment" and held is not None:
             held = _environment(record, value)
         if key == "background" and isinstance(held, dict):
-            held = _environment(record, value.need("environment")) or (0, 0, 0)
+            held = _background(record, value)
+        if key == "fog" and held is not None:
+            held = _of_fields(value, (Fog, ExponentialFog))
         _try(value, lambda key=key, held=held: setattr(scene, key, held))
     objects = [_object(record, number) for number in range(len(record.objects))]
     pairs = zip(record.nodes, record.places, strict=True)
@@ -58,6 +63,22 @@ def fill_scene(scene: Scene, record: SceneRecord) -> None:
 
 def _environment(record: SceneRecord, number: JsonValue) -> Environment | None:
     return record.environments[number.index(len(record.environments), "environments")]
+
+
+def _background(record: SceneRecord, value: JsonValue) -> Environment | Gradient | tuple:
+    if "environment" in value.members():
+        return _environment(record, value.need("environment")) or (0, 0, 0)
+    return _of_fields(value, (Gradient,))
+
+
+def _of_fields(value: JsonValue, kinds: tuple) -> Any:
+    """One of several kinds of value: whose parameters the entry has."""
+    held = {key: one.value for key, one in value.members().items()}
+    for kind in kinds:
+        if held.keys() == {one.name for one in fields(kind)}:
+            return _try(value, lambda kind=kind: kind(**held))
+    expected = " or ".join(", ".join(one.name for one in fields(kind)) for kind in kinds)
+    raise value.wrong(f"an object of {expected}")
 
 
 def _try(place: JsonValue, do) -> Any:

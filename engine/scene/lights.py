@@ -137,6 +137,30 @@ class DirectionalLight(CastsShadows):
         """Raise unless ``shadow_radius`` and ``shadow_map_size`` go together."""
         self._check_shadow()
 
+    @classmethod
+    def sun(cls, sun_direction: ArrayLike, turbidity: float = 3.0) -> DirectionalLight:
+        """Return the light of the sun, as it shines from `Environment.sky`.
+
+        Parameters
+        ----------
+        sun_direction : (3,) float
+            Towards the sun.
+        turbidity : float
+            How hazy the air is, 2 to 10; the lower the sun, the more of blue and green it takes.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from ..environments.daylight import sunlight
+        from ..environments.environment import daylight_arguments
+
+        (x, y, z), haze = daylight_arguments(sun_direction, turbidity)
+        light = sunlight((x, y, z), haze)
+        most = max(light)
+        red, green, blue = (component / most for component in light)
+        return cls((-x, -y, -z), (red, green, blue), most / math.pi, "white")
+
     def __repr__(self) -> str:
         direction = tuple(self.direction.tolist())
         return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"

@@ -14,6 +14,7 @@ from ..choices import Culling, FrameCull, HiddenSurfaces, Mode, OutputMode, Wire
 from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
+from ..scene.gradients import Gradient
 from ..scene.instances import InstancedMesh
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
@@ -55,20 +56,23 @@ class Appearance:
     line_shape: str = "plain"
     point_shape: str = "square"
     size_unit: str = "pixels"
+    tone_mapping: str = "none"
+    bloom: float = 0.0
 
     def arguments(self, background, point_size: float) -> dict:
         """Return the keyword arguments for `Renderer.render`.
 
         Parameters
         ----------
-        background : (3,) sequence, Environment or None
+        background : (3,) sequence, Gradient, Environment or None
             The scene's.
         point_size : float
             What suits the scene and the picture.
         """
         arguments = dict(vars(self))
         if self.mode in get_args(OutputMode):
-            arguments["mode"] = "unlit"  # an output is painted over it
+            # An output is painted over it.
+            arguments["mode"] = "lit" if self.mode == "radiance" else "unlit"
         if self.line_color is None:
             alone = self.wireframe == "only"
             arguments["line_color"] = contrasting(background) if alone else DARK
@@ -81,6 +85,9 @@ def contrasting(background) -> tuple[int, int, int]:
     """Return a dark or a light colour, whichever is seen better before a background."""
     if background is None or isinstance(background, Environment):
         return LIGHT
+    if isinstance(background, Gradient):
+        background = linear_color(background.top) + linear_color(background.bottom)
+        background = tuple(float(component) / 2 for component in background)
     here, dark, light = (
         float(linalg.dot(linear_color(color), _LUMINANCE)) + 0.05
         for color in (background, DARK, LIGHT)

@@ -47,7 +47,7 @@ def picture_of(name: str, values: np.ndarray, bounds: Sphere) -> np.ndarray:
     """
     if name == "depth":
         return _nearness(values)
-    if name in ("albedo", "emissive"):
+    if name in ("albedo", "emissive", "radiance"):
         return _encoded(values)
     if name == "metallic_roughness":  # as the textures have them: roughness green, metallic blue
         zeros = np.zeros_like(values[..., :1])

@@ -37,6 +37,8 @@ class Settings:
         What ``shadow`` of the main lights is to be; None leaves it to the scene.
     surroundings : Surroundings
         The environment.
+    exposure : float or None
+        Stops.
     textures : bool
         Whether materials show their textures.
     filtering : Filtering
@@ -66,6 +68,7 @@ class Settings:
     light_clamp: tuple[float, float] | None = None
     shadow: LightShadow | None = None
     surroundings: Surroundings = field(default_factory=Surroundings)
+    exposure: float | None = None
     textures: bool = True
     filtering: Filtering = Filtering()
     near: float | None = None

@@ -127,6 +127,8 @@ class ViewRenderer:
         self.show_textures(settings.textures)
         if settings.light_clamp is not None:
             viewed.scene.light_clamp = settings.light_clamp
+        if settings.exposure is not None:
+            viewed.scene.exposure = settings.exposure
         lights = self.lighting.name if keep_appearance else ""
         if not keep_appearance:
             self.appearance = Appearance(**(viewed.appearance | settings.appearance))

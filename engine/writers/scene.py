@@ -13,6 +13,7 @@ import json
 import math
 import os
 from collections.abc import Iterator
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,8 @@ from ..loaders.json_values import ARRAY_TYPES
 from ..loaders.scene_file import FORMAT, LISTS, VERSION
 from ..materials.material import TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
+from ..scene.fog import ExponentialFog, Fog
+from ..scene.gradients import Gradient
 from ..scene.instances import InstancedMesh
 from ..scene.motion_records import motion_entries
 from ..scene.nodes import Node
@@ -123,6 +126,11 @@ def _compact(value: Any) -> str:
     return json.dumps(value, separators=(",", ":"), allow_nan=False)
 
 
+def _fields(value: Fog | ExponentialFog | Gradient) -> dict[str, Any]:
+    """The parameters of a value that never changes."""
+    return {one.name: plain(getattr(value, one.name)) for one in fields(value)}
+
+
 class _Writing:
     """The lists of a file, each thing once.
 
@@ -166,14 +174,20 @@ class _Writing:
 
     def values(self, scene: Scene) -> dict[str, Any]:
         """Write what the scene itself is: the values of environments only where they are others."""
-        values = {name: plain(getattr(scene, name)) for name in ("background", "ambient")}
+        values: dict[str, Any] = {"background": None, "ambient": plain(scene.ambient)}
+        if isinstance(scene.background, tuple):
+            values["background"] = plain(scene.background)
         if isinstance(scene.background, Environment):
             number = self._number("environments", scene.background, self._environment)
             values["background"] = {"environment": number}
+        if isinstance(scene.background, Gradient):
+            values["background"] = _fields(scene.background)
         if scene.light_clamp is not None:
             values["light_clamp"] = plain(scene.light_clamp)
         if scene.exposure:
             values["exposure"] = scene.exposure
+        if scene.fog is not None:
+            values["fog"] = _fields(scene.fog)
         if scene.environment is not None:
             number = self._number("environments", scene.environment, self._environment)
             values["environment"] = number
@@ -183,6 +197,10 @@ class _Writing:
         return values
 
     def _environment(self, environment: Environment) -> dict[str, Any]:
+        if environment.sun is not None:
+            direction, turbidity, disc = environment.sun
+            sun = {"sun_direction": list(direction), "turbidity": turbidity, "sun_disc": disc}
+            return {"built_in": environment.built_in, **sun}
         if environment.built_in is not None:
             return {"built_in": environment.built_in}
         path = environment.path

@@ -232,7 +232,7 @@ class _Making:
         usual, scene = Scene(), self._scene
         lost = [
             name.replace("_", " ")
-            for name in ("background", "ambient", "light_clamp", "exposure")
+            for name in ("background", "ambient", "light_clamp", "exposure", "fog")
             if not _are_equal(getattr(scene, name, None), getattr(usual, name, None))
         ]
         lost += ["colliders"] if any(node.collider is not None for node in nodes) else []

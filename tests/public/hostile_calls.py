@@ -247,6 +247,20 @@ CALLS = {
         lambda **a: e3d.Environment(**a),
         {"pixels": np.ones((2, 4, 3), np.float32)},
     ),
+    "Environment.sky": (
+        lambda **a: e3d.Environment.sky(**a),
+        {"sun_direction": (0, 1, 0), "turbidity": 3.0},
+    ),
+    "DirectionalLight.sun": (
+        lambda **a: e3d.DirectionalLight.sun(**a),
+        {"sun_direction": (0, 1, 0), "turbidity": 3.0},
+    ),
+    "Fog": (lambda **a: e3d.Fog(**a), {"color": (1, 1, 1), "near": 1.0, "far": 9.0}),
+    "ExponentialFog": (
+        lambda **a: e3d.ExponentialFog(**a),
+        {"color": (1, 1, 1), "density": 0.1},
+    ),
+    "Gradient": (lambda **a: e3d.Gradient(**a), {"top": (1, 1, 1), "bottom": (0, 0, 0)}),
     "Environment.load": (lambda **a: e3d.Environment.load(**a), {"path": RADIANCE}),
     "Scene": (
         lambda **a: e3d.render(e3d.Scene(**a), size=SIZE, threads=1),
@@ -470,6 +484,7 @@ for _name, _value in {
     "environment_intensity": 0.5,
     "environment_rotation": 1.0,
     "background_blur": 0.5,
+    "fog": e3d.Fog((1, 1, 1), 1.0, 9.0),
 }.items():
     CALLS[f"Scene.{_name} ="] = (assigned(lit_scene, _name), {"value": _value})
 for _name, _value in {

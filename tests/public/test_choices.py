@@ -39,6 +39,7 @@ ACCEPTED = {
     "PointShape": native.POINT_SHAPES,
     "SizeUnit": render_options.SIZE_UNITS,
     "Culling": native.CULLINGS,
+    "ToneMapping": native.TONE_MAPPINGS,
     "Filter": native.FILTERS,
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,

@@ -51,6 +51,10 @@ void e3d_free_creases(e3d_creases *made);
  * -1 if memory is out. */
 int e3d_encloses(const e3d_creased_surface *surface);
 
+/* Finds the sides that one triangle alone has: sides[2 * room], the places that it runs along from and to. Returns how many; -1
+ * if memory is out, -2 if they are more than `room`, or a side is run along more often one way than the other by several. */
+int64_t e3d_find_open_sides(const e3d_creased_surface *surface, int32_t *sides, size_t room);
+
 /* Triangles that wear an image: (vertices, 3) positions and normals, (vertices, 2) coordinates whose origin is at the bottom left,
  * and a number for each vertex, the same for those that are equal in all of these. */
 typedef struct e3d_mapped_surface {

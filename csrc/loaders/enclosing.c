@@ -164,3 +164,46 @@ int e3d_encloses(const e3d_creased_surface *surface)
     free(w.starts), free(w.sides), free(w.parents), free(w.volumes);
     return found;
 }
+
+/* Writes the open sides of a place; -2 as in e3d_find_open_sides. */
+static int64_t take_open(const work *w, size_t place, int32_t *sides, size_t room)
+{
+    const size_t end = w->starts[place + 1];
+    int64_t found = 0, ways = 0;
+    size_t first = w->starts[place];
+    for (size_t i = first; i < end; i++) {
+        const side *const one = &w->sides[i];
+        ways += one->way;
+        if (i + 1 < end && one[1].end == one->end)
+            continue;
+        if (ways != 0) {
+            if (i != first || (size_t)found == room)
+                return -2;
+            sides[2 * found] = one->way > 0 ? (int32_t)place : one->end;
+            sides[2 * found + 1] = one->way > 0 ? one->end : (int32_t)place;
+            found++;
+        }
+        ways = 0;
+        first = i + 1;
+    }
+    return found;
+}
+
+int64_t e3d_find_open_sides(const e3d_creased_surface *surface, int32_t *sides, size_t room)
+{
+    work w = {.surface = surface,
+              .starts = calloc(surface->place_count + 2, sizeof *w.starts),
+              .sides = malloc((3 * surface->face_count + 1) * sizeof *w.sides)};
+    int64_t found = -1;
+    if (w.starts && w.sides) {
+        list_sides(&w);
+        found = 0;
+        for (size_t place = 0; place < surface->place_count && found >= 0; place++) {
+            sort_sides(w.sides + w.starts[place], w.starts[place + 1] - w.starts[place]);
+            const int64_t more = take_open(&w, place, sides + 2 * found, room - (size_t)found);
+            found = more < 0 ? more : found + more;
+        }
+    }
+    free(w.starts), free(w.sides);
+    return found;
+}

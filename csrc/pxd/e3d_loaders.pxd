@@ -131,6 +131,7 @@ cdef extern from "e3d_loaders.h" nogil:
         bint is_smooth
 
     int e3d_encloses(const e3d_creased_surface *surface)
+    int64_t e3d_find_open_sides(const e3d_creased_surface *surface, int32_t *sides, size_t room)
     bint e3d_find_creases(const e3d_creased_surface *surface, e3d_creases *made)
 
     ctypedef struct e3d_mapped_surface:

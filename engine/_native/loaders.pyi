@@ -78,6 +78,13 @@ def encloses(
     places: NDArray[np.int32] | None,
     count: int,
 ) -> bool: ...
+def open_sides(
+    positions: NDArray[np.float32],
+    faces: NDArray[np.int32],
+    places: NDArray[np.int32] | None,
+    count: int,
+    most: int,
+) -> NDArray[np.int32] | None: ...
 def find_creases(
     positions: NDArray[np.float32],
     faces: NDArray[np.int32],

@@ -75,6 +75,25 @@ def encloses(const float[:, ::1] positions not None, const int32_t[:, ::1] faces
     return bool(found)
 
 
+def open_sides(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
+               const int32_t[::1] places, size_t count, size_t most):
+    """Find the sides that one triangle alone has: places from and to (N, 2); None if they are many.
+
+    Also None where a side is run along several times more often one way than the other.
+    """
+    sides = np.empty((most + 1, 2), np.int32)
+    cdef int32_t[:, ::1] view = sides
+    cdef int64_t found
+    if faces.shape[0] == 0 or positions.shape[0] == 0:
+        return sides[:0]
+    cdef e3d_creased_surface surface = placed_surface(positions, faces, places, count)
+    with nogil:
+        found = e3d_find_open_sides(&surface, &view[0, 0], most)
+    if found == -1:
+        raise OutOfMemoryError("no memory for what is found of a mesh")
+    return None if found < 0 else sides[:found]
+
+
 def find_creases(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
                  const int32_t[::1] places, const uint8_t[:, ::1] visible, size_t count,
                  double cosine):

@@ -1,8 +1,8 @@
 """The sky over the city: by day, or with the sun about to set.
 
 In: the direction to the sun, and colours in linear light. Out: an `Environment` for the background.
-Above the horizon the colour goes from the horizon's to the zenith's; round the sun it is as bright as
-haze is. Below the horizon the land goes on as far as haze lets one see, so that the city is no island.
+Above the horizon the colour goes from the horizon's to the zenith's; round the sun it is as bright
+as haze is. Below the horizon the land goes on as far as haze lets one see: the city is no island.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ from ..motion.posed_mesh import PosedMesh
 from ..scene.instances import MANY, InstancedMesh
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
-from ._enclosing import all_in_front, encloses, is_in_front, plane_in_node
+from ._enclosing import all_in_front, holes_of, is_in_front, looks_into, plane_in_node
 from ._light_list import LightList
 from ._native_handles import MeshNeeds, native_mesh
 from ._native_materials import set_material
@@ -60,7 +60,9 @@ class DrawList:
         self._needs: MeshNeeds | None = None
         self._normals, self._by_mesh = "", False
         self._listed_for: tuple | None = None  # needs, normals and by_mesh
-        self._closed: set[int] = set()  # numbers of objects that enclose a volume
+        # Of objects that enclose a volume, by number: the rims of their holes.
+        self._closed: dict[int, tuple[np.ndarray, ...]] = {}
+        self._volumes: np.ndarray | None = None  # of each object: closed or not, with holes or not
         self._watch = Watch()
         self._changed: list = []  # of what is watched, since the list was made
         # Where they are, as whose, and whether both sides show anyway.
@@ -158,23 +160,30 @@ class DrawList:
     def may_cull(self, scene: Scene, view: View) -> bool:
         """Whether back faces may be left out, of materials that do not show both sides anyway.
 
-        They may if meshes that enclose a volume are listed, and the near plane cuts none of them:
-        what lies in front of it is seen from outside.
+        They may if meshes that enclose a volume are listed, the near plane cuts none of them, so
+        that they are seen from outside, and no hole of them is looked into.
         """
         if not self._closed:
             return False
         arrays, objects = scene._arrays, scene._objects.objects
         columns, count = arrays.columns, arrays.count
-        is_closed = np.zeros(len(objects) + 1, bool)  # the last is what nodes without object have
-        is_closed[list(self._closed)] = True
+        if self._volumes is None:
+            self._volumes = np.zeros((2, len(objects) + 1), bool)  # nodes without object: the last
+            for number, holes in self._closed.items():
+                self._volumes[:, number] = True, len(holes) > 0
+        is_closed, has_holes = self._volumes
         rows = np.flatnonzero(is_closed[columns["object"][:count]])
         plane = view.clip_from_world[2] + view.clip_from_world[3]
-        near = rows[~all_in_front(plane, columns["bounds"][rows])]
-        if len(near) > _FEW:
+        is_near = ~all_in_front(plane, columns["bounds"][rows])
+        looked_at = rows[is_near | has_holes[columns["object"][rows]]]
+        if len(looked_at) > _FEW:
             return False
-        worlds = arrays.world_poses(near)
-        for mesh, world in zip((objects[n] for n in columns["object"][near]), worlds, strict=True):
+        for slot, world in zip(looked_at, arrays.world_poses(looked_at), strict=True):
+            number = int(columns["object"][slot])
+            mesh = objects[number]
             if not (isinstance(mesh, Mesh) and is_in_front(plane_in_node(plane, world), mesh)):
+                return False
+            if looks_into(self._closed[number], view, world):
                 return False
         return True
 
@@ -252,7 +261,7 @@ class DrawList:
 
     def _rebuild(self, scene: Scene) -> None:
         self._placed = None
-        self._closed = set()
+        self._closed, self._volumes = {}, None
         self.native.clear()
         self.lights.forget()
         self._watch, self._changed = Watch(), []
@@ -267,7 +276,8 @@ class DrawList:
     def _set_object(self, number: int, obj) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""
         self._many.pop(number, None)
-        self._closed.discard(number)
+        self._closed.pop(number, None)
+        self._volumes = None
         if obj is None:
             self.native.set_object(number, None, 0)
             self._note(number, (), (), [])
@@ -277,9 +287,7 @@ class DrawList:
         for thing in things:
             self._watch.add(thing)  # before it is read
         surfaces = tuple(map(id, mesh.materials))
-        both = self._by_mesh and (isinstance(obj, PosedMesh) or not encloses(mesh))
-        if self._by_mesh and not both:
-            self._closed.add(number)
+        both = self._by_mesh and not self._is_closed(number, obj)
         if (surfaces, both) not in self._bases:
             self._bases[surfaces, both] = self._add_materials(mesh.materials, both)
         needs = _needs_of(mesh, self._needs, self._normals)
@@ -292,6 +300,16 @@ class DrawList:
         self._note(number, things, surfaces, mesh.materials)
         if isinstance(obj, InstancedMesh):
             self._set_instances(number, obj)
+
+    def _is_closed(self, number: int, obj) -> bool:
+        """Whether an object encloses a volume; its holes are remembered."""
+        if isinstance(obj, PosedMesh):
+            return False
+        holes = holes_of(obj if isinstance(obj, Mesh) else obj.mesh)
+        if holes is None or (len(holes) and not isinstance(obj, Mesh)):
+            return False  # each instance would have to be looked at
+        self._closed[number] = holes
+        return True
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
         if len(obj) >= MANY:

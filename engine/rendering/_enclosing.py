@@ -1,8 +1,9 @@
 """Which meshes surely show their fronts only: those that enclose a volume, seen from outside.
 
 In: meshes, planes, boxes of nodes. Out: whether back faces may be left out without a change of the
-picture. A mesh with alpha shows its inside through itself, and one that is bent may turn its inside
-out: of these, both sides count.
+picture. Holes that one does not look into do not matter, such as those under a bust. A mesh with
+alpha shows its inside through itself, and one that is bent may turn its inside out: of these, both
+sides count.
 """
 
 from __future__ import annotations
@@ -15,31 +16,120 @@ import numpy as np
 from .. import linalg
 from .._native import loaders as native
 from ..geometry.mesh import Mesh
+from ._view import View
 
 _READ = ("positions", "faces", "joints", "morph_positions")
 # Points that are nearer to a plane than this share of their coordinates are not surely before it.
 _LEAST = 1e-6
-_known: WeakKeyDictionary[Mesh, tuple[list, bool]] = WeakKeyDictionary()
+_MOST_SIDES = 4096  # of holes: what has more is no volume with a few holes
+_MOST_CORNERS = 96  # of a rim whose sides are compared with each other
+_known: WeakKeyDictionary[Mesh, tuple[list, tuple[np.ndarray, ...] | None]] = WeakKeyDictionary()
 _spheres: WeakKeyDictionary[Mesh, tuple[np.ndarray, np.ndarray, float]] = WeakKeyDictionary()
 
 
-def encloses(mesh: Mesh) -> bool:
-    """Whether the faces of a mesh enclose a volume and face outward; found once for its arrays."""
+def holes_of(mesh: Mesh) -> tuple[np.ndarray, ...] | None:
+    """Return the holes of a mesh that encloses a volume but for them, its fronts outside.
+
+    A ray from outside goes into such a volume before it comes out: unless it goes in through a
+    hole, it meets a front first.
+
+    Returns
+    -------
+    rims : tuple of (N, 3) float64, or None
+        The points round each hole, in the way in which the triangles run there. None if there is no
+        such volume. Found once for the mesh's arrays.
+    """
     if any(material.alpha_mode != "opaque" for material in mesh.materials):
-        return False
+        return None
     arrays = dict(mesh._arrays)
     read = [arrays[name] for name in _READ]
-    made_of, found = _known.get(mesh, ([None], False))
+    made_of, rims = _known.get(mesh, ([None], None))
     if not all(map(operator.is_, read, made_of)):
-        found = arrays["joints"] is None and arrays["morph_positions"] is None
-        found = found and _faces_outward(arrays["positions"], arrays["faces"])
-        _known[mesh] = read, found
-    return found
+        rims = None
+        if arrays["joints"] is None and arrays["morph_positions"] is None:
+            rims = _holes(arrays["positions"], arrays["faces"])
+        _known[mesh] = read, rims
+    return rims
 
 
-def _faces_outward(positions: np.ndarray, faces: np.ndarray) -> bool:
+def _holes(positions: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, ...] | None:
     places, first = native.number_rows(positions.view(np.uint32), True)
-    return native.encloses(positions, faces, places, len(first))
+    sides = native.open_sides(positions, faces, places, len(first), _MOST_SIDES)
+    if sides is None or len(np.unique(sides)) != len(sides):
+        return None  # rims touch
+    points, faces = positions[first], places[faces]
+    rims = _rims(sides)
+    for rim in rims:  # a lid: a fan of triangles from the middle
+        middle = points[rim].mean(axis=0, keepdims=True)
+        lid = np.stack([np.roll(rim, -1), rim, np.full_like(rim, len(points))], axis=1)
+        points, faces = np.concatenate([points, middle]), np.concatenate([faces, lid])
+    if not native.encloses(points, faces, None, len(points)):
+        return None
+    return tuple(points[rim].astype(np.float64) for rim in rims)
+
+
+def _rims(sides: np.ndarray) -> list[np.ndarray]:
+    """Open sides (N, 2), which form rings, as the rings of their places."""
+    after = dict(sides.tolist())
+    rims = []
+    while after:
+        rim = [next(iter(after))]
+        while (place := after.pop(rim[-1], None)) not in (None, rim[0]):
+            rim.append(place)
+        rims.append(np.array(rim, np.int32))
+    return rims
+
+
+def looks_into(rims: tuple[np.ndarray, ...], view: View, world: np.ndarray) -> bool:
+    """Whether one may look into a hole of a mesh that is before the near plane.
+
+    One does not where the rim, as the picture shows it, runs round the hole as round a front, and
+    does not cross itself: what closes the hole faces away.
+
+    Parameters
+    ----------
+    rims : tuple of (N, 3) float64
+        Of `holes_of`.
+    view : View
+    world : (4, 4) float64
+        world-from-mesh.
+    """
+    if not rims:
+        return False
+    matrix = linalg.multiply(view.clip_from_world, world)
+    turns = linalg.multiply(view.view_from_world, world)[:3, :3]
+    is_mirrored = float(linalg.dot(turns[0], linalg.cross(turns[1], turns[2]))) < 0.0
+    for rim in rims:
+        x, y, w = (linalg.dot(rim, row[:3]) + row[3] for row in matrix[[0, 1, 3]])
+        if not (w > 0.0).all():
+            return True
+        x, y = (-x if is_mirrored else x) / w, y / w
+        if not _runs_round(x, y):
+            return True
+    return False
+
+
+def _runs_round(x: np.ndarray, y: np.ndarray) -> bool:
+    """Whether a ring of points runs counter-clockwise and does not cross itself."""
+    x, y = x - x.mean(), y - y.mean()
+    x1, y1 = np.roll(x, -1), np.roll(y, -1)
+    areas = x * y1 - x1 * y
+    least = _LEAST * float(np.abs(areas).max())
+    if (areas > least).all():
+        return True  # as seen from its middle
+    return areas.sum() > least and len(x) <= _MOST_CORNERS and not _crosses(x, y, x1, y1, least)
+
+
+def _crosses(x, y, x1, y1, least: float) -> bool:
+    """Whether two sides of a ring that are not neighbours may meet."""
+    dx, dy = x1 - x, y1 - y
+    # On which side of each side both ends of each other one are: (side, other).
+    begin = dx[:, np.newaxis] * (y - y[:, np.newaxis]) - dy[:, np.newaxis] * (x - x[:, np.newaxis])
+    end = np.roll(begin, -1, axis=1)
+    apart = (np.minimum(begin, end) > least) | (np.maximum(begin, end) < -least)
+    steps = np.subtract.outer(np.arange(len(x)), np.arange(len(x))) % len(x)
+    neighbours = (steps <= 1) | (steps == len(x) - 1)
+    return not (apart | apart.T | neighbours).all()
 
 
 def all_in_front(plane: np.ndarray, boxes: np.ndarray) -> np.ndarray:

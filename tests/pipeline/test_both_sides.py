@@ -4,8 +4,13 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.primitives import box, cylinder, icosphere, torus
-from engine3d.rendering._enclosing import encloses
+from engine3d.primitives import box, cylinder, icosphere, torus, uv_sphere
+from engine3d.rendering._enclosing import holes_of
+
+
+def encloses(mesh):
+    holes = holes_of(mesh)
+    return holes is not None and len(holes) == 0
 
 
 def scene_of(*meshes):
@@ -125,6 +130,55 @@ def test_what_encloses_nothing():
     both = e3d.Mesh.concatenate([ball, inside_out(ball)], poses=[np.eye(4), _at(5, 0, 0)])
     assert not encloses(both)
     assert encloses(e3d.Mesh.concatenate([ball, ball], poses=[np.eye(4), _at(5, 0, 0)]))
+
+
+def bowl():
+    """A ball without its top: one looks in from above only."""
+    ball = uv_sphere(1.0, (32, 16))
+    low = ball.positions[ball.faces][..., 1].max(axis=1) < 0.6
+    return e3d.Mesh(ball.positions, ball.faces[low], position_ids=ball.position_ids)
+
+
+@pytest.mark.parametrize("height", [-2.0, 0.0, 0.4, 1.5, 4.0])
+def test_holes_matter_to_those_who_look_in(renderer, height):
+    scene = scene_of(bowl())
+    camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=50.0)
+    pose = e3d.linalg.look_at((0, height, 4), (0, 0, 0), (0, 1, 0))
+    auto, none, back = (
+        picture(renderer, scene, cull, (camera, pose)) for cull in ("auto", "none", "back")
+    )
+    assert (auto[0] == none[0]).all()
+    assert (auto[2]["triangles_setup"] == back[2]["triangles_setup"]) == (height < 0.5)
+
+
+@pytest.mark.parametrize("mirror", [1, -1])
+def test_a_jagged_rim(renderer, mirror):
+    ball = icosphere(1.0, 3)
+    low = ball.positions[ball.faces][..., 1].max(axis=1) < 0.6
+    jagged = e3d.Mesh(ball.positions, ball.faces[low], position_ids=ball.position_ids)
+    (rim,) = holes_of(jagged)
+    scene, culled = scene_of(jagged), 0
+    next(iter(scene.nodes)).scale = (mirror, 1, 1)
+    for height in np.linspace(-6, 6, 13):
+        pose = e3d.linalg.look_at((0, height, 4), (0, 0, 0), (0, 1, 0))
+        camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=50.0), pose
+        auto, none, back = (
+            picture(renderer, scene, cull, camera) for cull in ("auto", "none", "back")
+        )
+        assert (auto[0] == none[0]).all()
+        culled += auto[2]["triangles_setup"] == back[2]["triangles_setup"]
+    assert 2 <= culled <= 7
+
+
+def test_an_open_sheet_and_holes_that_meet_are_no_volume():
+    assert holes_of(e3d.primitives.plane((1, 1))) is None
+    ball = icosphere(1.0, 2)
+    at = ball.position_ids[ball.faces]
+    around = np.flatnonzero((at == at[0, 0]).any(axis=1))
+    holes = np.delete(ball.faces, around[[0, 2]], axis=0)  # two that touch at a point
+    assert holes_of(e3d.Mesh(ball.positions, holes, position_ids=ball.position_ids)) is None
+    assert [len(rim) for rim in holes_of(bowl())] == [32]
+    assert holes_of(inside_out(bowl())) is None
 
 
 def test_instances_and_a_mirrored_node(renderer):

@@ -296,12 +296,11 @@ class GltfMaterials:
 
 def undrawn_kinds(material: Material) -> set[str]:
     """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
-    kinds = set()
-    if material.transmission and material.thickness and material.ior != 1.0:
-        kinds.add("refraction")
-    if material.transmission and material.roughness:
-        kinds.add("frost")
-    return kinds
+    is_metal = material.metallic == 1.0 and material.metallic_roughness_texture is None
+    if not material.transmission or is_metal:
+        return set()
+    kinds = {"refraction"} if material.thickness and material.ior != 1.0 else set()
+    return kinds | ({"frost"} if material.roughness else set())
 
 
 def _from_glossiness(values: dict, glossiness: float) -> dict:

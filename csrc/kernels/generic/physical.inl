@@ -241,15 +241,18 @@ static ALWAYS_INLINE scatter_lanes around_scatter(vf32 f0, vf32 f90, vf32 a, vf3
     return (scatter_lanes){x, v_mul(x, y), v_sub(one, v_mul(rest, y))};
 }
 
-/* R138: the lobe as light from all around sees it. */
-static ALWAYS_INLINE lobe_lanes around_lobe(const model_lanes *at, const e3d_surface_model *rare)
+/* R138: the radiance that the base mirrors. */
+static ALWAYS_INLINE void around_base(const e3d_lighting *lighting, const environment_plan *plan, const model_lanes *at,
+                                      const e3d_surface_model *rare, vf32 out[3])
 {
-    lobe_lanes lobe = at->base;
-    if (rare && rare->anisotropic) {
-        stretch_bend(&at->stretch, at->base.normal, at->view, at->base.roughness, lobe.normal);
-        lobe.facing = dot_three(lobe.normal, at->view);
+    if (!rare || !rare->anisotropic) {
+        around_radiance(lighting, plan, &at->base, at->view, out);
+        return;
     }
-    return lobe;
+    lobe_lanes bent = at->base;
+    stretch_bend(&at->stretch, at->base.normal, at->view, at->base.roughness, bent.normal);
+    bent.facing = dot_three(bent.normal, at->view);
+    around_radiance(lighting, plan, &bent, at->view, out);
 }
 
 /* is_grey: what is no metal reflects the same of all channels. through: what passes of light behind (R134). */
@@ -260,8 +263,7 @@ static ALWAYS_INLINE void around_indirect(const e3d_lighting *lighting, const en
     albedo_place place = albedo_find(at->base.roughness, at->base.nv);
     vf32 a = albedo_of(E3D_DFG_A, &place), b = albedo_of(E3D_DFG_B, &place), rest = v_sub(one, v_add(a, b));
     scatter_lanes other = around_scatter(at->reflectance[0], at->specular, a, b, rest);
-    const lobe_lanes lobe = around_lobe(at, rare);
-    around_radiance(lighting, plan, &lobe, at->view, radiance);
+    around_base(lighting, plan, at, rare, radiance);
     for (int k = 0; k < 3; k++) {
         vf32 albedo = at->albedo[k];
         scatter_lanes metal = around_scatter(rare && rare->iridescent ? at->metal_f0[k] : albedo, one, a, b, rest);

@@ -453,8 +453,8 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     return status;
 }
 
-/* Light passes through some of the physical materials; some absorb it. */
-static void add_transmission(e3d_material *material, random_stream *r)
+/* Light passes through some of the physical materials; some absorb it, are brushed, or have a film. */
+static void add_rare_parts(e3d_material *material, random_stream *r)
 {
     e3d_physical *p = &material->physical;
     int transmits = random_once_in(r, 2), absorbs = random_once_in(r, 2), usual = !random_once_in(r, 6);
@@ -462,6 +462,13 @@ static void add_transmission(e3d_material *material, random_stream *r)
     p->thickness = absorbs ? random_float(r, 0.0f, 3.0f) : 0.0f;
     for (int k = 0; k < 3; k++)
         p->absorption[k] = random_float(r, -3.0f, 0.0f);
+    p->anisotropy = random_once_in(r, 3) ? random_float(r, 0.0f, 1.0f) : 0.0f;
+    p->iridescence = random_once_in(r, 3) ? random_float(r, 0.0f, 1.0f) : 0.0f;
+    p->iridescence_ior = random_float(r, 1.0f, 2.5f);
+    for (int k = 0; k < 2; k++) {
+        p->anisotropy_turn[k] = random_float(r, -1.0f, 1.0f);
+        p->iridescence_thickness[k] = random_float(r, 0.0f, 1500.0f);
+    }
     if (!usual)
         p->transmission = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
     if (!usual)
@@ -479,7 +486,7 @@ void scene_add_alpha(scene *s, random_stream *r)
         material->alpha = usual ? random_float(r, 0.2f, 1.1f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
         material->alpha_cutoff = usual ? random_float(r, 0.1f, 0.7f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
         if (material->is_physical)
-            add_transmission(material, r);
+            add_rare_parts(material, r);
     }
     s->frame.transparent_outputs = random_below(r, 2);
 }

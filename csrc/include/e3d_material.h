@@ -26,7 +26,10 @@ extern "C" {
     X(E3D_SLOT_SHEEN_COLOR, sheen_color_texture) \
     X(E3D_SLOT_SHEEN_ROUGHNESS, sheen_roughness_texture) /* A */ \
     X(E3D_SLOT_TRANSMISSION, transmission_texture) /* R */ \
-    X(E3D_SLOT_THICKNESS, thickness_texture) /* G */
+    X(E3D_SLOT_THICKNESS, thickness_texture) /* G */ \
+    X(E3D_SLOT_ANISOTROPY, anisotropy_texture) /* R and G the direction, B the strength */ \
+    X(E3D_SLOT_IRIDESCENCE, iridescence_texture) /* R */ \
+    X(E3D_SLOT_IRIDESCENCE_THICKNESS, iridescence_thickness_texture) /* G: from the least to the most */
 typedef enum e3d_texture_slot { E3D_EACH_TEXTURE_SLOT(E3D_ENUMERATOR) E3D_TEXTURE_SLOTS } e3d_texture_slot;
 
 /* A texture, and the coordinates that it is read at. */
@@ -50,6 +53,9 @@ typedef struct e3d_physical {
     float sheen_color[3], sheen_roughness;
     float transmission, thickness;
     float absorption[3];       /* per world unit of thickness: the base-2 logarithm of what is left of light */
+    float anisotropy, anisotropy_turn[2]; /* strength, 0 .. 1; cosine and sine of the angle from the tangent */
+    float iridescence, iridescence_ior;   /* share, 0 .. 1; of the film, 1 or more */
+    float iridescence_thickness[2];       /* nanometres, the least and the most */
 } e3d_physical;
 
 typedef struct e3d_material {

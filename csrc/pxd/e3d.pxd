@@ -123,6 +123,10 @@ cdef extern from "e3d.h" nogil:
         float transmission
         float thickness
         float absorption[3]
+        float anisotropy
+        float anisotropy_turn[2]
+        float iridescence, iridescence_ior
+        float iridescence_thickness[2]
     ctypedef struct e3d_environment:
         pass
 

@@ -202,6 +202,10 @@ cdef extern from "kernels/kernels.h" nogil:
         const float *lanes
         float factor
 
+    ctypedef struct e3d_stretch_map:
+        float strength
+        float turn[2]
+
     ctypedef struct e3d_surface_model:
         e3d_varying metallic
         e3d_varying roughness
@@ -223,6 +227,14 @@ cdef extern from "kernels/kernels.h" nogil:
         float absorption[3]
         int transmits
         int absorbs
+        int anisotropic
+        int iridescent
+        e3d_stretch_map stretch
+        e3d_varying iridescence
+        e3d_varying film
+        float film_least
+        float film_ior
+        int is_rare
 
     ctypedef struct e3d_kernels:
         uint32_t (*face_away)(const e3d_cluster *clusters, int count, const e3d_facing *facing, int drop, const float *clip,

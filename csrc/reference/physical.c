@@ -21,6 +21,7 @@ typedef struct sample {
     lobe base, coat;
     float specular, top, diffuse[3], f0[3], f90;
     float sheen_power; /* 1 / alpha of the sheen */
+    float film[3], film_top; /* R141: what a film reflects of all, and the most of what is no metal */
 } sample;
 
 /* Of a light at a sample, in terms of h = l + v. */
@@ -32,6 +33,9 @@ typedef struct half_vector {
 typedef struct sums {
     float direct[3], coat[3], fuzz[3];
 } sums;
+
+static int is_anisotropic(const ref_surface *s) { return s->piece->primitive.material->physical.anisotropy != 0.0f; }
+static int is_iridescent(const ref_surface *s) { return s->piece->primitive.material->physical.iridescence != 0.0f; }
 
 static lobe make_lobe(const float normal[3], const float view[3], float roughness)
 {
@@ -62,6 +66,19 @@ static float fifth_power(float w)
     return (w2 * w2) * w;
 }
 
+/* R141 */
+static void find_film(const ref_surface *s, sample *out)
+{
+    const ref_physical *p = &s->physical;
+    const e3d_physical *m = &s->piece->primitive.material->physical;
+    float other[3], metal[3], cosine = ref_min(out->base.nv, 1.0f);
+    ref_film(cosine, m->iridescence_ior, p->film, p->reflectance, other);
+    ref_film(cosine, m->iridescence_ior, p->film, s->albedo, metal);
+    for (int c = 0; c < 3; c++)
+        out->film[c] = other[c] + (metal[c] - other[c]) * p->metallic;
+    out->film_top = ref_max(ref_max(other[0], other[1]), other[2]);
+}
+
 static sample find_sample(const e3d_frame *frame, const ref_surface *s)
 {
     const ref_physical *p = &s->physical;
@@ -80,6 +97,8 @@ static sample find_sample(const e3d_frame *frame, const ref_surface *s)
     out.top = ref_max(ref_max(p->reflectance[0], p->reflectance[1]), p->reflectance[2]);
     float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f);
     out.sheen_power = 1.0f / (rough * rough);
+    if (is_iridescent(s))
+        find_film(s, &out);
     return out;
 }
 
@@ -95,6 +114,16 @@ static float reflect_fuzz(const sample *at, const half_vector *h, float nl)
 
 static int has_sheen(const e3d_material *m) { return m->physical.sheen_color[0] != 0.0f || m->physical.sheen_color[1] != 0.0f ||
                                                      m->physical.sheen_color[2] != 0.0f; }
+
+/* R50 or R137 */
+static float reflect_base(const ref_surface *s, const sample *at, const half_vector *h, const float l[3], float nl)
+{
+    const lobe *base = &at->base;
+    if (!is_anisotropic(s))
+        return reflect(base, h, nl);
+    return ref_reflect_stretched(&s->physical.stretch, base->roughness * base->roughness, at->view, base->nv, l, nl, h->h, h->square,
+                                 nl + base->facing);
+}
 
 /* R51 */
 static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, const sample *at, sums *out)
@@ -118,10 +147,16 @@ static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, c
         h.h[c] = l[c] + at->view[c];
     h.square = ref_dot3(h.h, h.h);
     float w5 = fifth_power(ref_max(1.0f - sqrtf(h.square) * 0.5f, 0.0f)), e = attenuation * nl;
-    float keep = (1.0f - (at->top + (at->specular - at->top) * w5)) * e, d = reflect(&at->base, &h, nl) * e;
-    for (int c = 0; c < 3; c++)
-        out->direct[c] = out->direct[c] +
-                         light->lux[c] * (at->diffuse[c] * keep + d * (at->f0[c] + (at->f90 - at->f0[c]) * w5));
+    float top = at->top + (at->specular - at->top) * w5, d = reflect_base(s, at, &h, l, nl) * e;
+    if (is_iridescent(s))
+        top = top + (at->film_top - top) * s->physical.iridescence;
+    float keep = (1.0f - top) * e;
+    for (int c = 0; c < 3; c++) {
+        float fresnel = at->f0[c] + (at->f90 - at->f0[c]) * w5;
+        if (is_iridescent(s))
+            fresnel = fresnel + (at->film[c] - fresnel) * s->physical.iridescence;
+        out->direct[c] = out->direct[c] + light->lux[c] * (at->diffuse[c] * keep + d * fresnel);
+    }
     float coat_nl = ref_dot3(at->coat.normal, l);
     if (material->physical.clearcoat != 0.0f && coat_nl > 0.0f) {
         float coat = reflect(&at->coat, &h, coat_nl) * (attenuation * coat_nl);
@@ -136,6 +171,28 @@ static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, c
 }
 
 /* ---- light from all around ---- */
+
+/* R141: F0 of what is no metal, and of metal, under a film. */
+static void find_f0(const ref_surface *s, float nv, float other[3], float metal[3])
+{
+    const ref_physical *p = &s->physical;
+    const e3d_physical *m = &s->piece->primitive.material->physical;
+    float film[3], f0[3], cosine = ref_min(nv, 1.0f);
+    for (int c = 0; c < 3; c++) {
+        other[c] = p->reflectance[c];
+        metal[c] = s->albedo[c];
+    }
+    if (!is_iridescent(s))
+        return;
+    ref_film(cosine, m->iridescence_ior, p->film, p->reflectance, film);
+    ref_film_f0(cosine, film, f0);
+    for (int c = 0; c < 3; c++)
+        other[c] = other[c] + (f0[c] - other[c]) * p->iridescence;
+    ref_film(cosine, m->iridescence_ior, p->film, s->albedo, film);
+    ref_film_f0(cosine, film, f0);
+    for (int c = 0; c < 3; c++)
+        metal[c] = metal[c] + (f0[c] - metal[c]) * p->iridescence;
+}
 
 /* R54: what arrives at a normal. */
 static void find_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
@@ -180,11 +237,17 @@ static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sa
 {
     const ref_physical *p = &s->physical;
     float radiance[3], a = ref_albedo(E3D_DFG_A, at->base.roughness, at->base.nv), b = ref_albedo(E3D_DFG_B, at->base.roughness, at->base.nv);
-    float rest = 1.0f - (a + b);
-    find_radiance(frame, &at->base, at->view, radiance);
+    float rest = 1.0f - (a + b), other_f0[3], metal_f0[3];
+    lobe mirror = at->base;
+    if (is_anisotropic(s)) {
+        ref_bend_normal(&p->stretch, at->base.normal, at->view, at->base.roughness, mirror.normal);
+        mirror.facing = ref_dot3(mirror.normal, at->view);
+    }
+    find_radiance(frame, &mirror, at->view, radiance);
+    find_f0(s, at->base.nv, other_f0, metal_f0);
     for (int c = 0; c < 3; c++) {
         float albedo = s->albedo[c];
-        scattering metal = scatter(albedo, 1.0f, a, b), other = scatter(p->reflectance[c], p->specular, a, b);
+        scattering metal = scatter(metal_f0[c], 1.0f, a, b), other = scatter(other_f0[c], p->specular, a, b);
         float r = 1.0f / (metal.q * other.q), zt = (metal.twice * (r * other.q)) * rest, zd = (other.twice * (r * metal.q)) * rest;
         float t = radiance[c] * metal.once + irradiance[c] * zt, below = albedo * (1.0f - (other.once + zd));
         if (s->piece->primitive.material->physical.transmission != 0.0f) /* R134 */
@@ -247,10 +310,11 @@ void ref_light_behind(const ref_surface *s, const float view[3], float out[3])
     float a = ref_albedo(E3D_DFG_A, base.roughness, base.nv), b = ref_albedo(E3D_DFG_B, base.roughness, base.nv), rest = 1.0f - (a + b);
     float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f), e = ref_albedo(E3D_DFG_SHEEN, rough, base.nv);
     float most = ref_max(ref_max(p->sheen[0], p->sheen[1]), p->sheen[2]);
-    float fc = p->coat * (0.04f + 0.96f * fifth_power(1.0f - ref_min(coat.nv, 1.0f)));
+    float fc = p->coat * (0.04f + 0.96f * fifth_power(1.0f - ref_min(coat.nv, 1.0f))), other_f0[3], metal_f0[3];
+    find_f0(s, base.nv, other_f0, metal_f0);
     for (int c = 0; c < 3; c++) {
         float albedo = s->albedo[c];
-        scattering metal = scatter(albedo, 1.0f, a, b), other = scatter(p->reflectance[c], p->specular, a, b);
+        scattering metal = scatter(metal_f0[c], 1.0f, a, b), other = scatter(other_f0[c], p->specular, a, b);
         float zd = (other.twice * ((1.0f / (metal.q * other.q)) * metal.q)) * rest, below = albedo * (1.0f - (other.once + zd));
         out[c] = (below * p->transmission) * (1.0f - p->metallic);
         if (has_sheen(material))

@@ -10,6 +10,11 @@ typedef struct ref_coordinates {
     float uv[2], corner[2][3]; /* [coordinate][vertex] */
 } ref_coordinates;
 
+/* The directions of a lobe that is rougher along t than along b (R136). */
+typedef struct ref_stretch {
+    float t[3], b[3], strength;
+} ref_stretch;
+
 /* What a physically based material is made of at one sample (R46). */
 typedef struct ref_physical {
     float metallic, roughness, occlusion;
@@ -17,6 +22,8 @@ typedef struct ref_physical {
     float coat, coat_roughness, coat_normal[3];
     float sheen[3], sheen_roughness;
     float transmission, depth; /* depth: world units of what absorbs (R134) */
+    ref_stretch stretch;       /* where the material has anisotropy */
+    float iridescence, film;   /* film: its thickness */
 } ref_physical;
 
 /* What is seen at one sample. */
@@ -88,6 +95,20 @@ float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], floa
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 /* R134: what the surface leaves of light from behind it, before any is absorbed. */
 void ref_light_behind(const ref_surface *surface, const float view[3], float out[3]);
+
+/* film.c */
+/* R140, of F0 of what is below; R141: what F0 would give it by Schlick's term. */
+void ref_film(float cosine, float ior, float thickness, const float f0[3], float out[3]);
+void ref_film_f0(float cosine, const float film[3], float out[3]);
+
+/* anisotropy.c */
+/* R136; texel: NULL where there is no texture. */
+void ref_find_stretch(const e3d_physical *material, const float texel[4], float unit, const ref_surface *s, ref_stretch *out);
+/* R137 */
+float ref_reflect_stretched(const ref_stretch *stretch, float alpha, const float view[3], float nv, const float l[3], float nl,
+                            const float h[3], float square, float nh);
+/* R138 */
+void ref_bend_normal(const ref_stretch *stretch, const float normal[3], const float view[3], float roughness, float out[3]);
 
 /* transmission.c */
 /* R133: whether a piece lets light pass. */

@@ -312,7 +312,8 @@ cdef class NativeDrawList:
     def set_physical(
         self, int index, *, float metallic, float roughness, float occlusion_strength, reflectance, float specular_intensity, float clearcoat,
         float clearcoat_roughness, float clearcoat_normal_scale, sheen_color, float sheen_roughness,
-        float transmission, float thickness, absorption,
+        float transmission, float thickness, absorption, float anisotropy, anisotropy_turn, float iridescence,
+        float iridescence_ior, iridescence_thickness,
     ):
         """Say what a material that was set is as a physically based one."""
         require(0 <= index < self.material_count, "no such material")
@@ -332,6 +333,11 @@ cdef class NativeDrawList:
         physical.transmission = transmission
         physical.thickness = thickness
         copy_vector(physical.absorption, absorption, 3)
+        physical.anisotropy = anisotropy
+        copy_vector(physical.anisotropy_turn, anisotropy_turn, 2)
+        physical.iridescence = iridescence
+        physical.iridescence_ior = iridescence_ior
+        copy_vector(physical.iridescence_thickness, iridescence_thickness, 2)
 
     # `lux` is the colour times the intensity as physically based materials take it.
 

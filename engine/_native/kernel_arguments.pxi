@@ -126,6 +126,14 @@ cdef e3d_surface_model model_of(dict values):
         model.absorption[k] = values["absorption"][k]
     model.transmits = model.transmission.factor != 0
     model.absorbs = model.transmits and model.thickness.factor != 0
+    model.stretch.strength = values["anisotropy"][0]
+    model.stretch.turn[0], model.stretch.turn[1] = values["anisotropy_turn"]
+    model.anisotropic = model.stretch.strength != 0
+    set_varying(&model.iridescence, values["iridescence"], 1)
+    set_varying(&model.film, values["film"], 1)
+    model.film_ior = values["film_ior"][0]
+    model.iridescent = model.iridescence.factor != 0
+    model.is_rare = model.transmits or model.anisotropic or model.iridescent
     return model
 
 

@@ -184,6 +184,11 @@ class NativeDrawList:
         transmission: float,
         thickness: float,
         absorption: Sequence[float],
+        anisotropy: float,
+        anisotropy_turn: Sequence[float],
+        iridescence: float,
+        iridescence_ior: float,
+        iridescence_thickness: Sequence[float],
     ) -> None: ...
     def add_directional_light(
         self, color: Sequence[float], lux: Sequence[float], to_light: Sequence[float] | _Doubles

@@ -89,6 +89,19 @@ PARTS: dict[str, tuple[Numbers | Map, ...]] = {
         Numbers("attenuation_distance", "attenuationDistance", float("inf")),
         Map("thickness_texture", "thicknessTexture"),
     ),
+    "KHR_materials_anisotropy": (
+        Numbers("anisotropy", "anisotropyStrength", 0.0),
+        Numbers("anisotropy_rotation", "anisotropyRotation", 0.0),
+        Map("anisotropy_texture", "anisotropyTexture"),
+    ),
+    "KHR_materials_iridescence": (
+        Numbers("iridescence", "iridescenceFactor", 0.0),
+        Numbers("iridescence_ior", "iridescenceIor", 1.3),
+        Numbers("iridescence_thickness_minimum", "iridescenceThicknessMinimum", 100.0),
+        Numbers("iridescence_thickness_maximum", "iridescenceThicknessMaximum", 400.0),
+        Map("iridescence_texture", "iridescenceTexture"),
+        Map("iridescence_thickness_texture", "iridescenceThicknessTexture"),
+    ),
 }
 _GLOSSY_PARTS = (
     Numbers("color", "diffuseFactor", (1.0, 1.0, 1.0, 1.0)),
@@ -283,12 +296,11 @@ class GltfMaterials:
 
 def undrawn_kinds(material: Material) -> set[str]:
     """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
-    kinds = set()
-    if material.transmission and material.thickness and material.ior != 1.0:
-        kinds.add("refraction")
-    if material.transmission and material.roughness:
-        kinds.add("frost")
-    return kinds
+    is_metal = material.metallic == 1.0 and material.metallic_roughness_texture is None
+    if not material.transmission or is_metal:
+        return set()
+    kinds = {"refraction"} if material.thickness and material.ior != 1.0 else set()
+    return kinds | ({"frost"} if material.roughness else set())
 
 
 def _from_glossiness(values: dict, glossiness: float) -> dict:

@@ -62,6 +62,13 @@ def _check_ior(value: float, what: str) -> float:
     return number
 
 
+def _check_film_ior(value: float, what: str) -> float:
+    number = real(value)
+    if not 1 <= number < math.inf:
+        raise InvalidArgumentError(f"{what} must be 1 or greater, not {shown(value)}")
+    return number
+
+
 def _check_reach(value: float, what: str) -> float:
     number = real(value)
     if not number > 0:
@@ -145,6 +152,18 @@ class Material(Closed):
         What white becomes after ``attenuation_distance`` world units.
     attenuation_distance : float
         Greater than 0; infinite: nothing is absorbed.
+    anisotropy : float
+        How much rougher the surface is along a direction than across it, from 0 to 1
+        (KHR_materials_anisotropy): brushed metal.
+    anisotropy_rotation : float
+        Radians from the tangent to that direction, counter-clockwise.
+    iridescence : float
+        How much a thin film on the surface counts, from 0 to 1 (KHR_materials_iridescence).
+    iridescence_ior : float
+        The film's index of refraction, 1 or more.
+    iridescence_thickness_minimum, iridescence_thickness_maximum : float
+        Of the film, in nanometres: where its texture is black and white. Without one, the maximum
+        counts.
     metallic_roughness_texture : Texture or PlacedTexture, optional
         G is the roughness, B metallic.
     normal_texture, clearcoat_normal_texture : Texture or PlacedTexture, optional
@@ -155,10 +174,15 @@ class Material(Closed):
         RGB.
     sheen_color_texture : Texture or PlacedTexture, optional
         RGB.
-    clearcoat_texture, transmission_texture : Texture or PlacedTexture, optional
-        R.
+    clearcoat_texture, transmission_texture, iridescence_texture : Texture, optional
+        R. A PlacedTexture, too.
     clearcoat_roughness_texture, thickness_texture : Texture or PlacedTexture, optional
         G.
+    iridescence_thickness_texture : Texture or PlacedTexture, optional
+        G.
+    anisotropy_texture : Texture or PlacedTexture, optional
+        R and G: a direction in tangent space, 0 … 255 for -1 … 1, which is then turned; B: the
+        strength.
     specular_texture, sheen_roughness_texture : Texture or PlacedTexture, optional
         Alpha.
 
@@ -221,6 +245,15 @@ class Material(Closed):
     sheen_roughness_texture: TextureSlot = TextureSlot(is_color=False)
     transmission_texture: TextureSlot = TextureSlot(is_color=False)
     thickness_texture: TextureSlot = TextureSlot(is_color=False)
+    anisotropy: NumberAttribute = CheckedAttribute(fraction)
+    anisotropy_rotation: NumberAttribute = CheckedAttribute(finite)
+    iridescence: NumberAttribute = CheckedAttribute(fraction)
+    iridescence_ior: NumberAttribute = CheckedAttribute(_check_film_ior)
+    iridescence_thickness_minimum: NumberAttribute = CheckedAttribute(not_negative)
+    iridescence_thickness_maximum: NumberAttribute = CheckedAttribute(not_negative)
+    anisotropy_texture: TextureSlot = TextureSlot(is_color=False)
+    iridescence_texture: TextureSlot = TextureSlot(is_color=False)
+    iridescence_thickness_texture: TextureSlot = TextureSlot(is_color=False)
 
     def __init__(
         self,
@@ -267,6 +300,15 @@ class Material(Closed):
         sheen_roughness_texture: SlotTexture = None,
         transmission_texture: SlotTexture = None,
         thickness_texture: SlotTexture = None,
+        anisotropy: float = 0.0,
+        anisotropy_rotation: float = 0.0,
+        iridescence: float = 0.0,
+        iridescence_ior: float = 1.3,
+        iridescence_thickness_minimum: float = 100.0,
+        iridescence_thickness_maximum: float = 400.0,
+        anisotropy_texture: SlotTexture = None,
+        iridescence_texture: SlotTexture = None,
+        iridescence_thickness_texture: SlotTexture = None,
     ) -> None:
         self.color = color
         self.texture = texture
@@ -310,6 +352,15 @@ class Material(Closed):
         self.sheen_roughness_texture = sheen_roughness_texture
         self.transmission_texture = transmission_texture
         self.thickness_texture = thickness_texture
+        self.anisotropy = anisotropy
+        self.anisotropy_rotation = anisotropy_rotation
+        self.iridescence = iridescence
+        self.iridescence_ior = iridescence_ior
+        self.iridescence_thickness_minimum = iridescence_thickness_minimum
+        self.iridescence_thickness_maximum = iridescence_thickness_maximum
+        self.anisotropy_texture = anisotropy_texture
+        self.iridescence_texture = iridescence_texture
+        self.iridescence_thickness_texture = iridescence_thickness_texture
 
     @property
     def is_physical(self) -> bool:
@@ -406,6 +457,12 @@ _LOOK = (
     "thickness",
     "attenuation_color",
     "attenuation_distance",
+    "anisotropy",
+    "anisotropy_rotation",
+    "iridescence",
+    "iridescence_ior",
+    "iridescence_thickness_minimum",
+    "iridescence_thickness_maximum",
 )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from .. import linalg
 from .._native.rasterizer import ALPHA_MODES, NativeDrawList, NativeTexture
 from ..materials.display_colors import shading_color
 from ..materials.material import Material
@@ -80,7 +81,7 @@ def _physical(material: Material, color_space: str) -> dict[str, Any]:
     root = (1.0 - material.ior) / (1.0 + material.ior)
     tint = shading_color(material.specular_color, color_space)
     left = shading_color(material.attenuation_color, color_space)
-    depth = material.attenuation_distance
+    depth, turn = material.attenuation_distance, material.anisotropy_rotation
     return {
         "metallic": 1.0 if material.metallic is None else material.metallic,
         "roughness": 1.0 if material.roughness is None else material.roughness,
@@ -95,6 +96,14 @@ def _physical(material: Material, color_space: str) -> dict[str, Any]:
         "transmission": material.transmission,
         "thickness": material.thickness,
         "absorption": tuple(_absorption(component, depth) for component in left),
+        "anisotropy": material.anisotropy,
+        "anisotropy_turn": (linalg.cos(turn), linalg.sin(turn)),
+        "iridescence": material.iridescence,
+        "iridescence_ior": material.iridescence_ior,
+        "iridescence_thickness": (
+            material.iridescence_thickness_minimum,
+            material.iridescence_thickness_maximum,
+        ),
     }
 
 

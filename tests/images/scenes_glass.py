@@ -1,10 +1,11 @@
-"""Materials that light passes through: how much, which colours, before what, in every look."""
+"""Materials that light passes through, before what, in every look; brushed metal; thin films."""
 
 import numpy as np
 from images.objects import CORAL, TEAL, camera_at, floor, with_material
 from images.picture import Picture, variant
 from images.scenes_alpha import leaf, pane
 from images.scenes_physical import add_lights, bumps, waves
+from images.scenes_physical import ball as physical_ball
 
 import engine3d as e3d
 
@@ -63,6 +64,73 @@ def look(background=(30, 38, 54), *, color_space="srgb", samples=1, sky=False, *
     return Picture(scene, camera_at(), color_space=color_space, samples=samples, options=options)
 
 
+def row(balls, **options):
+    """Balls side by side, three in a column, some of them mirrored."""
+    scene = e3d.Scene(background=(0.02, 0.03, 0.05), ambient=(0.1, 0.1, 0.1), exposure=-1.5)
+    for k, mesh in enumerate(balls):
+        scale = (1, 1, 1) if k % 3 else (-1, 0.9, 1)
+        place = (k // 3) * 0.9 - 1.35, 0.9 - (k % 3) * 0.9, 0
+        scene.add(mesh, translation=place, scale=scale)
+    add_lights(scene)
+    y, x = np.mgrid[0:16, 0:32]
+    light = np.stack([y / 16, 0.5 + 0.4 * np.sin(x / 5), 1 - y / 16], axis=-1)
+    scene.environment = e3d.Environment(light.astype(np.float32))
+    camera = camera_at((0, 0, 3.6), (0, 0, 0))
+    return Picture(scene, camera, samples=options.pop("samples", 1), options=options)
+
+
+def metal(tangents=False, uvs=True, **material):
+    mesh = physical_ball(
+        tangents, **{"metallic": 1.0, "roughness": 0.3, "color": (0.6, 0.6, 0.6), **material}
+    )
+    if not uvs:
+        mesh.uvs = mesh.uvs1 = None
+    return mesh
+
+
+def brushed(**options):
+    """Anisotropy along tangents, by a texture, with mapped normals, without any tangent."""
+    turned = {"anisotropy": 0.8, "anisotropy_rotation": 1.2}
+    placed = e3d.PlacedTexture(bumps(seed=3), uv_set=1, rotation=0.4, scale=(2, 1))
+    balls = [
+        metal(anisotropy=1.0),
+        metal(True, roughness=0.15, color=(0.9, 0.6, 0.3), **turned),
+        metal(anisotropy=0.9, anisotropy_texture=bumps()),
+        metal(anisotropy=0.9, anisotropy_texture=placed, normal_texture=bumps(seed=2)),
+        metal(uvs=False, **turned),
+        metal(metallic=0.0, clearcoat=0.5, roughness=0.5, **turned),
+        metal(roughness=0.0, two_sided=True, **turned),
+        metal(unlit=True, **turned),
+        metal(metallic=0.2, transmission=0.8, sheen_color=(0.3, 0.2, 0.1), **turned),
+    ]
+    return row(balls, **options)
+
+
+def films(**options):
+    """Thin films on metal and none, by numbers and by textures, under a coat, on glass."""
+    film = {"iridescence": 1.0, "roughness": 0.2}
+    placed = e3d.PlacedTexture(waves(filter="bilinear"), uv_set=1)
+    balls = [
+        metal(**film),
+        metal(metallic=0.0, color=(0.05, 0.05, 0.05), iridescence_thickness_maximum=550, **film),
+        metal(metallic=0.3, iridescence_ior=1.8, iridescence_thickness_texture=waves(), **film),
+        metal(iridescence_texture=waves(), iridescence_thickness_texture=placed, **film),
+        metal(iridescence_thickness_minimum=0, iridescence_thickness_texture=placed, **film),
+        metal(metallic=0.0, transmission=1.0, iridescence_ior=1.0, **film),
+        metal(metallic=0.0, ior=0, clearcoat=0.6, anisotropy=0.7, **film),
+        metal(metallic=0.0, ior=1, specular_color=(1, 0.5, 0), sheen_color=(0.2, 0.2, 0.2), **film),
+        metal(iridescence_thickness_maximum=0, **film),
+    ]
+    return row(balls, **options)
+
+
+variant("brushed", brushed)
+variant("brushed_samples_4", brushed, samples=4)
+variant("films", films)
+for _kind, _of in (("brushed", brushed), ("films", films)):
+    variant(f"{_kind}_forward", _of, shading="forward")
+    variant(f"{_kind}_painter", _of, hidden_surfaces="painter")
+    variant(f"{_kind}_unlit", _of, mode="unlit")
 variant("glass", look)
 variant("glass_linear", look, color_space="linear")
 variant("glass_sky", look, sky=True)

@@ -127,7 +127,7 @@ def test_glass_has_the_colours_of_three():
     for node in scene.nodes:
         seen = frame.object_id == node.id
         materials = getattr(node.object, "materials", ())
-        if seen.sum() < 40 or not all(material.transmission for material in materials):
+        if seen.sum() < 60 or not all(material.transmission for material in materials):
             continue
         middle, wanted = (np.median(picture[seen], axis=0) * 255 for picture in (ours, truth))
         assert np.abs(middle - wanted).max() <= 6, node.name

@@ -22,6 +22,11 @@ PLAIN = {
     "transmission": [0],
     "thickness": [0],
     "absorption": [0] * 3,
+    "anisotropy": [0],
+    "anisotropy_turn": [1, 0],
+    "iridescence": [0],
+    "film": [0],
+    "film_ior": [1.3],
 }
 
 
@@ -35,7 +40,16 @@ def shown(kernels, *arguments, **model):
 
 
 def seen(
-    kernels, normal, view, albedo, light=None, ambient=0.0, coat_normal=None, depth=1, **model
+    kernels,
+    normal,
+    view,
+    albedo,
+    light=None,
+    ambient=0.0,
+    coat_normal=None,
+    depth=1,
+    tangent=(0, 0, 0, 0),
+    **model,
 ):
     """What one sample shows, and which shares of light pass through it."""
     batch, maps = np.zeros(1, BATCH_RECORD), np.zeros(1, MAP_BATCH)
@@ -43,6 +57,7 @@ def seen(
     for name, value in (("normal", normal), ("position", np.negative(view)), ("color", albedo)):
         batch[name][0] = np.reshape(value, (3, 1))
     maps["depth"][0] = depth
+    maps["tangent"][0] = np.reshape(tangent, (4, 1))
     maps["shading_normal"][0] = np.reshape(normal if coat_normal is None else coat_normal, (3, 1))
     lights = np.zeros(0 if light is None else 1, LIGHT)
     if light is not None:

@@ -312,18 +312,19 @@ def test_factors_above_one_are_no_suspicion(write):
         e3d.Material(specular_color=(25.0, 25.0, 25.0))
 
 
-def glass(transmission, thickness, roughness, ior=1.5):
+def glass(transmission, thickness, roughness, ior=1.5, metallic=0.5):
     extensions = {
         "KHR_materials_transmission": {"transmissionFactor": transmission},
         "KHR_materials_volume": {"thicknessFactor": thickness},
         "KHR_materials_ior": {"ior": ior},
     }
-    return {"extensions": extensions, "pbrMetallicRoughness": {"roughnessFactor": roughness}}
+    base = {"roughnessFactor": roughness, "metallicFactor": metallic}
+    return {"extensions": extensions, "pbrMetallicRoughness": base}
 
 
 def test_what_glass_lacks_is_told_once(write):
     tree = triangle_tree()
-    quiet = [glass(0, 1, 1), glass(0.5, 0, 0), glass(1, 2, 0, ior=1)]
+    quiet = [glass(0, 1, 1), glass(0.5, 0, 0), glass(1, 2, 0, ior=1), glass(1, 1, 1, metallic=1)]
     tree["materials"] = [*quiet, glass(1, 2, 0), glass(0.5, 1, 0.2), glass(1, 0, 0.1)]
     tree["extensionsUsed"] = ["KHR_materials_transmission", "KHR_materials_dispersion"]
     path = write("a.gltf", json.dumps(tree))

@@ -80,6 +80,7 @@ def check_same_scene(one, other):
             check_same_mesh(a.object, b.object)
         elif isinstance(a.object, e3d.InstancedMesh):
             assert np.allclose(a.object.poses, b.object.poses, rtol=1e-5, atol=1e-6)
+            assert np.array_equal(a.object.colors, b.object.colors)
             check_same_mesh(a.object.mesh, b.object.mesh)
         else:
             assert repr(a.object) == repr(b.object)
@@ -144,6 +145,8 @@ def test_a_scene_of_our_own_comes_back(tmp_path):
     glass = e3d.Material(
         name="glass", metallic=0.0, roughness=0.25, color=(0.5, 1.0, 1.0, 0.5), alpha_mode="blend",
         transmission=0.75, thickness=2.0, attenuation_distance=3.0, ior=1.25, two_sided=True,
+        anisotropy=0.5, anisotropy_rotation=1.5, iridescence=0.5, iridescence_ior=1.75,
+        iridescence_thickness_minimum=50.0, iridescence_thickness_maximum=800.0,
         extras={"kind": "cup"},
     )  # fmt: skip
     ball = e3d.uv_sphere()

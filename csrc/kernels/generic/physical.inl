@@ -14,6 +14,8 @@
 #include "kernels/generic/albedo.inl"
 #include "kernels/generic/environment.inl"
 #include "kernels/generic/maps.inl"
+#include "kernels/generic/anisotropy.inl"
+#include "kernels/generic/film.inl"
 
 /* ---- a sample (R49) ---- */
 
@@ -30,6 +32,9 @@ typedef struct model_lanes {
     vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to top, to f0 */
     vf32 sheen_power; /* 1 / alpha of the sheen */
     vf32 transmission, rest; /* rest: 1 less it (R134) */
+    stretch_lanes stretch;
+    vf32 film_share, film[3], film_top; /* R141: what a film reflects of all, and the most of what is no metal */
+    vf32 other_f0[3], metal_f0[3];
     vf32 direct[3], coat_light[3], fuzz[3];
 } model_lanes;
 
@@ -152,9 +157,17 @@ static ALWAYS_INLINE void model_add_coat(const e3d_light *light, const vf32 l[3]
     light_sum(at->coat_light, light->lux, v_mul(lobe_reflect(&at->coat, h, nl), v_mul(attenuation, nl)), &lit);
 }
 
-/* R51 of one light. */
+/* D times V of the base. */
+static ALWAYS_INLINE vf32 model_reflect(const e3d_surface_model *rare, const model_lanes *at, const vf32 l[3], const half_lanes *h, vf32 nl)
+{
+    if (rare && rare->anisotropic)
+        return stretch_reflect(&at->stretch, at->base.nv, l, nl, h->h, h->square, v_add(nl, at->base.facing));
+    return lobe_reflect(&at->base, h, nl);
+}
+
+/* R51 of one light. rare: NULL, or the model with what few materials have. */
 static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int has_coat, int has_sheen,
-                                          model_lanes *at)
+                                          const e3d_surface_model *rare, model_lanes *at)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 l[3], attenuation = v_setf(1.0f), one = v_setf(1.0f), zero = v_setf(0.0f);
@@ -180,9 +193,14 @@ static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, c
         h.h[k] = v_add(l[k], at->view[k]);
     h.square = dot_three(h.h, h.h);
     vf32 w5 = fifth_power(v_max(v_sub(one, v_mul(v_sqrt(h.square), v_setf(0.5f))), zero)), e = v_mul(attenuation, nl);
-    vf32 keep = v_mul(v_sub(one, v_add(at->top, v_mul(at->rise, w5))), e), d = v_mul(lobe_reflect(&at->base, &h, nl), e);
+    vf32 top = v_add(at->top, v_mul(at->rise, w5));
+    if (rare && rare->iridescent)
+        top = v_add(top, v_mul(v_sub(at->film_top, top), at->film_share));
+    vf32 keep = v_mul(v_sub(one, top), e), d = v_mul(model_reflect(rare, at, l, &h, nl), e);
     for (int k = 0; k < 3; k++) {
         vf32 fresnel = v_add(at->f0[k], v_mul(at->f_rise[k], w5));
+        if (rare && rare->iridescent)
+            fresnel = v_add(fresnel, v_mul(v_sub(at->film[k], fresnel), at->film_share));
         vf32 shown = v_add(v_mul(at->diffuse[k], keep), v_mul(d, fresnel));
         at->direct[k] = v_self(lit, v_add(at->direct[k], v_mul(v_setf(light->lux[k]), shown)), at->direct[k]);
     }
@@ -231,26 +249,42 @@ static ALWAYS_INLINE scatter_lanes around_scatter(vf32 f0, vf32 f90, vf32 a, vf3
     return (scatter_lanes){x, v_mul(x, y), v_sub(one, v_mul(rest, y))};
 }
 
-/* is_grey: what is no metal reflects the same of all channels. through: NULL, or for what passes of light behind (R134). */
+/* R138: the radiance that the base mirrors. */
+static ALWAYS_INLINE void around_base(const e3d_lighting *lighting, const environment_plan *plan, const model_lanes *at,
+                                      const e3d_surface_model *rare, vf32 out[3])
+{
+    if (!rare || !rare->anisotropic) {
+        around_radiance(lighting, plan, &at->base, at->view, out);
+        return;
+    }
+    lobe_lanes bent = at->base;
+    stretch_bend(&at->stretch, at->base.normal, at->view, at->base.roughness, bent.normal);
+    bent.facing = dot_three(bent.normal, at->view);
+    around_radiance(lighting, plan, &bent, at->view, out);
+}
+
+/* is_grey: what is no metal reflects the same of all channels. through: what passes of light behind (R134). */
 static ALWAYS_INLINE void around_indirect(const e3d_lighting *lighting, const environment_plan *plan, const model_lanes *at, int is_grey,
-                                          const vf32 irradiance[3], vf32 *through, vf32 out[3])
+                                          const e3d_surface_model *rare, const vf32 irradiance[3], vf32 through[3], vf32 out[3])
 {
     vf32 radiance[3], one = v_setf(1.0f);
     albedo_place place = albedo_find(at->base.roughness, at->base.nv);
     vf32 a = albedo_of(E3D_DFG_A, &place), b = albedo_of(E3D_DFG_B, &place), rest = v_sub(one, v_add(a, b));
     scatter_lanes other = around_scatter(at->reflectance[0], at->specular, a, b, rest);
-    around_radiance(lighting, plan, &at->base, at->view, radiance);
+    around_base(lighting, plan, at, rare, radiance);
     for (int k = 0; k < 3; k++) {
         vf32 albedo = at->albedo[k];
-        scatter_lanes metal = around_scatter(albedo, one, a, b, rest);
-        if (!is_grey)
+        scatter_lanes metal = around_scatter(rare && rare->iridescent ? at->metal_f0[k] : albedo, one, a, b, rest);
+        if (rare && rare->iridescent)
+            other = around_scatter(at->other_f0[k], at->specular, a, b, rest);
+        else if (!is_grey)
             other = around_scatter(at->reflectance[k], at->specular, a, b, rest);
         vf32 r = v_div(one, v_mul(metal.q, other.q));
         vf32 zt = v_mul(v_mul(metal.twice, v_mul(r, other.q)), rest), zd = v_mul(v_mul(other.twice, v_mul(r, metal.q)), rest);
         vf32 t = v_add(v_mul(radiance[k], metal.once), v_mul(irradiance[k], zt));
         vf32 d = v_add(v_mul(radiance[k], other.once), v_mul(irradiance[k], zd));
         vf32 below = v_mul(albedo, v_sub(one, v_add(other.once, zd)));
-        if (through) {
+        if (rare && rare->transmits) {
             through[k] = v_mul(v_mul(below, at->transmission), v_sub(one, at->metallic));
             below = v_mul(below, at->rest);
         }
@@ -322,13 +356,13 @@ static ALWAYS_INLINE vf32 model_occlusion(const e3d_surface_model *model, int i)
 }
 
 static ALWAYS_INLINE void model_finish(const e3d_surface_model *model, const e3d_lighting *lighting, const environment_plan *plan,
-                                       int has_coat, int has_sheen, int transmits, const model_lanes *at, int i, e3d_map_batch *m,
-                                       vf32 color[3])
+                                       int has_coat, int has_sheen, const e3d_surface_model *rare, const model_lanes *at, int i,
+                                       e3d_map_batch *m, vf32 color[3])
 {
     vf32 irradiance[3], indirect[3], through[3], occlusion = model_occlusion(model, i);
     around_irradiance(lighting, plan, at->base.normal, irradiance);
-    around_indirect(lighting, plan, at, model->is_grey, irradiance, transmits ? through : NULL, indirect);
-    if (transmits)
+    around_indirect(lighting, plan, at, model->is_grey, rare, irradiance, through, indirect);
+    if (rare && rare->transmits)
         model_through(model, has_coat, has_sheen, at, i, through, m);
     for (int k = 0; k < 3; k++)
         color[k] = v_add(at->direct[k], v_mul(indirect[k], occlusion));
@@ -369,22 +403,52 @@ static ALWAYS_INLINE void model_transmission(const e3d_surface_model *model, int
         at->diffuse[k] = v_mul(at->diffuse[k], at->rest);
 }
 
+/* R141 */
+static inline void model_film(const e3d_surface_model *model, int i, model_lanes *at)
+{
+    vf32 other[3], metal[3], zero = v_setf(0.0f), cosine = v_min(at->base.nv, v_setf(1.0f));
+    vf32 thickness = v_add(v_setf(model->film_least), varying_at(&model->film, i));
+    if (!model->film.lanes)
+        thickness = v_setf(model->film.factor);
+    at->film_share = v_self(v_gt(thickness, zero), varying_at(&model->iridescence, i), zero);
+    film_reflect(cosine, model->film_ior, thickness, at->reflectance, other);
+    film_reflect(cosine, model->film_ior, thickness, at->albedo, metal);
+    for (int k = 0; k < 3; k++) {
+        at->film[k] = v_add(other[k], v_mul(v_sub(metal[k], other[k]), at->metallic));
+        at->other_f0[k] = at->reflectance[k];
+        at->metal_f0[k] = at->albedo[k];
+    }
+    at->film_top = v_max(v_max(other[0], other[1]), other[2]);
+    film_mix_f0(cosine, other, at->film_share, at->other_f0);
+    film_mix_f0(cosine, metal, at->film_share, at->metal_f0);
+}
+
+static ALWAYS_INLINE void model_rare(const e3d_map_batch *m, const e3d_surface_model *model, int i, model_lanes *at)
+{
+    if (model->transmits)
+        model_transmission(model, i, at);
+    if (model->anisotropic)
+        stretch_begin(m, &model->stretch, at->base.normal, at->view, at->base.nv, at->base.roughness, i, &at->stretch);
+    if (model->iridescent)
+        model_film(model, i, at);
+}
+
 /* All vectors; which parts there are is mostly a constant for the compiler. */
 static ALWAYS_INLINE void physical_vectors(e3d_batch *batch, e3d_map_batch *m, const e3d_surface_model *model, const e3d_lighting *lighting,
                                            const environment_plan *plan, const chosen_lights *lights, int has_coat, int has_sheen,
-                                           int transmits)
+                                           const e3d_surface_model *rare)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         model_lanes at;
         vf32 color[3];
         model_begin(batch, m, model, lighting, i, &at);
-        if (transmits)
-            model_transmission(model, i, &at);
+        if (rare)
+            model_rare(m, rare, i, &at);
         model_sums(m, lights, i, &at);
         for (int n = 0; n < lights->count; n++)
-            model_add_light(lighting, lights->numbers[n], batch, i, has_coat, has_sheen, &at);
+            model_add_light(lighting, lights->numbers[n], batch, i, has_coat, has_sheen, rare, &at);
         if (lights->is_last) {
-            model_finish(model, lighting, plan, has_coat, has_sheen, transmits, &at, i, m, color);
+            model_finish(model, lighting, plan, has_coat, has_sheen, rare, &at, i, m, color);
             for (int k = 0; k < 3; k++)
                 v_storef(batch->color[k] + i, color[k]);
             continue;
@@ -400,12 +464,12 @@ static ALWAYS_INLINE void physical_vectors(e3d_batch *batch, e3d_map_batch *m, c
 static void physical_some(e3d_batch *batch, e3d_map_batch *m, const e3d_surface_model *model, const e3d_lighting *lighting,
                           const environment_plan *plan, const chosen_lights *lights)
 {
-    if (model->transmits)
-        physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen, 1);
+    if (model->is_rare)
+        physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen, model);
     else if (model->has_coat || model->has_sheen)
-        physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen, 0);
+        physical_vectors(batch, m, model, lighting, plan, lights, model->has_coat, model->has_sheen, NULL);
     else
-        physical_vectors(batch, m, model, lighting, plan, lights, 0, 0, 0);
+        physical_vectors(batch, m, model, lighting, plan, lights, 0, 0, NULL);
 }
 
 static void kernel_physical(e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting, e3d_map_batch *m)

@@ -70,6 +70,12 @@ typedef struct e3d_normal_map {
     float unit, scale;
 } e3d_normal_map;
 
+/* Anisotropy: where its texture says nothing, the direction is the tangent turned. */
+typedef struct e3d_stretch_map {
+    const e3d_lane_array *texels; /* or NULL */
+    float unit, strength, turn[2]; /* turn: cosine and sine */
+} e3d_stretch_map;
+
 /* A physically based material on a batch (R46, R49). */
 typedef struct e3d_surface_model {
     e3d_varying metallic, roughness, occlusion; /* occlusion: the channel times the unit, before the strength */
@@ -83,6 +89,11 @@ typedef struct e3d_surface_model {
     float absorption[3]; /* base-2 logarithm of what a world unit leaves of light */
     int transmits;       /* `through` is found */
     int absorbs;         /* by `depth` */
+    int anisotropic, iridescent;
+    e3d_stretch_map stretch;
+    e3d_varying iridescence, film; /* film: the thickness in nanometres is film_least + film */
+    float film_least, film_ior;
+    int is_rare;         /* any of these, or transmits */
 } e3d_surface_model;
 
 #endif

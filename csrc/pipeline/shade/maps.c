@@ -62,6 +62,9 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
     case E3D_SLOT_SHEEN_ROUGHNESS: return lit && e3d_adds(m->physical.sheen_color);
     case E3D_SLOT_TRANSMISSION: return lit && bucket->transmits;
     case E3D_SLOT_THICKNESS: return lit && bucket->transmits && absorbs(&m->physical);
+    case E3D_SLOT_ANISOTROPY: return lit && m->physical.anisotropy != 0.0f;
+    case E3D_SLOT_IRIDESCENCE:
+    case E3D_SLOT_IRIDESCENCE_THICKNESS: return lit && m->physical.iridescence != 0.0f;
     case E3D_TEXTURE_SLOTS: break;
     }
     return 0;
@@ -129,8 +132,9 @@ void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wante
     if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
         out->of_slot[slot] = find_map(out, &m->name, reads_alpha(m, slot));
     E3D_EACH_TEXTURE_SLOT(FIND)
+    int stretched = m->is_physical && m->physical.anisotropy != 0.0f && is_lit(pass, bucket);
     if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
-        (all && pass->targets->tangent))
+        (all && (pass->targets->tangent || stretched)))
         find_tangent_place(bucket, out);
 }
 
@@ -260,6 +264,27 @@ static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory
     }
 }
 
+static e3d_stretch_map stretch_of(const e3d_map_memory *memory, const e3d_physical *p)
+{
+    e3d_normal_map directions = normals_of(memory, E3D_SLOT_ANISOTROPY, 1.0f);
+    return (e3d_stretch_map){directions.texels, directions.unit, p->anisotropy, {p->anisotropy_turn[0], p->anisotropy_turn[1]}};
+}
+
+/* Of few materials, which are shaded by code of their own. */
+static void add_rare(const e3d_map_memory *maps, const e3d_physical *p, e3d_surface_model *model)
+{
+    int varies = maps->maps.of_slot[E3D_SLOT_IRIDESCENCE_THICKNESS] >= 0;
+    float least = p->iridescence_thickness[0], most = p->iridescence_thickness[1];
+    model->anisotropic = p->anisotropy != 0.0f;
+    model->iridescent = p->iridescence != 0.0f;
+    model->stretch = stretch_of(maps, p);
+    model->iridescence = varying_of(maps, E3D_SLOT_IRIDESCENCE, 0, p->iridescence);
+    model->film = varying_of(maps, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
+    model->film_least = least;
+    model->film_ior = p->iridescence_ior;
+    model->is_rare = model->transmits || model->anisotropic || model->iridescent;
+}
+
 static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory *maps)
 {
     const e3d_material *m = bucket->material;
@@ -289,6 +314,7 @@ static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory
         model.sheen[k] = varying_of(maps, E3D_SLOT_SHEEN_COLOR, k, p->sheen_color[k]);
         model.absorption[k] = p->absorption[k];
     }
+    add_rare(maps, p, &model);
     return model;
 }
 

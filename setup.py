@@ -121,6 +121,7 @@ def static_libraries():
             "csrc/kernels/dispatch.c",
             "csrc/ui/*.c",
             "csrc/posing/*.c",
+            "csrc/occlusion/*.c",
         ],
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/*.c"],

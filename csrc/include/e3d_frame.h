@@ -93,6 +93,9 @@ typedef struct e3d_frame {
     int32_t transparent_outputs; /* outputs but colour are of the nearest surface, blended or not; else of the nearest that isn't blended */
     e3d_culling culling;
     const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
+    e3d_ambient_light ambient_light;      /* beside ambient */
+    const float *ambient_visibility;      /* (height, width) or NULL: what of the light from all around reaches the surfaces that a pixel
+                                           * shows, but for blended ones (R129) */
 } e3d_frame;
 
 #ifdef __cplusplus

@@ -193,6 +193,12 @@ cdef extern from "e3d.h" nogil:
         float cone[2]
         float lux[3]
 
+    enum: E3D_AMBIENT_TERMS
+
+    ctypedef struct e3d_ambient_light:
+        int32_t is_given
+        float terms[9][3]
+
     ctypedef enum e3d_pose_kind:
         E3D_POSE_NONE
         E3D_POSE_MATRIX
@@ -274,6 +280,8 @@ cdef extern from "e3d.h" nogil:
         int32_t order_count
         e3d_culling culling
         const double *frozen_clip_from_world
+        e3d_ambient_light ambient_light
+        const float *ambient_visibility
 
     ctypedef enum e3d_output_kind:
         E3D_OUTPUTS

@@ -142,6 +142,8 @@ cdef extern from "kernels/kernels.h" nogil:
         float eye[4]
         float exposure
         const void *environment
+        const float *ambient_terms
+        int has_visibility
 
     ctypedef struct e3d_pixel_rows:
         char *to

@@ -92,6 +92,8 @@ cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] rea
     memcpy(lighting.eye, &eye[0], sizeof(lighting.eye))
     lighting.exposure = 1.0
     lighting.environment = NULL
+    lighting.ambient_terms = NULL
+    lighting.has_visibility = 0
     return lighting
 
 

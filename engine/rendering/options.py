@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypedDict
 
 from .._native import rasterizer as _native
 from .._support.numbers import real, shown
-from .._support.validation import choose
+from .._support.validation import choose, optional_positive
 from ..choices import (
     ColorLike,
     Cull,
@@ -73,6 +73,8 @@ class RenderKeywords(TypedDict, total=False):
     culling_camera: CameraChoice
     batching: bool
     transparent_outputs: bool
+    ambient_occlusion: bool
+    ambient_occlusion_radius: float | None
     options: RenderOptions | None
 
 
@@ -86,7 +88,8 @@ class RenderOptions:
     Parameters
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs
+    hidden_lines, point_size, culling, batching, transparent_outputs, ambient_occlusion,
+    ambient_occlusion_radius
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -108,6 +111,8 @@ class RenderOptions:
     culling: Culling = "all"
     batching: bool = True
     transparent_outputs: bool = False
+    ambient_occlusion: bool = False
+    ambient_occlusion_radius: float | None = None
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -125,6 +130,10 @@ class RenderOptions:
             point_size=_line_size(self.point_size, "point_size"),
             batching=bool(self.batching),
             transparent_outputs=bool(self.transparent_outputs),
+            ambient_occlusion=bool(self.ambient_occlusion),
+            ambient_occlusion_radius=optional_positive(
+                self.ambient_occlusion_radius, "ambient_occlusion_radius"
+            ),
         )
 
 

@@ -29,6 +29,7 @@ from ..choices import (
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..materials.colors import COLOR_SPACES
 from ..scene.scene import Scene
+from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
 from ._draw_list import DrawList
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool, shapes_of
@@ -104,6 +105,7 @@ class Renderer(Closed):
         self._asked, self._wanted = (), {}
         self._viewpoint = Viewpoint(self._draw_list)
         self._surfaces = SurfacePass()
+        self._occlusion = AmbientOcclusion(number, threads)
         self._turn = RendererTurn(self._native)
 
     @property
@@ -132,16 +134,18 @@ class Renderer(Closed):
         with self._turn.taken():
             self._width, self._height = width, height
             self._asked = ()
-            self._pool.forget()
-            self._surfaces.forget()
+            self._forget_arrays()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
         with self._turn.taken(closing=True):
             self._native = self._draw_list = self._viewpoint = None
             self._turn.let_go()
-            self._pool.forget()
-            self._surfaces.forget()
+            self._forget_arrays()
+
+    def _forget_arrays(self) -> None:
+        for memory in (self._pool, self._surfaces, self._occlusion):
+            memory.forget()
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
@@ -224,6 +228,8 @@ class Renderer(Closed):
         culling_camera: CameraChoice = None,
         batching: bool = True,
         transparent_outputs: bool = False,
+        ambient_occlusion: bool = False,
+        ambient_occlusion_radius: float | None = None,
         options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
@@ -278,6 +284,11 @@ class Renderer(Closed):
             Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
             the nearest that isn't. Modes other than "lit" and "unlit" show blended surfaces as
             opaque ones anyway.
+        ambient_occlusion : bool
+            In mode "lit": less of the light from all around reaches corners and hollows.
+        ambient_occlusion_radius : float, optional
+            World units: what is farther away is in no light's way. By default a share of the
+            diagonal of the scene's box.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 
@@ -312,6 +323,8 @@ class Renderer(Closed):
                 culling,
                 batching,
                 transparent_outputs,
+                ambient_occlusion,
+                ambient_occlusion_radius,
             )
             named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)
@@ -349,6 +362,15 @@ class Renderer(Closed):
         except Exception as error:
             _blame_change(scene, census, error)
             raise
+        visibility = None
+        if shows_occlusion(options, frame.outputs):
+            depth = self._surfaces.draw(
+                *(self._native, self._draw_list, frame_options, view),
+                (self._width, self._height),
+                ("depth",),
+                frozen_clip_from_world=chosen,
+            )["depth"]
+            visibility = self._occlusion.find(depth, view, radius_of(options, scene.bounds))
         drawn = self._native.render(
             self._draw_list.native,
             frame._outputs,
@@ -364,6 +386,7 @@ class Renderer(Closed):
             far,
             chosen,
             view.rays if frame_options.has_backdrop else None,
+            visibility,
         )
         self._turn.check()
         frame._seen = view, options.cull

@@ -143,6 +143,7 @@ BATCH_RECORD = np.dtype(
         ("energy", "f4", (3, _LANES)),
         ("shine", "f4", (3, _LANES)),
         ("alpha", "f4", _LANES),
+        ("visibility", "f4", _LANES),
         ("count", "i4"),
     ]
 )

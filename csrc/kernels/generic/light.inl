@@ -8,6 +8,7 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
+#include "kernels/generic/ambient.inl"
 
 /* One vector of lit samples. Where all light is grey, the first channel stands for all three. */
 typedef struct lit_lanes {
@@ -191,8 +192,8 @@ static inline int light_choose(const e3d_lighting *lighting, int first, int end,
 
 /* ---- the sums ---- */
 
-/* Loads one vector, which only the ambient light lights yet. */
-static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, float shininess)
+/* Loads one vector, which only the ambient light lights yet: the same everywhere, unless it is varied. */
+static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, float shininess, int varied)
 {
     lit_lanes lit;
     for (int k = 0; k < 3; k++) {
@@ -201,6 +202,11 @@ static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const 
         lit.view[k] = lit.shine[k] = v_setf(0.0f);
         lit.energy[k] = v_setf(lighting->ambient[k]);
     }
+    if (varied)
+        ambient_light(lighting, lit.normal, lit.energy);
+    if (varied && lighting->has_visibility)
+        for (int k = 0; k < 3; k++)
+            lit.energy[k] = v_mul(lit.energy[k], v_loadf(batch->visibility + i));
     if (shininess > 0.0f)
         light_view(lighting, &lit);
     return lit;
@@ -212,10 +218,11 @@ static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
 }
 
 /* Adds the chosen ones of the lights from `first` on. */
-static inline void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count, float shininess)
+static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count,
+                                    float shininess, int varied)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
-        lit_lanes lit = light_begin(batch, i, lighting, shininess);
+        lit_lanes lit = light_begin(batch, i, lighting, shininess, varied);
         for (int k = 0; k < 3 && first; k++) {
             lit.energy[k] = v_loadf(batch->energy[k] + i);
             lit.shine[k] = v_loadf(batch->shine[k] + i);
@@ -238,7 +245,10 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
     do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
-        light_add(batch, lighting, first, chosen, count, shininess);
+        if (ambient_varies(lighting))
+            light_add(batch, lighting, first, chosen, count, shininess, 1);
+        else
+            light_add(batch, lighting, first, chosen, count, shininess, 0);
         first = end;
     } while (first < lighting->light_count);
     for (int k = 0; k < 3; k++)

@@ -15,11 +15,14 @@
 
 /* ---- light ---- */
 
+/* A constant for the compiler: whether samples are lit, and by ambient light that isn't the same everywhere. */
+enum { PAINT_UNLIT = 0, PAINT_LIT, PAINT_VARIED };
+
 /* R31 of all lights, which are few. Whether there are highlights is a constant for the compiler. */
-static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, float shininess, vf32 color[3])
+static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, float shininess, int varied, vf32 color[3])
 {
     const e3d_lighting *lighting = paint->lighting;
-    lit_lanes lit = light_begin(batch, i, lighting, shininess);
+    lit_lanes lit = light_begin(batch, i, lighting, shininess, varied);
     for (int n = 0; n < lighting->light_count; n++)
         light_one(lighting, n, shininess, &lit);
     for (int k = 0; k < 3; k++)
@@ -67,7 +70,7 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const e3d_p
     for (int k = 0; k < 3; k++)
         color[k] = colored ? v_loadf(batch->color[k] + i) : v_setf(paint->base[k]);
     if (lit)
-        paint_light(batch, i, paint, shininess, color);
+        paint_light(batch, i, paint, shininess, lit == PAINT_VARIED, color);
 }
 
 /* Shades and encodes a batch to RGBA8. */
@@ -91,7 +94,7 @@ static ALWAYS_INLINE void paint_in_turn(e3d_batch *batch, const e3d_paint *paint
         for (int k = 0; k < 3; k++)
             v_storef(batch->color[k] + i, color[k]);
     }
-    paint_codes(batch, paint, 1, 0, 0.0f, 1, rgba);
+    paint_codes(batch, paint, 1, PAINT_UNLIT, 0.0f, 1, rgba);
 }
 
 static ALWAYS_INLINE void paint_samples(const e3d_batch *batch, const e3d_paint *paint, int colored, int lit, float shininess)
@@ -132,11 +135,13 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         kernel_interpolate(batch, surfaces, paint->wanted);
     int colored = paint_albedo(batch, surfaces, paint);
     if (!paint->lighting)
-        paint_pixels(batch, paint, colored, 0, 0.0f, rgba);
+        paint_pixels(batch, paint, colored, PAINT_UNLIT, 0.0f, rgba);
+    else if (ambient_varies(paint->lighting))
+        paint_pixels(batch, paint, colored, PAINT_VARIED, paint->shininess, rgba);
     else if (paint->shininess > 0.0f)
-        paint_pixels(batch, paint, colored, 1, paint->shininess, rgba);
+        paint_pixels(batch, paint, colored, PAINT_LIT, paint->shininess, rgba);
     else
-        paint_pixels(batch, paint, colored, 1, 0.0f, rgba);
+        paint_pixels(batch, paint, colored, PAINT_LIT, 0.0f, rgba);
 }
 
 #endif

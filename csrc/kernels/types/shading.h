@@ -60,6 +60,7 @@ typedef struct e3d_batch {
     e3d_lane_array position[3], normal[3], uv[2], color[3];
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3], alpha;
+    e3d_lane_array visibility; /* R129, where the frame has it */
     int count;
 } e3d_batch;
 
@@ -84,6 +85,8 @@ typedef struct e3d_lighting {
     const float *reach[5];
     float ambient[3], clamp[2], eye[4], exposure;
     const e3d_environment_light *environment; /* NULL where there is none */
+    const float (*ambient_terms)[3];          /* R130, or NULL */
+    int has_visibility;                       /* the batch's */
 } e3d_lighting;
 
 /* How the kernel `paint` turns the samples of a batch into pixels. */

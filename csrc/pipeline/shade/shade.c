@@ -12,6 +12,7 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/maps.h"
 #include "pipeline/shade/alpha.h"
+#include "pipeline/shade/ambient.h"
 #include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
@@ -118,10 +119,12 @@ static void light(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_batch 
     pass->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive, pass->view->lighting.exposure);
 }
 
-static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
 {
+    e3d_shade_memory *memory = out->memory;
     switch (pass->frame->mode) {
     case E3D_MODE_LIT:
+        e3d_find_visibility(pass, out);
         if (bucket->face && bucket->material->is_physical && !bucket->material->is_unlit)
             e3d_light_physical(pass, bucket, memory);
         else if (bucket->face && !bucket->material->is_unlit)
@@ -187,6 +190,8 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
         .srgb = e3d_plans(pass, E3D_PLAN_ENCODES_SRGB),
         .samples = out->pixels->sampled ? &out->pixels->samples : NULL,
     };
+    if (lit)
+        e3d_find_visibility(pass, out);
     pass->kernels->paint(&out->memory->batch, &out->memory->surfaces, &paint, out->pixels->rgba);
 }
 
@@ -208,7 +213,7 @@ static void shade_alpha(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     }
     if (use != E3D_ALPHA_TEST) {
         memory->shaded += memory->batch.count;
-        find_colors(pass, bucket, memory);
+        find_colors(pass, bucket, out);
     }
     e3d_alpha_batch(pass, bucket, out);
 }
@@ -242,7 +247,7 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
         e3d_resolve_hidden(in->store, batch, out->pixels);
         return;
     }
-    find_colors(pass, bucket, out->memory);
+    find_colors(pass, bucket, out);
     e3d_resolve_batch(in->store, batch, out->pixels);
 }
 

@@ -1,28 +1,11 @@
-/* Directions are spread evenly; their order in a cell is that of ordered dithering (Bayer 1973), so that rows and columns of four, too,
- * look all around.
+/* The directions of ambient occlusion, spread evenly. The order of pixels is that of ordered dithering (Bayer 1973); with the distances by
+ * reversed bits (Hammersley 1960), every square of four, of sixteen and of all pixels of a cell looks all around, near and far.
  */
 #include "core/occlusion_pattern.h"
 
-#define FAR 0x1.f6297cp-1f   /* cos 11.25 degrees */
-#define LARGE 0x1.a9b662p-1f /* cos 33.75 */
-#define SMALL 0x1.1c73b4p-1f /* cos 56.25 */
-#define NEAR 0x1.8f8b84p-3f  /* cos 78.75 */
-
-const float E3D_OCCLUSION_DIRECTIONS[16][2] = {
-    {FAR, NEAR},     {LARGE, SMALL},   {SMALL, LARGE},   {NEAR, FAR},   {-NEAR, FAR},  {-SMALL, LARGE}, {-LARGE, SMALL}, {-FAR, NEAR},
-    {-FAR, -NEAR},   {-LARGE, -SMALL}, {-SMALL, -LARGE}, {-NEAR, -FAR}, {NEAR, -FAR},  {SMALL, -LARGE}, {LARGE, -SMALL}, {FAR, -NEAR},
-};
-
-const unsigned char E3D_OCCLUSION_NUMBERS[E3D_OCCLUSION_CELL][E3D_OCCLUSION_CELL] = {
-    {0, 8, 2, 10},
-    {12, 4, 14, 6},
-    {3, 11, 1, 9},
-    {15, 7, 13, 5},
-};
-
-const unsigned char E3D_OCCLUSION_SHIFTS[E3D_OCCLUSION_CELL][E3D_OCCLUSION_CELL] = {
-    {1, 13, 5, 9},
-    {7, 11, 3, 15},
-    {8, 4, 12, 0},
-    {14, 2, 10, 6},
+const float E3D_OCCLUSION_COSINES[16] = {
+    0x1.ff621ep-1f, 0x1.fa7558p-1f, 0x1.f0a7fp-1f, 0x1.e2121p-1f,
+    0x1.ced7bp-1f, 0x1.b72834p-1f, 0x1.9b3e04p-1f, 0x1.7b5df2p-1f,
+    0x1.57d694p-1f, 0x1.30ff8p-1f, 0x1.07387ap-1f, 0x1.b5d1p-2f,
+    0x1.58f9a8p-2f, 0x1.f19f98p-3f, 0x1.2c8106p-3f, 0x1.91f66p-5f,
 };

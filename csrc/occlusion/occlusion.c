@@ -20,7 +20,7 @@
 #include "kernels/types/occlusion.h"
 #include "reference/occlusion.h"
 
-enum { BAND = 32, /* rows that a thread takes at a time */
+enum { BAND = 64, /* rows that a thread takes at a time */
        SPAN = E3D_OCCLUSION_SPAN };
 
 /* A worker's rows: SPAN of each kind. */
@@ -46,8 +46,9 @@ static void fill_pattern(const e3d_depth_picture *picture, int row, e3d_occlusio
     float aspect = absolute(picture->down[0]) / absolute(picture->across[0]);
     for (int lane = 0; lane < E3D_OCCLUSION_CELL + E3D_PAD; lane++) {
         int column = lane % E3D_OCCLUSION_CELL;
-        const float *direction = E3D_OCCLUSION_DIRECTIONS[E3D_OCCLUSION_NUMBERS[row][column]];
-        float shift = (float)E3D_OCCLUSION_SHIFTS[row][column] * 0.0625f;
+        int number = e3d_occlusion_number(column, row);
+        float shift = (float)e3d_occlusion_shift(number) * 0x1p-6f, direction[2];
+        e3d_occlusion_direction(number, direction);
         out->step[0][lane] = direction[0] * aspect;
         out->step[1][lane] = direction[1];
         out->side[0][lane] = picture->across[0] < 0.0f ? 0.0f - direction[0] : direction[0];

@@ -11,6 +11,9 @@
 #include "reference/arithmetic.h"
 #include "reference/float_environment.h"
 
+enum { SPAN = E3D_OCCLUSION_SPAN,
+       MIDDLE = E3D_OCCLUSION_FILTER };
+
 /* What a pixel shows. */
 typedef struct pixel {
     int32_t x, y;
@@ -105,9 +108,9 @@ static float share_at(const e3d_depth_picture *p, int32_t x, int32_t y, float ra
     pixel at = pixel_at(p, x, y);
     if (at.depth == 0.0f)
         return 0.0f;
-    int row = y % E3D_OCCLUSION_CELL, column = x % E3D_OCCLUSION_CELL;
-    const float *direction = E3D_OCCLUSION_DIRECTIONS[E3D_OCCLUSION_NUMBERS[row][column]];
-    float pixel_size = fabsf(p->down[0]), shift = (float)E3D_OCCLUSION_SHIFTS[row][column] * 0.0625f;
+    int number = e3d_occlusion_number(x % E3D_OCCLUSION_CELL, y % E3D_OCCLUSION_CELL);
+    float pixel_size = fabsf(p->down[0]), shift = (float)e3d_occlusion_shift(number) * 0x1p-6f, direction[2];
+    e3d_occlusion_direction(number, direction);
     float step[2] = {direction[0] * (pixel_size / fabsf(p->across[0])), direction[1]};
     float side[2] = {p->across[0] < 0.0f ? 0.0f - direction[0] : direction[0], p->down[0] < 0.0f ? 0.0f - direction[1] : direction[1]};
     float reach = radius / pixel_size, horizon = 0.0f;
@@ -121,18 +124,18 @@ static float share_at(const e3d_depth_picture *p, int32_t x, int32_t y, float ra
     return horizon > 0.0f ? hidden_share(p, &at, side, horizon) : 0.0f;
 }
 
-/* R128: the mean of five pixels in a row or column. */
-static float mean(const e3d_depth_picture *p, const float near[5], const float share[5])
+/* R128: the mean of nine pixels in a row or column. */
+static float mean(const e3d_depth_picture *p, const float near[SPAN], const float share[SPAN])
 {
-    float change = change_of(near[1], near[2], near[3]), sum = share[2], weights = 1.0f;
+    float here = near[MIDDLE], change = change_of(near[MIDDLE - 1], here, near[MIDDLE + 1]), sum = share[MIDDLE], weights = 1.0f;
     float over_step = 1.0f / (E3D_OCCLUSION_STEP * fabsf(p->down[0]));
-    if (p->is_perspective && near[2] != 0.0f)
-        over_step = over_step / near[2];
-    for (int k = 0; k < 5; k++) {
-        if (k == 2 || near[k] == 0.0f)
+    if (p->is_perspective && here != 0.0f)
+        over_step = over_step / here;
+    for (int k = 0; k < SPAN; k++) {
+        if (k == MIDDLE || near[k] == 0.0f)
             continue;
-        float off = (near[k] - near[2]) - change * (float)(k - 2);
-        float weight = ref_max(1.0f - fabsf(off) * over_step, 0.0f) * (k == 0 || k == 4 ? 0.5f : 1.0f);
+        float off = (near[k] - here) - change * (float)(k - MIDDLE);
+        float weight = ref_max(1.0f - fabsf(off) * over_step, 0.0f) * (k == 0 || k == SPAN - 1 ? 0.5f : 1.0f);
         sum = sum + weight * share[k];
         weights = weights + weight;
     }
@@ -141,9 +144,9 @@ static float mean(const e3d_depth_picture *p, const float near[5], const float s
 
 static float mean_across(const e3d_depth_picture *p, int32_t x, int32_t y, const float *shares)
 {
-    float near[5], share[5];
-    for (int k = 0; k < 5; k++) {
-        int32_t column = x + k - 2;
+    float near[SPAN], share[SPAN];
+    for (int k = 0; k < SPAN; k++) {
+        int32_t column = x + k - MIDDLE;
         int is_inside = column >= 0 && column < p->width;
         near[k] = nearness_at(p, column, y);
         share[k] = is_inside ? shares[(size_t)y * (size_t)p->width + (size_t)column] : 0.0f;
@@ -153,13 +156,13 @@ static float mean_across(const e3d_depth_picture *p, int32_t x, int32_t y, const
 
 static float visibility_at(const e3d_depth_picture *p, int32_t x, int32_t y, const float *shares)
 {
-    float near[5], share[5];
-    for (int k = 0; k < 5; k++) {
-        int32_t row = y + k - 2;
+    float near[SPAN], share[SPAN];
+    for (int k = 0; k < SPAN; k++) {
+        int32_t row = y + k - MIDDLE;
         near[k] = nearness_at(p, x, row);
         share[k] = row >= 0 && row < p->height ? mean_across(p, x, row, shares) : 0.0f;
     }
-    return near[2] == 0.0f ? 1.0f : ref_max(1.0f - mean(p, near, share), 0.0f);
+    return near[MIDDLE] == 0.0f ? 1.0f : ref_max(1.0f - mean(p, near, share), 0.0f);
 }
 
 /* Not inlined, so that no arithmetic moves out of the floating-point environment. */

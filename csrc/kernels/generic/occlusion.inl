@@ -152,8 +152,8 @@ static void kernel_occlusion(const e3d_occlusion_plan *plan, const e3d_occlusion
 
 /* ---- the filter (R128) ---- */
 
-/* Where nothing is hidden of any of five, the mean is 0. */
-static ALWAYS_INLINE int occlusion_has_some(const vf32 share[5])
+/* Where nothing is hidden of any of them, the mean is 0. */
+static ALWAYS_INLINE int occlusion_has_some(const vf32 share[E3D_OCCLUSION_SPAN])
 {
     vf32 most = share[0];
     for (int k = 1; k < E3D_OCCLUSION_SPAN; k++)
@@ -161,8 +161,8 @@ static ALWAYS_INLINE int occlusion_has_some(const vf32 share[5])
     return v_any(v_gt(most, v_setf(0.0f)));
 }
 
-/* The mean of five pixels in a row or column, as far as each lies on the middle one's surface. */
-static ALWAYS_INLINE vf32 occlusion_mean(const e3d_occlusion_plan *plan, const vf32 near[5], const vf32 share[5], int is_perspective)
+/* The mean of nine pixels in a row or column, as far as each lies on the middle one's surface. */
+static ALWAYS_INLINE vf32 occlusion_mean(const e3d_occlusion_plan *plan, const vf32 near[E3D_OCCLUSION_SPAN], const vf32 share[E3D_OCCLUSION_SPAN], int is_perspective)
 {
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f), here = near[OCCLUSION_MIDDLE], over_step = v_setf(plan->over_step);
     vf32 change = occlusion_change(near[OCCLUSION_MIDDLE - 1], here, near[OCCLUSION_MIDDLE + 1]);

@@ -27,7 +27,7 @@ typedef struct e3d_occlusion_plan {
     float over_step;              /* 1 over E3D_OCCLUSION_STEP pixels, likewise */
 } e3d_occlusion_plan;
 
-/* Of five rows, the middle one being y, nearness and the shares of light that are hidden: each has E3D_PAD zeros before its first pixel
+/* Of nine rows, the middle one being y, nearness and the shares of light that are hidden: each has E3D_PAD zeros before its first pixel
  * and nothing but zeros of nearness after its last; rows outside of the picture are 0. */
 typedef struct e3d_occlusion_rows {
     int32_t y;

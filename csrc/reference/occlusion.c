@@ -69,12 +69,13 @@ static pixel pixel_at(const e3d_depth_picture *p, int32_t x, int32_t y)
     return at;
 }
 
-/* R127: of the place that many pixels away. */
-static float rise(const e3d_depth_picture *p, const pixel *at, float away, const float step[2], float radius)
+/* R127: of the place that many pixels away, and how much it counts. */
+static float rise(const e3d_depth_picture *p, const pixel *at, float away, const float step[2], float radius, float *counts)
 {
     int32_t x = ref_rint(ref_min(ref_max((float)at->x + away * step[0], 0.0f), (float)(p->width - 1)));
     int32_t y = ref_rint(ref_min(ref_max((float)at->y + away * step[1], 0.0f), (float)(p->height - 1)));
     float depth = depth_at(p, x, y);
+    *counts = 0.0f;
     if (depth == 0.0f)
         return 0.0f;
     float d[3] = {(p->across[0] * ((float)x - (float)at->x)) * scale_at(p, depth),
@@ -83,8 +84,8 @@ static float rise(const e3d_depth_picture *p, const pixel *at, float away, const
         d[c] = d[c] + at->ray[c] * d[2];
     float square = ref_dot3(d, d), above = ref_max(ref_dot3(at->normal, d), 0.0f);
     float sine2 = ((above * above) * (1.0f / at->length2)) / ref_max(square, 0x1p-126f);
-    float near = ref_min(ref_max(E3D_OCCLUSION_FALL - square * (E3D_OCCLUSION_FALL / (radius * radius)), 0.0f), 1.0f);
-    return (sine2 - E3D_OCCLUSION_SLACK) * near;
+    *counts = ref_min(ref_max(E3D_OCCLUSION_FALL - square * (E3D_OCCLUSION_FALL / (radius * radius)), 0.0f), 1.0f);
+    return ref_min(1.0f, sine2 - E3D_OCCLUSION_SLACK);
 }
 
 /* R127: what is hidden of the light from one side below a horizon, whose squared sine is given. */
@@ -113,15 +114,17 @@ static float share_at(const e3d_depth_picture *p, int32_t x, int32_t y, float ra
     e3d_occlusion_direction(number, direction);
     float step[2] = {direction[0] * (pixel_size / fabsf(p->across[0])), direction[1]};
     float side[2] = {p->across[0] < 0.0f ? 0.0f - direction[0] : direction[0], p->down[0] < 0.0f ? 0.0f - direction[1] : direction[1]};
-    float reach = radius / pixel_size, horizon = 0.0f;
+    float reach = radius / pixel_size, horizon = 0.0f, sum = 0.0f;
     if (p->is_perspective)
         reach = ref_max(reach * nearness_at(p, x, y), 0.0f);
     reach = ref_min(reach, (float)E3D_OCCLUSION_REACH);
     for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
         float t = ((float)tap + shift) * (1.0f / E3D_OCCLUSION_TAPS);
-        horizon = ref_max(rise(p, &at, reach * (t * t) + 1.0f, step, radius), horizon);
+        float counts, next = rise(p, &at, reach * (t * t) + 1.0f, step, radius, &counts);
+        sum = sum + ref_max(next - horizon, 0.0f) * counts;
+        horizon = ref_max(next, horizon);
     }
-    return horizon > 0.0f ? hidden_share(p, &at, side, horizon) : 0.0f;
+    return sum > 0.0f ? hidden_share(p, &at, side, sum) : 0.0f;
 }
 
 /* R128: the mean of nine pixels in a row or column. */

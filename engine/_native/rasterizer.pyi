@@ -264,7 +264,6 @@ def rasterize(
     depth: _Floats,
     barycentric: _Floats,
 ) -> None: ...
-
 def find_occlusion(
     depth: _Floats,
     across: tuple[float, float],

@@ -29,6 +29,7 @@ from ..errors import InvalidArgumentError
 from ..linalg import cos
 from ..materials.colors import check_color
 from ._placed_by_node import PlacedByNode
+from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 UNITS: tuple[LightUnit, ...] = get_args(LightUnit)
@@ -241,5 +242,5 @@ class SpotLight(PlacedByNode):
         )
 
 
-LIGHTS = (DirectionalLight, PointLight, SpotLight)
-Light: TypeAlias = DirectionalLight | PointLight | SpotLight
+LIGHTS = (DirectionalLight, PointLight, SpotLight, *AMBIENT_LIGHTS)
+Light: TypeAlias = DirectionalLight | PointLight | SpotLight | HemisphereLight | LightProbe

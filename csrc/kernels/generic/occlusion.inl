@@ -64,9 +64,9 @@ static ALWAYS_INLINE occlusion_lanes occlusion_surface(const e3d_occlusion_plan 
     return at;
 }
 
-/* R127: the square of the sine by which what shows at a place stands above the surface, less the farther away it is. */
+/* R127: the square of the sine by which what shows at a place stands above the surface, and how much it counts at its distance. */
 static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const occlusion_lanes *at, vf32 away, vf32 step_x, vf32 step_y,
-                                         int is_perspective)
+                                         int is_perspective, vf32 *counts)
 {
     const e3d_depth_picture *p = plan->picture;
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f);
@@ -84,25 +84,26 @@ static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const o
     vf32 square = v_add(v_add(v_mul(right, right), v_mul(down, down)), v_mul(change, change));
     vf32 above = v_max(v_sub(v_add(v_mul(at->g, right), v_mul(at->h, down)), v_mul(at->w, change)), zero);
     vf32 rise = v_div(v_mul(v_mul(above, above), at->over_length2), v_max(square, v_setf(0x1p-126f)));
-    vf32 near = v_min(v_max(v_sub(v_setf(E3D_OCCLUSION_FALL), v_mul(square, v_setf(plan->fall))), zero), one);
-    rise = v_mul(v_sub(rise, v_setf(E3D_OCCLUSION_SLACK)), near);
-    return v_self(v_eq(depth, zero), zero, rise);
+    *counts = v_min(v_max(v_sub(v_setf(E3D_OCCLUSION_FALL), v_mul(square, v_setf(plan->fall))), zero), one);
+    return v_self(v_eq(depth, zero), zero, v_min(one, v_sub(rise, v_setf(E3D_OCCLUSION_SLACK))));
 }
 
-/* R127: the greatest rise of all places. */
+/* R127: how far the horizon rises from place to place, each as much as it counts. */
 static ALWAYS_INLINE vf32 occlusion_horizon(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane,
                                             const occlusion_lanes *at, vf32 near, int is_perspective)
 {
-    vf32 step_x = v_loadf(pattern->step[0] + lane), step_y = v_loadf(pattern->step[1] + lane), horizon = v_setf(0.0f);
+    vf32 step_x = v_loadf(pattern->step[0] + lane), step_y = v_loadf(pattern->step[1] + lane), zero = v_setf(0.0f), horizon = zero, sum = zero;
     vf32 reach = v_setf(plan->reach);
     if (is_perspective)
-        reach = v_max(v_mul(reach, near), horizon);
+        reach = v_max(v_mul(reach, near), zero);
     reach = v_min(reach, v_setf((float)E3D_OCCLUSION_REACH));
     for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
         vf32 away = v_add(v_mul(reach, v_loadf(pattern->share[tap] + lane)), v_setf(1.0f));
-        horizon = v_max(occlusion_rise(plan, at, away, step_x, step_y, is_perspective), horizon);
+        vf32 counts, rise = occlusion_rise(plan, at, away, step_x, step_y, is_perspective, &counts);
+        sum = v_add(sum, v_mul(v_max(v_sub(rise, horizon), zero), counts));
+        horizon = v_max(rise, horizon);
     }
-    return horizon;
+    return sum;
 }
 
 /* R127: the share of light from the direction's side that is hidden below a horizon. */

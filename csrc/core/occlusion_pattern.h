@@ -11,7 +11,8 @@ enum {
 };
 
 #define E3D_OCCLUSION_SLACK 0x1p-10f /* the squared sine of the least angle above a surface that counts */
-#define E3D_OCCLUSION_FALL 0x1.555556p+0f /* 4/3: what is nearer than half the radius counts in full */
+#define E3D_OCCLUSION_MOST 2.0f     /* no share is greater than pi/2: what overflowed must stay finite */
+#define E3D_OCCLUSION_FALL 2.0f /* what is nearer than 0.7 of the radius counts in full */
 #define E3D_OCCLUSION_NO_CHANGE 0x1p126f  /* of nearness, where nothing shows beside a pixel */
 #define E3D_OCCLUSION_STEP 4.0f      /* pixels: what is further in front of or behind a surface is another for the filter */
 

@@ -101,7 +101,7 @@ static float hidden_share(const e3d_depth_picture *p, const pixel *at, const flo
     float scale2 = (at->length2 * ray2) * rest, scale = 1.0f / sqrtf(scale2), facing = sqrtf(rest);
     float s2 = ref_min((horizon * scale2) / (rest + along * along), 1.0f), s = sqrtf(s2);
     float arc = (s2 * s) * ((E3D_ARC_A0 + E3D_ARC_A1 * s) + sqrtf(1.0f - s) * (E3D_ARC_B0 + E3D_ARC_B1 * s));
-    return ref_max((facing * s2 + along * arc) * scale, 0.0f);
+    return ref_min(ref_max((facing * s2 + along * arc) * scale, 0.0f), E3D_OCCLUSION_MOST);
 }
 
 static float share_at(const e3d_depth_picture *p, int32_t x, int32_t y, float radius)
@@ -133,7 +133,7 @@ static float mean(const e3d_depth_picture *p, const float near[SPAN], const floa
     float here = near[MIDDLE], change = change_of(near[MIDDLE - 1], here, near[MIDDLE + 1]), sum = share[MIDDLE], weights = 1.0f;
     float over_step = 1.0f / (E3D_OCCLUSION_STEP * fabsf(p->down[0]));
     if (p->is_perspective && here != 0.0f)
-        over_step = over_step / here;
+        over_step = over_step / fabsf(here);
     for (int k = 0; k < SPAN; k++) {
         if (k == MIDDLE || near[k] == 0.0f)
             continue;

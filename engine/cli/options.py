@@ -22,7 +22,7 @@ from ..choices import (
     Shading,
     Wireframe,
 )
-from . import values
+from . import ambient_options, values
 from .environment_options import surroundings
 from .inputs import model_files
 from .loading_bar import LoadingBar
@@ -491,6 +491,7 @@ def settings(args: argparse.Namespace):
         "line_color": args.line_color,
         "hidden_lines": args.hidden_lines or None,
         "point_size": args.point_size,
+        **ambient_options.appearance_of(args),
     }
     return Settings(
         appearance={name: value for name, value in appearance.items() if value is not None},

@@ -9,7 +9,7 @@ import argparse
 
 from ..benchmarking.names import WORKLOADS
 from ..version import __version__
-from . import environment_options, options, suggestions, values
+from . import ambient_options, environment_options, options, suggestions, values
 from .suggestions import Parser
 from .usage import UsageError
 
@@ -124,6 +124,7 @@ def _add_shared(command) -> None:
     options.add_picture(command)
     options.add_appearance(command)
     options.add_light(command)
+    ambient_options.add_ambient(command)
     environment_options.add_environment(command)
     options.add_camera(command)
 

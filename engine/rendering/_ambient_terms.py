@@ -18,9 +18,8 @@ from ..scene.ambient_lights import HemisphereLight, LightProbe
 
 _CONSTANT = 0.5 / math.sqrt(math.pi)
 _LINEAR = math.sqrt(3.0 / math.pi) / 3.0
-_PRODUCT = math.sqrt(15.0 / math.pi) / 8.0
 _ALONG_Z = math.sqrt(5.0 / math.pi) / 16.0
-_DIFFERENCE = math.sqrt(15.0 / math.pi) / 16.0
+_ACROSS = math.sqrt(15.0 / math.pi) / 16.0
 
 _Rows = list[list[float]]
 
@@ -72,8 +71,8 @@ def _of_probe(light: LightProbe, axes: list[Sequence[float]]) -> _Rows:
 
 def _turned(c: list[float], axes: list[Sequence[float]]) -> list[float]:
     linear = [_LINEAR * c[3], _LINEAR * c[1], _LINEAR * c[2]]
-    xy, yz, zx = _PRODUCT * c[4], _PRODUCT * c[5], _PRODUCT * c[7]
-    along, difference = _ALONG_Z * c[6], _DIFFERENCE * c[8]
+    xy, yz, zx = _ACROSS * c[4], _ACROSS * c[5], _ACROSS * c[7]
+    along, difference = _ALONG_Z * c[6], _ACROSS * c[8]
     matrix = [[difference - along, xy, zx], [xy, -difference - along, yz], [zx, yz, 2.0 * along]]
     turned = [_sum(linear[k] * axes[k][row] for k in range(3)) for row in range(3)]
     half = [

@@ -52,6 +52,8 @@ class Appearance:
     line_color: tuple[int, int, int] | None = None
     hidden_lines: bool = False
     point_size: float | None = None
+    ambient_occlusion: bool = False
+    ambient_occlusion_radius: float | None = None
 
     def arguments(self, background, point_size: float) -> dict:
         """Return the keyword arguments for `Renderer.render`.

@@ -122,7 +122,7 @@ static ALWAYS_INLINE vf32 occlusion_share(const e3d_occlusion_pattern *pattern, 
     vf32 s2 = v_min(v_div(v_mul(horizon, scale2), v_add(rest, v_mul(along, along))), one), s = v_sqrt(s2);
     vf32 a = v_add(v_setf(E3D_ARC_A0), v_mul(v_setf(E3D_ARC_A1), s)), b = v_add(v_setf(E3D_ARC_B0), v_mul(v_setf(E3D_ARC_B1), s));
     vf32 arc = v_mul(v_mul(s2, s), v_add(a, v_mul(v_sqrt(v_sub(one, s)), b)));
-    return v_max(v_mul(v_add(v_mul(facing, s2), v_mul(along, arc)), scale), zero);
+    return v_min(v_max(v_mul(v_add(v_mul(facing, s2), v_mul(along, arc)), scale), zero), v_setf(E3D_OCCLUSION_MOST));
 }
 
 static ALWAYS_INLINE void occlusion_row(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
@@ -136,8 +136,9 @@ static ALWAYS_INLINE void occlusion_row(const e3d_occlusion_plan *plan, const e3
         if (v_any(shows)) {
             occlusion_lanes at = occlusion_surface(plan, rows, x, is_perspective);
             vf32 horizon = occlusion_horizon(plan, pattern, lane, &at, near, is_perspective);
-            if (v_any(v_gt(horizon, zero)))
-                share = v_self(shows, occlusion_share(pattern, lane, &at, horizon, is_perspective), zero);
+            vmask some = v_mand(shows, v_gt(horizon, zero));
+            if (v_any(some))
+                share = v_self(some, occlusion_share(pattern, lane, &at, horizon, is_perspective), zero);
         }
         v_storef(out + x, share);
     }
@@ -169,7 +170,7 @@ static ALWAYS_INLINE vf32 occlusion_mean(const e3d_occlusion_plan *plan, const v
     vf32 change = occlusion_change(near[OCCLUSION_MIDDLE - 1], here, near[OCCLUSION_MIDDLE + 1]);
     vf32 sum = share[OCCLUSION_MIDDLE], weights = one;
     if (is_perspective)
-        over_step = v_div(over_step, v_self(v_eq(here, zero), one, here));
+        over_step = v_div(over_step, v_self(v_eq(here, zero), one, occlusion_abs(here)));
     for (int k = 0; k < E3D_OCCLUSION_SPAN; k++) {
         if (k == OCCLUSION_MIDDLE)
             continue;

@@ -122,6 +122,7 @@ def static_libraries():
             "csrc/ui/*.c",
             "csrc/posing/*.c",
             "csrc/bloom/*.c",
+            "csrc/occlusion/*.c",
         ],
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/*.c"],

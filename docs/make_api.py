@@ -39,6 +39,8 @@ CHAPTERS = {
         "DirectionalLight",
         "PointLight",
         "SpotLight",
+        "HemisphereLight",
+        "LightProbe",
         "Environment",
         "Gradient",
         "Fog",

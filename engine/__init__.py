@@ -70,6 +70,8 @@ _PUBLIC = {
     "DirectionalLight": "scene.lights",
     "PointLight": "scene.lights",
     "SpotLight": "scene.lights",
+    "HemisphereLight": "scene.ambient_lights",
+    "LightProbe": "scene.ambient_lights",
     "Animator": "scene.animation",
     "MorphTarget": "geometry.morph_targets",
     "Skin": "motion.skins",

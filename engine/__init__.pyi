@@ -58,6 +58,8 @@ from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
 from .rendering.renderer import Renderer as Renderer
 from .rendering.renderer import render as render
+from .scene.ambient_lights import HemisphereLight as HemisphereLight
+from .scene.ambient_lights import LightProbe as LightProbe
 from .scene.animation import Animator as Animator
 from .scene.cameras import Camera as Camera
 from .scene.cameras import IntrinsicsCamera as IntrinsicsCamera

@@ -113,6 +113,9 @@ typedef struct e3d_frame {
     e3d_point_shape point_shape;
     int32_t msaa_samples; /* 2, 4, 8 or 16: multisampling, with samples_axis 1; else 0 */
     int32_t alpha_to_coverage; /* with multisampling: alpha tells how many of a pixel's samples E3D_ALPHA_MASK covers */
+    e3d_ambient_light ambient_light;      /* beside ambient */
+    const float *ambient_visibility;      /* (height, width) or NULL: what of the light from all around reaches the surfaces that a pixel
+                                           * shows, but for blended ones (R129) */
 } e3d_frame;
 
 #ifdef __cplusplus

@@ -57,6 +57,15 @@ typedef struct e3d_light {
     e3d_light_shadow shadow; /* lit surfaces lie in it that receive shadows */
 } e3d_light;
 
+enum { E3D_AMBIENT_TERMS = 9 };
+
+/* Light from all around that differs from direction to direction (R130): what white surfaces show by their normal (x, y, z) is a sum of
+ * 1, x, y, z, xx - zz, yy - zz, xy, yz and zx, each times its term, and then no less than 0. */
+typedef struct e3d_ambient_light {
+    int32_t is_given;
+    float terms[E3D_AMBIENT_TERMS][3];
+} e3d_ambient_light;
+
 #ifdef __cplusplus
 }
 #endif

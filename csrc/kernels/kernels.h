@@ -16,6 +16,7 @@
 #include "kernels/types/fragments.h"
 #include "kernels/types/lobe.h"
 #include "kernels/types/maps.h"
+#include "kernels/types/occlusion.h"
 #include "kernels/types/records.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
@@ -134,6 +135,13 @@ typedef struct e3d_kernels {
     void (*albedo)(e3d_dfg kind, const float *roughness, const float *cosine, int count, float *out);
     /* Adds what a block of texels gathers of the light of cells. */
     void (*lobe)(const e3d_cell_group *group, e3d_lobe_block *block);
+    /* Finds nearness of depths: where all that lies on a plane is affine. */
+    void (*nearness)(const float *depth, int count, int is_perspective, float *out);
+    /* Ambient occlusion of the row of pixels in the middle: the shares of light that are hidden; their means over pixels to the left and
+     * right, then over those above and below, which is visibility. */
+    void (*occlusion)(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out);
+    void (*occlusion_across)(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out);
+    void (*occlusion_down)(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out);
     /* Finds the colours of an environment behind `count` pixels of a row, from (x, y) on; they are neither tone mapped nor clamped. */
     void (*backdrop)(const e3d_backdrop *backdrop, int x, int y, int count, float *const color[3]);
     /* Lays fog over colours that are at these positions. */

@@ -235,6 +235,12 @@ cdef extern from "e3d.h" nogil:
         float lux[3]
         e3d_light_shadow shadow
 
+    enum: E3D_AMBIENT_TERMS
+
+    ctypedef struct e3d_ambient_light:
+        int32_t is_given
+        float terms[9][3]
+
     ctypedef enum e3d_pose_kind:
         E3D_POSE_NONE
         E3D_POSE_MATRIX
@@ -361,6 +367,8 @@ cdef extern from "e3d.h" nogil:
         const e3d_casters *casters
         e3d_line_shape line_shape
         e3d_point_shape point_shape
+        e3d_ambient_light ambient_light
+        const float *ambient_visibility
 
     ctypedef enum e3d_output_kind:
         E3D_OUTPUT_NDC_DEPTH

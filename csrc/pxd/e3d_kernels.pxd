@@ -147,6 +147,8 @@ cdef extern from "kernels/kernels.h" nogil:
         float exposure
         const void *environment
         const e3d_shadow_map *shadows
+        const float *ambient_terms
+        int has_visibility
 
     ctypedef struct e3d_pixel_rows:
         char *to

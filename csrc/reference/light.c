@@ -74,8 +74,10 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
     const e3d_material *material = surface->piece->primitive.material;
     const float *specular = material->specular;
     int shiny = specular[0] != 0.0f || specular[1] != 0.0f || specular[2] != 0.0f;
-    float diffuse_sum[3] = {frame->ambient[0], frame->ambient[1], frame->ambient[2]};
-    float specular_sum[3] = {0.0f, 0.0f, 0.0f};
+    float diffuse_sum[3], specular_sum[3] = {0.0f, 0.0f, 0.0f};
+    ref_ambient(frame, surface->world_normal, diffuse_sum);
+    for (int c = 0; c < 3; c++)
+        diffuse_sum[c] = diffuse_sum[c] * surface->visibility;
     for (int32_t n = 0; n < frame->light_count; n++) {
         const e3d_light *light = &frame->lights[n];
         float l[3], attenuation;

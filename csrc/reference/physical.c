@@ -198,8 +198,7 @@ static void find_f0(const ref_surface *s, float nv, float other[3], float metal[
 static void find_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
 {
     float more[3];
-    for (int c = 0; c < 3; c++)
-        out[c] = frame->ambient[c];
+    ref_ambient(frame, normal, out);
     if (!frame->environment.environment)
         return;
     ref_environment_irradiance(&frame->environment, normal, more);
@@ -212,11 +211,10 @@ static void find_radiance(const e3d_frame *frame, const lobe *lobe, const float 
 {
     float mirrored[3], more[3];
     for (int c = 0; c < 3; c++)
-        out[c] = frame->ambient[c];
+        mirrored[c] = lobe->normal[c] * (lobe->facing + lobe->facing) - view[c];
+    ref_ambient(frame, mirrored, out);
     if (!frame->environment.environment)
         return;
-    for (int c = 0; c < 3; c++)
-        mirrored[c] = lobe->normal[c] * (lobe->facing + lobe->facing) - view[c];
     ref_environment_specular(&frame->environment, mirrored, lobe->roughness, more);
     for (int c = 0; c < 3; c++)
         out[c] = out[c] + more[c];
@@ -259,6 +257,9 @@ static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sa
 
 /* ---- all of it ---- */
 
+/* R129 */
+static float occlusion_of(const ref_surface *s) { return s->physical.occlusion * s->visibility; }
+
 /* R56 */
 static void add_sheen(const ref_surface *s, const sample *at, const float irradiance[3], const sums *lights, float color[3])
 {
@@ -266,7 +267,7 @@ static void add_sheen(const ref_surface *s, const sample *at, const float irradi
     float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f);
     float e = ref_albedo(E3D_DFG_SHEEN, rough, at->base.nv), most = ref_max(ref_max(p->sheen[0], p->sheen[1]), p->sheen[2]);
     for (int c = 0; c < 3; c++)
-        color[c] = color[c] * (1.0f - most * e) + p->sheen[c] * (lights->fuzz[c] + (irradiance[c] * e) * p->occlusion);
+        color[c] = color[c] * (1.0f - most * e) + p->sheen[c] * (lights->fuzz[c] + (irradiance[c] * e) * occlusion_of(s));
 }
 
 /* R52 and R57 */
@@ -275,7 +276,7 @@ static void add_coat(const e3d_frame *frame, const ref_surface *s, const sample 
     float radiance[3], w5 = fifth_power(1.0f - ref_min(at->coat.nv, 1.0f)), fc = s->physical.coat * (0.04f + 0.96f * w5);
     find_radiance(frame, &at->coat, at->view, radiance);
     for (int c = 0; c < 3; c++)
-        color[c] = color[c] * (1.0f - fc) + fc * (lights->coat[c] + radiance[c] * s->physical.occlusion);
+        color[c] = color[c] * (1.0f - fc) + fc * (lights->coat[c] + radiance[c] * occlusion_of(s));
 }
 
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3])
@@ -289,7 +290,7 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
     find_irradiance(frame, surface->world_normal, irradiance);
     find_indirect(frame, surface, &at, irradiance, indirect);
     for (int c = 0; c < 3; c++)
-        out[c] = lights.direct[c] + indirect[c] * surface->physical.occlusion;
+        out[c] = lights.direct[c] + indirect[c] * occlusion_of(surface);
     if (has_sheen(material))
         add_sheen(surface, &at, irradiance, &lights, out);
     for (int c = 0; c < 3; c++)

@@ -43,6 +43,7 @@ typedef struct ref_surface {
     float albedo[3], alpha; /* alpha: R80 */
     float emissive[3];
     ref_physical physical; /* of faces whose material is */
+    float visibility;      /* R129: of light from all around */
 } ref_surface;
 
 /* R20: of three values. */
@@ -72,6 +73,10 @@ void ref_environment_specular(const e3d_environment_light *light, const float di
 void ref_environment_irradiance(const e3d_environment_light *light, const float normal[3], float out[3]); /* over pi */
 void ref_backdrop(const e3d_backdrop *backdrop, int32_t x, int32_t y, float out[3]);
 float ref_albedo(e3d_dfg kind, float roughness, float cosine);
+
+/* ambient.c */
+/* R130: what white surfaces of that normal show of light from all around. */
+void ref_ambient(const e3d_frame *frame, const float normal[3], float out[3]);
 
 /* light.c */
 /* The unit vector from p towards the light, and its attenuation, in the way of R51 if by_product; returns 0 where the light is out of

@@ -63,6 +63,7 @@ cdef class NativeDrawList:
     cdef int shadow_map_count, shadow_map_capacity
     cdef bint casts_others  # the materials are others than those that maps are drawn with
     cdef list depths  # of the maps
+    cdef e3d_ambient_light ambient_light
     cdef readonly int object_count, material_count, light_count
     cdef int object_capacity, material_capacity, light_capacity
     cdef dict borrowed, trees  # by the number of the object
@@ -101,6 +102,13 @@ cdef class NativeDrawList:
 
     def clear_lights(self):
         self.light_count = 0
+
+    def set_ambient_light(self, terms):
+        """Light from all around by direction: nine terms of three channels (e3d_ambient_light), or None."""
+        self.ambient_light.is_given = terms is not None
+        if terms is not None:
+            for k in range(E3D_AMBIENT_TERMS):
+                copy_vector(self.ambient_light.terms[k], terms[k], 3)
 
     def set_object(self, int index, NativeMesh mesh, int32_t material_base):
         """Say what nodes refer to by a number, or by the next one; None is never drawn.

@@ -93,6 +93,8 @@ cdef e3d_lighting lighting_of(const uint8_t[::1] lights, const float[:, ::1] rea
     lighting.exposure = 1.0
     lighting.environment = NULL
     lighting.shadows = NULL
+    lighting.ambient_terms = NULL
+    lighting.has_visibility = 0
     return lighting
 
 

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from .scene_graph import NativeTree
 
 _Bytes = npt.NDArray[np.uint8]
-_Floats = npt.NDArray[np.float32]
+_Floats = npt._Floats
 _Doubles = npt.NDArray[np.float64]
 _Integers = npt.NDArray[np.int32]
 
@@ -124,6 +124,7 @@ class NativeDrawList:
     def __init__(self) -> None: ...
     def clear(self) -> None: ...
     def clear_lights(self) -> None: ...
+    def set_ambient_light(self, terms: Sequence[Sequence[float]] | None) -> None: ...
     def set_object(self, index: int, mesh: NativeMesh | None, material_base: int) -> None: ...
     def set_meshes(self, numbers: _Integers, poses: list[NativePose]) -> None: ...
     def place(
@@ -273,6 +274,7 @@ class NativeRenderer:
         depth_far: float,
         frozen_clip_from_world: _Doubles | None = None,
         rays: _Floats | None = None,
+        ambient_visibility: _Floats | None = None,
     ) -> NativeStats: ...
 
 def bloom_scratch(width: int, height: int, threads: int) -> int: ...
@@ -294,4 +296,15 @@ def rasterize(
     triangle_id: _Integers,
     depth: _Floats,
     barycentric: _Floats,
+) -> None: ...
+def find_occlusion(
+    depth: _Floats,
+    across: tuple[float, float],
+    down: tuple[float, float],
+    is_perspective: bool,
+    radius: float,
+    backend: int,
+    threads: int,
+    scratch: _Floats,
+    visibility: _Floats,
 ) -> None: ...

@@ -17,6 +17,7 @@ from libc.string cimport memcmp, memcpy, memset
 from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
 
 from e3d cimport *
+from e3d_occlusion cimport *
 from e3d_posing cimport *
 from e3d_scene cimport *
 
@@ -362,12 +363,14 @@ cdef class NativeRenderer:
         float depth_far,
         const double[:, ::1] frozen_clip_from_world=None,
         const float[:, ::1] rays=None,
+        const float[:, ::1] ambient_visibility=None,
     ):
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
         `number` tells the camera from others: the core remembers what each saw in its last frame.
         If a signal handler raises meanwhile, its exception is raised here and the targets are
         partly written. Where an environment is the background, `rays` has three rows: e3d_backdrop's.
+        `ambient_visibility`: (height, width), of each pixel.
         """
         cdef e3d_frame frame
         cdef e3d_targets outputs
@@ -390,6 +393,11 @@ cdef class NativeRenderer:
             memcpy(frame.backdrop.ray, &rays[0, 0], 3 * sizeof(float))
             memcpy(frame.backdrop.across, &rays[1, 0], 3 * sizeof(float))
             memcpy(frame.backdrop.down, &rays[2, 0], 3 * sizeof(float))
+        if ambient_visibility is not None:
+            require(ambient_visibility.shape[0] == height and ambient_visibility.shape[1] == width,
+                    "ambient_visibility must be (height, width)")
+            frame.ambient_visibility = &ambient_visibility[0, 0]
+        frame.ambient_light = draw_list.ambient_light
         copy_vector(frame.eye, eye, 4)
         frame.view = number
         frame.depth_near = depth_near
@@ -566,3 +574,6 @@ def rasterize(
             &barycentric[0, 0, 0],
         )
     check(status)
+
+
+include "occlusion.pxi"

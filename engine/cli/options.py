@@ -22,7 +22,7 @@ from ..choices import (
     Shading,
     Wireframe,
 )
-from . import antialiasing, values
+from . import ambient_options, antialiasing, values
 from .environment_options import surroundings
 from .filter_options import add_line_shapes, add_texture_filters, filtering
 from .inputs import model_files
@@ -478,6 +478,7 @@ def settings(args: argparse.Namespace):
         "size_unit": args.size_unit,
         "tone_mapping": args.tone_mapping,
         "bloom": args.bloom,
+        **ambient_options.appearance_of(args),
     }
     return Settings(
         appearance={name: value for name, value in appearance.items() if value is not None},

@@ -9,7 +9,15 @@ import argparse
 
 from ..benchmarking.names import WORKLOADS
 from ..version import __version__
-from . import environment_options, light_options, options, suggestions, tone_options, values
+from . import (
+    ambient_options,
+    environment_options,
+    light_options,
+    options,
+    suggestions,
+    tone_options,
+    values,
+)
 from .suggestions import Parser
 from .usage import UsageError
 
@@ -124,6 +132,7 @@ def _add_shared(command) -> None:
     options.add_picture(command)
     options.add_appearance(command)
     light_options.add_light(command)
+    ambient_options.add_ambient(command)
     environment_options.add_environment(command)
     tone_options.add_tone(command)
     options.add_camera(command)

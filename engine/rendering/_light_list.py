@@ -1,5 +1,7 @@
 """The lights of a frame: those of a scene that show, where they are now.
 
+Those that shine from all around become one polynomial (_ambient_terms.py), the others a list.
+
 In: a `Scene` that is up to date. Out: the lights of a `NativeDrawList`, renewed where they changed:
 Python looks at every light that moved, and at the others' versions only.
 """
@@ -14,8 +16,10 @@ from .._native.rasterizer import FALLOFFS, NativeDrawList
 from .._native.scene_graph import SHOWN
 from ..linalg.single import normalize
 from ..materials.display_colors import shading_color
+from ..scene.ambient_lights import AMBIENT_LIGHTS
 from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
+from ._ambient_terms import ambient_terms
 
 
 class LightList:
@@ -34,6 +38,8 @@ class LightList:
         self._slots_of: tuple | None = None
         self._slots = np.empty(0, np.int32)
         self._lights: list = []  # not their nodes, which hold the scene
+        self._around_slots = np.empty(0, np.int32)
+        self._around: list = []  # likewise
         self.forget()
 
     def forget(self) -> None:
@@ -43,12 +49,14 @@ class LightList:
         self._at: dict[int, tuple] = {}  # of each light that shows what it is, and where
         self._changes = 0
         self._placed = np.empty(0, np.uint32)
+        self._added: tuple | None = None
 
     def update(self, scene: Scene, headlight) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
         self._find_slots(scene)
         none = None, None, None
-        color, lux, towards = none if self._lights else headlight or none
+        self._add_around(scene)
+        color, lux, towards = none if self._lights or self._around else headlight or none
         listed = self._slots_of, [light.version for light in self._lights], color, lux
         same, self._listed = self._listed == listed, None  # for if anything below raises
         if self._lights:
@@ -86,13 +94,38 @@ class LightList:
                 self._place(number, self._lights[light], pose)
         self._shown, self._placed = shown, placed
 
+    def _add_around(self, scene: Scene) -> None:
+        """Sum up the light from all around, where anything of it changed."""
+        added = None
+        if self._around:
+            columns = scene._arrays.columns
+            shown = (columns["flags"][self._around_slots] & SHOWN != 0).tolist()
+            placed = columns["world_version"][self._around_slots].tolist()
+            versions = [light.version for light in self._around]
+            added = self._slots_of, shown, placed, versions
+        if added == self._added:
+            return
+        self._added = None  # for if anything below raises
+        terms = None
+        if added is not None and any(shown):
+            poses = columns["world"][self._around_slots].tolist()
+            lights = zip(self._around, poses, shown, strict=True)
+            seen = [(light, pose) for light, pose, shows in lights if shows]
+            terms = ambient_terms(seen, self._color_space)
+        self._native.set_ambient_light(terms)
+        self._added = added
+
     def _find_slots(self, scene: Scene) -> None:
         """Find the lights' rows in the scene's arrays, once for as long as these are the same."""
         slots_of = scene._arrays, scene._removals, len(scene._lights)
         if self._slots_of != slots_of:
-            nodes = scene._lights.values()
-            self._lights = [node.object for node in nodes]
-            self._slots = np.array([node._slot for node in nodes], np.int32)
+            nodes = list(scene._lights.values())
+            around = [node for node in nodes if isinstance(node.object, AMBIENT_LIGHTS)]
+            others = [node for node in nodes if not isinstance(node.object, AMBIENT_LIGHTS)]
+            self._lights = [node.object for node in others]
+            self._slots = np.array([node._slot for node in others], np.int32)
+            self._around = [node.object for node in around]
+            self._around_slots = np.array([node._slot for node in around], np.int32)
             self._slots_of = slots_of
 
     def _add(self, light) -> None:

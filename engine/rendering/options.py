@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypedDict, get_args
 
 from .._native import rasterizer as _native
 from .._support.numbers import real, shown
-from .._support.validation import choose
+from .._support.validation import choose, optional_positive
 from ..choices import (
     ColorLike,
     Culling,
@@ -100,6 +100,8 @@ class RenderKeywords(TypedDict, total=False):
     point_shape: PointShape
     size_unit: SizeUnit
     alpha_to_coverage: bool
+    ambient_occlusion: bool
+    ambient_occlusion_radius: float | None
     options: RenderOptions | None
 
 
@@ -114,7 +116,8 @@ class RenderOptions:
     ----------
     mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
     hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping, bloom,
-    line_shape, point_shape, size_unit, alpha_to_coverage
+    line_shape, point_shape, size_unit, alpha_to_coverage, ambient_occlusion,
+    ambient_occlusion_radius
         As for `Renderer.render`, and read under the same names.
 
     Raises
@@ -142,6 +145,8 @@ class RenderOptions:
     point_shape: PointShape = "square"
     size_unit: SizeUnit = "pixels"
     alpha_to_coverage: bool = False
+    ambient_occlusion: bool = False
+    ambient_occlusion_radius: float | None = None
 
     def __post_init__(self) -> None:
         choose(self.mode, _native.MODES, "mode")
@@ -165,6 +170,10 @@ class RenderOptions:
             transparent_outputs=bool(self.transparent_outputs),
             bloom=_strength(self.bloom),
             alpha_to_coverage=bool(self.alpha_to_coverage),
+            ambient_occlusion=bool(self.ambient_occlusion),
+            ambient_occlusion_radius=optional_positive(
+                self.ambient_occlusion_radius, "ambient_occlusion_radius"
+            ),
         )
 
     def pixels_of(self, size: float, height: int) -> float:

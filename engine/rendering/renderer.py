@@ -34,6 +34,7 @@ from ..choices import (
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..materials.colors import COLOR_SPACES
 from ..scene.scene import Scene
+from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
 from ._bloom import Bloom
 from ._draw_list import DrawList
 from ._exact_shadows import ExactShadows
@@ -128,6 +129,7 @@ class Renderer(Closed):
         self._asked, self._wanted = (), {}
         self._viewpoint = Viewpoint(self._draw_list)
         self._surfaces = SurfacePass()
+        self._occlusion = AmbientOcclusion(number, threads)
         self._turn = RendererTurn(self._native)
 
     @property
@@ -160,9 +162,7 @@ class Renderer(Closed):
         with self._turn.taken():
             self._width, self._height = width, height
             self._asked = ()
-            self._pool.forget()
-            self._bloom.forget()
-            self._surfaces.forget()
+            self._forget_arrays()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
@@ -170,8 +170,11 @@ class Renderer(Closed):
             self._native = self._draw_list = self._viewpoint = None
             self._shadow_maps = self._exact_shadows = None
             self._turn.let_go()
-            self._pool.forget()
-            self._surfaces.forget()
+            self._forget_arrays()
+
+    def _forget_arrays(self) -> None:
+        for memory in (self._pool, self._bloom, self._surfaces, self._occlusion):
+            memory.forget()
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
@@ -269,6 +272,8 @@ class Renderer(Closed):
         point_shape: PointShape = "square",
         size_unit: SizeUnit = "pixels",
         alpha_to_coverage: bool = False,
+        ambient_occlusion: bool = False,
+        ambient_occlusion_radius: float | None = None,
         options: RenderOptions | None = None,
     ) -> Frame:
         """Draw a frame.
@@ -348,6 +353,11 @@ class Renderer(Closed):
             With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how many
             of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets smooth
             edges. Else all that alpha leaves are covered, or none.
+        ambient_occlusion : bool
+            In mode "lit": less of the light from all around reaches corners and hollows.
+        ambient_occlusion_radius : float, optional
+            World units: what is farther away is in no light's way. By default a share of the
+            diagonal of the scene's box.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 
@@ -388,6 +398,8 @@ class Renderer(Closed):
                 point_shape,
                 size_unit,
                 alpha_to_coverage,
+                ambient_occlusion,
+                ambient_occlusion_radius,
             )
             named = self._options.of_keywords(given, outputs)
             return self._draw(scene, camera, either(options, named), out, culling_camera)
@@ -435,6 +447,15 @@ class Renderer(Closed):
         except Exception as error:
             _blame_change(scene, census, error)
             raise
+        visibility = None
+        if shows_occlusion(options, frame.outputs):
+            depth = self._surfaces.draw(
+                *(self._native, self._draw_list, frame_options, view),
+                (self._width, self._height),
+                ("depth",),
+                frozen_clip_from_world=chosen,
+            )["depth"]
+            visibility = self._occlusion.find(depth, view, radius_of(options, scene.bounds))
         targets = self._bloom.targets(frame._outputs, options)
         drawn = self._native.render(
             self._draw_list.native,
@@ -451,6 +472,7 @@ class Renderer(Closed):
             far,
             chosen,
             view.rays if frame_options.has_backdrop else None,
+            visibility,
         )
         self._turn.check()
         drawn.shadow_maps, drawn.shadow_maps_drawn = (

@@ -16,7 +16,7 @@ class PlacedByNode(Closed):
 
         def __new__(cls, *args, **kwargs):
             for name in _PLACES.intersection(kwargs):
-                thing = "light" if cls.__name__.endswith("Light") else "camera"
+                thing = "camera" if cls.__name__.endswith("Camera") else "light"
                 how = "pose=engine3d.look_at(eye, target)"
                 how = how if thing == "camera" else "translation=(x, y, z)"
                 raise TypeError(

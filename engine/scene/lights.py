@@ -28,7 +28,9 @@ from ..choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
 from ..errors import InvalidArgumentError
 from ..linalg import cos
 from ..materials.colors import check_color
+from ._placed_by_node import PlacedByNode
 from ._shadow_casting import CastsShadows, CountAttribute, whole_number
+from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 UNITS: tuple[LightUnit, ...] = get_args(LightUnit)
@@ -336,5 +338,5 @@ class SpotLight(CastsShadows):
         )
 
 
-LIGHTS = (DirectionalLight, PointLight, SpotLight)
-Light: TypeAlias = DirectionalLight | PointLight | SpotLight
+LIGHTS = (DirectionalLight, PointLight, SpotLight, *AMBIENT_LIGHTS)
+Light: TypeAlias = DirectionalLight | PointLight | SpotLight | HemisphereLight | LightProbe

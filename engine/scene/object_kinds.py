@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from .ambient_lights import HemisphereLight, LightProbe
 from .cameras import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
 from .lights import DirectionalLight, PointLight, SpotLight
 
@@ -20,6 +21,8 @@ KINDS: dict[str, type] = {
     "directional light": DirectionalLight,
     "point light": PointLight,
     "spot light": SpotLight,
+    "hemisphere light": HemisphereLight,
+    "light probe": LightProbe,
     "perspective camera": PerspectiveCamera,
     "orthographic camera": OrthographicCamera,
     "intrinsics camera": IntrinsicsCamera,

@@ -273,7 +273,7 @@ class Scene(Closed):
 
         Parameters
         ----------
-        obj : Mesh, InstancedMesh, Camera, DirectionalLight, PointLight, SpotLight or None
+        obj : Mesh, InstancedMesh, Camera, a light of any kind, or None
             The same object may be added many times. None adds a node that groups others, or gets
             its ``object`` later.
         name : str, optional

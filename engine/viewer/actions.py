@@ -243,6 +243,13 @@ def _begin_walking(viewer) -> None:
     viewer.say(f"{said}; WASD, mouse or arrows to look; Tab or Esc to leave")
 
 
+def toggle_occlusion(viewer, step: int) -> None:
+    """Less light from all around in corners and hollows, or as much as everywhere."""
+    appearance = viewer.view_renderer.appearance
+    appearance.ambient_occlusion = not appearance.ambient_occlusion
+    viewer.say(f"ambient occlusion: {'on' if appearance.ambient_occlusion else 'off'}")
+
+
 def toggle_split(viewer, step: int) -> None:
     """Nine outputs side by side, or the picture alone."""
     viewer.view_renderer.split = not viewer.view_renderer.split

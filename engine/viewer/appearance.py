@@ -58,6 +58,8 @@ class Appearance:
     size_unit: str = "pixels"
     tone_mapping: str = "none"
     bloom: float = 0.0
+    ambient_occlusion: bool = False
+    ambient_occlusion_radius: float | None = None
 
     def arguments(self, background, point_size: float) -> dict:
         """Return the keyword arguments for `Renderer.render`.

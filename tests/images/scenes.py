@@ -2,6 +2,7 @@
 
 from images import (  # noqa: F401
     scenes_alpha,
+    scenes_ambient,
     scenes_exact_shadows,
     scenes_filters,
     scenes_geometry,

@@ -146,6 +146,7 @@ BATCH_RECORD = np.dtype(
         ("shine", "f4", (3, _LANES)),
         ("alpha", "f4", _LANES),
         ("hidden_lights", "u4", _LANES),
+        ("visibility", "f4", _LANES),
         ("count", "i4"),
         ("unmapped_normal", "u8"),  # an address, or 0
         ("pattern", "u8"),  # likewise

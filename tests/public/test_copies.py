@@ -65,6 +65,8 @@ COPIED = {
     "DirectionalLight": e3d.DirectionalLight,
     "PointLight": e3d.PointLight,
     "SpotLight": e3d.SpotLight,
+    "HemisphereLight": e3d.HemisphereLight,
+    "LightProbe": lambda: e3d.LightProbe(np.ones((9, 3))),
     "BoxCollider": lambda: e3d.BoxCollider((0, 0, 0), (1, 1, 1)),
     "SphereCollider": lambda: e3d.SphereCollider(1.0),
     "MeshCollider": lambda: e3d.MeshCollider(painted()),

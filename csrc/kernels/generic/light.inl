@@ -8,6 +8,7 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
+#include "kernels/generic/ambient.inl"
 #include "kernels/generic/shadow.inl"
 
 /* One vector of lit samples. Where all light is grey, the first channel stands for all three. */
@@ -97,13 +98,13 @@ static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf
 static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const lit_lanes *lit,
                                          const vf32 l[3], vf32 attenuation)
 {
-    if (!lighting->lights[n].shadow.kind || !v_any(v_gt(dot_three(lit->normal, l), v_setf(0.0f))))
+    if (!lighting->shadows || !lighting->lights[n].shadow.kind || !v_any(v_gt(dot_three(lit->normal, l), v_setf(0.0f))))
         return attenuation;
     return v_mul(attenuation, light_reached(lighting, n, batch, i, lit->position, l));
 }
 
-/* Adds a light to samples of the batch from i on; whether some lights have shadows is a constant for the compiler. */
-static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int shadows, float shininess,
+/* Adds a light to samples of the batch from i on. */
+static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int varied, float shininess,
                                     lit_lanes *lit)
 {
     const e3d_light *light = &lighting->lights[n];
@@ -111,7 +112,7 @@ static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e
     if (light->kind == E3D_LIGHT_DIRECTIONAL) {
         for (int k = 0; k < 3; k++)
             l[k] = v_setf(light->to_light[k]);
-        if (shadows)
+        if (varied)
             attenuation = light_shadowed(lighting, n, batch, i, lit, l, attenuation);
         light_from(light, l, attenuation, NULL, shininess, lit);
         return;
@@ -119,7 +120,7 @@ static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e
     vmask near = light_towards(lighting, n, lit->position, 0, l, &attenuation);
     if (!v_any(near))
         return;
-    if (shadows)
+    if (varied)
         attenuation = light_shadowed(lighting, n, batch, i, lit, l, attenuation);
     light_from(light, l, attenuation, &near, shininess, lit);
 }
@@ -208,8 +209,11 @@ static inline int light_choose(const e3d_lighting *lighting, int first, int end,
 
 /* ---- the sums ---- */
 
-/* Loads one vector, which only the ambient light lights yet. */
-static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, float shininess)
+/* Whether shadows fall on what is lit, or ambient light isn't the same everywhere. */
+static inline int light_varies(const e3d_lighting *lighting) { return lighting->shadows || ambient_varies(lighting); }
+
+/* Loads one vector, which only the ambient light lights yet: the same everywhere, unless it is varied. */
+static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, int varied, float shininess)
 {
     lit_lanes lit;
     for (int k = 0; k < 3; k++) {
@@ -218,6 +222,11 @@ static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const 
         lit.view[k] = lit.shine[k] = v_setf(0.0f);
         lit.energy[k] = v_setf(lighting->ambient[k]);
     }
+    if (varied)
+        ambient_light(lighting, lit.normal, lit.energy);
+    if (varied && lighting->has_visibility)
+        for (int k = 0; k < 3; k++)
+            lit.energy[k] = v_mul(lit.energy[k], v_loadf(batch->visibility + i));
     if (shininess > 0.0f)
         light_view(lighting, &lit);
     return lit;
@@ -229,17 +238,18 @@ static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
 }
 
 /* Adds the chosen ones of the lights from `first` on. */
-static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count, int shadows,
+/* `varied`, a constant for the compiler: some lights have shadows, or ambient light isn't the same everywhere. */
+static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count, int varied,
                                     float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
-        lit_lanes lit = light_begin(batch, i, lighting, shininess);
+        lit_lanes lit = light_begin(batch, i, lighting, varied, shininess);
         for (int k = 0; k < 3 && first; k++) {
             lit.energy[k] = v_loadf(batch->energy[k] + i);
             lit.shine[k] = v_loadf(batch->shine[k] + i);
         }
         for (int n = 0; n < count; n++)
-            light_one(lighting, chosen[n], batch, i, shadows, shininess, &lit);
+            light_one(lighting, chosen[n], batch, i, varied, shininess, &lit);
         for (int k = 0; k < 3; k++) {
             v_storef(batch->energy[k] + i, lit.energy[k]);
             v_storef(batch->shine[k] + i, lit.shine[k]);
@@ -256,7 +266,7 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
     do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
-        if (lighting->shadows)
+        if (light_varies(lighting))
             light_add(batch, lighting, first, chosen, count, 1, shininess);
         else
             light_add(batch, lighting, first, chosen, count, 0, shininess);

@@ -16,13 +16,16 @@
 
 /* ---- light ---- */
 
-/* R31 of all lights, which are few. Whether there are highlights or shadows is a constant for the compiler. */
-static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, int shadows, float shininess, vf32 color[3])
+/* How samples are lit, which is a constant for the compiler. */
+enum paint_lit { PAINT_UNLIT = 0, PAINT_LIT, PAINT_VARIED };
+
+/* R31 of all lights, which are few. Whether there are highlights is a constant for the compiler, too. */
+static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, int varied, float shininess, vf32 color[3])
 {
     const e3d_lighting *lighting = paint->lighting;
-    lit_lanes lit = light_begin(batch, i, lighting, shininess);
+    lit_lanes lit = light_begin(batch, i, lighting, varied, shininess);
     for (int n = 0; n < lighting->light_count; n++)
-        light_one(lighting, n, batch, i, shadows, shininess, &lit);
+        light_one(lighting, n, batch, i, varied, shininess, &lit);
     for (int k = 0; k < 3; k++)
         lit.energy[k] = light_clamp(lighting, lit.energy[k]);
     combine_vector(lit.energy, lit.shine, paint->specular, paint->emissive, lighting->exposure, color);
@@ -61,9 +64,6 @@ static ALWAYS_INLINE void paint_store(const int32_t *sample, vi32 pixels, int la
         rgba[sample[lane]] = pixel[lane];
 }
 
-/* How samples are lit, which is a constant for the compiler. */
-enum paint_lit { PAINT_UNLIT = 0, PAINT_LIT, PAINT_SHADOWED };
-
 /* The colours of one vector. */
 static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const e3d_paint *paint, int colored, enum paint_lit lit, float shininess,
                                       vf32 color[3])
@@ -71,7 +71,7 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const e3d_p
     for (int k = 0; k < 3; k++)
         color[k] = colored ? v_loadf(batch->color[k] + i) : v_setf(paint->base[k]);
     if (lit)
-        paint_light(batch, i, paint, lit == PAINT_SHADOWED, shininess, color);
+        paint_light(batch, i, paint, lit == PAINT_VARIED, shininess, color);
 }
 
 /* Shades and encodes a batch to RGBA8. */
@@ -132,8 +132,8 @@ static void paint_toned(e3d_batch *batch, const e3d_paint *paint, int colored, u
     const float *const position[3] = {batch->position[0], batch->position[1], batch->position[2]};
     if (!paint->lighting)
         paint_colors(batch, paint, colored, PAINT_UNLIT, 0.0f);
-    else if (paint->lighting->shadows)
-        paint_colors(batch, paint, colored, PAINT_SHADOWED, paint->shininess);
+    else if (light_varies(paint->lighting))
+        paint_colors(batch, paint, colored, PAINT_VARIED, paint->shininess);
     else if (paint->shininess > 0.0f)
         paint_colors(batch, paint, colored, PAINT_LIT, paint->shininess);
     else
@@ -168,8 +168,8 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         paint_toned(batch, paint, colored, rgba);
     else if (!paint->lighting)
         paint_pixels(batch, paint, colored, PAINT_UNLIT, 0.0f, rgba);
-    else if (paint->lighting->shadows)
-        paint_pixels(batch, paint, colored, PAINT_SHADOWED, paint->shininess, rgba);
+    else if (light_varies(paint->lighting))
+        paint_pixels(batch, paint, colored, PAINT_VARIED, paint->shininess, rgba);
     else if (paint->shininess > 0.0f)
         paint_pixels(batch, paint, colored, PAINT_LIT, paint->shininess, rgba);
     else

@@ -217,24 +217,22 @@ static ALWAYS_INLINE void around_irradiance(const e3d_lighting *lighting, const 
     vf32 more[3];
     if (plan)
         environment_irradiance(plan, normal, more);
-    for (int k = 0; k < 3; k++) {
-        vf32 ambient = v_setf(lighting->ambient[k]);
-        out[k] = plan ? v_add(ambient, more[k]) : ambient;
-    }
+    ambient_light(lighting, normal, out);
+    for (int k = 0; k < 3 && plan; k++)
+        out[k] = v_add(out[k], more[k]);
 }
 
 static ALWAYS_INLINE void around_radiance(const e3d_lighting *lighting, const environment_plan *plan, const lobe_lanes *lobe,
                                           const vf32 view[3], vf32 out[3])
 {
     vf32 mirrored[3], more[3], twice = v_add(lobe->facing, lobe->facing);
-    for (int k = 0; k < 3 && plan; k++)
+    for (int k = 0; k < 3 && (plan || lighting->ambient_terms); k++)
         mirrored[k] = v_sub(v_mul(lobe->normal[k], twice), view[k]);
     if (plan)
         environment_specular(plan, mirrored, lobe->roughness, more);
-    for (int k = 0; k < 3; k++) {
-        vf32 ambient = v_setf(lighting->ambient[k]);
-        out[k] = plan ? v_add(ambient, more[k]) : ambient;
-    }
+    ambient_light(lighting, mirrored, out);
+    for (int k = 0; k < 3 && plan; k++)
+        out[k] = v_add(out[k], more[k]);
 }
 
 /* R55: a lobe under light that is 1 all around: once is what it reflects once, twice a factor of what it reflects more often. */
@@ -347,19 +345,20 @@ static ALWAYS_INLINE void model_through(const e3d_surface_model *model, int has_
     }
 }
 
-static ALWAYS_INLINE vf32 model_occlusion(const e3d_surface_model *model, int i)
+/* R46 and R129 */
+static ALWAYS_INLINE vf32 model_occlusion(const e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting, int i)
 {
-    vf32 one = v_setf(1.0f);
-    if (!model->occlusion.lanes)
-        return one;
-    return v_add(one, v_mul(v_setf(model->occlusion_strength), v_sub(varying_at(&model->occlusion, i), one)));
+    vf32 one = v_setf(1.0f), occlusion = one;
+    if (model->occlusion.lanes)
+        occlusion = v_add(one, v_mul(v_setf(model->occlusion_strength), v_sub(varying_at(&model->occlusion, i), one)));
+    return lighting->has_visibility ? v_mul(occlusion, v_loadf(batch->visibility + i)) : occlusion;
 }
 
-static ALWAYS_INLINE void model_finish(const e3d_surface_model *model, const e3d_lighting *lighting, const environment_plan *plan,
-                                       int has_coat, int has_sheen, const e3d_surface_model *rare, const model_lanes *at, int i,
-                                       e3d_map_batch *m, vf32 color[3])
+static ALWAYS_INLINE void model_finish(const e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting,
+                                       const environment_plan *plan, int has_coat, int has_sheen, const e3d_surface_model *rare,
+                                       const model_lanes *at, int i, e3d_map_batch *m, vf32 color[3])
 {
-    vf32 irradiance[3], indirect[3], through[3], occlusion = model_occlusion(model, i);
+    vf32 irradiance[3], indirect[3], through[3], occlusion = model_occlusion(batch, model, lighting, i);
     around_irradiance(lighting, plan, at->base.normal, irradiance);
     around_indirect(lighting, plan, at, model->is_grey, rare, irradiance, through, indirect);
     if (rare && rare->transmits)
@@ -448,7 +447,7 @@ static ALWAYS_INLINE void physical_vectors(e3d_batch *batch, e3d_map_batch *m, c
         for (int n = 0; n < lights->count; n++)
             model_add_light(lighting, lights->numbers[n], batch, i, has_coat, has_sheen, rare, &at);
         if (lights->is_last) {
-            model_finish(model, lighting, plan, has_coat, has_sheen, rare, &at, i, m, color);
+            model_finish(batch, model, lighting, plan, has_coat, has_sheen, rare, &at, i, m, color);
             for (int k = 0; k < 3; k++)
                 v_storef(batch->color[k] + i, color[k]);
             continue;

@@ -26,6 +26,7 @@
 #include "kernels/generic/albedo.inl"
 #include "kernels/generic/lobe.inl"
 #include "kernels/generic/environment.inl"
+#include "kernels/generic/occlusion.inl"
 #include "kernels/generic/maps.inl"
 #include "kernels/generic/physical.inl"
 #include "kernels/generic/tone.inl"
@@ -86,6 +87,10 @@ const e3d_kernels E3D_TABLE = {
     .irradiance = kernel_irradiance,
     .albedo = kernel_albedo,
     .lobe = kernel_lobe,
+    .nearness = kernel_nearness,
+    .occlusion = kernel_occlusion,
+    .occlusion_across = kernel_occlusion_across,
+    .occlusion_down = kernel_occlusion_down,
     .backdrop = kernel_backdrop,
     .fog = kernel_fog,
     .tone = kernel_tone,

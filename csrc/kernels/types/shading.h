@@ -67,6 +67,7 @@ typedef struct e3d_batch {
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3], alpha;
     uint32_t hidden_lights[E3D_BATCH + E3D_PAD]; /* where lights have exact shadows: a bit for each of them, set where it is hidden */
+    e3d_lane_array visibility; /* R129, where the frame has it */
     int count;
     const e3d_lane_array *unmapped_normal; /* where `normal` is mapped: what it was before; else NULL */
     const e3d_sample_pattern *pattern;     /* NULL: values are those of samples' centres; else R105 tells where they are found: */
@@ -96,6 +97,8 @@ typedef struct e3d_lighting {
     float ambient[3], clamp[2], eye[4], exposure;
     const e3d_environment_light *environment; /* NULL where there is none */
     const e3d_shadow_map *shadows; /* NULL: no light has a shadow, or none falls on what is lit */
+    const float (*ambient_terms)[3];          /* R130, or NULL */
+    int has_visibility;                       /* the batch's */
 } e3d_lighting;
 
 /* How the kernel `paint` turns the samples of a batch into pixels. */

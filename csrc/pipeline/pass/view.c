@@ -70,6 +70,8 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
     memcpy(lighting->eye, frame->eye, sizeof frame->eye);
     lighting->exposure = frame->exposure;
     lighting->environment = frame->environment.environment ? &frame->environment : NULL;
+    lighting->ambient_terms = frame->ambient_light.is_given ? frame->ambient_light.terms : NULL;
+    lighting->has_visibility = frame->ambient_visibility != NULL;
     lighting->shadows = NULL;
     view->unshadowed = *lighting;
     if (e3d_has_shadows(frame))

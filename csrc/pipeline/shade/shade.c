@@ -13,6 +13,7 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/maps.h"
 #include "pipeline/shade/alpha.h"
+#include "pipeline/shade/ambient.h"
 #include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
@@ -125,10 +126,12 @@ static void light(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_batch 
     pass->kernels->combine(batch, shiny ? m->specular : NULL, m->emissive, pass->view->lighting.exposure);
 }
 
-static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+static void find_colors(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
 {
+    e3d_shade_memory *memory = out->memory;
     switch (pass->frame->mode) {
     case E3D_MODE_LIT:
+        e3d_find_visibility(pass, out);
         if (hides_lights(pass, bucket))
             pass->kernels->hide(&memory->batch, &pass->view->lighting, pass->casters, &memory->receivers);
         if (bucket->face && bucket->material->is_physical && !bucket->material->is_unlit)
@@ -164,13 +167,13 @@ static e3d_tone_mapping tone_of(const e3d_prepared *pass, const e3d_bucket *buck
 }
 
 /* The radiance of a batch. */
-static void find_radiance(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+static void find_radiance(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
 {
     const e3d_fog_view *fog = fog_of(pass, bucket);
-    e3d_batch *batch = &memory->batch;
+    e3d_batch *batch = &out->memory->batch;
     float *const color[3] = {batch->color[0], batch->color[1], batch->color[2]};
     const float *const position[3] = {batch->position[0], batch->position[1], batch->position[2]};
-    find_colors(pass, bucket, memory);
+    find_colors(pass, bucket, out);
     if (fog)
         pass->kernels->fog(fog, position, batch->count, color);
 }
@@ -233,6 +236,8 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
         .fog = fog_of(pass, bucket),
         .tone = tone_of(pass, bucket),
     };
+    if (lit)
+        e3d_find_visibility(pass, out);
     pass->kernels->paint(&out->memory->batch, &out->memory->surfaces, &paint, out->pixels->rgba);
 }
 
@@ -241,7 +246,7 @@ static void put_outputs(const e3d_shade_in *in, const e3d_bucket *bucket, const 
 {
     e3d_outputs_batch(in->store, bucket, out->memory, out->pixels);
     if (e3d_plans(in->pass, E3D_ASKED_RADIANCE) && e3d_plans(in->pass, E3D_PLAN_COLORS)) {
-        find_radiance(in->pass, bucket, out->memory);
+        find_radiance(in->pass, bucket, out);
         e3d_outputs_radiance(in->store, &out->memory->batch, out->pixels);
     }
 }
@@ -264,7 +269,7 @@ static void shade_alpha(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     }
     if (use != E3D_ALPHA_TEST) {
         memory->shaded += memory->batch.count;
-        find_radiance(pass, bucket, memory);
+        find_radiance(pass, bucket, out);
         map_tone(pass, bucket, &memory->batch);
     }
     e3d_alpha_batch(pass, bucket, out);
@@ -300,7 +305,7 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
         return;
     }
     if (!e3d_plans(pass, E3D_ASKED_RADIANCE))
-        find_radiance(pass, bucket, out->memory);
+        find_radiance(pass, bucket, out);
     map_tone(pass, bucket, batch);
     e3d_resolve_batch(in->store, batch, out->pixels);
 }

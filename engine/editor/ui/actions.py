@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ... import primitives
+from ...scene.ambient_lights import HemisphereLight
 from ...scene.cameras import PerspectiveCamera
 from ...scene.lights import DirectionalLight, PointLight, SpotLight
 from ...scene.nodes import Node
@@ -33,6 +34,7 @@ ADDED: dict[str, Callable[[], Any]] = {
     "Directional light": DirectionalLight,
     "Point light": PointLight,
     "Spot light": SpotLight,
+    "Hemisphere light": HemisphereLight,
     "Camera": PerspectiveCamera,
 }
 

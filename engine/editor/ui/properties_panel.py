@@ -17,6 +17,7 @@ from ...geometry.mesh import Mesh
 from ...materials.colors import split_alpha
 from ...materials.display_colors import display_color
 from ...materials.material import TEXTURE_SLOTS, Material, textures_of
+from ...scene.ambient_lights import HemisphereLight, LightProbe
 from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...scene.instances import InstancedMesh
 from ...scene.lights import LIGHTS, DirectionalLight, Light, PointLight, SpotLight
@@ -289,15 +290,20 @@ class PropertiesPanel:
     def _draw_light(self, light: Light) -> None:
         if not imgui.collapsing_header("Light", imgui.TreeNodeFlags_.default_open):
             return
-        self._color(light, "color", "Colour")
+        if isinstance(light, HemisphereLight):
+            self._color(light, "sky_color", "Sky")
+            self._color(light, "ground_color", "Ground")
+        elif not isinstance(light, LightProbe):
+            self._color(light, "color", "Colour")
         self._number(light, "intensity", "Intensity", 0.05, 0.0)
         if isinstance(light, SpotLight):
             self._number(light, "inner_cone_angle", "Inner cone", 0.01, 0.0)
             self._number(light, "outer_cone_angle", "Outer cone", 0.01, 0.0)
-        self._flag([light], "shadow", "Shadow")
-        if not isinstance(light, DirectionalLight):
+        if not isinstance(light, HemisphereLight | LightProbe):
+            self._flag([light], "shadow", "Shadow")
+        if isinstance(light, PointLight | SpotLight):
             self._draw_range(light)
-        else:
+        elif isinstance(light, DirectionalLight):
             direction = self._numbers("Direction", light.direction, 0.01)
             if direction is not None:
                 self._set([light], {"direction": direction})

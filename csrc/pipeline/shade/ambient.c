@@ -1,0 +1,30 @@
+/* ambient: what of the light from all around reaches the samples of a batch (R129). */
+#include "core/limits.h"
+#include "e3d.h"
+#include "pipeline/pass/prepared.h"
+#include "pipeline/shade/ambient.h"
+#include "pipeline/shade/shade.h"
+
+/* Whole vectors are stored: what is past the batch's end repeats its last sample. */
+static int padded(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) / E3D_PAD * E3D_PAD; }
+
+static void find(const e3d_frame *frame, const e3d_tile *tile, e3d_batch *batch)
+{
+    int shift = frame->samples_axis == 4 ? 2 : frame->samples_axis == 2 ? 1 : 0;
+    for (int i = 0; i < padded(batch); i++) {
+        int32_t x = tile->x + (batch->sample[i] & (E3D_TILE - 1)), y = tile->y + (batch->sample[i] >> E3D_TILE_SHIFT);
+        batch->visibility[i] = frame->ambient_visibility[(size_t)(y >> shift) * (size_t)frame->width + (size_t)(x >> shift)];
+    }
+}
+
+void e3d_find_visibility(const e3d_prepared *pass, const e3d_shade_out *out)
+{
+    e3d_batch *batch = &out->memory->batch;
+    if (!pass->frame->ambient_visibility)
+        return;
+    if (!out->alpha || out->alpha->use == E3D_SOLID_KEEP)
+        find(pass->frame, &out->pixels->tile, batch);
+    else
+        for (int i = 0; i < padded(batch); i++)
+            batch->visibility[i] = 1.0f;
+}

@@ -1,0 +1,30 @@
+# Part of rasterizer.pyx: ambient occlusion of a picture of depths.
+
+
+def find_occlusion(
+    const float[:, ::1] depth not None,
+    across,
+    down,
+    bint is_perspective,
+    float radius,
+    int backend,
+    int threads,
+    float[:, ::1] scratch not None,
+    float[:, ::1] visibility not None,
+):
+    """Find what of the light from all around reaches each pixel (e3d_find_occlusion): all arrays are (height, width)."""
+    cdef e3d_depth_picture picture
+    cdef e3d_status status
+    picture.width, picture.height = <int32_t>depth.shape[1], <int32_t>depth.shape[0]
+    require(picture.width > 0 and picture.height > 0, "an image has at least one pixel")
+    floats_of(scratch, picture.width, picture.height)
+    floats_of(visibility, picture.width, picture.height)
+    picture.depth = &depth[0, 0]
+    picture.across[0], picture.across[1] = across
+    picture.down[0], picture.down[1] = down
+    picture.is_perspective = is_perspective
+    with nogil:
+        status = e3d_find_occlusion(
+            <e3d_backend>backend, threads, &picture, radius, &scratch[0, 0], &visibility[0, 0]
+        )
+    check(status)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import fields
+from functools import cached_property
 
 from .. import linalg
 from .._native import rasterizer as _native
@@ -20,7 +21,7 @@ from ..scene.gradients import Gradient
 from ..scene.scene import SCENE_VALUES, Scene
 from ._native_handles import MeshNeeds, native_environment
 from ._tone_inverse import light_that_shows
-from .options import MAX_LINE, RenderOptions, check_outputs
+from .options import RenderOptions, check_outputs
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
@@ -68,7 +69,6 @@ class FrameOptions:
     ) -> None:
         self._options = options
         self._needs: dict[tuple[str, ...], MeshNeeds] = {}
-        self._surfaces: dict[int, _native.NativeOptions] = {}
         encoded = options.mode in _ENCODED_MODES and color_space == "srgb"
         convert = shading_color if encoded else display_color
         backdrop = gradient = None
@@ -94,21 +94,24 @@ class FrameOptions:
         self.headlight = color, tuple(lux * component for component in color)
         line_width = options.pixels_of(options.line_width, height)
         point_size = options.pixels_of(options.point_size, height)
+        self._shapes = {  # which samples surfaces cover
+            "cull": _native.CULLS["back" if options.cull == "auto" else options.cull],
+            "hidden": _native.HIDDEN_SURFACES[options.hidden_surfaces],
+            "shading": _native.SHADINGS[options.shading],
+            "normals": _native.NORMALS[options.normals],
+            "culling": _native.CULLINGS[options.culling],
+            "line_width": line_width,
+            "point_size": point_size,
+            "line_shape": _native.LINE_SHAPES[options.line_shape],
+            "point_shape": _native.POINT_SHAPES[options.point_shape],
+            "alpha_to_coverage": options.alpha_to_coverage,
+        }
         self.native = _native.NativeOptions(
+            **self._shapes,
             mode=_native.MODES[options.mode],
-            cull=_native.CULLS["back" if options.cull == "auto" else options.cull],
             wireframe=_native.WIREFRAMES[options.wireframe],
-            hidden=_native.HIDDEN_SURFACES[options.hidden_surfaces],
-            shading=_native.SHADINGS[options.shading],
-            normals=_native.NORMALS[options.normals],
-            culling=_native.CULLINGS[options.culling],
             remove_hidden_lines=not options.hidden_lines,
             transparent_outputs=options.transparent_outputs,
-            line_width=line_width,
-            point_size=point_size,
-            line_shape=_native.LINE_SHAPES[options.line_shape],
-            point_shape=_native.POINT_SHAPES[options.point_shape],
-            alpha_to_coverage=options.alpha_to_coverage,
             line_color=convert(options.line_color, color_space),
             background=background,
             encode_srgb=encoded,
@@ -130,37 +133,23 @@ class FrameOptions:
         # Twice as far from its middle as the widest line or point reaches, and for rounding.
         self.mark_size = 2.0 * (max(line_width, point_size) + 2.0)
 
-    def surfaces(self, samples_axis: int) -> _native.NativeOptions:
-        """Return options that draw what these keep, without colour, at each sample of a pixel.
-
-        Parameters
-        ----------
-        samples_axis : int
-            Along each axis of a pixel: what is drawn is as many times as wide and as high.
-        """
-        known, options = self._surfaces.get(samples_axis), self._options
-        if known is None:
-            known = self._surfaces[samples_axis] = _native.NativeOptions(
-                mode=_native.MODES["unlit"],  # what is blended is left out, as in mode lit
-                cull=_native.CULLS[options.cull],
-                wireframe=_native.WIREFRAMES[None],
-                hidden=_native.HIDDEN_SURFACES[options.hidden_surfaces],
-                shading=_native.SHADINGS[options.shading],
-                normals=_native.NORMALS[options.normals],
-                culling=_native.CULLINGS[options.culling],
-                remove_hidden_lines=True,
-                transparent_outputs=False,
-                line_width=min(options.line_width * samples_axis, MAX_LINE),
-                point_size=min(options.point_size * samples_axis, MAX_LINE),
-                line_color=(0.0, 0.0, 0.0),
-                background=(0.0, 0.0, 0.0, 0.0),
-                encode_srgb=False,
-                decode_srgb=False,
-                ambient=(0.0, 0.0, 0.0),
-                light_clamp=_NO_CLAMP,
-                exposure=1.0,
-            )
-        return known
+    @cached_property
+    def surfaces(self) -> _native.NativeOptions:
+        """Options that draw what these keep, without colour."""
+        return _native.NativeOptions(
+            **self._shapes,
+            mode=_native.MODES["unlit"],  # what is blended is left out, as in mode lit
+            wireframe=_native.WIREFRAMES[None],
+            remove_hidden_lines=True,
+            transparent_outputs=False,
+            line_color=(0.0, 0.0, 0.0),
+            background=(0.0, 0.0, 0.0, 0.0),
+            encode_srgb=False,
+            decode_srgb=False,
+            ambient=(0.0, 0.0, 0.0),
+            light_clamp=_NO_CLAMP,
+            exposure=1.0,
+        )
 
     def needs(self, outputs: tuple[str, ...]) -> MeshNeeds:
         """Return which derived arrays of meshes a frame with these outputs reads."""

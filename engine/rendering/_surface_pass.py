@@ -1,8 +1,8 @@
 """What shows, drawn before the picture: depths, positions, normals and IDs that other passes read.
 
-In: the draw list, options and view of a picture. Out: arrays of the outputs asked for, at one
-sample a pixel or at every sample of the picture. The renderer's own core draws them, with its
-backend and threads, so that the scalar reference stays apart from the kernels.
+In: the draw list, options and view of a picture. Out: arrays of the outputs asked for, at the
+middle of each pixel. The renderer's own core draws them, with its backend and threads, so that the
+scalar reference stays apart from the kernels.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from ._draw_list import DrawList
 from ._frame_options import FrameOptions
 from ._output_pool import OutputPool, shapes_of
 from ._view import View
+
+_ONE_SAMPLE = 1, 0
 
 
 class SurfacePass:
@@ -32,7 +34,6 @@ class SurfacePass:
         size: tuple[int, int],
         outputs: tuple[str, ...],
         *,
-        samples_axis: int = 1,
         frozen_clip_from_world: NDArray[np.float64] | None = None,
     ) -> dict[str, np.ndarray]:
         """Draw outputs into arrays of the pass, which may be used again once nobody holds them.
@@ -49,9 +50,6 @@ class SurfacePass:
             Width and height of the picture in pixels.
         outputs : tuple of str
             Names of outputs, without ``"color"``.
-        samples_axis : int
-            1: the middle of each pixel. More: the samples of a picture with so many along each
-            axis; arrays are as many times as wide and as high.
         frozen_clip_from_world : (4, 4) float64, optional
             Of the camera whose frustum holds what is drawn.
 
@@ -60,15 +58,13 @@ class SurfacePass:
         arrays : dict of str to array
             By the name of the output: (height, width) or (height, width, channels).
         """
-        width, height = (side * samples_axis for side in size)
-        arrays = self._pool.take(shapes_of(outputs, width, height))
+        arrays = self._pool.take(shapes_of(outputs, *size))
         native.render(
             draw_list.native,
             arrays,
-            options.surfaces(samples_axis),
-            width,
-            height,
-            1,
+            options.surfaces,
+            *size,
+            *_ONE_SAMPLE,
             view.clip_from_world,
             view.view_from_world,
             view.eye,

@@ -28,7 +28,6 @@ from ..choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
 from ..errors import InvalidArgumentError
 from ..linalg import cos
 from ..materials.colors import check_color
-from ._placed_by_node import PlacedByNode
 from ._shadow_casting import CastsShadows, CountAttribute, whole_number
 from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
 

@@ -47,11 +47,11 @@ static e3d_status make_mesh(e3d_mesh **out)
 
 static e3d_status make_texture(e3d_texture **out)
 {
-    static const e3d_wrap wrap[2] = {E3D_REPEAT, E3D_REPEAT};
+    static const e3d_sampling sampling = {.filter = E3D_TRILINEAR, .wrap = {E3D_REPEAT, E3D_REPEAT}};
     random_stream r = {.state = 1};
     for (size_t i = 0; i < sizeof texels; i++)
         texels[i] = (uint8_t)random_bits(&r);
-    return e3d_texture_create(texels, TEXELS, TEXELS, 1, E3D_TRILINEAR, wrap, out);
+    return e3d_texture_create(texels, TEXELS, TEXELS, 1, &sampling, out);
 }
 
 static void aim(e3d_frame *frame)

@@ -165,7 +165,7 @@ static void make_texture(random_stream *r)
     uint16_t *texels = shade_work.texels;
     for (size_t i = 0; i < sizeof shade_work.texels / sizeof *texels; i++)
         texels[i] = (uint16_t)(random_bits(r) & 0x7FFF); /* 15 bits (R28) */
-    *view = (e3d_texture_view){.level_count = TEXTURE_LEVELS, .channel_bits = 16, .filter = E3D_TRILINEAR};
+    *view = (e3d_texture_view){.level_count = TEXTURE_LEVELS, .channel_bits = 16, .filter = E3D_TRILINEAR, .anisotropy = 1, .level_scale = 1.0f};
     for (int l = 0, side = TEXTURE_SIDE; l < TEXTURE_LEVELS; l++, side /= 2) {
         view->levels[l] = (e3d_level){texels, side, side};
         texels += 4 * (side + 2) * (side + 2);
@@ -213,7 +213,7 @@ static void make_batch(random_stream *r)
 static void run_texture(void)
 {
     const float white[3] = {1.0f, 1.0f, 1.0f};
-    table->texture(&shade_work.batch, &shade_work.texture, white);
+    table->texture(&shade_work.batch, NULL, &shade_work.texture, white); /* no surfaces: it is not anisotropic */
 }
 
 static void run_light(void) { table->light(&shade_work.batch, &shade_work.lighting, 32.0f); }

@@ -117,4 +117,4 @@ def _draw_model(path: str, size: int) -> NDArray[np.uint8]:
         scene.background = BACKGROUND
         scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8, unit="white"))
     with Renderer(size, size, samples=4, threads=1) as renderer:
-        return renderer.render(scene).color.copy()
+        return renderer.render(scene, cull="auto").color.copy()

@@ -82,7 +82,7 @@ class Thumbnails:
         scene = Scene(background=BACKGROUND, ambient=(0.25, 0.25, 0.25))
         scene.add(mesh)
         scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8, unit="white"))
-        return self._renderer.render(scene).color.copy()
+        return self._renderer.render(scene, cull="auto").color.copy()
 
     def _dressed_ball(self, material: Material) -> Mesh:
         if self._ball is None:

@@ -55,8 +55,8 @@ def holes_of(mesh: Mesh) -> tuple[np.ndarray, ...] | None:
 def _holes(positions: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, ...] | None:
     places, first = native.number_rows(positions.view(np.uint32), True)
     sides = native.open_sides(positions, faces, places, len(first), _MOST_SIDES)
-    if sides is None or len(np.unique(sides)) != len(sides):
-        return None  # rims touch
+    if sides is None or not _are_rings(sides):
+        return None
     points, faces = positions[first], places[faces]
     rims = _rims(sides)
     for rim in rims:  # a lid: a fan of triangles from the middle
@@ -66,6 +66,12 @@ def _holes(positions: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, ...] |
     if not native.encloses(points, faces, None, len(points)):
         return None
     return tuple(points[rim].astype(np.float64) for rim in rims)
+
+
+def _are_rings(sides: np.ndarray) -> bool:
+    """Whether at each place one open side ends and one begins."""
+    begins, ends = np.sort(sides, axis=0).T
+    return bool((begins == ends).all() and (begins[1:] != begins[:-1]).all())
 
 
 def _rims(sides: np.ndarray) -> list[np.ndarray]:

@@ -13,6 +13,7 @@ from imgui_bundle import imgui
 
 from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
+from ...scene.cameras import PerspectiveCamera
 from ...scene.nodes import Node
 from ...ui.imgui_painter import ImguiPainter
 from ...viewer.selection import CLICK_OUTPUTS, outline_pixels
@@ -121,11 +122,15 @@ class ScenePanel:
         if self._renderer is None or (self._renderer.width, self._renderer.height) != size:
             self.close()
             self._renderer = Renderer(*size)
+        camera = workspace.view.camera(workspace.bounds)
+        if isinstance(camera, PerspectiveCamera):
+            camera.reversed_depth = True
         start = time.perf_counter()
         self._frame = frame = self._renderer.render(
             workspace.scene,
-            (workspace.view.camera(workspace.bounds), workspace.view.pose()),
+            (camera, workspace.view.pose()),
             mode=workspace.mode,
+            cull="auto",
             wireframe="overlay" if workspace.wireframe else None,
             outputs=CLICK_OUTPUTS,
         )

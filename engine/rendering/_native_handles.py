@@ -19,6 +19,7 @@ from .._native.rasterizer import (
     NativeTexture,
 )
 from ..environments.environment import Environment
+from ..geometry._tangents import drawn_arrays
 from ..geometry.mesh import Mesh
 from ..geometry.native_meshes import make_native_mesh
 from ..materials.textures import Texture
@@ -32,7 +33,7 @@ class MeshNeeds(NamedTuple):
     edges: bool = False
 
 
-_meshes: WeakKeyDictionary[Mesh, tuple[dict, NativeMesh]] = WeakKeyDictionary()
+_meshes: WeakKeyDictionary[Mesh, tuple[dict, dict, NativeMesh]] = WeakKeyDictionary()
 _environments: WeakKeyDictionary[Environment, NativeEnvironment] = WeakKeyDictionary()
 _textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple, NativeTexture]]] = WeakKeyDictionary()
 
@@ -43,12 +44,13 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     Threads that ask at once for the first time may each make one: these are alike.
     """
     arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
-    made_of, native = _meshes.get(mesh, (None, None))
+    made_of, drawn, native = _meshes.get(mesh, (None, None, None))
     if made_of is None or not all(map(operator.is_, arrays.values(), made_of.values())):
-        native = make_native_mesh(arrays, threads)
-        _meshes[mesh] = arrays, native
+        drawn = drawn_arrays(mesh, arrays)
+        native = make_native_mesh(drawn, threads)
+        _meshes[mesh] = arrays, drawn, native
     if needs.vertex_normals and "normals" not in native.attributes:
-        native.set_attribute("normals", mesh._derive("normals", arrays))
+        native.set_attribute("normals", mesh._derive("normals", drawn))
     if needs.face_normals and not native.has_face_normals:
         native.set_face_normals(mesh._derive("face_normals", arrays))
     if needs.edges and not native.has_edges:

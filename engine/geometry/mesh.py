@@ -145,6 +145,8 @@ class Mesh(Closed):
     _origin: Any = None  # see origins.py
     _morph_targets: tuple[MorphTarget, ...] = ()
     _FORGOTTEN = ("_derived", "_origin")
+    # The set of coordinates by which tangents are found when it is drawn without any, or None.
+    _tangent_uv_set: int | None = None
 
     def __init__(
         self,
@@ -528,7 +530,7 @@ class Mesh(Closed):
         self._derived.clear()
         self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
-        self._origin = other._origin
+        self._origin, self._tangent_uv_set = other._origin, other._tangent_uv_set
         renew(self)
 
 

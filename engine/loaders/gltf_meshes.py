@@ -14,6 +14,8 @@ import numpy as np
 from .._native.loaders import frozen
 from ..geometry.mesh import Mesh
 from ..geometry.morph_targets import MorphTarget
+from ..materials.material import Material
+from ..materials.textures import PlacedTexture
 from .documents import MeshRecord
 from .gltf_buffers import GltfBuffers
 from .gltf_file import GltfFile
@@ -23,6 +25,8 @@ from .smoothing import join_seams
 
 # Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
 _MAX_PRIMITIVES = 10_000
+# Of so many faces of a mesh that bends, tangents are found while it is read.
+_MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
 
 
@@ -135,7 +139,24 @@ class GltfMeshes:
             mesh.set_influences(joints, self._joined([p.weights for p in primitives]))
         if target_names:
             mesh.morph_targets = self._morphs(primitives, counts, target_names)
+        if kind == "faces" and "normals" in arrays and "tangents" not in arrays:
+            mesh = self._with_tangents(mesh, chosen)
         return MeshRecord(name, mesh, variants=_variants(chosen))
+
+    def _with_tangents(self, mesh: Mesh, chosen: list[tuple]) -> Mesh:
+        """A mesh whose tangents will be found when it is drawn; of one that bends, they are."""
+        materials = [usual for usual, _ in chosen]
+        materials += [material for _, others in chosen for material in others.values()]
+        uv_set = next((found for m in materials if (found := _tangent_set(m)) is not None), None)
+        if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
+            return mesh
+        if mesh.joints is None and not mesh.morph_targets:
+            mesh._tangent_uv_set = uv_set
+            return mesh
+        if len(mesh.faces) > _MOST_BENDING:
+            return mesh
+        self._buffers.count(4 * len(mesh.positions))
+        return mesh.with_tangents(uv_set)
 
     def _chosen(self, primitive: Primitive, entry: dict, where: str, *, flat: bool):
         """The material of a primitive, and those of variants."""
@@ -181,6 +202,15 @@ def _kind_of(primitive: Primitive) -> tuple:
     material = None if primitive.kind == "faces" else primitive.material
     # The materials of other sets of texture coordinates are others, of these one may be drawn.
     return primitive.kind, tuple(primitive.arrays), joints, material
+
+
+def _tangent_set(material: Material) -> int | None:
+    """The texture coordinates that need tangents; None if nothing does, or these are turned."""
+    maps = material.normal_texture, material.clearcoat_normal_texture, material.anisotropy_texture
+    found = next((texture for texture in maps if texture is not None), None)
+    if isinstance(found, PlacedTexture):
+        return None if found.is_moved else found.uv_set
+    return 0 if found is not None or material.anisotropy else None
 
 
 def _variants(chosen: list[tuple]) -> dict[int, tuple]:

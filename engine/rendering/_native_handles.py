@@ -19,6 +19,7 @@ from .._native.rasterizer import (
     NativeTexture,
 )
 from ..environments.environment import Environment
+from ..geometry._tangents import drawn_arrays
 from ..geometry.creases import creased_arrays, has_creases
 from ..geometry.mesh import Mesh
 from ..geometry.native_meshes import make_native_mesh
@@ -34,7 +35,7 @@ class MeshNeeds(NamedTuple):
     edges: bool = False
 
 
-_meshes: WeakKeyDictionary[Mesh, tuple[dict, NativeMesh]] = WeakKeyDictionary()
+_meshes: WeakKeyDictionary[Mesh, tuple[dict, dict, NativeMesh]] = WeakKeyDictionary()
 _environments: WeakKeyDictionary[Environment, NativeEnvironment] = WeakKeyDictionary()
 _textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple, NativeTexture]]] = WeakKeyDictionary()
 
@@ -47,19 +48,20 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
     angle = mesh.crease_angle
     state = {**arrays, "crease_angle": angle}
-    made_of, native = _meshes.get(mesh, (None, None))
+    made_of, drawn, native = _meshes.get(mesh, (None, None, None))
     if made_of is None or not all(map(operator.is_, state.values(), made_of.values())):
-        native = make_native_mesh(arrays, threads)
-        _meshes[mesh] = state, native
+        drawn = drawn_arrays(mesh, arrays)
+        native = make_native_mesh(drawn, threads)
+        _meshes[mesh] = state, drawn, native
     if needs.vertex_normals and "normals" not in native.attributes:
         if has_creases(arrays, angle):
             creased = creased_arrays(arrays, vertex_attributes(Mesh), angle)
             if creased["faces"] is not arrays["faces"]:
                 native = make_native_mesh(creased, threads)
-                _meshes[mesh] = state, native
+                _meshes[mesh] = state, drawn, native
             native.set_attribute("normals", creased["_given_normals"])
         else:
-            native.set_attribute("normals", mesh._derive("normals", arrays))
+            native.set_attribute("normals", mesh._derive("normals", drawn))
     if needs.face_normals and not native.has_face_normals:
         native.set_face_normals(mesh._derive("face_normals", arrays))
     if needs.edges and not native.has_edges:

@@ -8,6 +8,7 @@ no place in a scene is warned of.
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 from .._support.numbers import shown
@@ -15,6 +16,7 @@ from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..loaders.documents import ClipRecord, LampRecord, LensRecord, NodeRecord, TreeRecord
 from ..loaders.tree_posing import shown_nodes
+from ..materials.material import Material
 from .cameras import Camera, OrthographicCamera, PerspectiveCamera
 from .instances import InstancedMesh
 from .lights import DirectionalLight, Light, PointLight, SpotLight
@@ -25,6 +27,23 @@ from .scene import Scene
 records: WeakKeyDictionary = WeakKeyDictionary()
 #: Stands there for a node that holds what the one above it could not hold besides.
 FURTHER_PART = object()
+
+
+class MeshWords(NamedTuple):
+    """What a file says of a mesh, without the mesh: what holds its key is never forgotten.
+
+    Attributes
+    ----------
+    morph_weights, variants, extras
+        As in `MeshRecord`.
+    variant_names : tuple of str
+        Of the file.
+    """
+
+    morph_weights: tuple[float, ...]
+    variants: dict[int, tuple[Material, ...]]
+    extras: Any
+    variant_names: tuple[str, ...]
 
 
 def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
@@ -98,7 +117,8 @@ class _Filling:
         mesh_record = self._tree.meshes[record.mesh]
         meshes = [part.mesh for part in mesh_record.parts if len(part.mesh.positions)]
         for part in mesh_record.parts:
-            records.setdefault(part.mesh, (part, self._tree.variants))
+            said = MeshWords(part.morph_weights, part.variants, part.extras, self._tree.variants)
+            records.setdefault(part.mesh, said)
         if record.instances is None:
             return meshes
         colors = record.instance_colors

@@ -182,13 +182,13 @@ class _Making:
         return self._numbers[key]
 
     def _part(self, mesh: Mesh) -> MeshRecord:
-        came, variants = records.get(mesh, (None, ()))
+        came = records.get(mesh)
         none = (0.0,) * len(mesh.morph_targets)
         if came is None:
             return MeshRecord(mesh.name, mesh, none)
         fits = all(len(held) == len(mesh.materials) for held in came.variants.values())
         if came.variants and fits:
-            self._variants = variants
+            self._variants = came.variant_names
         usual = came.morph_weights if len(came.morph_weights) == len(none) else none
         return MeshRecord(mesh.name, mesh, usual, came.variants if fits else {}, extras=came.extras)
 

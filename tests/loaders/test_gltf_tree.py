@@ -408,3 +408,49 @@ def test_memory_is_at_most_three_times_the_file(tmp_path):
     except subprocess.CalledProcessError:
         pytest.skip("the system tells no peak of memory")
     assert peak <= 3 * size
+
+
+def tangents_of(mesh):
+    """What a picture says of them."""
+    scene = e3d.Scene()
+    scene.add(mesh)
+    return e3d.render(scene, size=(60, 60), outputs=("tangent",), wireframe="overlay").tangent
+
+
+def bumpy_ball():
+    normals = np.random.default_rng(3).integers(100, 156, (8, 8, 3)).astype(np.uint8)
+    normals[..., 2] = 255
+    ball = e3d.uv_sphere(1, (9, 6))
+    ball.uvs = ball.uvs @ [[2, 0.4], [-0.3, 1]]
+    ball.materials = [e3d.Material(roughness=0.5, normal_texture=e3d.Texture(normals))]
+    return ball
+
+
+@pytest.mark.filterwarnings("ignore::engine3d.errors.Engine3DWarning")
+def test_tangents_that_a_file_lacks_are_drawn(tmp_path):
+    """They are found when the mesh is drawn; in the file that is written there are none again."""
+    scene = e3d.Scene()
+    scene.add(bumpy_ball())
+    scene.save(tmp_path / "a.glb")
+    (node,) = e3d.load_scene(tmp_path / "a.glb").nodes
+    mesh = node.object
+    drawn, known = tangents_of(mesh), tangents_of(mesh.with_tangents())
+    assert mesh.tangents is None
+    assert np.array_equal(drawn, known) and not np.array_equal(drawn, tangents_of(bumpy_ball()))
+    e3d.load_scene(tmp_path / "a.glb").save(tmp_path / "b.glb")
+    assert (tmp_path / "a.glb").read_bytes() == (tmp_path / "b.glb").read_bytes()
+    mesh.positions = mesh.positions * 2
+    assert np.abs(tangents_of(mesh)).max() > 0.5
+
+
+@pytest.mark.filterwarnings("ignore::engine3d.errors.Engine3DWarning")
+def test_what_bends_has_its_tangents_from_the_start(tmp_path):
+    ball = bumpy_ball()
+    ball.morph_targets = [e3d.MorphTarget(positions=np.ones_like(ball.positions), name="away")]
+    scene = e3d.Scene()
+    scene.add(ball).morph_weights = [0.5]
+    scene.save(tmp_path / "a.glb")
+    (node,) = e3d.load_scene(tmp_path / "a.glb").nodes
+    # Texture coordinates are turned over twice, and so rounded.
+    assert np.allclose(node.object.tangents, ball.with_tangents().tangents, atol=1e-5)
+    assert len(node.object.morph_targets[0].positions) == len(node.object.positions)

@@ -60,6 +60,13 @@ static void background_color(const e3d_frame *frame, int32_t x, int32_t y, float
     clamp_color(shows_backdrop(frame) ? color : frame->background, out);
 }
 
+/* R129 */
+static float find_visibility(const e3d_frame *frame, int32_t x, int32_t y)
+{
+    size_t pixel = (size_t)(y / frame->samples_axis) * (size_t)frame->width + (size_t)(x / frame->samples_axis);
+    return frame->ambient_visibility ? frame->ambient_visibility[pixel] : 1.0f;
+}
+
 /* The colour of what is kept at a sample, clamped; returns 0, and the background's colour, where nothing shows. */
 static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float out[3])
 {
@@ -84,6 +91,7 @@ static int kept_color(ref_scene *scene, const ref_band *band, int32_t x, int32_t
     ref_surface surface;
     float color[3];
     ref_surface_at(scene, piece, x, y, &surface);
+    surface.visibility = find_visibility(frame, x, y);
     ref_shade(frame, &surface, color);
     clamp_color(color, out);
     scene->stats.pixels_shaded++;

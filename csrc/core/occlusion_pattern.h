@@ -48,8 +48,12 @@ static inline void e3d_occlusion_direction(int number, float out[2])
 {
     float cosine = E3D_OCCLUSION_COSINES[number & 15], sine = E3D_OCCLUSION_COSINES[15 - (number & 15)];
     int quadrant = number >> 4;
-    out[0] = quadrant == 0 ? cosine : quadrant == 1 ? 0.0f - sine : quadrant == 2 ? 0.0f - cosine : sine;
-    out[1] = quadrant == 0 ? sine : quadrant == 1 ? cosine : quadrant == 2 ? 0.0f - sine : 0.0f - cosine;
+    out[0] = quadrant == 0 ? cosine : quadrant == 1 ? 0.0f - sine
+                                  : quadrant == 2   ? 0.0f - cosine
+                                                    : sine;
+    out[1] = quadrant == 0 ? sine : quadrant == 1 ? cosine
+                                : quadrant == 2   ? 0.0f - sine
+                                                  : 0.0f - cosine;
 }
 
 #endif

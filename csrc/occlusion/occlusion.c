@@ -24,7 +24,11 @@ enum { BAND = 64, /* rows that a thread takes at a time */
        SPAN = E3D_OCCLUSION_SPAN };
 
 /* A worker's rows: SPAN of each kind. */
-typedef enum row_kind { NEARNESS = 0, SHARES, DEPTH, RESULT, KINDS } row_kind;
+typedef enum row_kind { NEARNESS = 0,
+                        SHARES,
+                        DEPTH,
+                        RESULT,
+                        KINDS } row_kind;
 
 /* What both passes over the picture work on. */
 typedef struct occlusion_job {

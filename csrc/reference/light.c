@@ -2,7 +2,7 @@
  *
  * In:  a surface, the frame's lights.
  * Out: its linear colour, not yet clamped.
- * Rules: R31, and the attenuations there; R90. A light that is out of range adds nothing at all.
+ * Rules: R31, R90, R130, and the attenuations there. A light that is out of range adds nothing at all.
  */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
@@ -67,6 +67,18 @@ static float highlight(const e3d_frame *frame, const ref_surface *surface, const
     ref_normalize(h);
     float k = ref_dot3(surface->world_normal, h);
     return ref_pow(k > 0.0f ? k : 0.0f, shininess);
+}
+
+void ref_ambient(const e3d_frame *frame, const float normal[3], float out[3])
+{
+    float x = normal[0], y = normal[1], z = normal[2];
+    const float factors[E3D_AMBIENT_TERMS] = {1.0f, x, y, z, x * x - z * z, y * y - z * z, x * y, y * z, z * x};
+    for (int c = 0; c < 3; c++) {
+        out[c] = frame->ambient[c];
+        for (int t = 0; t < E3D_AMBIENT_TERMS && frame->ambient_light.is_given; t++)
+            out[c] = out[c] + frame->ambient_light.terms[t][c] * factors[t];
+        out[c] = frame->ambient_light.is_given ? ref_max(out[c], 0.0f) : out[c];
+    }
 }
 
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])

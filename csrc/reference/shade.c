@@ -3,7 +3,6 @@
  * In:  a surface, the frame's mode. Out: three floats. Overdraw is not about surfaces: resolve.c.
  * Rules: R31 through light.c, R49 … R57 through physical.c, R32, R44; R117, R121 through tone.c.
  */
-#include "reference/arithmetic.h"
 #include "reference/surface.h"
 
 static void color_from_bytes(uint32_t r, uint32_t g, uint32_t b, float out[3])

@@ -74,11 +74,9 @@ void ref_environment_irradiance(const e3d_environment_light *light, const float 
 void ref_backdrop(const e3d_backdrop *backdrop, int32_t x, int32_t y, float out[3]);
 float ref_albedo(e3d_dfg kind, float roughness, float cosine);
 
-/* ambient.c */
+/* light.c */
 /* R130: what white surfaces of that normal show of light from all around. */
 void ref_ambient(const e3d_frame *frame, const float normal[3], float out[3]);
-
-/* light.c */
 /* The unit vector from p towards the light, and its attenuation, in the way of R51 if by_product; returns 0 where the light is out of
  * range. */
 int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation);

@@ -32,6 +32,7 @@ FOLDERS = {
     "kernels": {"core", "include"},
     "loaders": {"core", "include"},
     "navigation": {"core", "include"},
+    "occlusion": {"core", "include", "kernels", "reference"},
     "pipeline/cull": {"core", "include", "kernels", "pipeline/pass"},
     "pipeline/frame": {
         *("core", "include", "kernels", "reference"),

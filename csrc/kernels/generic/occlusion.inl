@@ -3,6 +3,9 @@
 #define E3D_KERNELS_OCCLUSION_INL
 
 #include "core/always_inline.h"
+#include "core/limits.h"
+#include "core/occlusion_pattern.h"
+#include "e3d_occlusion.h"
 #include "kernels/types/occlusion.h"
 
 enum { OCCLUSION_MIDDLE = E3D_OCCLUSION_FILTER };
@@ -185,7 +188,7 @@ static ALWAYS_INLINE vf32 occlusion_mean(const e3d_occlusion_plan *plan, const v
     return v_div(sum, weights);
 }
 
-static ALWAYS_INLINE void occlusion_across(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
+static ALWAYS_INLINE void occlusion_means_across(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
 {
     for (int x = 0; x < plan->picture->width; x += V_LANES) {
         vf32 near[E3D_OCCLUSION_SPAN], share[E3D_OCCLUSION_SPAN], mean = v_setf(0.0f);
@@ -199,7 +202,7 @@ static ALWAYS_INLINE void occlusion_across(const e3d_occlusion_plan *plan, const
     }
 }
 
-static ALWAYS_INLINE void occlusion_down(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
+static ALWAYS_INLINE void occlusion_means_down(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
 {
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f);
     for (int x = 0; x < plan->picture->width; x += V_LANES) {
@@ -217,17 +220,17 @@ static ALWAYS_INLINE void occlusion_down(const e3d_occlusion_plan *plan, const e
 static void kernel_occlusion_across(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out)
 {
     if (plan->picture->is_perspective)
-        occlusion_across(plan, rows, out, 1);
+        occlusion_means_across(plan, rows, out, 1);
     else
-        occlusion_across(plan, rows, out, 0);
+        occlusion_means_across(plan, rows, out, 0);
 }
 
 static void kernel_occlusion_down(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out)
 {
     if (plan->picture->is_perspective)
-        occlusion_down(plan, rows, out, 1);
+        occlusion_means_down(plan, rows, out, 1);
     else
-        occlusion_down(plan, rows, out, 0);
+        occlusion_means_down(plan, rows, out, 0);
 }
 
 #endif

@@ -1,7 +1,9 @@
 /* ambient: what of the light from all around reaches the samples of a batch (R129). */
 #include "core/limits.h"
 #include "e3d.h"
+#include "kernels/types/shading.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/shade/ambient.h"
 #include "pipeline/shade/shade.h"
 
@@ -10,7 +12,8 @@ static int padded(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) 
 
 static void find(const e3d_frame *frame, const e3d_tile *tile, e3d_batch *batch)
 {
-    int shift = frame->samples_axis == 4 ? 2 : frame->samples_axis == 2 ? 1 : 0;
+    int shift = frame->samples_axis == 4 ? 2 : frame->samples_axis == 2 ? 1
+                                                                        : 0;
     for (int i = 0; i < padded(batch); i++) {
         int32_t x = tile->x + (batch->sample[i] & (E3D_TILE - 1)), y = tile->y + (batch->sample[i] >> E3D_TILE_SHIFT);
         batch->visibility[i] = frame->ambient_visibility[(size_t)(y >> shift) * (size_t)frame->width + (size_t)(x >> shift)];

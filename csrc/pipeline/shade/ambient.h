@@ -2,6 +2,7 @@
 #ifndef E3D_SHADE_AMBIENT_H
 #define E3D_SHADE_AMBIENT_H
 
+#include "pipeline/pass/prepared.h"
 #include "pipeline/shade/shade.h"
 
 /* Finds that of the batch (R129), where the frame has it: of its pixels, or 1 of what is blended. */

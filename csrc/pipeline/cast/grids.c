@@ -19,7 +19,8 @@ enum {
     CASTERS_A_TASK = 4096,
     CELLS_A_TASK = 4096,
     LARGE = 4, /* casters of this level and above go to cells some levels finer: a city from above takes half of the time */
-    FINER = 2
+    FINER = 2,
+    CASTERS_A_CELL = 4 /* of the finest level, about: more cells would be found in memory later than their casters are tested */
 };
 #define SHAPE_MARGIN 0x1p-18 /* of the squared size: six roundings of R99, each of 2^-24 */
 #define CELL_MARGIN 0.51     /* of a side: half a cell, and more than cell_of rounds */
@@ -303,7 +304,7 @@ static uint32_t size_grid(grid_job *job, int tasks)
         all.caster += job->bounds[t].caster;
     }
     grid->levels = all.caster > 0;
-    while (grid->levels && grid->levels < E3D_CASTER_LEVELS && (uint64_t)1 << 2 * (grid->levels - 1) < all.caster)
+    while (grid->levels && grid->levels < E3D_CASTER_LEVELS && CASTERS_A_CELL * ((uint64_t)1 << 2 * (grid->levels - 1)) < all.caster)
         grid->levels++;
     grid->near = all.near;
     for (int c = 0; c < 2; c++) {

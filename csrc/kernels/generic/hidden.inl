@@ -203,6 +203,52 @@ static ALWAYS_INLINE vi32 hidden_column(const e3d_caster_grid *grid, vf32 x, int
     return v_trunc(v_min(v_max(at, v_setf(0.0f)), v_setf(last)));
 }
 
+/* A cell, and the lanes in it. */
+typedef struct hidden_cell {
+    uint32_t first, end;
+    vmask lanes;
+} hidden_cell;
+
+static ALWAYS_INLINE const uint32_t *hidden_start(const e3d_caster_grid *grid, int level, int32_t column, int32_t row)
+{
+    return grid->starts[level] + ((size_t)row << (grid->levels - 1 - level)) + column;
+}
+
+/* Finds the cells of a level that lanes are in, and asks for their boxes: they come from anywhere in memory. */
+static ALWAYS_INLINE int hidden_cells(const e3d_caster_grid *grid, int level, vf32 finest_column, vf32 finest_row, vmask lanes, hidden_cell *out)
+{
+    int count = 0;
+    int32_t columns[V_LANES], rows[V_LANES];
+    vf32 scale = v_setf(1.0f / (float)(1 << level));
+    vi32 column = v_trunc(v_mul(finest_column, scale)), row = v_trunc(v_mul(finest_row, scale));
+    v_storei(columns, column);
+    v_storei(rows, row);
+    for (vmask left = lanes; v_any(left);) {
+        int lane = __builtin_ctz(v_bits(left));
+        vmask here = v_mand(left, v_mand(v_eqi(column, v_seti(columns[lane])), v_eqi(row, v_seti(rows[lane]))));
+        const uint32_t *start = hidden_start(grid, level, columns[lane], rows[lane]);
+        out[count] = (hidden_cell){start[0], start[1], here};
+        count += start[0] < start[1];
+        __builtin_prefetch(grid->boxes + start[0]);
+        left = v_mandnot(left, here);
+    }
+    return count;
+}
+
+/* Asks for the starts of the fine cells while casters of the coarse ones are tested. */
+static ALWAYS_INLINE void hidden_fetch_starts(const e3d_caster_grid *grid, vf32 column, vf32 row, uint32_t lanes)
+{
+    enum { FINE_LEVELS = 3 };
+    int32_t columns[V_LANES], rows[V_LANES];
+    v_storei(columns, v_trunc(column));
+    v_storei(rows, v_trunc(row));
+    for (; lanes; lanes &= lanes - 1) {
+        int lane = __builtin_ctz(lanes);
+        for (int level = 0; level < FINE_LEVELS && level < grid->levels; level++)
+            __builtin_prefetch(hidden_start(grid, level, columns[lane] >> level, rows[lane] >> level));
+    }
+}
+
 /* The lanes of these that a caster of the grid hides: of each level, the coarsest first, since what is large
  * hides most, cell by cell of those that lanes are in. */
 static ALWAYS_INLINE vmask hidden_in_grid(hidden_lanes *at, const e3d_caster_grid *grid, int is_point, vmask lanes)
@@ -213,22 +259,13 @@ static ALWAYS_INLINE vmask hidden_in_grid(hidden_lanes *at, const e3d_caster_gri
     for (int axis = 0; axis < 2; axis++)
         within = v_mand(within, v_mand(v_ge(at->place[axis], v_setf(grid->low[axis])), v_ge(v_setf(grid->high[axis]), at->place[axis])));
     vmask open = within;
-    vf32 finest_column = v_float(hidden_column(grid, at->place[0], 0)), finest_row = v_float(hidden_column(grid, at->place[1], 1));
+    vf32 column = v_float(hidden_column(grid, at->place[0], 0)), row = v_float(hidden_column(grid, at->place[1], 1));
+    hidden_fetch_starts(grid, column, row, v_bits(open));
     for (int level = grid->levels - 1; level >= 0 && v_any(open); level--) {
-        if (!(grid->filled >> level & 1))
-            continue;
-        int32_t columns[V_LANES], rows[V_LANES];
-        vf32 scale = v_setf(1.0f / (float)(1 << level));
-        vi32 column = v_trunc(v_mul(finest_column, scale)), row = v_trunc(v_mul(finest_row, scale));
-        v_storei(columns, column);
-        v_storei(rows, row);
-        for (vmask left = open; v_any(left);) {
-            int lane = __builtin_ctz(v_bits(left));
-            vmask here = v_mand(left, v_mand(v_eqi(column, v_seti(columns[lane])), v_eqi(row, v_seti(rows[lane]))));
-            const uint32_t *start = grid->starts[level] + ((size_t)rows[lane] << (grid->levels - 1 - level)) + columns[lane];
-            open = v_mandnot(open, hidden_in_cell(at, grid->boxes + start[0], grid->boxes + start[1], is_point, here));
-            left = v_mandnot(left, here);
-        }
+        hidden_cell cells[V_LANES];
+        int count = grid->filled >> level & 1 ? hidden_cells(grid, level, column, row, open, cells) : 0;
+        for (int c = 0; c < count; c++)
+            open = v_mandnot(open, hidden_in_cell(at, grid->boxes + cells[c].first, grid->boxes + cells[c].end, is_point, cells[c].lanes));
     }
     return v_mandnot(within, open);
 }

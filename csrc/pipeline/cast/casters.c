@@ -70,7 +70,7 @@ static void place_faces(const e3d_caster_memory *memory, const e3d_caster_instan
     const e3d_draw *draw = &memory->casters.draws[instance->draw];
     const e3d_mesh_desc *mesh = &draw->mesh->desc;
     const e3d_material *materials = memory->casters.materials + draw->material_base;
-    float(*world)[9] = (float(*)[9])memory->world.data + instance->first, m[12];
+    float (*world)[9] = (float (*)[9])memory->world.data + instance->first, m[12];
     uint8_t *may_be_open = (uint8_t *)memory->may_be_open.data + instance->first;
     double matrix[16];
     e3d_world_matrix(draw, instance->number, matrix);

@@ -361,7 +361,8 @@ static int find_grid(grid_job *job, e3d_array *starts, e3d_array *boxes, int32_t
 static void turn_to(const e3d_light *light, e3d_caster_light *out)
 {
     const float *l = light->to_light;
-    out->axis = fabsf(l[0]) >= fabsf(l[1]) && fabsf(l[0]) >= fabsf(l[2]) ? 0 : fabsf(l[1]) >= fabsf(l[2]) ? 1 : 2;
+    out->axis = fabsf(l[0]) >= fabsf(l[1]) && fabsf(l[0]) >= fabsf(l[2]) ? 0 : fabsf(l[1]) >= fabsf(l[2]) ? 1
+                                                                                                          : 2;
     for (int c = 0; c < 2; c++)
         out->slope[c] = l[(out->axis + 1 + c) % 3] / l[out->axis];
 }

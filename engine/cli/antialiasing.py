@@ -8,8 +8,8 @@ from typing import get_args
 from ..choices import Samples
 from .usage import UsageError
 
-#: The method and the samples of pictures and turntables of which neither is asked for.
-PICTURES = ("ssaa", 1)
+#: By look, the method and the samples of pictures and turntables of which neither is asked for.
+PICTURES = {"studio": ("msaa", 4), "plain": ("ssaa", 1)}
 #: The method of a window, whose samples follow the time (viewer/sampling.py).
 WINDOW = "msaa"
 #: The samples of a method that is asked for without a number.
@@ -36,9 +36,7 @@ def add(group: argparse._ArgumentGroup) -> None:
     )
 
 
-def antialiasing(
-    args: argparse.Namespace, method: str = PICTURES[0], samples: int = PICTURES[1]
-) -> tuple[str, int]:
+def antialiasing(args: argparse.Namespace, method: str, samples: int) -> tuple[str, int]:
     """Return the method, as `Renderer` takes it, and the samples.
 
     Parameters

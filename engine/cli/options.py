@@ -31,6 +31,8 @@ from .loading_bar import LoadingBar
 from .outputs import not_the_output
 from .usage import UsageError
 
+#: How models are shown; the first is the default.
+LOOKS = tuple(antialiasing.PICTURES)
 MODES = (*get_args(Mode), *get_args(OutputMode))
 BACKENDS = get_args(Backend)
 WIREFRAMES = get_args(Wireframe)
@@ -169,6 +171,14 @@ def add_picture(parser) -> None:
         type=values.resolution,
         metavar="WxH",
         help="size in pixels; 1280x720 by default",
+    )
+    group.add_argument(
+        "--look",
+        choices=LOOKS,
+        default=LOOKS[0],
+        help="studio: models stand on their shadow before a gradient, in soft light, with ambient "
+        "occlusion, neutral tone mapping and 4 samples per pixel; plain: before one colour, with "
+        "none of these. Other options have the last word",
     )
     antialiasing.add(group)
     group.add_argument(
@@ -481,6 +491,7 @@ def settings(args: argparse.Namespace):
         **ambient_options.appearance_of(args),
     }
     return Settings(
+        look=args.look,
         appearance={name: value for name, value in appearance.items() if value is not None},
         up=args.up,
         background=args.background_color,

@@ -8,7 +8,7 @@ from ..files.animation_files import save_animation
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
 from . import options
-from .antialiasing import antialiasing
+from .antialiasing import PICTURES, antialiasing
 from .outputs import (
     STANDARD_OUTPUT,
     check_animation,
@@ -31,7 +31,7 @@ def render(args: argparse.Namespace) -> int:
     viewed = options.viewed_scene(args)
     report.loaded(viewed)
     settings = options.settings(args)
-    antialias, samples = antialiasing(args)
+    antialias, samples = antialiasing(args, *PICTURES[args.look])
     with ViewRenderer(
         viewed,
         settings,

@@ -436,7 +436,7 @@ class Renderer(Closed):
             cull = "back" if by_mesh else options.cull
             if by_mesh and not self._draw_list.may_cull(scene, view):
                 cull = "none"
-                frame_options = self._options.get(scene, with_both_sides(options))
+                frame_options = self._options.get(scene, with_both_sides(options), self._height)
             if options.mode == "lit" and "color" in frame.outputs:
                 self._shadow_maps.update(scene, view, cull)
                 self._turn.check()

@@ -21,6 +21,8 @@ class Settings:
     ----------
     appearance : dict
         Fields of `Appearance` that were given.
+    look : {"studio", "plain"}
+        How models stand there: see `Stage`; or before one colour, without a shadow.
     up : str or None
         A key of `viewpoint.UP_DIRECTIONS`.
     background : (3,) tuple of int or None
@@ -60,6 +62,7 @@ class Settings:
     """
 
     appearance: dict
+    look: str = "plain"
     up: str | None = None
     background: tuple[int, int, int] | None = None
     light_position: tuple[float, float, float] | None = None

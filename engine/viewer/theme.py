@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..scene.gradients import Gradient
+
 Rgba = tuple[int, int, int, int]
 
 
@@ -14,7 +16,9 @@ class Theme(NamedTuple):
     ----------
     name : str
     background : tuple of 3 int
-        Behind models.
+        Behind models in the look ``"plain"``.
+    gradient : Gradient
+        Behind models in the look ``"studio"``.
     text, block : tuple of 4 int
         Of texts, and of the translucent blocks behind them.
     key, title : tuple of 4 int
@@ -23,6 +27,7 @@ class Theme(NamedTuple):
 
     name: str
     background: tuple[int, int, int]
+    gradient: Gradient
     text: Rgba
     block: Rgba
     key: Rgba
@@ -32,6 +37,7 @@ class Theme(NamedTuple):
 DARK = Theme(
     "dark",
     background=(43, 46, 53),
+    gradient=Gradient((74, 79, 89), (46, 49, 56)),
     text=(235, 238, 242, 255),
     block=(16, 18, 24, 210),
     key=(255, 206, 115, 255),
@@ -40,6 +46,7 @@ DARK = Theme(
 LIGHT = Theme(
     "light",
     background=(228, 231, 236),
+    gradient=Gradient((236, 239, 244), (204, 210, 219)),
     text=(28, 31, 38, 255),
     block=(250, 251, 253, 225),
     key=(150, 72, 0, 255),

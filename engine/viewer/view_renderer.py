@@ -18,7 +18,7 @@ from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .grid_lines import grid
-from .lighting import Lighting, OnlyLight, placed_light
+from .lighting import OWN_LIGHTS, Lighting, OnlyLight, placed_light
 from .near_origin import from_file
 from .output_pictures import (
     COVERAGE,
@@ -32,11 +32,17 @@ from .scene_bounds import turning_outline
 from .selection import CLICK_OUTPUTS
 from .settings import Settings
 from .shadow_switch import ShadowSwitch
+from .stage import Stage, theme_for
 from .theme import Theme
 from .untextured import Textures
 from .viewed_scene import ViewedScene
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
+
+#: What the look "studio" draws with unless the scene or the user says otherwise.
+STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
+#: How far ambient occlusion reaches, in radii of what is shown.
+_OCCLUSION_REACH = 0.2
 
 
 class ViewRenderer:
@@ -131,7 +137,8 @@ class ViewRenderer:
             viewed.scene.exposure = settings.exposure
         lights = self.lighting.name if keep_appearance else ""
         if not keep_appearance:
-            self.appearance = Appearance(**(viewed.appearance | settings.appearance))
+            look = STUDIO if settings.look == "studio" else {}
+            self.appearance = Appearance(**(look | viewed.appearance | settings.appearance))
         self.bounds = viewed.bounds
         self._grid = None
         self._stand(self.turned_up or settings.up or viewed.up)
@@ -147,6 +154,7 @@ class ViewRenderer:
         self.lighting = self._light()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
+        self._stage = self._make_stage()
         self.show_grid(settings.grid)
 
     def _stand(self, up: str) -> None:
@@ -166,6 +174,7 @@ class ViewRenderer:
         self._stand(up)
         self.lighting = self._light()
         self.lighting.choose(lights)
+        self._stage = self._make_stage()
         self.show_grid(self.settings.grid)
 
     def _light(self) -> Lighting | OnlyLight:
@@ -188,6 +197,46 @@ class ViewRenderer:
             return OnlyLight(scene, light)
         return Lighting(scene, UP_DIRECTIONS[self.up], intensity)
 
+    def _make_stage(self) -> Stage | None:
+        """Return what the model stands in; None where the scene or the user's look says so."""
+        if self.settings.look != "studio" or not self.viewed.themed:
+            return None
+        lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
+        is_lit = lights and self.viewed.scene.environment is None
+        self._chooses_theme = self._shows_theme()
+        return Stage(self.viewed.scene, UP_DIRECTIONS[self.up], is_lit)
+
+    def _shows_theme(self) -> bool:
+        """Whether the theme's background is what is behind the model."""
+        kept = self._transparent or self.settings.background or self.settings.surroundings.shows
+        return self.viewed.themed and not kept
+
+    def _set_stage(self, view: Viewpoint, time: float) -> None:
+        """Set the stage for a frame: a background that the model stands out from, and its shadow."""
+        stage, appearance = self._stage, self.appearance
+        if stage is None:
+            return
+        if self._chooses_theme:
+            stage.show_shadow(False)
+            self.theme = theme_for(self._picture_alone(view))
+        if not self._transparent:
+            stage.lay_shadow(self.bounds, view.azimuth, time)
+            is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
+            stage.show_shadow(is_plain and not self.split)
+
+    def _picture_alone(self, view: Viewpoint) -> np.ndarray:
+        """Return a small picture of the model before a transparent background."""
+        scene = self.viewed.scene
+        background, scene.background = scene.background, None
+        width, height = self.size
+        scale = max(width, height) / 240
+        size = max(1, round(width / scale)), max(1, round(height / scale))
+        with Renderer(*size, **{**self._options, "antialias": "ssaa"}) as renderer:
+            look = self.appearance.arguments(None, 1.0)
+            picture = renderer.render(scene, (self._camera(view), view.pose()), **look).color
+        scene.background = background
+        return picture
+
     def show_textures(self, shown: bool) -> None:
         """Draw with textures, or without."""
         self.settings.textures = shown
@@ -205,6 +254,8 @@ class ViewRenderer:
         if self._shadows is not None:
             self._shadows.leave()
         self.lighting.leave()
+        if self._stage is not None:
+            self._stage.leave()
         if self._grid is not None:
             self.viewed.scene.remove(self._grid)
 
@@ -216,9 +267,10 @@ class ViewRenderer:
     @theme.setter
     def theme(self, theme: Theme) -> None:
         self.settings.theme = theme
-        kept = self._transparent or self.settings.background or self.settings.surroundings.shows
-        if self.viewed.themed and not kept:
-            self.viewed.scene.background = theme.background
+        self._chooses_theme = False
+        if self._shows_theme():
+            background = theme.background if self._stage is None else theme.gradient
+            self.viewed.scene.background = background
 
     def show_grid(self, shown: bool) -> None:
         """Draw a grid under the scene, or not."""
@@ -304,6 +356,7 @@ class ViewRenderer:
         self.lighting.follow(pose)
         if self.viewed.follow is not None:
             self.viewed.follow(pose[:3, 3])
+        self._set_stage(view, time)
         camera, mode = self._camera(view), self.appearance.mode
         if self.viewed.detail is not None:
             self.viewed.detail(camera, pose, self.size)
@@ -316,11 +369,18 @@ class ViewRenderer:
             (camera, pose),
             culling_camera=self._culling_camera,
             outputs=tuple(dict.fromkeys(outputs)),
-            **self.appearance.arguments(self.viewed.scene.background, self.point_size),
+            **self._appearance(),
         )
         if mode in OUTPUT_MODES and not self.split and "color" in outputs:
             paint(frame, mode, self.bounds)
         return frame
+
+    def _appearance(self) -> dict:
+        """Return the drawing options of a frame."""
+        options = self.appearance.arguments(self.viewed.scene.background, self.point_size)
+        if options["ambient_occlusion_radius"] is None:
+            options["ambient_occlusion_radius"] = _OCCLUSION_REACH * self.bounds.radius
+        return options
 
     @property
     def point_size(self) -> float:
@@ -384,7 +444,7 @@ class ViewRenderer:
     def _clip_bounds(self) -> Sphere:
         """Return what the clip planes must enclose: animated parts and the grid included."""
         margin = 1.0 if self.viewed.update is None else 1.6
-        if self.settings.grid:
+        if self.settings.grid or self._stage is not None:
             margin = max(margin, 3.2)
         return self.bounds._replace(radius=self.bounds.radius * margin)
 

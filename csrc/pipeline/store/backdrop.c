@@ -147,12 +147,10 @@ void e3d_backdrop_fill(const e3d_store *store, e3d_store_memory *memory)
     }
 }
 
-void e3d_backdrop_pixel(const e3d_store *store, int32_t x, int32_t y, float color[4])
+void e3d_backdrop_pixel(const e3d_store *store, const e3d_tile *tile, int x, int y, float color[4])
 {
-    const e3d_prepared *pass = store->pass;
     colors row;
-    float *const planes[3] = {row.red, row.green, row.blue};
-    pass->kernels->backdrop(&pass->frame->backdrop, x, y, 1, planes);
+    find_colors(store, tile, x, y, 1, &row);
     color[0] = row.red[0];
     color[1] = row.green[0];
     color[2] = row.blue[0];

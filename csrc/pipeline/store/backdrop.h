@@ -16,7 +16,7 @@ void e3d_backdrop_prepare(const e3d_frame *frame, uint32_t (*rows)[E3D_DITHER]);
 /* Fills the memory of the tile that is drawn. */
 void e3d_backdrop_fill(const e3d_store *store, e3d_store_memory *memory);
 /* Its colour behind one pixel of the picture, clamped, and its alpha. */
-void e3d_backdrop_pixel(const e3d_store *store, int32_t x, int32_t y, float color[4]);
+void e3d_backdrop_pixel(const e3d_store *store, const e3d_tile *tile, int x, int y, float color[4]);
 /* Puts it where the samples of a batch are. */
 void e3d_backdrop_batch(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *memory);
 /* The pixels of a tile that nothing else shows in, E3D_TILE apart from row to row; E3D_PAD more are written. */

@@ -43,7 +43,7 @@ static int32_t background_of(const e3d_tile_job *job, int32_t pixel, e3d_mixed_l
     if (!e3d_plans(job->in->pass, E3D_PLAN_BACKDROP))
         return E3D_MIXED_BACKGROUND;
     int32_t number = list->colors++, place = E3D_MIXED_BACKDROP + number;
-    e3d_backdrop_pixel(job->in->shade->store, job->tile.x + pixel % E3D_TILE, job->tile.y + pixel / E3D_TILE, list->color[place]);
+    e3d_backdrop_pixel(job->in->shade->store, &job->tile, pixel % E3D_TILE, pixel / E3D_TILE, list->color[place]);
     list->place[number] = (uint16_t)place;
     return number;
 }

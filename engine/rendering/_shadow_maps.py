@@ -65,6 +65,8 @@ class ShadowMaps:
         self._native = native
         self._draw_list = draw_list
         self._kept: dict[int, _LightMaps] = {}
+        # From where each light's maps are drawn, by its number, and what that was found from.
+        self._found: dict[int, tuple[tuple, ShadowViews | None]] = {}
         self.drawn = self.count = 0
 
     def update(self, scene: Scene, view: View, cull: Cull) -> None:
@@ -81,15 +83,26 @@ class ShadowMaps:
         lights = [entry for entry in self._draw_list.lights.placed() if entry[1].shadow is True]
         for number in self._kept.keys() - {number for number, _, _ in lights}:
             del self._kept[number]
+        for number in self._found.keys() - {number for number, _, _ in lights}:
+            del self._found[number]
         if not lights:
             return
         bounds = scene.bounds
         moment = scene._arrays, scene._arrays.updated, self._draw_list.renewals, CULLS[cull]
         for number, light, pose in lights:
-            light.check()
-            views = _views_of(light, pose, bounds, view)
+            views = self._views_of(number, light, pose, bounds, view)
             if views is not None:
                 self._update_light(number, light, views, moment)
+
+    def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
+        """From where a light's maps are drawn: as before, if nothing that decides it changed."""
+        seen_by = view if isinstance(light, DirectionalLight) else None
+        found_from = light, light.version, pose, bounds.tobytes(), seen_by
+        known = self._found.get(number)
+        if known is None or known[0] != found_from:
+            light.check()
+            known = self._found[number] = found_from, _find_views(light, pose, bounds, view)
+        return known[1]
 
     def _update_light(self, number: int, light, views: ShadowViews, moment: tuple) -> None:
         count, size = len(views.maps), light.shadow_map_size
@@ -130,7 +143,7 @@ class ShadowMaps:
         drawn.clip, drawn.moment, drawn.casters = clip, moment, casters
 
 
-def _views_of(light, pose: list[float], bounds: np.ndarray, view: View) -> ShadowViews | None:
+def _find_views(light, pose: tuple, bounds: np.ndarray, view: View) -> ShadowViews | None:
     """From where a light's maps are drawn; ``pose`` as `LightList.placed` has it."""
     towards, position = pose
     if isinstance(light, DirectionalLight):

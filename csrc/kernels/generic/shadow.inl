@@ -47,8 +47,9 @@ static ALWAYS_INLINE vmask shadow_is_inside(const e3d_light_shadow *shadow, vf32
 
 static ALWAYS_INLINE shadow_place shadow_place_directional(const e3d_light_shadow *shadow, const e3d_shadow_map *maps, const shadow_lanes *s)
 {
-    shadow_place place = {.map = v_seti(0)};
+    shadow_place place;
     vf32 zero = v_setf(0.0f), scale = zero, texel = zero, x0 = zero, y0 = zero;
+    place.map = v_seti(0);
     place.inside = v_gt(zero, zero);
     for (int32_t k = shadow->count - 1; k >= 0; k--) {
         vf32 size = v_setf(maps[k].scale);
@@ -81,10 +82,11 @@ static ALWAYS_INLINE void shadow_project(const e3d_light_shadow *shadow, const e
 
 static ALWAYS_INLINE shadow_place shadow_place_spot(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
 {
-    shadow_place place = {.map = v_seti(0)};
+    shadow_place place;
     vf32 at[3], shift = shadow_shift(shadow, v_mul(s->at[2], v_setf(map->texel)), s->sine);
     for (int k = 0; k < 3; k++)
         at[k] = v_add(s->at[k], v_mul(s->along[k], shift));
+    place.map = v_seti(0);
     shadow_project(shadow, map, at, &place);
     return place;
 }
@@ -231,10 +233,11 @@ static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lig
     const e3d_light *light = &lighting->lights[n];
     const e3d_light_shadow *shadow = &light->shadow;
     const e3d_shadow_map *maps = lighting->shadows + shadow->first;
-    shadow_lanes s = {.sine = shadow_sine(normal, l)};
+    shadow_lanes s; /* not cleared first: what is written so cannot be loaded at once */
     vf32 p[3];
-    for (int k = 0; k < 3; k++)
-        p[k] = light->kind == E3D_LIGHT_DIRECTIONAL ? position[k] : v_sub(position[k], v_setf(light->position[k]));
+    s.sine = shadow_sine(normal, l);
+    for (int k = 0; k < 3; k++) /* minus 0 is the position itself: a copy would take longer */
+        p[k] = v_sub(position[k], v_setf(light->kind == E3D_LIGHT_DIRECTIONAL ? 0.0f : light->position[k]));
     for (int k = 0; k < 3; k++) {
         const vf32 axis[3] = {v_setf(shadow->axes[k][0]), v_setf(shadow->axes[k][1]), v_setf(shadow->axes[k][2])};
         s.at[k] = light->kind == E3D_LIGHT_POINT ? p[k] : dot_three(p, axis);

@@ -35,6 +35,7 @@ static inline __m256i quads_two(const void *texels, const void *below, const int
 static inline __m512i quads_apart(const void *texels, const void *below, const int32_t *at) {
     return halves_join(quads_two(texels, below, at), quads_two(texels, below, at + 8));
 }
+static inline vi32 inserted_lanes(const int32_t a[V_LANES]) { return _mm512_setr_epi32(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13], a[14], a[15]); }
 #include "kernels/simd/words_x86.h"
 
 static inline vi32 v_iota(void) {

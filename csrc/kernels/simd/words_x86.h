@@ -1,7 +1,7 @@
 /* The vector words that are one instruction, or the same few, in SSE4.1, AVX2 and AVX-512. vec_1.h says what each means.
  *
  * Whoever includes it has the types, V_LANES, MM(op), which names an instruction for its vectors, MMW(op), which names one for
- * whole registers, v_asf, quarters (a register of copies of one of 16 bytes) and quads_apart.
+ * whole registers, inserted_lanes (lanes by inserts, as what was just stored one by one cannot be loaded at once), v_asf, quarters (a register of copies of one of 16 bytes) and quads_apart.
  */
 #ifndef E3D_WORDS_X86_H
 #define E3D_WORDS_X86_H
@@ -23,7 +23,7 @@ static ALWAYS_INLINE vi32 v_ge16(const float *base, int32_t pitch, vi32 at, vf32
     v_storef(leasts, least);
     for (int lane = 0; lane < V_LANES; lane++)
         bits[lane] = floats_sixteen(base + places[lane], pitch, leasts[lane]);
-    return v_loadi(bits);
+    return inserted_lanes(bits);
 }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return MM(add_ps)(a, b); }

@@ -241,7 +241,13 @@ CALLS = {
     ),
     "Texture": (
         lambda **a: e3d.Texture(**a),
-        {"pixels": np.zeros((2, 2, 3), np.uint8), "filter": "nearest", "wrap": "clamp"},
+        {
+            "pixels": np.zeros((2, 2, 3), np.uint8),
+            "filter": "nearest",
+            "wrap": "clamp",
+            "anisotropy": 4,
+            "lod_bias": 0.5,
+        },
     ),
     "Environment": (
         lambda **a: e3d.Environment(**a),
@@ -332,6 +338,9 @@ CALLS = {
             "outputs": ("color",),
             "mode": "lit",
             "wireframe": "overlay",
+            "line_shape": "round",
+            "point_shape": "round",
+            "size_unit": "picture",
         },
     ),
     "render camera": (

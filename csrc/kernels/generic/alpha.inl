@@ -162,7 +162,8 @@ static void alpha_texture(e3d_batch *batch, const e3d_surfaces *surfaces, const 
     texture_begin(&plan, view, bases);
     if (view->anisotropy > 1) {
         const probe_source from = probes_from(batch, surfaces, surfaces->slope, batch->uv[0], batch->uv[1], view);
-        anisotropic_read(&plan, &from, plan.scale, NULL, batch->alpha);
+        const probe_target to = {plan.scale, NULL, batch->alpha};
+        anisotropic_read(&plan, &from, &to);
     } else if (view->channel_bits == 8) {
         alpha_filter(&plan, view->filter, 8, batch, plan.scale[0]);
     } else {

@@ -191,7 +191,8 @@ static inline void map_anisotropic(texture_plan *plan, const e3d_map *map, const
     e3d_lane_array *uv = stage->out->uv[map->place];
     const probe_source from = probes_from(batch, surfaces, stage->surfaces->slope[map->place], uv[0], uv[1], map->view);
     texture_begin(plan, map->view, map_ones);
-    anisotropic_read(plan, &from, map_ones, texels, map->has_alpha ? texels[3] : NULL);
+    const probe_target to = {map_ones, texels, map->has_alpha ? texels[3] : NULL};
+    anisotropic_read(plan, &from, &to);
 }
 
 /* Coordinates, tangents and texels of a batch, whose weights and normals are there. */

@@ -35,6 +35,7 @@ typedef struct bloom_job {
     void (*task)(const struct bloom_job *job, int32_t y, float *rows);
     int32_t count;
     atomic_int next;
+    atomic_int *bright; /* not 0: something is */
 } bloom_job;
 
 static size_t row_floats(int32_t width) { return (size_t)width + E3D_PAD; }
@@ -62,7 +63,8 @@ static void halve_radiance(const bloom_job *job, int32_t y, float *rows)
         four[k] = bloom->radiance + (size_t)CHANNELS * (size_t)bloom->width * (size_t)within(2 * y - 1 + k, bloom->height);
     for (int k = 0; k < CHANNELS; k++)
         planes[k] = rows + (size_t)k * job->row;
-    job->kernels->bloom_bright(four, bloom->width, planes);
+    if (job->kernels->bloom_bright(four, bloom->width, planes))
+        atomic_store(job->bright, 1);
     for (int k = 0; k < CHANNELS; k++)
         job->kernels->bloom_halve(planes[k], bloom->width, job->to->planes[k] + (size_t)y * (size_t)job->to->width);
 }
@@ -149,13 +151,17 @@ static void add_bloom(const e3d_bloom *bloom, const e3d_kernels *kernels, int32_
 {
     level levels[E3D_BLOOM_LEVELS];
     int count = e3d_bloom_level_count(bloom->height);
-    bloom_job job = {.kernels = kernels, .bloom = bloom, .row = row_floats(bloom->width)};
+    atomic_int bright = 0;
+    bloom_job job = {.kernels = kernels, .bloom = bloom, .row = row_floats(bloom->width), .bright = &bright};
     job.rows = place_levels(bloom, count, scratch, levels);
     job.scale = bloom->strength * (1.0f / (float)count);
     for (int c = 0; c < 256; c++)
         job.decode[c] = bloom->srgb ? (float)SRGB_TO_LINEAR16[c] * E3D_UNORM16 : (float)c * E3D_UNORM8;
-    for (int n = 0; n < count; n++)
-        run(&job, threads, n ? &levels[n - 1] : NULL, &levels[n], levels[n].height, n ? halve_level : halve_radiance);
+    run(&job, threads, NULL, &levels[0], levels[0].height, halve_radiance);
+    if (!atomic_load(&bright))
+        return;
+    for (int n = 1; n < count; n++)
+        run(&job, threads, &levels[n - 1], &levels[n], levels[n].height, halve_level);
     for (int n = count - 2; n >= 0; n--)
         run(&job, threads, &levels[n + 1], &levels[n], levels[n].height, double_level);
     run(&job, threads, &levels[0], NULL, bloom->height, lay);

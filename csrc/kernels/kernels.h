@@ -173,8 +173,8 @@ typedef struct e3d_kernels {
     void (*paint)(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba);
     /* Copies rows with non-temporal stores; e3d_stream_end() must follow before other threads are told. */
     void (*stream)(const e3d_pixel_rows *rows);
-    /* Rows of a bloom (R124). What of four rows of radiance is above 1, filtered, by channels. */
-    void (*bloom_bright)(const float *const rows[4], int width, float *const planes[3]);
+    /* Rows of a bloom (R124). What of four rows of radiance is above 1, filtered, by channels; returns whether anything is. */
+    int (*bloom_bright)(const float *const rows[4], int width, float *const planes[3]);
     /* Four rows, filtered. */
     void (*bloom_rows)(const float *const rows[4], int count, float *out);
     /* A row of half the width, rounded up. */

@@ -84,6 +84,20 @@ def test_glow(backend):
             assert np.array_equal(got, wanted), (height, width, srgb, threads)
 
 
+def test_a_single_bright_number():
+    """Wherever it is, it glows: in the last pixel of a row as well."""
+    for place in ((0, 0, 0), (36, 66, 2), (20, 66, 0), (36, 1, 1)):
+        radiance = np.zeros((37, 67, 3), F)
+        radiance[place] = 30
+        color = np.full((37, 67, 4), 20, np.uint8)
+        for backend in e3d.backends():
+            got, scratch = color.copy(), np.empty(rasterizer.bloom_scratch(67, 37, 2), F)
+            number = rasterizer.BACKENDS[backend]
+            rasterizer.add_bloom(radiance, got, 1.0, True, number, 2, scratch)
+            assert np.array_equal(got, expected(radiance, color, 1.0, True))
+            assert got[place] > 20
+
+
 def test_what_glows():
     """Around what is bright it is brighter, elsewhere the same; alpha stays everywhere."""
     scene = lamps(None)

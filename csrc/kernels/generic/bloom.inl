@@ -15,43 +15,48 @@ static ALWAYS_INLINE vf32 bloom_above(const float *light)
     return v_min(v_max(v_sub(v_loadf(light), v_setf(1.0f)), v_setf(0.0f)), v_setf(E3D_MOST_BLOOM));
 }
 
-/* One vector; the channels of pixels follow each other. */
-static ALWAYS_INLINE void bloom_bright_vector(const float *const rows[4], int i, float *out)
+/* One vector; the channels of pixels follow each other. Returns it. */
+static ALWAYS_INLINE vf32 bloom_bright_vector(const float *const rows[4], int i, float *out)
 {
     vf32 outer = v_add(bloom_above(rows[0] + i), bloom_above(rows[3] + i));
     vf32 inner = v_add(bloom_above(rows[1] + i), bloom_above(rows[2] + i));
-    v_storef(out, v_mul(v_add(outer, v_mul(inner, v_setf(3.0f))), v_setf(0.125f)));
+    vf32 light = v_mul(v_add(outer, v_mul(inner, v_setf(3.0f))), v_setf(0.125f));
+    v_storef(out, light);
+    return light;
 }
 
 static ALWAYS_INLINE float bloom_filter(float a, float b, float c, float d) { return ((a + d) + (b + c) * 3.0f) * 0.125f; }
 
 /* The last ones of a row, behind which nothing may be read. */
-static void bloom_bright_rest(const float *const rows[4], int first, int end, float *out)
+static vf32 bloom_bright_rest(const float *const rows[4], int first, int end, float *out)
 {
     float room[4][V_LANES] = {{0}}, done[V_LANES];
     const float *const from[4] = {room[0], room[1], room[2], room[3]};
     for (int i = first; i < end; i++)
         for (int r = 0; r < 4; r++)
             room[r][i - first] = rows[r][i];
-    bloom_bright_vector(from, 0, done);
+    vf32 light = bloom_bright_vector(from, 0, done);
     for (int i = first; i < end; i++)
         out[i] = done[i - first];
+    return light;
 }
 
-static void kernel_bloom_bright(const float *const rows[4], int width, float *const planes[3])
+static int kernel_bloom_bright(const float *const rows[4], int width, float *const planes[3])
 {
     enum { AT_ONCE = 64 }; /* pixels */
     float some[3 * AT_ONCE];
+    vf32 most = v_setf(0.0f);
     for (int x = 0; x < width; x += AT_ONCE) {
         int count = width - x < AT_ONCE ? width - x : AT_ONCE, whole = 3 * count / V_LANES * V_LANES;
         const float *const from[4] = {rows[0] + 3 * x, rows[1] + 3 * x, rows[2] + 3 * x, rows[3] + 3 * x};
         for (int i = 0; i < whole; i += V_LANES)
-            bloom_bright_vector(from, i, some + i);
-        bloom_bright_rest(from, whole, 3 * count, some);
+            most = v_max(most, bloom_bright_vector(from, i, some + i));
+        most = v_max(most, bloom_bright_rest(from, whole, 3 * count, some));
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < count; i++)
                 planes[k][x + i] = some[3 * i + k];
     }
+    return v_any(v_gt(most, v_setf(0.0f)));
 }
 
 static void kernel_bloom_rows(const float *const rows[4], int count, float *restrict out)

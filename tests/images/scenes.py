@@ -2,6 +2,7 @@
 
 from images import (  # noqa: F401
     scenes_alpha,
+    scenes_form,
     scenes_geometry,
     scenes_lights,
     scenes_looks,

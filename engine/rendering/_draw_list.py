@@ -21,7 +21,7 @@ from ..motion.posed_mesh import PosedMesh
 from ..scene.instances import MANY, InstancedMesh
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
-from ._enclosing import all_in_front, holes_of, is_in_front, looks_into, plane_in_node
+from ._enclosing import all_in_front, hole_looked_into, holes_of, is_in_front, plane_in_node
 from ._light_list import LightList
 from ._native_handles import MeshNeeds, native_mesh
 from ._native_materials import set_material
@@ -181,9 +181,12 @@ class DrawList:
         for slot, world in zip(looked_at, arrays.world_poses(looked_at), strict=True):
             number = int(columns["object"][slot])
             mesh = objects[number]
-            if not (isinstance(mesh, Mesh) and is_in_front(plane_in_node(plane, world), mesh)):
+            rims = self._closed[number]
+            into = hole_looked_into(rims, view, world)
+            if into is not None:  # most likely it will be looked into in the next frame, too
+                self._closed[number] = (rims[into], *rims[:into], *rims[into + 1 :])
                 return False
-            if looks_into(self._closed[number], view, world):
+            if not (isinstance(mesh, Mesh) and is_in_front(plane_in_node(plane, world), mesh)):
                 return False
         return True
 

@@ -86,8 +86,8 @@ def _rims(sides: np.ndarray) -> list[np.ndarray]:
     return rims
 
 
-def looks_into(rims: tuple[np.ndarray, ...], view: View, world: np.ndarray) -> bool:
-    """Whether one may look into a hole of a mesh that is before the near plane.
+def hole_looked_into(rims: tuple[np.ndarray, ...], view: View, world: np.ndarray) -> int | None:
+    """The first hole that one may look into, of a mesh that is before the near plane.
 
     One does not where the rim, as the picture shows it, runs round the hole as round a front, and
     does not cross itself: what closes the hole faces away.
@@ -101,18 +101,18 @@ def looks_into(rims: tuple[np.ndarray, ...], view: View, world: np.ndarray) -> b
         world-from-mesh.
     """
     if not rims:
-        return False
+        return None
     matrix = linalg.multiply(view.clip_from_world, world)
     turns = linalg.multiply(view.view_from_world, world)[:3, :3]
     is_mirrored = float(linalg.dot(turns[0], linalg.cross(turns[1], turns[2]))) < 0.0
-    for rim in rims:
+    for number, rim in enumerate(rims):
         x, y, w = (linalg.dot(rim, row[:3]) + row[3] for row in matrix[[0, 1, 3]])
         if not (w > 0.0).all():
-            return True
+            return number
         x, y = (-x if is_mirrored else x) / w, y / w
         if not _runs_round(x, y):
-            return True
-    return False
+            return number
+    return None
 
 
 def _runs_round(x: np.ndarray, y: np.ndarray) -> bool:

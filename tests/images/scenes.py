@@ -5,6 +5,7 @@ from images import (  # noqa: F401
     scenes_ambient,
     scenes_exact_shadows,
     scenes_filters,
+    scenes_form,
     scenes_geometry,
     scenes_glass,
     scenes_lights,

@@ -19,9 +19,8 @@ from .._native.rasterizer import (
     NativeTexture,
 )
 from ..environments.environment import Environment
-from ..geometry._tangents import drawn_arrays
 from ..geometry.mesh import Mesh
-from ..geometry.native_meshes import make_native_mesh
+from ..geometry.native_meshes import drawn_arrays, make_native_mesh
 from ..materials.textures import Texture
 
 

@@ -6,7 +6,8 @@
 #ifndef E3D_FILM_TABLES_H
 #define E3D_FILM_TABLES_H
 
-enum { E3D_FILM_WAVES = 4, E3D_FILM_COSINE = 7 };
+enum { E3D_FILM_WAVES = 4,
+       E3D_FILM_COSINE = 7 };
 
 /* Of x, y, z, and x again: amplitude, turns a nanometre, base-2 logarithm of what is left after a nanometre squared. */
 static const float E3D_FILM_AMPLITUDE[E3D_FILM_WAVES] = {0x1.b1743ep-1f, 0x1.000e8ap+0f, 0x1.00499p+0f, 0x1.3b1f4ep-3f};
@@ -17,7 +18,7 @@ static const float E3D_FILM_RGB[3][3] = {{0x1.9ec734p+1f, -0x1.8981e8p+0f, -0x1.
                                          {-0x1.f043a2p-1f, 0x1.e0423ep+0f, 0x1.546d4p-5f},
                                          {0x1.c7d4aap-5f, -0x1.a1d854p-3f, 0x1.0ea65p+0f}};
 /* The cosine of s half-turns squared, s in 0 .. 1/4, by powers of s from the lowest. */
-static const float E3D_FILM_COSINES[E3D_FILM_COSINE] = {0x1p+0f,        -0x1.3bd3c8p+4f, 0x1.03c1a8p+6f, -0x1.55ccf2p+6f,
+static const float E3D_FILM_COSINES[E3D_FILM_COSINE] = {0x1p+0f, -0x1.3bd3c8p+4f, 0x1.03c1a8p+6f, -0x1.55ccf2p+6f,
                                                         0x1.e1574ep+5f, -0x1.9f7b4ap+4f, 0x1.a1d58ap+2f};
 
 #endif

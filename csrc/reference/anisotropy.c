@@ -5,7 +5,6 @@
  * Rules: R136 (directions), R137 (lights), R138 (light from all around). Sources: KHR_materials_anisotropy; Burley 2012; Heitz 2014;
  *      the bent normal is that of Khronos's sample viewer.
  */
-#include "reference/arithmetic.h"
 #include "reference/surface.h"
 
 /* A direction along the surface, where nothing tells one. */

@@ -4,7 +4,6 @@
  * Out: the reflectance of each channel.
  * Rules: R139 (sensitivity), R140 (reflectance). Source: KHR_materials_iridescence, after Belcour and Barla 2017.
  */
-#include "reference/arithmetic.h"
 #include "core/film_tables.h"
 #include "reference/surface.h"
 

@@ -5,7 +5,6 @@
  * Rules: R133 (which surfaces, and their alpha), R134 (transmittance), R135 (composition). Sources: KHR_materials_transmission;
  *      KHR_materials_volume, whose absorption is that of Beer and Lambert.
  */
-#include "reference/arithmetic.h"
 #include "reference/surface.h"
 
 int ref_transmits(const e3d_frame *frame, const ref_piece *piece)

@@ -41,18 +41,6 @@ def mesh_with_tangents(mesh: Mesh, uv_set: int) -> Mesh:
     return split_mesh(mesh, faces.reshape(-1, 3), rows, tangents=tangents)
 
 
-def drawn_arrays(mesh: Mesh, arrays: dict) -> dict:
-    """Return the arrays of a mesh as they are drawn: with the tangents that its file leaves out.
-
-    They are found when it is drawn first: many meshes never are, and reading stays fast.
-    """
-    uvs = {None: None, 0: "uvs", 1: "uvs1"}[mesh._tangent_uv_set]
-    lacks = uvs is not None and arrays["tangents"] is None and len(arrays["faces"]) > 0
-    if not lacks or arrays["_given_normals"] is None or arrays[uvs] is None:
-        return arrays
-    return mesh_with_tangents(mesh, mesh._tangent_uv_set)._arrays
-
-
 def _split(
     vertices: np.ndarray, groups: np.ndarray, count: int, group_count: int
 ) -> tuple[np.ndarray, np.ndarray]:

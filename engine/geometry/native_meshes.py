@@ -8,8 +8,21 @@ from __future__ import annotations
 import numpy as np
 
 from .._native.rasterizer import VERTEX_ATTRIBUTES, NativeMesh
+from ._tangents import mesh_with_tangents
 from .mesh import Mesh
 from .vertex_attributes import vertex_attributes
+
+
+def drawn_arrays(mesh: Mesh, arrays: dict) -> dict:
+    """Return the arrays of a mesh as they are drawn: with the tangents that its file leaves out.
+
+    They are found when it is drawn first: many meshes never are, and reading stays fast.
+    """
+    uvs = {None: None, 0: "uvs", 1: "uvs1"}[mesh._tangent_uv_set]
+    lacks = uvs is not None and arrays["tangents"] is None and len(arrays["faces"]) > 0
+    if not lacks or arrays["_given_normals"] is None or arrays[uvs] is None:
+        return arrays
+    return mesh_with_tangents(mesh, mesh._tangent_uv_set)._arrays
 
 
 def make_native_mesh(arrays: dict, threads: int, movers: np.ndarray | None = None) -> NativeMesh:

@@ -19,10 +19,9 @@ from .._native.rasterizer import (
     NativeTexture,
 )
 from ..environments.environment import Environment
-from ..geometry._tangents import drawn_arrays
 from ..geometry.creases import creased_arrays, has_creases
 from ..geometry.mesh import Mesh
-from ..geometry.native_meshes import make_native_mesh
+from ..geometry.native_meshes import drawn_arrays, make_native_mesh
 from ..geometry.vertex_attributes import vertex_attributes
 from ..materials.textures import Texture
 

@@ -413,6 +413,17 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     frame->exposure = random_once_in(r, 2) ? 1.0f : random_float(r, 0.1f, 4.0f);
 }
 
+/* Light from all around that differs by direction, and from pixel to pixel. */
+static void add_ambient(scene *s, random_stream *r)
+{
+    e3d_ambient_light *light = &s->frame.ambient_light;
+    light->is_given = random_once_in(r, 3);
+    for (int k = 0; k < 3 * E3D_AMBIENT_TERMS && light->is_given; k++)
+        light->terms[k / 3][k % 3] = random_float(r, -0.4f, 0.5f);
+    if (random_once_in(r, 3))
+        s->frame.ambient_visibility = random_floats(s, r, s->frame.width * s->frame.height, 0.0f, 1.0f);
+}
+
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
 {
     memset(s, 0, sizeof *s);
@@ -424,7 +435,9 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     aim_camera(s, r);
     add_lights(s, r);
     e3d_status status = add_materials(s, r);
-    return status == E3D_OK ? add_draws(s, r) : status;
+    status = status == E3D_OK ? add_draws(s, r) : status;
+    add_ambient(s, r);
+    return status;
 }
 
 void scene_add_alpha(scene *s, random_stream *r)

@@ -12,6 +12,7 @@
 #include "driver/canvas_scene.h"
 #include "driver/compare.h"
 #include "driver/graph_scene.h"
+#include "driver/occlusion_scene.h"
 #include "driver/passes.h"
 #include "driver/ui_scene.h"
 
@@ -93,6 +94,8 @@ int main(int count, char **arguments)
         failures += report("graph", i, compare_graph(r, &o.plan, title));
         snprintf(title, sizeof title, "ui %04ld", i);
         failures += report("ui", i, compare_ui(r, &o.plan, title));
+        snprintf(title, sizeof title, "occlusion %04ld", i);
+        failures += report("occlusion", i, compare_occlusion(r, &o.plan, title));
     }
     if (failures > 0)
         fprintf(stderr, "driver: %d scenes differ between runs\n", failures);

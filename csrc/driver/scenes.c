@@ -436,6 +436,17 @@ static void choose_tone(e3d_frame *frame, random_stream *r)
     }
 }
 
+/* Light from all around that differs by direction, and from pixel to pixel. */
+static void add_ambient(scene *s, random_stream *r)
+{
+    e3d_ambient_light *light = &s->frame.ambient_light;
+    light->is_given = random_once_in(r, 3);
+    for (int k = 0; k < 3 * E3D_AMBIENT_TERMS && light->is_given; k++)
+        light->terms[k / 3][k % 3] = random_float(r, -0.4f, 0.5f);
+    if (random_once_in(r, 3))
+        s->frame.ambient_visibility = random_floats(s, r, s->frame.width * s->frame.height, 0.0f, 1.0f);
+}
+
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
 {
     memset(s, 0, sizeof *s);
@@ -450,6 +461,7 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
     if (status == E3D_OK)
         status = add_draws(s, r);
     choose_tone(&s->frame, r);
+    add_ambient(s, r);
     return status;
 }
 

@@ -122,7 +122,7 @@ static float share_at(const e3d_depth_picture *p, int32_t x, int32_t y, float ra
         float t = ((float)tap + shift) * (1.0f / E3D_OCCLUSION_TAPS);
         float counts, next = rise(p, &at, reach * (t * t) + 1.0f, step, radius, &counts);
         sum = sum + ref_max(next - horizon, 0.0f) * counts;
-        horizon = ref_max(next, horizon);
+        horizon = ref_max(counts > 0.0f ? next : 0.0f, horizon); /* what is too far in front hides nothing behind it */
     }
     return sum > 0.0f ? hidden_share(p, &at, side, sum) : 0.0f;
 }

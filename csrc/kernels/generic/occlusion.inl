@@ -104,7 +104,7 @@ static ALWAYS_INLINE vf32 occlusion_horizon(const e3d_occlusion_plan *plan, cons
         vf32 away = v_add(v_mul(reach, v_loadf(pattern->share[tap] + lane)), v_setf(1.0f));
         vf32 counts, rise = occlusion_rise(plan, at, away, step_x, step_y, is_perspective, &counts);
         sum = v_add(sum, v_mul(v_max(v_sub(rise, horizon), zero), counts));
-        horizon = v_max(rise, horizon);
+        horizon = v_max(v_self(v_gt(counts, zero), rise, zero), horizon); /* what is too far in front hides nothing behind it */
     }
     return sum;
 }

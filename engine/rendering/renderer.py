@@ -46,7 +46,7 @@ from .options import WHITE, RenderKeywords, RenderOptions, either
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-#: By method and samples per pixel: samples along an axis that are shaded, and samples of coverage in each.
+#: By method and samples per pixel: how many are shaded along an axis, and multisampled in each.
 _SAMPLES = {
     "ssaa": {1: (1, 0), 4: (2, 0), 16: (4, 0)},
     "msaa": {1: (1, 0), 2: (1, 2), 4: (1, 4), 8: (1, 8), 16: (1, 16)},
@@ -299,9 +299,9 @@ class Renderer(Closed):
             the nearest that isn't. Modes other than "lit" and "unlit" show blended surfaces as
             opaque ones anyway.
         alpha_to_coverage : bool
-            With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how many
-            of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets smooth
-            edges. Else all that alpha leaves are covered, or none.
+            With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how
+            many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets
+            smooth edges. Else alpha leaves all that they cover, or none.
         options : RenderOptions, optional
             Instead of the arguments above that it holds, which must then be left out.
 

@@ -1,6 +1,7 @@
-"""Multisampling (section 18 of exactness.md): coverage by integers at the exact positions, the average, shading once.
+"""Multisampling (section 18 of exactness.md): coverage by integers at the exact positions.
 
-Triangles are in clip space with w = 1; white on black in the linear space, so that a pixel tells how many of its samples are covered.
+Triangles are in clip space with w = 1; white on black in the linear space, so that a pixel tells
+how many of its samples are covered.
 """
 
 import numpy as np
@@ -52,7 +53,9 @@ def covered(x, y, offset):
 def draw(corners, samples, backend, colors=None, **options):
     """Triangles, each of one colour, in front of black; later ones nearer."""
     depth = np.linspace(0.5, -0.5, len(corners), dtype=np.float32)
-    points = np.concatenate([corners, np.broadcast_to(depth[:, None, None], (*corners.shape[:2], 1))], -1)
+    points = np.concatenate(
+        [corners, np.broadcast_to(depth[:, None, None], (*corners.shape[:2], 1))], -1
+    )
     colors = np.ones((len(corners), 4), np.float32) if colors is None else colors
     mesh = e3d.Mesh(
         points.reshape(-1, 3),
@@ -103,7 +106,9 @@ def test_the_nearest_shows_at_each_sample(samples, backend):
         for n in range(len(corners)):
             shown[covered(x[n], y[n], offset)] = colors[n, :3]
         total += shown
-    assert np.array_equal(draw(corners, samples, backend, colors)[..., :3], np.rint(255 * (total / samples)))
+    assert np.array_equal(
+        draw(corners, samples, backend, colors)[..., :3], np.rint(255 * (total / samples))
+    )
 
 
 def test_no_colour_is_extrapolated(backend):
@@ -157,9 +162,13 @@ def test_alpha_to_coverage_covers_half_at_the_cutoff(backend):
     for alpha, share in ((0.0, 0), (0.2, 0.25), (0.4, 0.5), (0.7, 0.75), (1.0, 1)):
         scene = e3d.Scene(background=(0, 0, 0))
         points = np.concatenate([corners[0], np.zeros((3, 1), np.float32)], 1)
-        material = e3d.Material(color=(1.0, 1.0, 1.0, alpha), alpha_mode="mask", alpha_cutoff=0.4, two_sided=True)
+        material = e3d.Material(
+            color=(1.0, 1.0, 1.0, alpha), alpha_mode="mask", alpha_cutoff=0.4, two_sided=True
+        )
         scene.add(e3d.Mesh(points, [[0, 1, 2]], materials=[material]))
-        with e3d.Renderer(*SIZE, backend=backend, color_space="linear", samples=4, antialias="msaa") as r:
+        with e3d.Renderer(
+            *SIZE, backend=backend, color_space="linear", samples=4, antialias="msaa"
+        ) as r:
             smooth = r.render(scene, clip_camera(), mode="unlit", alpha_to_coverage=True).color
             sharp = r.render(scene, clip_camera(), mode="unlit").color
         assert (smooth[..., 0] == np.rint(255 * share)).all()

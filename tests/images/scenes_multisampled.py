@@ -1,9 +1,7 @@
-"""Pictures of the other modules with multisampling: every mode, wireframe, hidden-surface method and kind of surface."""
+"""Pictures of the other modules with multisampling: each mode, method and kind of surface."""
 
 from dataclasses import replace
 
-from images import scenes_alpha, scenes_geometry, scenes_lights, scenes_looks, scenes_physical
-from images import scenes_textures, scenes_views  # noqa: F401
 from images.picture import SCENES, variant
 
 _SUBJECTS = {
@@ -50,8 +48,21 @@ _SUBJECTS = {
         "wireframe_only_hidden_lines",
         "wireframe_overlay_wide",
     ),
-    8: ("alpha_leaf_bilinear_srgb", "alpha_mode_lit", "layers", "mode_lit", "transparent_background"),
-    16: ("alpha_leaf_bilinear_linear", "alpha_mode_lit", "hills", "lines", "mode_lit", "wireframe_overlay"),
+    8: (
+        "alpha_leaf_bilinear_srgb",
+        "alpha_mode_lit",
+        "layers",
+        "mode_lit",
+        "transparent_background",
+    ),
+    16: (
+        "alpha_leaf_bilinear_linear",
+        "alpha_mode_lit",
+        "hills",
+        "lines",
+        "mode_lit",
+        "wireframe_overlay",
+    ),
 }
 
 
@@ -66,6 +77,14 @@ for _samples, _names in _SUBJECTS.items():
     for _name in _names:
         variant(f"msaa_{_samples}_{_name}", multisampled, _name, _samples)
     for _name in ("alpha_mode_lit", "alpha_leaf_bilinear_srgb"):
-        variant(f"msaa_{_samples}_{_name}_to_coverage", multisampled, _name, _samples, alpha_to_coverage=True)
+        variant(
+            f"msaa_{_samples}_{_name}_to_coverage",
+            multisampled,
+            _name,
+            _samples,
+            alpha_to_coverage=True,
+        )
 variant("msaa_4_painter_to_coverage", multisampled, "alpha_painter", 4, alpha_to_coverage=True)
-variant("msaa_4_wireframe_to_coverage", multisampled, "alpha_wireframe_only", 4, alpha_to_coverage=True)
+variant(
+    "msaa_4_wireframe_to_coverage", multisampled, "alpha_wireframe_only", 4, alpha_to_coverage=True
+)

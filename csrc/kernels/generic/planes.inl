@@ -14,6 +14,8 @@
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/record.inl"
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/block_rows.inl"
 #include "kernels/generic/visible.inl"
@@ -352,7 +354,7 @@ static inline void planes_draw(planes_lanes *lanes, int lane, const e3d_record *
 {
     const records_lanes *in = &lanes->in;
     uint64_t met = records_met(in, lane);
-    int strips = in->small >> lane & 1;
+    int strips = in->few >> lane & 1; /* of what is larger, whole blocks need not be written in each plane */
     if (!(strips && met & open) && !(met & ~records_behind(r->zmin, planes)))
         return;
     if (!strips) {

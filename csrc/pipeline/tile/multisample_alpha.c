@@ -6,6 +6,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "core/sample_patterns.h"
+#include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/alpha.h"
 #include "kernels/types/records.h"
@@ -245,7 +246,7 @@ static int find_fragments(const e3d_tile_job *job, int s)
         ((int32_t *)f->sample.data)[n] = entries[i].pixel;
         ((int32_t *)f->of.data)[n] = (int32_t)f->ids.count - 1;
         for (int k = 0; k < 4; k++)
-            ((float(*)[4])f->color.data)[n][k] = entries[i].color[k];
+            ((float (*)[4])f->color.data)[n][k] = entries[i].color[k];
     }
     return 1;
 }

@@ -414,6 +414,9 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     frame->light_clamp[0] = clamped ? 0.1f : 0.0f;
     frame->light_clamp[1] = clamped ? 1.0f : INFINITY;
     frame->exposure = random_once_in(r, 2) ? 1.0f : random_float(r, 0.1f, 4.0f);
+    if (frame->samples_axis == 1 && random_once_in(r, 3))
+        frame->msaa_samples = 2 << random_below(r, 4);
+    frame->alpha_to_coverage = random_below(r, 2);
 }
 
 /* Fog near and far, thick and thin; what no display value may be is left out. */

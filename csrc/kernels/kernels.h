@@ -8,6 +8,7 @@
 
 #include "core/limits.h"
 #include "core/mesh.h"
+#include "core/sample_patterns.h"
 #include "e3d.h"
 #include "e3d_canvas.h"
 #include "kernels/types/alpha.h"

@@ -31,8 +31,8 @@ def add(group: argparse._ArgumentGroup) -> None:
         "--antialiasing",
         choices=(_NONE, "ssaa", "msaa"),
         help="what happens at each sample: everything (ssaa), or only what decides which surface "
-        "it shows, while each surface is coloured once a pixel (msaa, much faster); none is one "
-        "sample. msaa where 2 or 8 samples are asked for, and in windows",
+        "it shows, while each surface is coloured once a pixel (msaa, faster); none is one sample. "
+        "msaa where 2 or 8 samples are asked for, and in windows",
     )
 
 

@@ -52,7 +52,7 @@ from .options import WHITE, RenderKeywords, RenderOptions, either, with_both_sid
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-#: By method and samples per pixel: samples along an axis that are shaded, and of coverage in each.
+#: By method and samples per pixel: how many are shaded along an axis, and multisampled in each.
 _SAMPLES = {
     "ssaa": {1: (1, 0), 4: (2, 0), 16: (4, 0)},
     "msaa": {1: (1, 0), 2: (1, 2), 4: (1, 4), 8: (1, 8), 16: (1, 16)},
@@ -352,7 +352,7 @@ class Renderer(Closed):
         alpha_to_coverage : bool
             With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how
             many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets
-            smooth edges. Else all that alpha leaves are covered, or none.
+            smooth edges. Else alpha leaves all that they cover, or none.
         ambient_occlusion : bool
             In mode "lit": less of the light from all around reaches corners and hollows.
         ambient_occlusion_radius : float, optional

@@ -1,6 +1,7 @@
-"""Multisampling (section 18 of exactness.md): coverage by integers at the exact positions, the average, shading once.
+"""Multisampling (section 18 of exactness.md): coverage by integers at the exact positions.
 
-Triangles are in clip space with w = 1; white on black in the linear space, so that a pixel tells how many of its samples are covered.
+Triangles are in clip space with w = 1; white on black in the linear space, so that a pixel tells
+how many of its samples are covered.
 """
 
 import numpy as np

@@ -1,9 +1,7 @@
-"""Pictures of the other modules with multisampling: every mode, wireframe, hidden-surface method and kind of surface."""
+"""Pictures of the other modules with multisampling: each mode, method and kind of surface."""
 
 from dataclasses import replace
 
-from images import scenes_alpha, scenes_geometry, scenes_lights, scenes_looks, scenes_physical
-from images import scenes_textures, scenes_views  # noqa: F401
 from images.picture import SCENES, variant
 
 _SUBJECTS = {

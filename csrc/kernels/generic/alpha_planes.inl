@@ -10,6 +10,7 @@
 #include "kernels/types/visible.h"
 #include "kernels/generic/setup.inl"
 #include "kernels/generic/raster.inl"
+#include "kernels/generic/visible.inl"
 #include "kernels/generic/alpha.inl"
 
 /* The lanes of one vector of pixels, from (x, y) on, whose sample in a plane is covered and in front. */

@@ -14,6 +14,8 @@
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"
+#include "kernels/generic/setup.inl"
+#include "kernels/generic/record.inl"
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/block_rows.inl"
 #include "kernels/generic/visible.inl"
@@ -286,13 +288,57 @@ typedef struct planes_strip {
     vi32 down[3];
 } planes_strip;
 
-/* One vector of one plane; its edge functions go on to the next row. */
-static ALWAYS_INLINE void planes_vector(const planes_strip *strip, vi32 e[3], vf32 z, size_t at, const e3d_record *r, int32_t id,
-                                        e3d_visible_tile *plane, const e3d_record_table *table)
+/* One vector of one plane: its depths, and the lanes that are covered and not behind what is there. Its edge functions go on to the
+ * next row. */
+typedef struct planes_vector {
+    vf32 z, old;
+    vmask near;
+} planes_vector;
+
+static ALWAYS_INLINE planes_vector planes_test(const planes_strip *strip, vi32 e[3], vf32 z, const float *depth)
 {
-    visible_write(visible_inside(e), v_min(v_max(z, strip->zmin), strip->zmax), at, r, id, plane, table);
+    planes_vector v = {.z = v_min(v_max(z, strip->zmin), strip->zmax), .old = rows_loadf(depth)};
+    v.near = v_mand(visible_inside(e), v_ge(v.old, v.z));
     for (int k = 0; k < 3; k++)
         e[k] = v_addi(e[k], strip->down[k]);
+    return v;
+}
+
+/* visible_write, of what is tested. */
+static ALWAYS_INLINE void planes_write(const planes_vector *v, size_t at, const e3d_record *r, int32_t id, e3d_visible_tile *plane,
+                                       const e3d_record_table *table)
+{
+    float *depth = plane->z + at;
+    int32_t *kept = plane->id + at;
+    vmask pass = v_mand(v->near, v_lt(v->z, v->old));
+    uint32_t equal = v_bits(v_mandnot(v->near, pass));
+    rows_storef(depth, v_self(pass, v->z, v->old));
+    rows_storei(kept, v_seli(pass, v_seti(id), rows_loadi(kept)));
+    if (equal)
+        visible_ties(equal, v->z, depth, kept, r, id, table);
+}
+
+/* Two planes, or four: whether anything is in front is asked once for all of them. */
+static ALWAYS_INLINE void planes_some(const planes_strip *strip, vi32 (*e)[3], const vf32 *column, vf32 below, size_t at, const e3d_record *r,
+                                      int32_t id, e3d_visible_tile *planes, const e3d_record_table *table, int some)
+{
+    planes_vector v[4];
+    v[0] = planes_test(strip, e[0], v_add(column[0], below), planes[0].z + at);
+    v[1] = planes_test(strip, e[1], v_add(column[1], below), planes[1].z + at);
+    vmask near = v_mor(v[0].near, v[1].near);
+    if (some == 4) {
+        v[2] = planes_test(strip, e[2], v_add(column[2], below), planes[2].z + at);
+        v[3] = planes_test(strip, e[3], v_add(column[3], below), planes[3].z + at);
+        near = v_mor(near, v_mor(v[2].near, v[3].near));
+    }
+    if (!v_any(near))
+        return;
+    planes_write(&v[0], at, r, id, &planes[0], table);
+    planes_write(&v[1], at, r, id, &planes[1], table);
+    if (some == 4) {
+        planes_write(&v[2], at, r, id, &planes[2], table);
+        planes_write(&v[3], at, r, id, &planes[3], table);
+    }
 }
 
 /* Draws a record in strips, as records_strips does, in all planes side by side. */
@@ -321,15 +367,10 @@ static ALWAYS_INLINE void planes_strips_of(const planes_lanes *lanes, int lane, 
         }
         for (int32_t left = in->vectors[strip][lane]; left > 0; left--, i += ROWS * E3D_TILE) {
             vf32 below = v_mul(row, gy);
-            for (int s = 0; s < count; s += 2) {
-                planes_vector(&shared, e[s], v_add(column[s], below), i, r, id, &planes[s], table);
-                planes_vector(&shared, e[s + 1], v_add(column[s + 1], below), i, r, id, &planes[s + 1], table);
-                if (count == 4) { /* a constant: no loop is left */
-                    planes_vector(&shared, e[2], v_add(column[2], below), i, r, id, &planes[2], table);
-                    planes_vector(&shared, e[3], v_add(column[3], below), i, r, id, &planes[3], table);
-                    break;
-                }
-            }
+            if (count == 4) /* a constant: no loop is left */
+                planes_some(&shared, e, column, below, i, r, id, planes, table, 4);
+            for (int s = 0; s < count && count != 4; s += 2)
+                planes_some(&shared, e + s, column + s, below, i, r, id, planes + s, table, 2);
             row = v_add(row, v_setf(ROWS));
         }
         along = v_add(along, v_setf(ROW_LANES));
@@ -352,7 +393,7 @@ static inline void planes_draw(planes_lanes *lanes, int lane, const e3d_record *
 {
     const records_lanes *in = &lanes->in;
     uint64_t met = records_met(in, lane);
-    int strips = in->small >> lane & 1;
+    int strips = in->few >> lane & 1; /* of what is larger, whole blocks need not be written in each plane */
     if (!(strips && met & open) && !(met & ~records_behind(r->zmin, planes)))
         return;
     if (!strips) {

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/visible.h"
 #include "pipeline/pass/prepared.h"

@@ -17,6 +17,7 @@
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "pipeline/geometry/bin.h"
+#include "pipeline/geometry/records.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/runs.h"

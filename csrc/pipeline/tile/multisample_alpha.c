@@ -8,6 +8,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "core/sample_patterns.h"
+#include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/alpha.h"
 #include "kernels/types/records.h"

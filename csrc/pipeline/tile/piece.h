@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "core/limits.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"

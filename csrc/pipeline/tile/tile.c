@@ -21,6 +21,7 @@
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
 #include "pipeline/tile/alpha.h"
+#include "pipeline/tile/multisample.h"
 #include "pipeline/tile/slots.h"
 #include "pipeline/tile/spans.h"
 #include "pipeline/tile/tile.h"

@@ -1,11 +1,12 @@
-/* Random maps of shadows: patches of depths near and far, none and no numbers, seen from anywhere and at any scale. */
+/* Random shadows, exact ones of what is drawn, and maps: patches of depths near and far, none and no numbers, seen from anywhere and at any scale. */
 #include "driver/shadow_scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 enum { MOST_SIDE = 40,
-       CUBE = 6 };
+       CUBE = 6,
+       MOST_CASTERS = 300 };
 
 static const float ODD[] = {0.0f, -0.0f, 1e-30f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN};
 
@@ -60,17 +61,41 @@ static void add_map(e3d_light *light, const float *depths, e3d_shadow_map *maps,
     }
 }
 
+/* As many of the scene's draws as the reference, which tries all of them at every sample, has time for. */
+static const e3d_casters *casters_of(scene *s, random_stream *r)
+{
+    e3d_casters *casters = kept_array(s, 1, sizeof *casters);
+    int64_t faces = 0;
+    int32_t first = s->frame.draw_count ? random_below(r, s->frame.draw_count) : 0, end = first;
+    for (; end < s->frame.draw_count; end++) {
+        faces += (int64_t)e3d_mesh_view(s->draws[end].mesh)->faces_count * s->draws[end].instances;
+        if (faces > MOST_CASTERS)
+            break;
+    }
+    *casters = (e3d_casters){s->draws + first, end - first, s->materials, s->frame.material_count, 0};
+    return casters;
+}
+
+static void add_exact(e3d_light *light, int32_t *count)
+{
+    light->shadow.kind = E3D_SHADOW_EXACT;
+    light->shadow.first = (*count)++;
+}
+
 void scene_add_shadows(scene *s, random_stream *r)
 {
     float *depths = kept_array(s, CUBE * MOST_SIDE * MOST_SIDE, sizeof *depths);
     e3d_shadow_map *maps = kept_array(s, SCENE_MAX_LIGHTS * CUBE, sizeof *maps);
-    int32_t count = 0;
+    int32_t count = 0, exact = 0;
     fill_depths(depths, CUBE * MOST_SIDE * MOST_SIDE, r);
     for (int32_t n = 0; n < s->frame.light_count; n++)
-        if (!random_once_in(r, 4))
+        if (random_once_in(r, 3))
+            add_exact(&s->lights[n], &exact);
+        else if (!random_once_in(r, 4))
             add_map(&s->lights[n], depths, maps, &count, r);
     s->frame.shadow_maps = maps;
     s->frame.shadow_map_count = count;
+    s->frame.casters = casters_of(s, r);
     for (int32_t d = 0; d < s->frame.draw_count; d++)
         s->draws[d].unshadowed = random_once_in(r, 4);
     s->frame.mode = E3D_MODE_LIT;

@@ -5,7 +5,7 @@ from __future__ import annotations
 from . import values
 
 #: What the lights' ``shadow`` is to be, by its name here.
-SHADOWS = {"none": False, "map": True}
+SHADOWS = {"none": False, "map": True, "exact": "exact"}
 
 
 def add_light(parser) -> None:
@@ -39,6 +39,6 @@ def add_light(parser) -> None:
     group.add_argument(
         "--shadows",
         choices=[*SHADOWS],
-        help="whether the main lights cast shadows: none, or from maps drawn from the lights; by "
-        "default what a scene file says of its lights",
+        help="whether the main lights cast shadows: none, from maps drawn from the lights, or exact ones "
+        "with hard edges; by default what a scene file says of its lights",
     )

@@ -71,9 +71,11 @@ class DirectionalLight(CastsShadows):
         physical materials it is in lux: such a surface shows it over pi.
     unit : {"photometric", "white"}
         With ``"white"``, physical materials take the intensity as the others do.
-    shadow : bool
-        Whether what stands in its way keeps the light off what is behind, by maps that are drawn
-        from the light, as in three.js. Nodes cast and receive shadows by their own switches.
+    shadow : {False, True, "exact"}
+        Whether what stands in its way keeps the light off what is behind. True: by maps that are
+        drawn from the light, as in three.js. ``"exact"``: wholly, wherever a ray from the surface
+        to the light meets a face, so that edges are hard, and without a map, a bias or anything
+        else to choose; up to 32 lights. Nodes cast and receive shadows by their own switches.
     shadow_map_size : int
         Texels a side, 32 to 8192, of each map.
     shadow_bias : float

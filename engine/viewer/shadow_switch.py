@@ -22,7 +22,7 @@ class ShadowSwitch:
     ----------
     groups : iterable of list of Light
         Of a group with more than four point lights, these cast none.
-    shadow : bool
+    shadow : {False, True, "exact"}
         What ``shadow`` of the lights that cast some is to be.
     """
 

@@ -7,7 +7,6 @@
 
 #include "core/limits.h"
 #include "e3d.h"
-#include "kernels/types/shading.h"
 
 enum {
     E3D_CASTER_LEVELS = 11, /* so at most 1024 cells a side */
@@ -50,10 +49,5 @@ typedef struct e3d_caster_index {
     int (*is_open)(const struct e3d_caster_index *index, uint32_t caster, const float weight[3]);
     const void *source; /* for is_open */
 } e3d_caster_index;
-
-/* The planes of surfaces, by R100. */
-typedef struct e3d_receivers {
-    e3d_surface_floats normal[3], slack[3], limit;
-} e3d_receivers;
 
 #endif

@@ -43,6 +43,11 @@ typedef struct e3d_surfaces {
     int32_t reach;                 /* of the viewport */
 } e3d_surfaces;
 
+/* The planes of surfaces, where lights have exact shadows (R100). */
+typedef struct e3d_receivers {
+    e3d_surface_floats normal[3], slack[3], limit;
+} e3d_receivers;
+
 /* R30: what texels are counted in. */
 static inline float e3d_texture_unit(const e3d_texture_view *view)
 {

@@ -13,7 +13,7 @@
 #include "core/pool.h"
 #include "e3d.h"
 #include "kernels/types/casters.h"
-#include "pipeline/cast/casters.h"
+#include "pipeline/cast/faces.h"
 
 enum {
     CASTERS_A_TASK = 4096,
@@ -367,13 +367,13 @@ static void turn_to(const e3d_light *light, e3d_caster_light *out)
         out->slope[c] = l[(out->axis + 1 + c) % 3] / l[out->axis];
 }
 
-int e3d_find_grids(const e3d_caster_memory *casters, const e3d_light *light, e3d_light_memory *memory, e3d_caster_light *out, int32_t threads)
+int e3d_find_grids(const e3d_caster_faces *casters, const e3d_light *light, e3d_light_memory *memory, e3d_caster_light *out, int32_t threads)
 {
     int tasks = tasks_of(casters->count, CASTERS_A_TASK), directional = light->kind == E3D_LIGHT_DIRECTIONAL;
     memset(out->grids, 0, sizeof out->grids);
     if (directional)
         turn_to(light, out);
-    grid_job job = {.world = casters->index.world, .casters = casters->count, .light = light, .out = out};
+    grid_job job = {.world = (const float (*)[9])casters->world.data, .casters = casters->count, .light = light, .out = out};
     job.bounds = malloc(((size_t)tasks + 1) * sizeof *job.bounds);
     int done = job.bounds && e3d_array_reserve(&memory->corners, (size_t)casters->count + 1, sizeof(float[9]));
     out->corners = memory->corners.data;

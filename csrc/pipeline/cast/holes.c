@@ -6,7 +6,9 @@
 #include "core/limits.h"
 #include "core/mesh.h"
 #include "e3d.h"
-#include "pipeline/cast/casters.h"
+#include "kernels/types/casters.h"
+#include "kernels/types/shading.h"
+#include "pipeline/cast/faces.h"
 
 /* R29 */
 static float wrapped(float s, e3d_wrap wrap)
@@ -89,13 +91,13 @@ static float texture_alpha(const e3d_material *m, const e3d_mesh_desc *mesh, con
 
 int e3d_caster_is_open(const e3d_caster_index *index, uint32_t caster, const float weight[3])
 {
-    const e3d_caster_memory *memory = index->source;
-    const e3d_caster_instance *instance = e3d_caster_instance_of(memory, caster);
-    const e3d_draw *draw = &memory->casters.draws[instance->draw];
+    const e3d_caster_faces *faces = index->source;
+    const e3d_caster_instance *instance = e3d_caster_instance_of(faces, caster);
+    const e3d_draw *draw = &faces->casters.draws[instance->draw];
     const e3d_mesh_desc *mesh = &draw->mesh->desc;
     size_t f = (size_t)((int64_t)caster - instance->first);
     const int32_t *face = mesh->faces + 3 * f;
-    const e3d_material *m = &memory->casters.materials[draw->material_base + (mesh->material_ids ? mesh->material_ids[f] : 0)];
+    const e3d_material *m = &faces->casters.materials[draw->material_base + (mesh->material_ids ? mesh->material_ids[f] : 0)];
     float alpha = texture_alpha(m, mesh, face, weight);
     if (mesh->colors_u8 || mesh->colors_f32) {
         float corner[3];

@@ -5,6 +5,7 @@
 #include "core/sample_patterns.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
+#include "kernels/types/casters.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/view.h"

@@ -5,7 +5,6 @@
 #include <stdint.h>
 
 #include "core/grow.h"
-#include "kernels/types/casters.h"
 #include "kernels/types/maps.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"

@@ -18,7 +18,7 @@ from .theme import DARK, LIGHT, Theme
 from .viewpoint import Sphere
 
 #: Light from above and from below.
-_SKY, _GROUND = (0.46, 0.48, 0.52), (0.24, 0.22, 0.21)
+_SKY, _GROUND = (0.30, 0.32, 0.36), (0.18, 0.17, 0.16)
 #: The outline of a model differs from its background by so many codes of 255, on average over it.
 _CONTRAST = 60.0
 #: Seconds for which the shadow of what moves stays as it is.

@@ -37,7 +37,7 @@ class Theme(NamedTuple):
 DARK = Theme(
     "dark",
     background=(43, 46, 53),
-    gradient=Gradient((74, 79, 89), (46, 49, 56)),
+    gradient=Gradient((124, 130, 141), (88, 93, 102)),
     text=(235, 238, 242, 255),
     block=(16, 18, 24, 210),
     key=(255, 206, 115, 255),

@@ -1,6 +1,5 @@
 """What passes before the picture read is what the picture shows."""
 
-import numpy as np
 import pytest
 
 import engine3d as e3d

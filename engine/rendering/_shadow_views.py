@@ -123,10 +123,10 @@ class _Square(NamedTuple):
     row: int
 
 
-def _square(side: float, middle: tuple[float, float], inside: int) -> _Square:
+def _square(side: float, middle: tuple[float, float], inside: int, play: float) -> _Square:
     """A square of that side, moved to the next step, of a map with so many texels inside."""
-    scale = _single(inside / (side * (1.0 + _PLAY)))
-    step = max(int(side * _PLAY * scale), 1)
+    scale = _single((inside - 1) / (side * (1.0 + play)))
+    step = max(int(side * play * scale), 1)
     column, row = (round(at * scale / step) * step for at in middle)
     return _Square(scale, column, row)
 
@@ -204,9 +204,9 @@ def directional_views(
     for side, middle in _slices(view, bounds, light.shadow_cascades):
         if side < whole:
             at = tuple(_dot(axis, middle) for axis in axes[:2])
-            squares.append(_square(side, at, size - 2 * margin))
+            squares.append(_square(side, at, size - 2 * margin, _PLAY))
     at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5
-    squares.append(_square(whole, at, size - 2 * margin))
+    squares.append(_square(whole, at, size - 2 * margin, 0.0))
     eye = (*(float(part) for part in -axes[2]), 0.0)
     view_from_world = _view_of(axes, (0.0, 0.0, 0.0))
     maps, places = [], []

@@ -181,3 +181,32 @@ def test_numbers_of_samples_that_methods_lack():
     with pytest.raises(e3d.InvalidArgumentError, match="antialias"):
         e3d.Renderer(8, 8, antialias="fxaa")
     assert e3d.Renderer(8, 8, samples=8, antialias="msaa").antialias == "msaa"
+
+
+def crowd():
+    """Boxes behind boxes, so that rounds leave some out, some of them blended or masked."""
+    scene = e3d.Scene(background=None, ambient=(0.3, 0.3, 0.3))
+    rng = np.random.default_rng(3)
+    for mode, count in (("opaque", 90), ("mask", 12), ("blend", 12)):
+        material = e3d.Material(color=(*rng.random(3), 0.6), alpha_mode=mode)
+        boxes = e3d.box(0.4)
+        boxes.materials = [material]
+        for _ in range(count):
+            scene.add(boxes, translation=rng.uniform(-1.5, 1.5, 3), scale=rng.uniform(0.3, 1.5))
+    scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.5)))
+    return scene
+
+
+@pytest.mark.parametrize("samples", [2, 4, 16])
+def test_what_is_left_out_and_when_changes_nothing(samples, backend):
+    scene, size = crowd(), (150, 106)
+    with e3d.Renderer(*size, backend="scalar", samples=samples, antialias="msaa") as renderer:
+        expected = renderer.render(scene).color.copy()
+    for threads in (1, 2, 3):
+        with e3d.Renderer(
+            *size, backend=backend, threads=threads, samples=samples, antialias="msaa"
+        ) as renderer:
+            for culling in ("all", "always", "always", "tree", "frustum", "none"):
+                assert np.array_equal(renderer.render(scene, culling=culling).color, expected)
+            for options in ({"batching": False}, {"shading": "forward"}):
+                assert np.array_equal(renderer.render(scene, **options).color, expected)

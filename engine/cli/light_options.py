@@ -39,6 +39,6 @@ def add_light(parser) -> None:
     group.add_argument(
         "--shadows",
         choices=[*SHADOWS],
-        help="whether the main lights cast shadows: none, from maps drawn from the lights, or exact "
-        "ones with hard edges; by default what a scene file says of its lights",
+        help="whether the main lights cast shadows: none, from maps drawn from the lights, or "
+        "exact ones with hard edges; by default what a scene file says of its lights",
     )

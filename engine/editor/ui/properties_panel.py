@@ -38,6 +38,7 @@ _COLLIDERS = {
 # Of physically based materials.
 _SHARES = ("metallic", "roughness", "clearcoat", "clearcoat_roughness")
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
+_SHADOWS = {False: "none", True: "map", "exact": "exact"}  # of lights
 
 
 class PropertiesPanel:
@@ -300,13 +301,22 @@ class PropertiesPanel:
             self._number(light, "inner_cone_angle", "Inner cone", 0.01, 0.0)
             self._number(light, "outer_cone_angle", "Outer cone", 0.01, 0.0)
         if not isinstance(light, HemisphereLight | LightProbe):
-            self._flag([light], "shadow", "Shadow")
+            self._draw_shadow(light)
         if isinstance(light, PointLight | SpotLight):
             self._draw_range(light)
         elif isinstance(light, DirectionalLight):
             direction = self._numbers("Direction", light.direction, 0.01)
             if direction is not None:
                 self._set([light], {"direction": direction})
+
+    def _draw_shadow(self, light: Light) -> None:
+        if not imgui.begin_combo("Shadow", _SHADOWS[light.shadow]):
+            return
+        for shadow, name in _SHADOWS.items():
+            chosen = imgui.selectable(name, shadow == light.shadow)[0]
+            if chosen and shadow != light.shadow:
+                self._workspace.do(SetValues([light], {"shadow": shadow}))
+        imgui.end_combo()
 
     def _draw_range(self, light: PointLight | SpotLight) -> None:
         """Lay out how far a light reaches; one that reaches everywhere gets the scene's size."""

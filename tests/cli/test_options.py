@@ -221,3 +221,22 @@ def test_bad_anisotropy(text):
 def test_bad_lod_bias(text):
     with pytest.raises(argparse.ArgumentTypeError):
         values.lod_bias(text)
+def test_ambient_occlusion_is_asked_for_as_by_f3d():
+    assert options.settings(parse("render", "x.obj")).appearance == {}
+    asked = options.settings(parse("render", "x.obj", "-q", "--ambient-occlusion-radius", "0.5"))
+    assert asked.appearance == {"ambient_occlusion": True, "ambient_occlusion_radius": 0.5}
+    long = options.settings(parse("run", "x.obj", "--ambient-occlusion"))
+    assert long.appearance == {"ambient_occlusion": True}
+    with pytest.raises(SystemExit):
+        parse("render", "x.obj", "--ambient-occlusion-radius", "0")
+
+
+def test_ambient_occlusion_shows_in_a_picture(tmp_path):
+    def drawn(*more):
+        path = tmp_path / "out.png"
+        arguments = ("render", "--scene", "shapes", "--resolution", "120x90", "-o", str(path))
+        assert main([*arguments, *more]) == 0
+        with Image.open(path) as picture:
+            return picture.convert("RGB").tobytes()
+
+    assert drawn() != drawn("-q")

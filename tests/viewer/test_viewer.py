@@ -206,6 +206,9 @@ def test_the_appearance_follows_the_keys():
     assert appearance.cull == "front"
     assert appearance.line_width == 2.0
     assert viewer.view.orthographic
+    assert not appearance.ambient_occlusion
+    viewer, _ = play(key("L", control=True))
+    assert viewer.view_renderer.appearance.ambient_occlusion
     viewer, _ = play(key("M", shift=True))
     assert viewer.view_renderer.appearance.mode == MODES[-1] == "material_id"
 

@@ -240,24 +240,43 @@ static void kernel_lay(const e3d_batch *batch, e3d_samples *samples)
     }
 }
 
-/* R135, sample by sample: there are few such batches, and most of their time is shading. */
+/* R135, of one vector. */
+static ALWAYS_INLINE void alpha_over_through(const vf32 color[3], vf32 alpha, const vf32 through[3], vf32 over[4])
+{
+    vf32 one = v_setf(1.0f), whole = v_sub(one, alpha), rest[3];
+    for (int k = 0; k < 3; k++) {
+        rest[k] = v_add(whole, v_mul(alpha, through[k]));
+        over[k] = v_min(v_add(v_mul(color[k], alpha), v_mul(over[k], rest[k])), one);
+    }
+    vf32 mean = v_mul(v_add(v_add(rest[0], rest[1]), rest[2]), v_setf(E3D_THIRD)), most = v_max(v_max(over[0], over[1]), over[2]);
+    over[3] = v_add(v_sub(one, mean), v_mul(over[3], mean));
+    over[3] = v_self(v_ge(most, v_setf(E3D_LEAST_ALPHA)), v_max(over[3], most), over[3]);
+}
+
 static void kernel_lay_through(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples)
 {
     float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
     for (int i = 0; i < batch->count; i += V_LANES) {
+        const int32_t *sample = batch->sample + i;
         int lanes = batch->count - i < V_LANES ? batch->count - i : V_LANES;
-        float color[3][V_LANES];
-        for (int k = 0; k < 3; k++)
-            v_storef(color[k], encode_clamp(v_loadf(batch->color[k] + i)));
-        for (int lane = 0; lane < lanes; lane++) {
-            const int n = i + lane, sample = batch->sample[n];
-            const float layer[4] = {color[0][lane], color[1][lane], color[2][lane], batch->alpha[n]};
-            const float through[3] = {maps->through[0][n], maps->through[1][n], maps->through[2][n]};
-            float over[4] = {planes[0][sample], planes[1][sample], planes[2][sample], planes[3][sample]};
-            e3d_lay_transmitting(layer, through, over);
-            for (int k = 0; k < 4; k++)
-                planes[k][sample] = over[k];
+        int neighbours = lanes == V_LANES && samples_are_neighbours(sample);
+        float room[4][V_LANES];
+        vf32 color[3], through[3], over[4], alpha = v_loadf(batch->alpha + i);
+        for (int k = 0; k < 3; k++) {
+            color[k] = encode_clamp(v_loadf(batch->color[k] + i));
+            through[k] = v_loadf(maps->through[k] + i);
         }
+        for (int k = 0; k < 4 && !neighbours; k++)
+            for (int lane = 0; lane < V_LANES; lane++)
+                room[k][lane] = planes[k][sample[lane]];
+        for (int k = 0; k < 4; k++)
+            over[k] = v_loadf(neighbours ? planes[k] + sample[0] : room[k]);
+        alpha_over_through(color, v_self(v_ge(alpha, v_setf(E3D_LEAST_ALPHA)), alpha, v_setf(0.0f)), through, over);
+        for (int k = 0; k < 4; k++)
+            v_storef(neighbours ? planes[k] + sample[0] : room[k], over[k]);
+        for (int k = 0; k < 4 && !neighbours; k++)
+            for (int lane = 0; lane < lanes; lane++)
+                planes[k][sample[lane]] = room[k][lane];
     }
 }
 

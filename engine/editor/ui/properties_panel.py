@@ -36,7 +36,7 @@ _COLLIDERS = {
     "mesh": lambda mesh: MeshCollider(),
 }
 # Of physically based materials.
-_SHARES = ("metallic", "roughness", "clearcoat", "clearcoat_roughness")
+_SHARES = ("metallic", "roughness", "clearcoat", "clearcoat_roughness", "transmission")
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
 _SHADOWS = {False: "none", True: "map", "exact": "exact"}  # of lights
 

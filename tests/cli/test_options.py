@@ -221,6 +221,8 @@ def test_bad_anisotropy(text):
 def test_bad_lod_bias(text):
     with pytest.raises(argparse.ArgumentTypeError):
         values.lod_bias(text)
+
+
 def test_ambient_occlusion_is_asked_for_as_by_f3d():
     assert options.settings(parse("render", "x.obj")).appearance == {}
     asked = options.settings(parse("render", "x.obj", "-q", "--ambient-occlusion-radius", "0.5"))

@@ -29,7 +29,7 @@ REACH, SIDE = 2.0, 256
 _PARTS = (0.06, 0.14, 0.3, 0.6, 1.1, 2.0)
 #: How dark it is where none of the sky's light arrives, and none of the key light.
 _SKY, _KEY = 0.42, 0.26
-#: How far the two spread, and how far to the left and back the key light's shadow moves, in heights.
+#: How far both spread, and how far to the left and back the key light's shadow moves, in heights.
 _SKY_SPREAD, _KEY_SPREAD = 0.55, 0.18
 _LEFT, _BACK = 0.42, 0.5
 _ONE = 1 << 16

@@ -212,7 +212,7 @@ class ViewRenderer:
         return self.viewed.themed and not kept
 
     def _set_stage(self, view: Viewpoint, time: float) -> None:
-        """Set the stage for a frame: a background that the model stands out from, and its shadow."""
+        """Set the stage for a frame: a background that the model stands out from, its shadow."""
         stage, appearance = self._stage, self.appearance
         if stage is None:
             return

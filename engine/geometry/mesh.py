@@ -530,7 +530,9 @@ class Mesh(Closed):
         self._derived.clear()
         self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
-        self._origin, self._tangent_uv_set = other._origin, other._tangent_uv_set
+        self._origin = other._origin
+        if self._tangent_uv_set != other._tangent_uv_set:
+            self._tangent_uv_set = other._tangent_uv_set
         renew(self)
 
 

@@ -76,6 +76,15 @@ static ref_place first_kept(const ref_band *band, const ref_place *at)
     return first;
 }
 
+/* A surface, with what of the light from all around reaches it (R129). */
+static void find_surface(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
+{
+    const e3d_frame *frame = scene->frame;
+    ref_surface_at(scene, piece, at, out);
+    if (frame->ambient_visibility && !ref_is_blended(frame, piece))
+        out->visibility = frame->ambient_visibility[at->y / frame->samples_axis * frame->width + at->x / frame->samples_axis];
+}
+
 /* The colour of what is kept at a sample, clamped; returns 0, and the background's colour, where nothing shows. */
 static int kept_color(ref_scene *scene, const ref_band *band, const ref_place *at, float out[3])
 {
@@ -99,7 +108,7 @@ static int kept_color(ref_scene *scene, const ref_band *band, const ref_place *a
     }
     ref_surface surface;
     const ref_place first = first_kept(band, at);
-    ref_surface_at(scene, piece, &first, &surface);
+    find_surface(scene, piece, &first, &surface);
     ref_show(frame, &surface, out);
     scene->stats.pixels_shaded += first.number == at->number;
     return 1;
@@ -255,7 +264,7 @@ static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_
         return;
     }
     ref_surface surface;
-    ref_surface_at(scene, &scene->pieces.items[number], &at, &surface);
+    find_surface(scene, &scene->pieces.items[number], &at, &surface);
     write_surface(scene->frame, targets, pixel, &surface, depth);
 }
 

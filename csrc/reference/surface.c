@@ -172,14 +172,6 @@ static void find_albedo(const ref_scene *scene, ref_surface *s)
     }
 }
 
-/* R129 */
-static float find_visibility(const e3d_frame *frame, const ref_piece *piece, int32_t x, int32_t y)
-{
-    if (!frame->ambient_visibility || ref_is_blended(frame, piece))
-        return 1.0f;
-    return frame->ambient_visibility[(size_t)(y / frame->samples_axis) * (size_t)frame->width + (size_t)(x / frame->samples_axis)];
-}
-
 void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
 {
     out->piece = piece;
@@ -192,5 +184,5 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_pl
     find_albedo(scene, out);
     ref_find_maps(scene, out);
     out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
-    out->visibility = find_visibility(scene->frame, piece, at->x, at->y);
+    out->visibility = 1.0f; /* resolve.c knows of what isn't blended */
 }

@@ -117,8 +117,6 @@ void ref_bend_normal(const ref_stretch *stretch, const float normal[3], const fl
 /* R133: whether a piece lets light pass. */
 int ref_transmits(const e3d_frame *frame, const ref_piece *piece);
 float ref_transmitting_alpha(const e3d_material *material, float alpha);
-/* World units below a surface, for a thickness of the mesh's own units. */
-float ref_depth_below(const ref_surface *surface, float thickness);
 /* R134 */
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 /* R135: lays a fragment that transmits over a sample. */

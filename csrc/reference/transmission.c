@@ -22,16 +22,6 @@ float ref_transmitting_alpha(const e3d_material *material, float alpha)
     return material->alpha_mode == E3D_ALPHA_OPAQUE || alpha >= material->alpha_cutoff ? 1.0f : 0.0f;
 }
 
-float ref_depth_below(const ref_surface *surface, float thickness)
-{
-    const float (*w)[4] = surface->instance->world_from_object;
-    float square[3];
-    for (int r = 0; r < 3; r++)
-        square[r] = (w[r][0] * w[r][0] + w[r][1] * w[r][1]) + w[r][2] * w[r][2];
-    float scale = surface->piece->front ? sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD) : 0.0f;
-    return thickness * scale;
-}
-
 static int absorbs(const e3d_physical *p)
 {
     return p->thickness != 0.0f && (p->absorption[0] != 0.0f || p->absorption[1] != 0.0f || p->absorption[2] != 0.0f);

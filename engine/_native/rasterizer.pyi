@@ -8,7 +8,7 @@ import numpy.typing as npt
 from .scene_graph import NativeTree
 
 _Bytes = npt.NDArray[np.uint8]
-_Floats = npt._Floats
+_Floats = npt.NDArray[np.float32]
 _Doubles = npt.NDArray[np.float64]
 _Integers = npt.NDArray[np.int32]
 

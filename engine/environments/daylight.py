@@ -83,7 +83,7 @@ def pixels(sun: tuple[float, float, float], turbidity: float, has_disc: bool) ->
     has_disc : bool
         Whether the sun itself shows.
     """
-    rays = directions()
+    rays = directions(512)
     cosine = toward(sun, rays)
     up = np.maximum(rays[1], _LEAST_COSINE)
     sky = _colors(_sky_of(sun, turbidity), up, cosine)

@@ -137,7 +137,7 @@ class ViewRenderer:
             viewed.scene.exposure = settings.exposure
         lights = self.lighting.name if keep_appearance else ""
         if not keep_appearance:
-            look = STUDIO if settings.look == "studio" else {}
+            look = STUDIO if settings.look == "studio" and viewed.themed else {}
             self.appearance = Appearance(**(look | viewed.appearance | settings.appearance))
         self.bounds = viewed.bounds
         self._grid = None

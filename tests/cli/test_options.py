@@ -110,7 +110,7 @@ def test_names_limits_and_slopes():
 
 def test_a_scene_without_materials_takes_a_colour_and_all_options_of_light(tmp_path):
     path = tmp_path / "faces.png"
-    size = ["--resolution", "64x64"]
+    size = ["--resolution", "64x64", "--samples", "1"]
     look = ["--color", "#ff0000", "--light-direction=0,0,-1", "--light-clamp", "1,1"]
     planes = ["--near", "0.1", "--far", "50", "--culling", "frustum", "--no-texture"]
     assert main(["render", "--scene", "faces", "-o", str(path), *size, *look, *planes]) == 0

@@ -61,7 +61,8 @@ def test_appearance_options_change_the_picture(model, tmp_path):
     def draw(*arguments):
         path = tmp_path / "out.png"
         size = ["--resolution", "160x120"]
-        assert main(["render", str(model), *size, *arguments, "-o", str(path)]) == 0
+        look = ["--look", "plain", *arguments]
+        assert main(["render", str(model), *size, *look, "-o", str(path)]) == 0
         return path.read_bytes()
 
     plain = draw()

@@ -27,7 +27,7 @@ def new_scene():
 
 def handles(mesh):
     texture = mesh.materials[0].texture
-    return native_handles._meshes[mesh][1], native_handles._textures[texture]
+    return native_handles._meshes[mesh][-1], native_handles._textures[texture]
 
 
 @pytest.mark.parametrize("wireframe", [None, "overlay"])

@@ -231,7 +231,8 @@ def maps_of(renderer, scene, camera, pose):
 
     towards, _ = renderer._draw_list.lights.placed()[0][2]
     light = renderer._draw_list.lights.placed()[0][1]
-    views = _shadow_views.directional_views(light, towards, scene.bounds, renderer._view)
+    view = renderer._viewpoint.look(scene, (camera, pose), renderer.width, renderer.height)
+    views = _shadow_views.directional_views(light, towards, scene.bounds, view)
     return kept.depths.copy(), views
 
 

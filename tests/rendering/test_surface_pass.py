@@ -26,7 +26,7 @@ def surfaces(renderer: e3d.Renderer, scene: e3d.Scene) -> dict:
     drawn = SurfacePass().draw(
         renderer._native,
         renderer._draw_list,
-        renderer._options.get(scene, options),
+        renderer._options.get(scene, options, renderer.height),
         renderer._viewpoint.look(scene, None, renderer.width, renderer.height),
         (renderer.width, renderer.height),
         OUTPUTS,
@@ -55,7 +55,7 @@ def test_arrays_are_used_again():
         given = (
             renderer._native,
             renderer._draw_list,
-            renderer._options.get(scene, options),
+            renderer._options.get(scene, options, renderer.height),
             view,
             (40, 30),
             ("depth",),

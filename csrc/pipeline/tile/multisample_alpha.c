@@ -253,9 +253,9 @@ static int find_fragments(const e3d_tile_job *job, int s)
         ((float *)f->z.data)[n] = depth_at(&pieces.of[s], entries[i].pixel);
         ((int32_t *)f->sample.data)[n] = entries[i].pixel;
         ((int32_t *)f->of.data)[n] = (int32_t)f->ids.count - 1;
-        memcpy((float(*)[4])f->color.data + n, entries[i].color, sizeof entries[i].color);
+        memcpy((float (*)[4])f->color.data + n, entries[i].color, sizeof entries[i].color);
         if (transmits)
-            memcpy((float(*)[4])f->through.data + n, entries[i].through, sizeof entries[i].through);
+            memcpy((float (*)[4])f->through.data + n, entries[i].through, sizeof entries[i].through);
     }
     return 1;
 }

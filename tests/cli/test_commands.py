@@ -158,8 +158,6 @@ def test_a_loaders_warning_is_a_line(tmp_path, capsys):
 def test_verbose_tells_what_was_loaded_and_drawn(model, capsys):
     small = (*SMALL, "--look", "plain", "-o", "out.png")
     assert main(["render", str(model), *small, "--verbose"]) == 0
-        main(["render", str(model), *SMALL, "--look", "plain", "-o", "out.png", "--verbose"]) == 0
-    )
     out, err = capsys.readouterr()
     assert out == ""
     assert "square.obj" in err and "48x32" in err and "triangles" in err

@@ -145,7 +145,7 @@ class Desktop:
 def desktop(screen, tmp_path):
     (tmp_path / "cube.obj").write_text(CUBE)
     size = f"{WINDOW[0]}x{WINDOW[1]}"
-    desktop = Desktop(screen, tmp_path, "cube.obj", "--resolution", size)
+    desktop = Desktop(screen, tmp_path, "cube.obj", "--look", "plain", "--resolution", size)
     yield desktop
     if desktop.process.poll() is None:
         desktop.process.kill()
@@ -297,7 +297,9 @@ def test_typed_letters_choose_a_file_in_the_dialog(desktop):
 
 def test_a_small_window_shows_all_keys_and_what_is_wrong_with_the_file(screen, tmp_path):
     (tmp_path / "cube.obj").write_text(CUBE)
-    desktop = Desktop(screen, tmp_path, "cube.obj", "--resolution", "320x240", "--watch")
+    desktop = Desktop(
+        screen, tmp_path, "cube.obj", "--look", "plain", "--resolution", "320x240", "--watch"
+    )
     try:
         plain = desktop.without_message()
         pages = []

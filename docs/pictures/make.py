@@ -4,18 +4,23 @@
     python docs/pictures/make.py models        only some
     python docs/pictures/make.py --check       draw, and compare with the files, pixel for pixel
 
-In: the models of engine3d.data. Out: one lossless WebP a picture in this folder. The same pixels
-come out on every machine and backend; a test compares them.
+In: the models of engine3d.data, the programs of docs/gallery.md. Out: one WebP a picture in this
+folder: lossless, or small, with the digest of what was drawn in drawn.json. The same pixels come
+out on every machine and backend; a test compares them.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
+import json
 import math
 import sys
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 
+import gallery
 import numpy as np
 
 import engine3d as e3d
@@ -24,6 +29,7 @@ from engine3d.demos import load_demo
 from engine3d.viewer.open_model import open_model
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer
+from engine3d.viewer.viewed_scene import ViewedScene
 from engine3d.viewer.walking import controller
 
 FOLDER = Path(__file__).resolve().parent
@@ -59,23 +65,6 @@ def add_daylight(scene):
     scene.add(e3d.DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18))
 
 
-def add_table(scene, size, shades):
-    """Add a table top whose texture is darker where something stands: (x, z, radius) each."""
-    width, depth = size
-    z, x = np.mgrid[0:384, 0:768]
-    x = (x + 0.5) / 768 * width - width / 2
-    z = (z + 0.5) / 384 * depth - depth / 2
-    light = np.ones(x.shape)
-    for center_x, center_z, radius in shades:
-        distance = ((x - center_x) ** 2 + (z - center_z) ** 2) / radius**2
-        light *= 1.0 - 0.62 / (1.0 + distance * distance * distance)
-    color = np.array([222.0, 200.0, 176.0])
-    pixels = np.rint(light[:, :, None] * color).astype(np.uint8)
-    table = e3d.plane(size)
-    table.materials = [e3d.Material(texture=e3d.Texture(pixels, wrap="clamp"))]
-    scene.add(table, name="table")
-
-
 def draw(scene, camera, size, **options) -> np.ndarray:
     """Return a picture as (H, W, 4) uint8."""
     return e3d.render(scene, camera, size=size, samples=SAMPLES, **options).color
@@ -104,18 +93,19 @@ def sheet(tiles, columns: int) -> np.ndarray:
 
 
 def models() -> np.ndarray:
-    """Every model of engine3d.data on a table."""
-    scene = e3d.Scene(background=(196, 211, 222))
-    add_daylight(scene)
+    """Every model of engine3d.data, as the viewer shows models."""
+    scene = e3d.Scene()
     stand(scene, "island.obj", at=(0.2, 0.0), height=7.33, turn=-0.35)
     stand(scene, "nautilus.obj", at=(-8.2, -3.0), height=6.2, turn=0.1)
     stand(scene, "teapot.obj", at=(-6.8, 4.0), height=2.2, turn=0.55)
     stand(scene, "globe.obj", at=(8.3, -2.6), height=6.0, turn=0.5)
     stand(scene, "train.asc", at=(7.0, 3.6), height=2.4, turn=-0.4, up="z")
-    shades = [(0.2, 0.0, 5.8), (-8.2, -3.0, 3.0), (-6.8, 4.0, 1.7), (8.3, -2.6, 2.2)]
-    shades += [(7.0 + k * 1.1, 3.6 + k * 0.46, 0.9) for k in (-1.7, -0.8, 0.1, 1.0)]
-    add_table(scene, (64.0, 32.0), shades)
-    return draw(scene, look((0.0, 7.6, 28.0), (0.2, 2.75, 0.0), 0.362), (1280, 600))
+    viewed = ViewedScene(scene, "models", themed=True, azimuth=0.0, elevation=math.radians(14.0))
+    settings, size = Settings(appearance={}, look="studio"), (1280, 600)
+    with ViewRenderer(viewed, settings, size, samples=SAMPLES, antialias="msaa") as view_renderer:
+        view = view_renderer.view(0.362)
+        view_renderer.fill(view)
+        return view_renderer.draw(view).color
 
 
 def modes() -> np.ndarray:
@@ -296,21 +286,43 @@ PICTURES = {
     "viewer": viewer,
     "city": city,
     "impostors": impostors,
+    **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
+#: Those that are compressed, of which drawn.json has digests.
+SMALL = ("models", *gallery.programs())
+QUALITY = 82
+DIGESTS = FOLDER / "drawn.json"
 
 
-def save(picture: np.ndarray, path: Path) -> None:
+def digests() -> dict[str, str]:
+    return json.loads(DIGESTS.read_text()) if DIGESTS.exists() else {}
+
+
+def digest(picture: np.ndarray) -> str:
+    """Return what tells a picture from others."""
+    pixels = np.ascontiguousarray(picture[:, :, :3])
+    return hashlib.sha256(str(pixels.shape).encode() + pixels.tobytes()).hexdigest()
+
+
+def save(picture: np.ndarray, name: str) -> None:
     from PIL import Image
 
-    Image.fromarray(picture[:, :, :3]).save(path, lossless=True, quality=100, method=6)
+    how = {"quality": QUALITY} if name in SMALL else {"lossless": True, "quality": 100}
+    path = FOLDER / f"{name}.webp"
+    Image.fromarray(picture[:, :, :3]).save(path, method=6, **how)
     print(f"{path.name}: {picture.shape[1]}x{picture.shape[0]}, {path.stat().st_size:,} bytes")
+    if name in SMALL:
+        known = digests() | {name: digest(picture)}
+        DIGESTS.write_text(json.dumps(known, indent=2, sort_keys=True) + "\n")
 
 
-def differs(picture: np.ndarray, path: Path) -> bool:
+def differs(picture: np.ndarray, name: str) -> bool:
     """Whether a file shows anything else than a picture."""
     from PIL import Image
 
-    with Image.open(path) as image:
+    if name in SMALL:
+        return digests().get(name) != digest(picture)
+    with Image.open(FOLDER / f"{name}.webp") as image:
         return not np.array_equal(np.asarray(image.convert("RGB")), picture[:, :, :3])
 
 
@@ -324,11 +336,11 @@ def main() -> int:
         parser.error(f"no such picture: {', '.join(sorted(unknown))}")
     stale = []
     for name in arguments.names or PICTURES:
-        picture, path = PICTURES[name](), FOLDER / f"{name}.webp"
+        picture = PICTURES[name]()
         if not arguments.check:
-            save(picture, path)
-        elif differs(picture, path):
-            stale.append(path.name)
+            save(picture, name)
+        elif differs(picture, name):
+            stale.append(f"{name}.webp")
     if stale:
         print(f"not what the engine draws: {', '.join(stale)}", file=sys.stderr)
     return 1 if stale else 0

@@ -63,7 +63,7 @@ class Desktop:
         )
         self.window = self.find_window()
         self.do("mousemove", *(side // 2 for side in SCREEN))
-        self.do("windowfocus", "--sync", self.window)
+        self.focus()
         self.settle()
 
     def find_window(self):
@@ -75,6 +75,19 @@ class Desktop:
                 return found.split()[0]
             time.sleep(0.1)
         raise AssertionError("no window opened")
+
+    def focus(self):
+        """Give the keyboard to the window, which may not take it at once."""
+        end = time.monotonic() + HUNG
+        while True:
+            try:
+                self.do("windowfocus", "--sync", self.window)
+                return
+            except subprocess.CalledProcessError:
+                if time.monotonic() > end:
+                    self.process.kill()
+                    raise
+                time.sleep(0.1)
 
     def do(self, *arguments, check=True):
         """Run xdotool; return what it prints."""

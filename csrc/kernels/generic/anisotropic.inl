@@ -88,6 +88,10 @@ static ALWAYS_INLINE void changes_of(const probe_source *from, int i, vf32 along
     vi32 sample = v_loadi(from->batch->sample + i);
     vf32 x = v_float(v_andi(sample, v_seti(E3D_TILE - 1))), y = v_float(v_shr(sample, E3D_TILE_SHIFT));
     vf32 dx = v_sub(x, take(s->base_x, &lanes, lanes.same)), dy = v_sub(y, take(s->base_y, &lanes, lanes.same));
+    if (from->batch->pattern) { /* R105 */
+        dx = v_add(dx, v_loadf(from->batch->shift[0] + i));
+        dy = v_add(dy, v_loadf(from->batch->shift[1] + i));
+    }
     vf32 r = v_loadf(from->batch->r + i), r2 = v_mul(r, r);
     for (int k = 0; k < 2; k++) {
         const e3d_surface_floats *rows = (const e3d_surface_floats *)((const float *)from->slopes[k] + lanes.first);

@@ -79,15 +79,12 @@ class Desktop:
     def focus(self):
         """Give the keyboard to the window, which may not take it at once."""
         end = time.monotonic() + HUNG
-        while True:
-            try:
-                self.do("windowfocus", "--sync", self.window)
-                return
-            except subprocess.CalledProcessError:
-                if time.monotonic() > end:
-                    self.process.kill()
-                    raise
-                time.sleep(0.1)
+        command = ["xdotool", "windowfocus", "--sync", self.window]
+        while subprocess.run(command, env=self.environment, timeout=HUNG, check=False).returncode:
+            if time.monotonic() > end:
+                self.process.kill()
+                raise AssertionError("the window takes no keyboard")
+            time.sleep(0.1)
 
     def do(self, *arguments, check=True):
         """Run xdotool; return what it prints."""

@@ -10,11 +10,9 @@ from __future__ import annotations
 
 import itertools
 
-import numpy as np
-
-from .._native.scene_graph import SHOWN
-from ..scene.node_arrays import CASTS_NONE, NodeArrays
+from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
+from ._casters import placed_casters
 from ._draw_list import DrawList
 
 _versions = itertools.count(1)
@@ -55,20 +53,9 @@ class ExactShadows:
         moment = arrays, arrays.updated, renewals
         if moment == self._moment:
             return
-        casters = arrays, renewals, *_placed_casters(arrays)
+        casters = arrays, renewals, *placed_casters(arrays)
         if casters != self._casters:
             self._version = next(_versions)
         self._moment = self._casters = None  # for if anything below raises
         self._draw_list.native.place_hiding(arrays.count, arrays.columns, self._version)
         self._moment, self._casters = moment, casters
-
-
-def _placed_casters(arrays: NodeArrays) -> tuple[bytes, ...]:
-    """What tells whether nodes that cast shadows are the same, where they were."""
-    columns, count = arrays.columns, arrays.count
-    casts = columns["unshadowed"][:count] & CASTS_NONE == 0
-    shown = columns["flags"][:count] & SHOWN != 0
-    slots = np.flatnonzero(casts & shown & (columns["object"][:count] >= 0))
-    return slots.tobytes(), *(
-        columns[name][slots].tobytes() for name in ("object", "world_version")
-    )

@@ -10,11 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from .._native.rasterizer import CULLS, NativeRenderer
-from .._native.scene_graph import SHOWN
 from ..choices import Cull
 from ..scene.lights import DirectionalLight, SpotLight
-from ..scene.node_arrays import CASTS_NONE, NodeArrays
 from ..scene.scene import Scene
+from ._casters import placed_casters
 from ._draw_list import DrawList
 from ._shadow_views import (
     MapView,
@@ -133,7 +132,7 @@ class ShadowMaps:
         arrays, _, renewals, cull = moment
         selection = np.empty((arrays.count + 63) // 64, np.uint64)
         arrays.select(seen.clip_from_world, 1.0, False, selection)
-        casters = arrays, renewals, cull, _casters(arrays, selection)
+        casters = arrays, renewals, cull, placed_casters(arrays, selection)
         if clip != drawn.clip or casters != drawn.casters:
             drawn.clip, drawn.casters = b"", None  # for if anything below raises
             native = self._draw_list.native
@@ -151,14 +150,3 @@ def _find_views(light, pose: tuple, bounds: np.ndarray, view: View) -> ShadowVie
     if isinstance(light, SpotLight):
         return spot_views(light, towards, position, bounds)
     return point_views(light, position, bounds)
-
-
-def _casters(arrays: NodeArrays, selection: np.ndarray) -> tuple[bytes, ...]:
-    """What tells whether selected nodes that cast shadows are the same, where they were."""
-    bits = np.unpackbits(selection.view(np.uint8), bitorder="little")[: arrays.count]
-    columns = arrays.columns
-    casts = columns["unshadowed"][: arrays.count] & CASTS_NONE == 0
-    shown = columns["flags"][: arrays.count] & SHOWN != 0
-    slots = np.flatnonzero((bits != 0) & casts & shown & (columns["object"][: arrays.count] >= 0))
-    names = ("object", "world_version")
-    return slots.tobytes(), *(columns[name][slots].tobytes() for name in names)

@@ -1,0 +1,27 @@
+"""Which nodes cast shadows, and whether they are the same as before, where they were."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._native.scene_graph import SHOWN
+from ..scene.node_arrays import CASTS_NONE, NodeArrays
+
+
+def placed_casters(arrays: NodeArrays, selection: np.ndarray | None = None) -> tuple[bytes, ...]:
+    """Return what is the same while the nodes that cast shadows are, and stay where they are.
+
+    Parameters
+    ----------
+    arrays : NodeArrays
+    selection : (words,) uint64, optional
+        A bit for each node: only these.
+    """
+    columns, count = arrays.columns, arrays.count
+    casts = columns["unshadowed"][:count] & CASTS_NONE == 0
+    casts &= (columns["flags"][:count] & SHOWN != 0) & (columns["object"][:count] >= 0)
+    if selection is not None:
+        casts &= np.unpackbits(selection.view(np.uint8), bitorder="little")[:count] != 0
+    slots = np.flatnonzero(casts)
+    names = ("object", "world_version")
+    return slots.tobytes(), *(columns[name][slots].tobytes() for name in names)

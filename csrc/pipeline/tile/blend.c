@@ -35,14 +35,6 @@ typedef struct depth_range {
     float near, far;
 } depth_range;
 
-/* R14 at a sample of the tile. */
-static float depth_at(const e3d_piece *p, int32_t x, int32_t y)
-{
-    float z = (p->z0 + (float)(x - p->base_x) * p->gx) + (float)(y - p->base_y) * p->gy;
-    z = z > p->zmin ? z : p->zmin;
-    return z < p->zmax ? z : p->zmax;
-}
-
 static int is_tame(float v) { return v < 0x1p100f && v > -0x1p100f; }
 
 /* z is monotone along both axes, so its values at the corners of the box bound it, unless a step overflows. */
@@ -51,7 +43,7 @@ static depth_range range_of(const e3d_piece *p)
     if (!is_tame(p->z0) || !is_tame(p->gx) || !is_tame(p->gy))
         return (depth_range){p->zmin, p->zmax};
     int32_t x = p->gx > 0 ? p->x0 : p->x1, y = p->gy > 0 ? p->y0 : p->y1;
-    return (depth_range){depth_at(p, x, y), depth_at(p, p->x0 + p->x1 - x, p->y0 + p->y1 - y)};
+    return (depth_range){e3d_piece_depth(p, x, y), e3d_piece_depth(p, p->x0 + p->x1 - x, p->y0 + p->y1 - y)};
 }
 
 /* Adds a record that shows in the tile, nearer than the far plane. */
@@ -240,9 +232,7 @@ static int is_before(const e3d_record_table *table, const e3d_alpha_fragments *f
     const int32_t *of = f->of.data, *ids = f->ids.data;
     if (z[a] != z[b])
         return z[a] > z[b];
-    int32_t id = ids[of[a]], other = ids[of[b]];
-    uint32_t order = e3d_order_at(table, (uint32_t)id), other_order = e3d_order_at(table, (uint32_t)other);
-    return order > other_order || (order == other_order && id > other);
+    return e3d_id_comes_first(table, ids[of[b]], ids[of[a]]);
 }
 
 /* Lets an element sink to its place in a heap, whose first is laid last. */

@@ -46,13 +46,8 @@ static void find_pieces(const e3d_tile_job *job, uint32_t id, plane_pieces *out)
         out->live |= (uint32_t)e3d_piece_in_plane(pass, s, record, &job->tile, id, &out->of[s]) << s;
 }
 
-/* R14 and R104 */
-static float depth_at(const e3d_piece *p, int32_t pixel)
-{
-    float z = (p->z0 + (float)(pixel % E3D_TILE - p->base_x) * p->gx) + (float)(pixel / E3D_TILE - p->base_y) * p->gy;
-    z = z > p->zmin ? z : p->zmin;
-    return z < p->zmax ? z : p->zmax;
-}
+/* R104 */
+static float depth_at(const e3d_piece *p, int32_t pixel) { return e3d_piece_depth(p, pixel % E3D_TILE, pixel / E3D_TILE); }
 
 /* Begins a list of what is in front of the planes; `all`: of everything that is no farther than the far plane. */
 static int begin(const e3d_tile_job *job, int all, e3d_planes_list *list)

@@ -47,7 +47,15 @@ static inline int e3d_piece_in_tile(const e3d_viewport *viewport, const e3d_reco
     return 1;
 }
 
-/* The same with multisampling, in the plane of a sample (R104). Its box is filled in in any case. */
+/* R14 at a sample of the tile. */
+static inline float e3d_piece_depth(const e3d_piece *p, int32_t x, int32_t y)
+{
+    float z = (p->z0 + (float)(x - p->base_x) * p->gx) + (float)(y - p->base_y) * p->gy;
+    z = z > p->zmin ? z : p->zmin;
+    return z < p->zmax ? z : p->zmax;
+}
+
+/* The same as e3d_piece_in_tile with multisampling, in the plane of a sample (R104). Its box is filled in in any case. */
 static inline int e3d_piece_in_plane(const e3d_prepared *pass, int sample, const e3d_record *record, const e3d_tile *tile, uint32_t slot,
                                      e3d_piece *piece)
 {

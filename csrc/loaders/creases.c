@@ -13,6 +13,7 @@
 
 #include "core/fpenv.h"
 #include "loaders/corner_angles.h"
+#include "loaders/short_sort.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -119,20 +120,7 @@ static int compare_spokes(const void *one, const void *other)
     return a->leaves - b->leaves;
 }
 
-static void sort_spokes(spoke *spokes, size_t count)
-{
-    if (count > SHORT) {
-        qsort(spokes, count, sizeof *spokes, compare_spokes);
-        return;
-    }
-    for (size_t i = 1; i < count; i++) {
-        const spoke one = spokes[i];
-        size_t k = i;
-        for (; k > 0 && compare_spokes(&spokes[k - 1], &one) > 0; k--)
-            spokes[k] = spokes[k - 1];
-        spokes[k] = one;
-    }
-}
+E3D_DEFINE_SHORT_SORT(sort_spokes, spoke, compare_spokes, SHORT)
 
 static int compare_claims(const void *one, const void *other)
 {
@@ -146,20 +134,7 @@ static int compare_claims(const void *one, const void *other)
     return (a->corner > b->corner) - (a->corner < b->corner);
 }
 
-static void sort_claims(claim *claims, size_t count)
-{
-    if (count > SHORT) {
-        qsort(claims, count, sizeof *claims, compare_claims);
-        return;
-    }
-    for (size_t i = 1; i < count; i++) {
-        const claim one = claims[i];
-        size_t k = i;
-        for (; k > 0 && compare_claims(&claims[k - 1], &one) > 0; k--)
-            claims[k] = claims[k - 1];
-        claims[k] = one;
-    }
-}
+E3D_DEFINE_SHORT_SORT(sort_claims, claim, compare_claims, SHORT)
 
 /* The first corner of a member's fan, and whether it is turned against that. */
 static member root_of(member *members, int32_t corner)

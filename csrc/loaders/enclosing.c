@@ -9,6 +9,7 @@
 
 #include "core/fpenv.h"
 #include "loaders/corner_angles.h"
+#include "loaders/short_sort.h"
 
 #include <stdlib.h>
 
@@ -47,20 +48,7 @@ static int compare_sides(const void *one, const void *other)
     return (a->face > b->face) - (a->face < b->face);
 }
 
-static void sort_sides(side *sides, size_t count)
-{
-    if (count > SHORT) {
-        qsort(sides, count, sizeof *sides, compare_sides);
-        return;
-    }
-    for (size_t i = 1; i < count; i++) {
-        const side one = sides[i];
-        size_t k = i;
-        for (; k > 0 && compare_sides(&sides[k - 1], &one) > 0; k--)
-            sides[k] = sides[k - 1];
-        sides[k] = one;
-    }
-}
+E3D_DEFINE_SHORT_SORT(sort_sides, side, compare_sides, SHORT)
 
 /* Lists the sides of each place. */
 static void list_sides(work *w)

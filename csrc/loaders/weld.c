@@ -7,6 +7,8 @@
  */
 #include "e3d_rows.h"
 
+#include "loaders/short_sort.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,20 +32,7 @@ static int compare_corners(const void *left, const void *right)
     return a->normal < b->normal ? -1 : a->normal > b->normal;
 }
 
-static void sort_corners(corner *corners, size_t count)
-{
-    if (count > FEW) {
-        qsort(corners, count, sizeof *corners, compare_corners);
-        return;
-    }
-    for (size_t i = 1; i < count; i++) {
-        const corner moved = corners[i];
-        size_t k = i;
-        for (; k > 0 && compare_corners(&moved, &corners[k - 1]) < 0; k--)
-            corners[k] = corners[k - 1];
-        corners[k] = moved;
-    }
-}
+E3D_DEFINE_SHORT_SORT(sort_corners, corner, compare_corners, FEW)
 
 /* Gives the corners of one position their vertices. */
 static void number_corners(corner *corners, size_t count, int32_t position, vertices *made,

@@ -1,0 +1,25 @@
+/* Sorting of many short lists: by insertion up to so many items, which qsort's calls would take longer for. */
+#ifndef E3D_SHORT_SORT_H
+#define E3D_SHORT_SORT_H
+
+#include <stddef.h>
+#include <stdlib.h>
+
+/* Defines a function that sorts items of a type, by a function such as qsort takes. */
+#define E3D_DEFINE_SHORT_SORT(name, type, compare, most) \
+    static void name(type *items, size_t count) \
+    { \
+        if (count > (most)) { \
+            qsort(items, count, sizeof *items, compare); \
+            return; \
+        } \
+        for (size_t i = 1; i < count; i++) { \
+            const type one = items[i]; \
+            size_t k = i; \
+            for (; k > 0 && compare(&items[k - 1], &one) > 0; k--) \
+                items[k] = items[k - 1]; \
+            items[k] = one; \
+        } \
+    }
+
+#endif

@@ -375,15 +375,12 @@ cdef class NativeRenderer:
         cdef e3d_frame frame
         cdef e3d_targets outputs
         cdef NativeStats drawn = NativeStats.__new__(NativeStats)
-        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
-        require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
         frame = options.frame
         frame.width = width
         frame.height = height
         frame.samples_axis = samples_axis
         frame.msaa_samples = msaa_samples
-        memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
-        memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+        set_view(&frame, clip_from_world, view_from_world, eye, number)
         if frozen_clip_from_world is not None:
             require(frozen_clip_from_world.shape[0] == 4 and frozen_clip_from_world.shape[1] == 4,
                     "a matrix is 4x4")
@@ -398,8 +395,6 @@ cdef class NativeRenderer:
                     "ambient_visibility must be (height, width)")
             frame.ambient_visibility = &ambient_visibility[0, 0]
         frame.ambient_light = draw_list.ambient_light
-        copy_vector(frame.eye, eye, 4)
-        frame.view = number
         frame.depth_near = depth_near
         frame.depth_far = depth_far
         frame.materials = draw_list.materials
@@ -423,7 +418,6 @@ cdef class NativeRenderer:
         drawn.materials = draw_list.material_count
         drawn.lights = draw_list.light_count
         return drawn
-
 
     cdef bint draw(self, const e3d_frame *frame, const e3d_targets *outputs, e3d_stats *stats) except -1:
         """Draw; False where the process was forked meanwhile, which the caller knows."""
@@ -455,15 +449,10 @@ cdef class NativeRenderer:
         cdef e3d_frame frame
         cdef e3d_targets outputs
         cdef e3d_stats stats
-        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
-        require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
         memset(&frame, 0, sizeof(e3d_frame))
         memset(&outputs, 0, sizeof(e3d_targets))
         frame.width, frame.height, frame.samples_axis = <int32_t>depths.shape[1], <int32_t>depths.shape[0], 1
-        memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
-        memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
-        copy_vector(frame.eye, eye, 4)
-        frame.view = number
+        set_view(&frame, clip_from_world, view_from_world, eye, number)
         frame.mode, frame.cull = E3D_MODE_UNLIT, <e3d_cull>cull
         frame.line_width = frame.point_size = frame.depth_far = frame.exposure = 1.0
         frame.faces_only = True
@@ -475,6 +464,8 @@ cdef class NativeRenderer:
         frame.order_count = draw_list.casting.order_count
         e3d_targets_set(&outputs, E3D_OUTPUT_NDC_DEPTH, floats_of(depths, frame.width, frame.height))
         self.draw(&frame, &outputs, &stats)
+
+
 def bloom_scratch(int width, int height, int threads):
     """How many floats `add_bloom` needs."""
     return e3d_bloom_scratch(width, height, threads if threads else e3d_thread_count())
@@ -504,6 +495,19 @@ def add_bloom(
     with nogil:
         status = e3d_add_bloom(&bloom, <e3d_backend>backend, used, &scratch[0])
     check(status)
+
+
+cdef int set_view(
+    e3d_frame *frame, const double[:, ::1] clip_from_world, const double[:, ::1] view_from_world, eye, int64_t number
+) except -1:
+    """Say from where a frame is seen, and the number by which the core remembers that."""
+    require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+    require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
+    memcpy(frame.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+    memcpy(frame.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+    copy_vector(frame.eye, eye, 4)
+    frame.view = number
+    return 0
 
 
 cdef int fill_targets(e3d_targets *outputs, dict targets, int width, int height) except -1:

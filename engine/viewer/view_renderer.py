@@ -232,10 +232,11 @@ class ViewRenderer:
         scale = max(width, height) / 240
         size = max(1, round(width / scale)), max(1, round(height / scale))
         with Renderer(*size, **{**self._options, "antialias": "ssaa"}) as renderer:
-            look = self.appearance.arguments(None, 1.0)
-            picture = renderer.render(scene, (self._camera(view), view.pose()), **look).color
-        scene.background = background
-        return picture
+            try:
+                look = self._appearance()
+                return renderer.render(scene, (self._camera(view), view.pose()), **look).color
+            finally:
+                scene.background = background
 
     def show_textures(self, shown: bool) -> None:
         """Draw with textures, or without."""
@@ -284,7 +285,12 @@ class ViewRenderer:
 
     def visibility(self) -> Visibility:
         """Return what hides parts of the scene that is shown."""
-        return Visibility(self.viewed.scene, () if self._grid is None else (self._grid,))
+        return Visibility(self.viewed.scene, self._added())
+
+    def _added(self) -> tuple:
+        """What is drawn that was added to the scene: the grid and the shadow."""
+        grid = () if self._grid is None else (self._grid,)
+        return grid if self._stage is None else (*grid, *self._stage.nodes)
 
     def _lowest(self) -> float:
         """Return how low the scene reaches along the up direction, however it moves."""
@@ -423,7 +429,7 @@ class ViewRenderer:
         if self.debug == "frustum":
             return frustum_lines(*(self._culling_camera or self._debug_camera), self.size)
         if self.debug == "boxes":
-            return box_lines(self.viewed.scene, () if self._grid is None else (self._grid,))
+            return box_lines(self.viewed.scene, self._added())
         return tree_lines(self.viewed.scene)
 
     def _draw_overlays(self, canvas, view: Viewpoint) -> None:

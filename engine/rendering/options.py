@@ -114,11 +114,8 @@ class RenderOptions:
 
     Parameters
     ----------
-    mode, wireframe, cull, shading, outputs, normals, hidden_surfaces, line_width, line_color,
-    hidden_lines, point_size, culling, batching, transparent_outputs, tone_mapping, bloom,
-    line_shape, point_shape, size_unit, alpha_to_coverage, ambient_occlusion,
-    ambient_occlusion_radius
-        As for `Renderer.render`, and read under the same names.
+    mode, wireframe, cull, ...
+        All keywords of `Renderer.render` but the camera's, read under the same names.
 
     Raises
     ------

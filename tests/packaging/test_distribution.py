@@ -57,7 +57,7 @@ def files_below(folder, names):
         path.relative_to(folder).as_posix()
         for name in names
         for path in (folder / name).rglob("*")
-        if path.is_file() and path.suffix not in BUILD_PRODUCTS
+        if path.is_file() and path.suffix not in BUILD_PRODUCTS and "generated" not in path.parts
     }
 
 

@@ -1,0 +1,80 @@
+"""How Sphinx makes the site: `sphinx-build -W docs build/site`."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from pathlib import Path
+
+import engine3d
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from frame_scraper import FrameScraper
+
+project = "engine3d"
+author = "engine3d authors"
+release = version = engine3d.__version__
+language = "en"
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "numpydoc",
+    "sphinx_gallery.gen_gallery",
+]
+root_doc = "index"
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+exclude_patterns = ["examples", "course/README_*"]
+
+# Links between pages name headings as they do where the files are read as they are.
+myst_heading_anchors = 4
+
+# The API: signatures without types, which are in the docstrings and the stubs.
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+autosummary_generate = False
+numpydoc_show_class_members = False
+numpydoc_attributes_as_param_list = True
+
+sphinx_gallery_conf = {
+    "examples_dirs": "examples",
+    "gallery_dirs": "generated/examples",
+    "filename_pattern": "plot_",
+    "image_scrapers": (FrameScraper(),),
+    "show_memory": False,
+    "min_reported_time": 60,
+    "write_computation_times": False,
+    "capture_repr": (),
+    "reset_modules": (),
+    "within_subsection_order": "FileNameSortKey",
+}
+
+html_theme = "pydata_sphinx_theme"
+html_title = "engine3d"
+html_show_sourcelink = False
+html_theme_options = {
+    "show_toc_level": 2,
+    "navigation_depth": 2,
+    "footer_start": ["copyright"],
+    "footer_end": ["sphinx-version"],
+    "secondary_sidebar_items": ["page-toc"],
+}
+
+#: Classes that a user never makes. Their entries show no parameters.
+MADE_BY_OTHERS = ("Node", "NodeSelection", "Frame", "RasterizeResult", "World")
+
+
+def signature_as_called(app, what, name, thing, options, signature, returned):
+    """Show the parameters of a class as its caller gives them, whatever made the class callable."""
+    if what != "class" or issubclass(thing, (Exception, Warning)):
+        return None
+    if name.rpartition(".")[2] in MADE_BY_OTHERS:
+        return "", ""
+    parameters = inspect.signature(thing).parameters.values()
+    plain = [parameter.replace(annotation=inspect.Parameter.empty) for parameter in parameters]
+    return str(inspect.Signature(plain)), returned
+
+
+def setup(app):
+    app.connect("autodoc-process-signature", signature_as_called)

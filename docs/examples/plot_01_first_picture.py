@@ -1,0 +1,28 @@
+"""
+A first picture
+===============
+
+A scene holds meshes, lights and a camera. Without a camera, the whole of it is shown.
+"""
+
+import engine3d as e3d
+
+scene = e3d.Scene(background=(226, 232, 240), ambient=(0.25, 0.27, 0.30))
+ring = e3d.torus(1.0, 0.4)
+ring.materials = [e3d.Material(color=(0.9, 0.45, 0.2))]
+scene.add(ring, rotation=e3d.linalg.euler_to_quaternion((0.6, 0.3, 0.0)))
+scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.6)))
+
+frame = e3d.render(scene, size=(480, 300), samples=4, antialias="msaa")
+
+# %%
+# A frame is arrays of NumPy, and it can be saved: ``frame.save("ring.png")``.
+
+print(frame.color.shape, frame.color.dtype)
+
+# %%
+# A camera of one's own stands where ``look_at`` puts it.
+
+camera = e3d.PerspectiveCamera(yfov=0.7)
+pose = e3d.look_at(eye=(0.0, 0.6, 3.6), target=(0.3, 0.0, 0.0))
+nearer = e3d.render(scene, (camera, pose), size=(480, 300), samples=4, antialias="msaa")

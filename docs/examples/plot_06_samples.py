@@ -1,0 +1,25 @@
+"""
+Edges with more samples
+=======================
+
+One sample per pixel gives steps. Multisampling covers edges finely and shades each pixel once.
+Here each picture is enlarged four times.
+"""
+
+import numpy as np
+
+import engine3d as e3d
+
+scene = e3d.Scene(background=(250, 250, 250), ambient=(0.2, 0.2, 0.2))
+scene.add(e3d.box(1.0), rotation=e3d.linalg.euler_to_quaternion((0.5, 0.6, 0.2)))
+scene.add(e3d.DirectionalLight((-0.5, -0.8, -0.6), intensity=0.6))
+
+
+def enlarged(samples):
+    """The scene at a low resolution, each pixel as a square of four by four."""
+    antialias = "msaa" if samples > 1 else "ssaa"
+    frame = e3d.render(scene, size=(60, 60), samples=samples, antialias=antialias)
+    return frame.color.repeat(4, axis=0).repeat(4, axis=1)
+
+
+comparison = e3d.Canvas(np.hstack([enlarged(samples) for samples in (1, 4, 16)]))

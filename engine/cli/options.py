@@ -403,6 +403,11 @@ def add_run(parser) -> None:
         "--headless", action="store_true", help="open no window; write an animation to a file"
     )
     group.add_argument(
+        "--terminal",
+        action="store_true",
+        help="show it in the terminal, also over SSH: as kitty graphics, sixels or coloured text",
+    )
+    group.add_argument(
         "--frames",
         type=values.count,
         metavar="N",
@@ -424,7 +429,7 @@ def add_render(parser) -> None:
         "-o",
         "--output",
         metavar="FILE",
-        help=".png, .jpg, .tga, .webp; - writes PNG to standard output",
+        help=".png, .jpg, .tga, .webp; - writes PNG to standard output, terminal: shows it there",
     )
     group.add_argument(
         "--turntable",

@@ -15,6 +15,7 @@ from . import quietness
 from .usage import UsageError
 
 STANDARD_OUTPUT = "-"
+TERMINAL = "terminal:"
 #: Shorter work gets no progress bar.
 FEW_FRAMES = 8
 

@@ -11,6 +11,7 @@ from . import options
 from .antialiasing import PICTURES, antialiasing
 from .outputs import (
     STANDARD_OUTPUT,
+    TERMINAL,
     check_animation,
     check_picture,
     check_standard_output,
@@ -47,6 +48,9 @@ def render(args: argparse.Namespace) -> int:
         if _count(args) is not None:
             _write_pictures(args, view_renderer, view)
             return 0
+        if args.output == TERMINAL:
+            _print_picture(view_renderer, view)
+            return 0
         frame = view_renderer.draw(view)
         report.drawn(view_renderer, frame)
     _write_picture(args, frame)
@@ -65,12 +69,16 @@ def _check(args: argparse.Namespace) -> None:
             raise UsageError("say where to write with -o FILE")
         return
     if _count(args) is not None:
-        if args.output == STANDARD_OUTPUT or args.reference is not None:
+        if args.output in (STANDARD_OUTPUT, TERMINAL) or args.reference is not None:
             raise UsageError(f"{many} writes to a file, and compares with none")
         check_animation(args.output, transparent=args.no_background)
         return
     if args.output == STANDARD_OUTPUT:
         check_standard_output()
+        return
+    if args.output == TERMINAL:
+        if args.reference is not None:
+            raise UsageError(f"-o {TERMINAL} compares with nothing: its size is the terminal's")
         return
     check_picture(args.output, transparent=args.no_background, series="--turntable N")
 
@@ -90,6 +98,17 @@ def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view)
         pictures = headless.animation(view_renderer, view, count, args.animation_time or 0.0)
     pictures = with_progress(pictures, count, "rendering")
     save_animation(pictures, args.output, headless.seconds_a_frame(view_renderer, count))
+
+
+def _print_picture(view_renderer: ViewRenderer, view) -> None:
+    """Show a picture in the terminal, at the size that it has room for."""
+    from ..terminal.printing import print_picture
+
+    def draw(size):
+        view_renderer.resize(*size)
+        return view_renderer.draw(view).color
+
+    print_picture(draw, view_renderer.aspect)
 
 
 def _write_picture(args: argparse.Namespace, frame) -> None:

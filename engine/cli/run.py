@@ -30,7 +30,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     _check(args)
     report = Report(args.verbose)
-    reason = None if args.headless else _missing_screen()
+    reason = None if args.headless or args.terminal else _missing_screen()
     viewed = options.viewed_scene(args, default_scene="default")
     report.loaded(viewed)
     if not args.headless and reason is None:
@@ -38,11 +38,18 @@ def run(args: argparse.Namespace) -> int:
             _show(args, viewed, report)
             return 0
         except DisplayError as error:
+            if args.terminal:
+                raise
             reason = str(error)
     return _write(args, viewed, reason, report)
 
 
 def _check(args: argparse.Namespace) -> None:
+    if args.terminal and (args.headless or args.resolution is not None):
+        other = "--headless" if args.headless else "--resolution"
+        raise UsageError(
+            f"--terminal shows what the terminal has room for: {other} goes without it"
+        )
     if args.output is not None:
         if not args.headless:
             raise UsageError("-o goes with --headless")
@@ -98,12 +105,10 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
     from ..viewer.recent_files import remember
     from ..viewer.sampling import AT_REST, Sampling
     from ..viewer.viewer import Viewer
-    from ..viewer.window import Window
 
-    size = args.resolution or WINDOW_SIZE
     with (
-        Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync) as window,
-        _view_renderer(args, viewed, size, WINDOW, AT_REST, report) as view_renderer,
+        _window(args, viewed) as window,
+        _view_renderer(args, viewed, window.size, WINDOW, AT_REST, report) as view_renderer,
     ):
         viewer = Viewer(
             view_renderer,
@@ -125,6 +130,18 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
         elif isinstance(viewer.walker, GroundController):
             report.line(told(viewer.walker.grid))
         viewer.run(args.frames)
+
+
+def _window(args: argparse.Namespace, viewed):
+    """Return a window, or the terminal in its place."""
+    if args.terminal:
+        from ..terminal.window import TerminalWindow
+
+        return TerminalWindow()
+    from ..viewer.window import Window
+
+    size = args.resolution or WINDOW_SIZE
+    return Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync)
 
 
 def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report) -> int:

@@ -34,6 +34,15 @@ def help_columns() -> list[list[Row]]:
     return [drawing, [*view, GAP, *mouse], [*overlays, GAP, *files, GAP, *window]]
 
 
+def help_lines(columns: int, rows: int, page: int = 0) -> tuple[list[str], int]:
+    """Return one page of the help as lines of text, and how many pages there are."""
+    pages = _pages(columns, rows)
+    shown = pages[min(page, len(pages) - 1)]
+    indent = _indent(shown)
+    lines = [f"{key:{indent}}{text}" if text else key for key, text in shown]
+    return [*lines, _more(page, len(pages))], len(pages)
+
+
 def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DARK) -> int:
     """Draw keys and gestures on a block in the middle.
 
@@ -62,9 +71,12 @@ def draw_help(canvas, page: int = 0, scale: int | None = None, theme: Theme = DA
         return 1
     pages = _pages(*room)
     page = min(page, len(pages) - 1)
-    more = f"{page + 1} of {len(pages)}; H: " + ("more" if page + 1 < len(pages) else "close")
-    _draw_columns(canvas, [[*pages[page], (more, "")]], scale, theme)
+    _draw_columns(canvas, [[*pages[page], (_more(page, len(pages)), "")]], scale, theme)
     return len(pages)
+
+
+def _more(page: int, count: int) -> str:
+    return f"{page + 1} of {count}; H: " + ("more" if page + 1 < count else "close")
 
 
 def _cell(scale: int) -> tuple[int, int]:

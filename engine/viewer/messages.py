@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 
 from ..errors import printable
@@ -38,6 +39,10 @@ class Messages:
             return False
         self.said = ""
         return True
+
+    def remaining(self) -> float:
+        """Return in how many seconds the message ends; infinity if there is none."""
+        return max(0.0, self._ends - time.monotonic()) if self.said else math.inf
 
     def lines(self) -> list[str]:
         """Return what is to be seen now."""

@@ -89,6 +89,11 @@ class Panel:
             y = top + PADDING + number * self._row_height
             canvas.text(left + PADDING, y, text[:columns], color, scale=scale)
 
+    def lines(self) -> list[str]:
+        """Return the list as lines of text."""
+        rows = [f"{row.text}  {row.detail}".rstrip() for row in self.rows()]
+        return [*self.heads(0), *rows, self.hint]
+
     def _fitting_rows(self, canvas) -> tuple[list[Row], list[str], int]:
         """Return the rows that fit, the lines above them, and how many blank ones come below."""
         rows, room = self.rows(), (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height

@@ -80,10 +80,25 @@ def show(
     >>> e3d.show(e3d.render(scene, mode="depth"))
     """
     size = None if size is None else check_size(size)
-    scene = _scene(thing)
-    if scene is None:
+    viewed = viewed_thing(thing, title=title, up=up, update=update, period=period)
+    if viewed is None:
         _show_picture(thing, size, title, format)
         return
+    _show_scene(viewed, size)
+
+
+def viewed_thing(
+    thing,
+    *,
+    title: str | None,
+    up: str,
+    update: Callable[[float], None] | None,
+    period: float,
+) -> ViewedScene | None:
+    """Return what `show` shows of a scene, node or mesh; None for what is none of these."""
+    scene = _scene(thing)
+    if scene is None:
+        return None
     if up not in UP_DIRECTIONS:
         raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
     if not real(period) > 0:
@@ -93,7 +108,17 @@ def show(
     viewed.themed = scene is not thing
     if update is None:
         play_clips(viewed)
-    _show_scene(viewed, size)
+    return viewed
+
+
+def first_view(view_renderer: ViewRenderer) -> Viewpoint | None:
+    """Return the view of the scene's first visible camera; None without one that has an eye."""
+    node = view_renderer.viewed.scene._camera_node()
+    if node is None:
+        return None
+    view = view_renderer.view()
+    look_through(view, node, view_renderer.bounds)
+    return view
 
 
 def _scene(thing) -> Scene | None:
@@ -126,7 +151,7 @@ def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
         Window(*size, f"{viewed.title} - engine3d") as window,
         ViewRenderer(viewed, Settings({}), size) as view_renderer,
     ):
-        view = _first_view(view_renderer)
+        view = first_view(view_renderer)
         viewer = Viewer(view_renderer, window, view=view, sampling=Sampling())
         try:
             viewer.say("H: help")
@@ -136,16 +161,6 @@ def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
             view_renderer.leave_scene()
             if viewed.player is not None:
                 viewed.player.stop()
-
-
-def _first_view(view_renderer: ViewRenderer) -> Viewpoint | None:
-    """Return the view of the scene's first visible camera; None without one that has an eye."""
-    node = view_renderer.viewed.scene._camera_node()
-    if node is None:
-        return None
-    view = view_renderer.view()
-    look_through(view, node, view_renderer.bounds)
-    return view
 
 
 def _show_picture(picture, size, title: str | None, format: PixelFormat | None) -> None:

@@ -19,7 +19,7 @@ from . import actions as viewer_actions
 from .animation_bar import draw_bar
 from .fps import LOOKS, MOVES, FpsController
 from .frame_times import FrameTimes
-from .help_panel import draw_help
+from .help_panel import draw_help, help_lines
 from .keymap import REPEATED, action_for
 from .messages import Messages
 from .model_files import ModelFiles
@@ -121,7 +121,7 @@ class Viewer:
 
     def run_once(self) -> bool:
         """Obey what has happened, and return whether a frame was drawn for it."""
-        for event in self.window.events(0.0 if self._lively() else self._patience()):
+        for event in self.window.events(0.0 if self.lively else self._patience()):
             self.handle(event)
         now = clock.monotonic()
         self.advance(min(now - self._last_turn, LONGEST_STEP))
@@ -137,8 +137,9 @@ class Viewer:
         """Return how long to wait for an event."""
         return min(IDLE_SECONDS, self.sampling.until_rest())
 
-    def _lively(self) -> bool:
-        """Return whether the next frame should come at once rather than wait for an event."""
+    @property
+    def lively(self) -> bool:
+        """Whether the next frame should come at once rather than wait for an event."""
         if self.window.minimised:
             return False
         return self.changed or self.playing or self._walking_now()
@@ -178,10 +179,13 @@ class Viewer:
         self.changed = False
         outputs = ("color",) if self.selected is None else OUTLINE_OUTPUTS
         self.frame = self.view_renderer.draw(self.view, self.time, outputs)
-        self._draw_overlays()
+        if not self.window.writes_text:
+            self._draw_overlays()
         drawn = clock.monotonic()
         self.sampling.add(self.view_renderer.samples, drawn - start)
         self.window.present(self.frame.color)
+        if self.window.writes_text:
+            self.window.write(self._overlay_lines())
         self.frame_times.add(drawn - start, clock.monotonic() - start)
 
     def _draw_overlays(self) -> None:
@@ -203,6 +207,18 @@ class Viewer:
             draw_bar(canvas, self.time / viewed.period, **look)
         draw_block(canvas, self.messages.lines(), corner="bottom", **look)
 
+    def _overlay_lines(self) -> list[str]:
+        """Return the overlays as lines, for a window that writes text."""
+        lines = [] if self.selected is None else self._selection()
+        if self.show_help:
+            page, self.help_pages = help_lines(*self.window.text_room, self.help_page)
+            lines += page
+        elif self.statistics:
+            lines += self._statistics()
+        if self.panel is not None:
+            lines += self.panel.lines()
+        return lines + self.messages.lines()
+
     def _selection(self) -> list[str]:
         thing = self.visibility.object_of(self.selected.node)
         return selection_lines(self.selected, thing, self.view_renderer.viewed.origin)
@@ -223,7 +239,7 @@ class Viewer:
 
     def _update_title(self) -> None:
         """Write the name and what frames take, now and then; at once where nothing moves."""
-        now, idle = clock.monotonic(), not self._lively()
+        now, idle = clock.monotonic(), not self.lively
         if now < self._title_due and not idle:
             return
         self._title_due = now + TITLE_SECONDS

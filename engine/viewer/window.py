@@ -126,6 +126,9 @@ class Window:
         self._presenter = Presenter(sdl, self._window, vsync)
         self._translator = Translator(self._presenter.place, self._presenter.pixels_of)
 
+    #: Text is drawn into the picture; elsewhere it may be written beside it.
+    writes_text = False
+
     # Pictures
 
     def present(self, picture: Picture, format: PixelFormat | None = None) -> None:

@@ -11,6 +11,7 @@ class ScriptedWindow:
         self._script = list(script)
         self.size = size
         self.minimised = False
+        self.writes_text = False
         self.shown = []
         self.titles = []
         self.captured = False

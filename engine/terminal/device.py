@@ -1,0 +1,131 @@
+"""The terminal: bytes in and out, its size, and what it answers when it is asked.
+
+In: the process's terminal, whatever standard input and output are. Out: `Device`, in raw mode for
+as long as it is open; `ask` tells how pictures can be shown.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import select
+import struct
+import time
+from typing import NamedTuple
+
+from ..errors import DisplayError
+
+#: A terminal that answers at all does so within this, over slow connections, too.
+PATIENCE = 2.0
+#: Pixels of a cell where the terminal does not tell.
+USUAL_CELL = (8, 16)
+_ASK_KITTY = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\"
+_ASK_CELL = b"\x1b[16t"
+_ASK_PIXEL_MOUSE = b"\x1b[?1016$p"
+#: Every terminal answers this, so that its answer ends the wait.
+_ASK_ATTRIBUTES = b"\x1b[c"
+_ATTRIBUTES = re.compile(rb"\x1b\[\?([0-9;]*)c")
+_CELL = re.compile(rb"\x1b\[6;(\d+);(\d+)t")
+_SIXEL = b"4"
+
+
+class Answers(NamedTuple):
+    """What a terminal can do.
+
+    Attributes
+    ----------
+    graphics : {"kitty", "sixel", "blocks"}
+    cell : (int, int)
+        Width and height of a cell of text in pixels.
+    pixel_mouse : bool
+        Whether it can report the mouse in pixels instead of cells.
+    """
+
+    graphics: str
+    cell: tuple[int, int]
+    pixel_mouse: bool
+
+
+class Device:
+    """The process's terminal, in raw mode until it is closed.
+
+    Raises
+    ------
+    DisplayError
+        There is none.
+    """
+
+    def __init__(self) -> None:
+        try:
+            import termios
+            import tty
+        except ImportError as error:
+            raise DisplayError("pictures in a terminal need a POSIX system") from error
+        try:
+            self._file = os.open("/dev/tty", os.O_RDWR | os.O_NOCTTY)
+        except OSError as error:
+            raise DisplayError("there is no terminal to show pictures in") from error
+        self._before = termios.tcgetattr(self._file)
+        tty.setraw(self._file)
+
+    def close(self) -> None:
+        """Give the terminal back as it was; may be called twice."""
+        import termios
+
+        if self._file >= 0:
+            termios.tcsetattr(self._file, termios.TCSAFLUSH, self._before)
+            os.close(self._file)
+            self._file = -1
+
+    def __enter__(self) -> Device:
+        return self
+
+    def __exit__(self, *exception) -> None:
+        self.close()
+
+    def write(self, data: bytes) -> None:
+        """Write all of ``data``."""
+        rest = memoryview(data)
+        while rest:
+            rest = rest[os.write(self._file, rest) :]
+
+    def read(self, timeout: float) -> bytes:
+        """Return what was typed or answered; empty if nothing comes within ``timeout`` seconds."""
+        ready, _, _ = select.select([self._file], [], [], max(timeout, 0.0))
+        return os.read(self._file, 1 << 16) if ready else b""
+
+    def cells(self) -> tuple[int, int]:
+        """Return columns and rows."""
+        columns, rows = os.get_terminal_size(self._file)
+        return max(columns, 1), max(rows, 2)
+
+    def ask(self) -> Answers:
+        """Ask the terminal what it can do; one that is silent can show half blocks."""
+        self.write(_ASK_KITTY + _ASK_CELL + _ASK_PIXEL_MOUSE + _ASK_ATTRIBUTES)
+        said, ends = b"", time.monotonic() + PATIENCE
+        while not _ATTRIBUTES.search(said) and (left := ends - time.monotonic()) > 0:
+            said += self.read(left)
+        cell = _CELL.search(said)
+        measured = (int(cell[2]), int(cell[1])) if cell else self._cell_by_system()
+        pixel_mouse = re.search(rb"\x1b\[\?1016;[123]\$y", said) is not None
+        return Answers(_graphics(said), measured, pixel_mouse and cell is not None)
+
+    def _cell_by_system(self) -> tuple[int, int]:
+        """Return the size of a cell as the system knows it."""
+        import fcntl
+        import termios
+
+        size = fcntl.ioctl(self._file, termios.TIOCGWINSZ, bytes(8))
+        rows, columns, width, height = struct.unpack("4H", size)
+        if not (rows and columns and width and height):
+            return USUAL_CELL
+        return max(width // columns, 1), max(height // rows, 1)
+
+
+def _graphics(said: bytes) -> str:
+    if b"\x1b_Gi=31;OK" in said:
+        return "kitty"
+    attributes = _ATTRIBUTES.search(said)
+    # The first number is the terminal's class; what it can do follows.
+    known = attributes[1].split(b";")[1:] if attributes else []
+    return "sixel" if _SIXEL in known else "blocks"

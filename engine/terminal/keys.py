@@ -1,0 +1,163 @@
+"""What a terminal sends, as events: keys, the mouse, whether the terminal has the focus.
+
+In: bytes. Out: values of `engine3d.events`. Terminals say when a key goes down, not when it comes
+up: who needs that waits a moment (window.py). The codes are xterm's, of its "Control Sequences".
+"""
+
+from __future__ import annotations
+
+import re
+import time
+
+from ..events import (
+    CloseRequested,
+    FocusLost,
+    KeyDown,
+    MouseButton,
+    MouseMotion,
+    TextEntered,
+    Wheel,
+)
+
+_SEQUENCE = re.compile(
+    rb"\x1b\[<(?P<button>\d+);(?P<x>-?\d+);(?P<y>-?\d+)(?P<end>[Mm])"
+    rb"|\x1b\[(?P<numbers>[0-9;]*)(?P<letter>[A-Za-z~])"
+    rb"|\x1bO(?P<function>[A-Z])"
+    rb"|\x1b_[^\x1b]*\x1b\\"  # an answer that came late
+    rb"|\x1b\[\?[0-9;]*\$?[a-z]"
+)
+#: What could still become a sequence.
+_BEGUN = re.compile(rb"\x1b(\[[<?]?[0-9;]*|O|_[^\x1b]*\x1b?)?$")
+_LETTERS = {b"A": "Up", b"B": "Down", b"C": "Right", b"D": "Left", b"H": "Home", b"F": "End"}
+_FUNCTIONS = {b"P": "F1", b"Q": "F2", b"R": "F3", b"S": "F4"}
+_NUMBERS = {
+    1: "Home",
+    2: "Insert",
+    3: "Delete",
+    4: "End",
+    5: "PageUp",
+    6: "PageDown",
+    **{number: f"F{key}" for key, number in enumerate((15, 17, 18, 19, 20, 21, 23, 24), 5)},
+}
+_BYTES = {
+    0x0D: "Return",
+    0x09: "Tab",
+    0x1B: "Escape",
+    0x7F: "Backspace",
+    0x08: "Backspace",
+    0x20: "Space",
+}
+_BUTTONS = ("left", "middle", "right")
+_CONTROL_C = 0x03
+#: A second click within this is a double click, in seconds and in pixels.
+_AGAIN_SECONDS, _AGAIN_PIXELS = 0.4, 12
+# Bits of the mouse's number.
+_SHIFT, _CONTROL, _MOVES, _WHEEL = 4, 16, 32, 64
+
+
+class Decoder:
+    """Makes events of the bytes that come, in whatever pieces they come.
+
+    Parameters
+    ----------
+    place : callable
+        Returns the pixel of the picture for what the terminal tells of the mouse's place, from 1.
+    """
+
+    def __init__(self, place) -> None:
+        self._place = place
+        self._rest = b""
+        self._mouse: tuple[int, int] | None = None
+        self._click = (0.0, (0, 0), 0)
+
+    @property
+    def waits(self) -> bool:
+        """Whether a sequence has begun that may be an Escape key alone."""
+        return bool(self._rest)
+
+    def decode(self, data: bytes, *, ended: bool = False) -> list:
+        """Return the events of some bytes; ``ended``: no more come soon, so Escape was a key."""
+        data, self._rest = self._rest + data, b""
+        happened: list = []
+        while data:
+            if data[0] != 0x1B:
+                data = self._plain(data, happened)
+            elif match := _SEQUENCE.match(data):
+                happened += self._sequence(match)
+                data = data[match.end() :]
+            elif not ended and _BEGUN.match(data):
+                self._rest = data
+                break
+            else:
+                happened += _pressed("Escape")
+                data = data[1:]
+        return happened
+
+    def _plain(self, data: bytes, happened: list) -> bytes:
+        """Take in a byte, or a character of several; return what follows."""
+        first = data[0]
+        if first == _CONTROL_C:
+            happened.append(CloseRequested())
+        elif first in _BYTES:
+            happened += _pressed(_BYTES[first])
+            if first == 0x20:
+                happened.append(TextEntered(" "))
+        elif first < 0x20:
+            happened += _pressed(chr(first + 0x40), control=True)
+        else:
+            size = 1 + (first >= 0xC0) + (first >= 0xE0) + (first >= 0xF0)
+            text = data[:size].decode("utf-8", "replace")
+            happened += _pressed(text.upper(), shift=text.isupper())
+            happened.append(TextEntered(text))
+            return data[size:]
+        return data[1:]
+
+    def _sequence(self, match: re.Match) -> list:
+        if match["button"] is not None:
+            return self._mouse_event(match)
+        if match["function"] is not None:
+            name = _FUNCTIONS.get(match["function"]) or _LETTERS.get(match["function"])
+            return _pressed(name) if name else []
+        if match["letter"] is None:
+            return []
+        return _key(match["letter"], [int(number or 0) for number in match["numbers"].split(b";")])
+
+    def _mouse_event(self, match: re.Match) -> list:
+        number, down = int(match["button"]), match["end"] == b"M"
+        x, y = self._place(int(match["x"]), int(match["y"]))
+        before, self._mouse = self._mouse or (x, y), (x, y)
+        if number & _WHEEL:
+            return [Wheel(1.0 if number & 1 == 0 else -1.0, x, y)] if number & 2 == 0 else []
+        if number & _MOVES:
+            return [MouseMotion(x - before[0], y - before[1], x, y)]
+        if number & 3 == 3:
+            return []
+        shift, control = bool(number & _SHIFT), bool(number & _CONTROL)
+        button = _BUTTONS[number & 3]
+        return [MouseButton(button, down, shift, control, x, y, self._clicks(down, x, y))]
+
+    def _clicks(self, down: bool, x: int, y: int) -> int:
+        """Return which click in a row this is."""
+        seconds, (left, top), count = self._click
+        if down:
+            now = time.monotonic()
+            near = abs(x - left) + abs(y - top) <= _AGAIN_PIXELS
+            count = count + 1 if near and now - seconds <= _AGAIN_SECONDS else 1
+            self._click = now, (x, y), count
+        return max(count, 1)
+
+
+def _pressed(key: str, *, shift: bool = False, control: bool = False) -> list:
+    return [KeyDown(key, key, shift, control)]
+
+
+def _key(letter: bytes, numbers: list[int]) -> list:
+    """Return the key of a sequence that ends in a letter; its second number holds modifiers."""
+    if letter == b"O":
+        return [FocusLost()]
+    if letter == b"Z":
+        return _pressed("Tab", shift=True)
+    names = {**_LETTERS, **_FUNCTIONS}
+    name = _NUMBERS.get(numbers[0]) if letter == b"~" else names.get(letter)
+    modifiers = max(numbers[1] - 1, 0) if len(numbers) > 1 else 0
+    return _pressed(name, shift=bool(modifiers & 1), control=bool(modifiers & 4)) if name else []

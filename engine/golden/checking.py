@@ -57,15 +57,10 @@ class Golden:
         The folder for pictures of what failed; it is made when something does.
     written : dict of str to str
         The hashes of the golden files that the run has written, by path; it is added to.
-
-    Attributes
-    ----------
-    results : list of Result
-        One a call.
     """
 
     def __init__(self, place: Place, update: str, failures: str, written: dict[str, str]) -> None:
-        self.results: list[Result] = []
+        self._results: list[Result] = []
         self._place, self._update = place, update
         self._failures, self._written = failures, written
         self._unnamed = 0
@@ -115,6 +110,11 @@ class Golden:
             return
         raise AssertionError(self._explain(case))
 
+    def take_results(self) -> list[Result]:
+        """Return what came of the calls since this was last asked."""
+        taken, self._results = self._results, []
+        return taken
+
     def _begin(self, name: str | None, pixels: np.ndarray) -> _Case:
         """Return a case with the name and the path of its golden file."""
         place = self._place
@@ -131,7 +131,7 @@ class Golden:
             expected=path,
             digest=pixel_hash(pixels),
         )
-        self.results.append(result)
+        self._results.append(result)
         return _Case(result, path, pixels)
 
     def _compare(self, case: _Case, allowances: tuple) -> None:

@@ -21,6 +21,7 @@ from ..files.atomic_write import atomic_write
 from .comparison import Difference, compare
 from .difference_picture import difference_picture
 from .display import displayed
+from .making_folders import make_folder_of
 from .picture_files import SUFFIXES, Picture
 from .png_files import encode
 from .reading import read_picture
@@ -126,7 +127,7 @@ def compare_files(pair: Pair, rules: Rules) -> Result:
     result.status, result.message = CHANGED, _what_differs(*pictures, result, difference)
     if pair.difference is not None:
         result.difference = pair.difference
-        os.makedirs(os.path.dirname(pair.difference) or os.curdir, exist_ok=True)
+        make_folder_of(pair.difference)
         with atomic_write(pair.difference) as file:
             file.write(encode(difference_picture(displayed(shown[1]), difference)))
     return result
@@ -210,6 +211,6 @@ def update(results: list[Result], actual: str, expected: str) -> None:
 
 
 def _copy(source: str, target: str) -> None:
-    os.makedirs(os.path.dirname(target) or os.curdir, exist_ok=True)
+    make_folder_of(target)
     with open(source, "rb") as data, atomic_write(target) as file:
         shutil.copyfileobj(data, file)

@@ -14,7 +14,6 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import os
 import zlib
 from dataclasses import dataclass
 
@@ -24,6 +23,7 @@ from ..errors import FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
 from . import png_files
 from .display import displayed
+from .making_folders import make_folder_of
 from .picture_files import decode_picture
 from .pixel_hash import pixel_hash
 
@@ -78,10 +78,7 @@ def write_golden(path: str, pixels: np.ndarray) -> None:
 
     Raises `FileAccessError`.
     """
-    try:
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-    except OSError as error:
-        raise FileAccessError(f"cannot write: {error.strerror}", path) from error
+    make_folder_of(path)
     with atomic_write(path) as file:
         file.write(encode_golden(pixels))
 

@@ -27,7 +27,8 @@ _RUN = pytest.StashKey[Run]()
 _CHECKER = pytest.StashKey["Golden"]()
 
 
-def pytest_addoption(parser: pytest.Parser) -> None:
+def pytest_addoption(parser: pytest.Parser, pluginmanager: pytest.PytestPluginManager) -> None:
+    _import_as_it_is(pluginmanager)
     group = parser.getgroup("golden", "golden images (engine3d)")
     group.addoption(
         "--golden-update",
@@ -48,6 +49,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="what to do about golden pictures that no test has asked for: report them (default), "
         "fail, or delete them",
     )
+
+
+def _import_as_it_is(pluginmanager: pytest.PytestPluginManager) -> None:
+    """Let pytest import engine3d as Python does.
+
+    pytest rewrites the assertions of every module of a distribution that brings a plugin, which
+    makes importing engine3d half as slow again where no bytecode is kept. It has no switch for
+    that; where it keeps its list elsewhere, modules are rewritten, and work.
+    """
+    hook = getattr(pluginmanager, "rewrite_hook", None)
+    for name in ("_must_rewrite", "_marked_for_rewrite_cache"):
+        marked = getattr(hook, name, None)
+        if isinstance(marked, set):
+            marked.discard("engine3d")
+        elif isinstance(marked, dict):
+            marked.clear()
 
 
 def pytest_load_initial_conftests(args: list[str]) -> None:
@@ -92,13 +109,12 @@ def golden(request: pytest.FixtureRequest) -> Golden:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo):
-    checker = item.stash.get(_CHECKER, None) if call.when == "call" else None
-    if checker is not None:
-        texts = [(f"golden {r.name}", r.message or r.status) for r in checker.results]
-        item.user_properties.extend(texts)
+    checker = item.stash.get(_CHECKER, None)
+    results = [] if checker is None else checker.take_results()
+    item.user_properties += [(f"golden {r.name}", r.message or r.status) for r in results]
     report = yield
-    if checker is not None:
-        setattr(report, RESULTS, [result.as_dict() for result in checker.results])
+    if results:
+        setattr(report, RESULTS, [result.as_dict() for result in results])
     return report
 
 
@@ -141,7 +157,8 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         return
     from .run_end import finish
 
-    if not finish(run, session.config) and session.exitstatus == pytest.ExitCode.OK:
+    well = finish(run, session.config)
+    if not well and session.exitstatus == pytest.ExitCode.OK:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 

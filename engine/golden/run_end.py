@@ -11,6 +11,8 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..errors import FileAccessError
+from .making_folders import make_folder_of
 from .names import SUFFIX
 from .results import CHANGED, NEW, PASSED, TWO_PICTURES, UNUSED, UPDATED, Result
 from .runs import Run, folder_of
@@ -22,26 +24,41 @@ if TYPE_CHECKING:
 def finish(run: Run, config: pytest.Config) -> bool:
     """Do it; return False where the run must fail though its tests passed."""
     results = sorted((Result(**one) for one in run.results), key=lambda r: (r.name, r.test))
-    root = config.rootpath
-    unused = [] if _is_partial(run, config) else find_unused(run, root)
-    what_to_do = config.option.golden_unused
     conflicts = two_pictures(results)
     run.lines += [f"{name}: {TWO_PICTURES}" for name in conflicts]
+    _count(results, run, config.rootpath)
+    unused = [] if _is_partial(run, config) else find_unused(run, config.rootpath)
+    try:
+        results += _treat_unused(unused, run, config)
+        _write_files(results, run, config)
+    except FileAccessError as error:
+        run.lines.append(f"error: {error}")
+        return False
+    return not conflicts and not (unused and config.option.golden_unused == "fail")
+
+
+def _count(results: list[Result], run: Run, root: Path) -> None:
+    """Say how many pictures there are of each kind, where they did not all pass."""
     counts = Counter(result.status for result in results)
     if set(counts) - {PASSED}:
         order = (PASSED, CHANGED, NEW, UPDATED)
         run.lines.append(", ".join(f"{counts[one]} {one}" for one in order if counts[one]))
     written = dict.fromkeys(r.expected for r in results if r.status == UPDATED)
     run.lines += [f"written: {_short(path, root)}" for path in written if path]
+
+
+def _treat_unused(unused: list[Path], run: Run, config: pytest.Config) -> list[Result]:
+    """Report or delete files; return results of those that are left. Raises `FileAccessError`."""
+    deletes = config.option.golden_unused == "delete"
+    done = "deleted, no test asks for it" if deletes else "no test asks for it"
     for path in unused:
-        if what_to_do == "delete":
-            path.unlink()
-        done = "deleted, no test asks for it" if what_to_do == "delete" else "no test asks for it"
-        run.lines.append(f"{done}: {_short(path, root)}")
-    if what_to_do != "delete":
-        results += [_unused_result(path, root) for path in unused]
-    _write_files(results, run, config)
-    return not conflicts and (not unused or what_to_do != "fail")
+        try:
+            if deletes:
+                path.unlink()
+        except OSError as error:
+            raise FileAccessError(f"cannot delete: {error.strerror}", path) from error
+        run.lines.append(f"{done}: {_short(path, config.rootpath)}")
+    return [] if deletes else [_unused_result(path, config.rootpath) for path in unused]
 
 
 def two_pictures(results: list[Result]) -> list[str]:
@@ -99,6 +116,8 @@ def _short(path: str | Path, root: Path) -> str:
 
 def _write_files(results: list[Result], run: Run, config: pytest.Config) -> None:
     html, json = config.option.golden_report, config.option.golden_json
+    for path in filter(None, (html, json)):
+        make_folder_of(path)
     if html:
         from .report import Report
 

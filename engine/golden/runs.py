@@ -32,7 +32,7 @@ class Run:
     collected, passed : dict of str to int
         How many tests of a file will run, and how many have passed.
     partial : set of str
-        Files of which some tests were left out.
+        Files of which some tests were left out, or failed in a fixture.
     written : dict of str to str
         The hashes of the golden files that this process has written, by path.
     lines : list of str
@@ -49,9 +49,12 @@ class Run:
 
     def take(self, report: pytest.TestReport) -> None:
         """Take over the results of a test."""
+        self.results += getattr(report, RESULTS, ())
+        file = file_of(report.nodeid)
         if report.when == "call":
-            self.results += getattr(report, RESULTS, ())
-            self.passed[file_of(report.nodeid)] += report.passed
+            self.passed[file] += report.passed
+        elif report.failed:
+            self.partial.add(file)
 
     def has_golden_pictures(self, config: pytest.Config) -> bool:
         """Return whether there is anything to do at the end."""

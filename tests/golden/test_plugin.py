@@ -270,6 +270,21 @@ def test_own(golden): assert golden == 7
     run(code).assert_outcomes(passed=1)
 
 
+def test_calls_of_other_fixtures_count(run):
+    code = """
+@pytest.fixture
+def before_and_after(golden):
+    golden(picture(), "before")
+    yield
+    golden(picture(), "after")
+def test_it(before_and_after, golden): golden(picture(), "within")
+"""
+    result = run(code, "--golden-update")
+    result.assert_outcomes(passed=1)
+    result.stdout.fnmatch_lines(["3 updated"])
+    assert unused(run(None)) == []
+
+
 # Unused files
 
 TWO = """
@@ -346,6 +361,14 @@ def test_json_and_junit(run):
     assert properties["golden test_a/test_two"].startswith("1 of 48 pixels differ")
 
 
+def test_folders_of_reports_are_made_and_errors_are_told(run):
+    assert run(ONE.format(0), "--golden-update", "--golden-report=a/b/r.html").ret == 0
+    assert (run.path / "a" / "b" / "r.html").is_file()
+    result = run(None, "--golden-json=test_a.py/r.json")
+    assert result.ret == pytest.ExitCode.TESTS_FAILED
+    result.stdout.fnmatch_lines(["error: test_a.py/r.json: cannot write: *"])
+
+
 def test_workers_collect_and_one_process_reports(run, pytester):
     pytest.importorskip("xdist", reason="needs pytest-xdist")
     code = """
@@ -373,18 +396,31 @@ def test_it(golden, n): golden(picture(n)); golden(picture(), "shared")
 
 PROBE = """
 import sys
+
 def test_nothing():
-    assert "engine3d.golden.plugin" in sys.modules
-    loaded = [name for name in sys.modules if name.startswith("engine3d")]
-    assert "numpy" not in sys.modules and "PIL" not in sys.modules, sys.modules.keys()
-    assert sorted(loaded) == {expected}
+    loaded = sorted(name for name in sys.modules if name.startswith("engine3d"))
+    assert loaded == {expected}
+    assert "numpy" not in sys.modules and "PIL" not in sys.modules
+
+def test_assertions_of_engine3d_stay_as_they_are():
+    import engine3d.choices
+    assert type(engine3d.choices.__loader__).__name__ != "AssertionRewritingHook"
+    import other
+    assert type(other.__loader__).__name__ == "AssertionRewritingHook"
 """
 
 
-def test_it_costs_nothing_when_it_is_not_used(pytester):
+def test_it_costs_nothing_when_it_is_not_used(pytester, monkeypatch):
     expected = ["engine3d", "engine3d.golden", "engine3d.golden.plugin", "engine3d.golden.runs"]
-    pytester.makepyfile(PROBE.format(expected=[*expected, "engine3d.version"]))
-    pytester.runpytest_subprocess("-p", "no:cacheprovider").assert_outcomes(passed=1)
+    pytester.makepyfile(test_a=PROBE.format(expected=[*expected, "engine3d.version"]), other="")
+    # A distribution that names the files which a wheel installs; an editable install names none.
+    folder = pytester.mkdir("fake-1.dist-info")
+    (folder / "METADATA").write_text("Name: fake\nVersion: 1\n")
+    (folder / "RECORD").write_text("engine3d/__init__.py,,\nother.py,,\n")
+    (folder / "entry_points.txt").write_text("[pytest11]\nfake = other\n")
+    monkeypatch.setenv("PYTHONPATH", str(pytester.path))
+    result = pytester.runpytest_subprocess("-p", "no:cacheprovider")
+    result.assert_outcomes(passed=2)
 
 
 def test_the_fixture_is_listed(run):

@@ -107,15 +107,15 @@ def golden(request: pytest.FixtureRequest) -> Golden:
     return item.stash[_CHECKER]
 
 
-@pytest.hookimpl(wrapper=True)
+# The older kind of wrapper: an old pytest, too, must start where engine3d is installed.
+@pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo):
     checker = item.stash.get(_CHECKER, None)
     results = [] if checker is None else checker.take_results()
     item.user_properties += [(f"golden {r.name}", r.message or r.status) for r in results]
-    report = yield
+    outcome = yield
     if results:
-        setattr(report, RESULTS, [result.as_dict() for result in results])
-    return report
+        setattr(outcome.get_result(), RESULTS, [result.as_dict() for result in results])
 
 
 def pytest_deselected(items: list[pytest.Item]) -> None:

@@ -372,6 +372,7 @@ if __name__ == "__main__":
         package_data={
             "engine3d": ["py.typed", "*.pyi"],
             "engine3d._native": ["*.pyi"],
+            "engine3d.golden": ["*.html"],
             "engine3d.data": [f"**/*.{suffix}" for suffix in DATA_SUFFIXES],
             # Text only: their pictures are in docs/course, and are drawn anew by whoever runs them.
             "engine3d.lessons": ["*.c", "*.obj", "*.asc"],

@@ -26,6 +26,8 @@ import numpy as np
 import engine3d as e3d
 from engine3d import linalg
 from engine3d.demos import load_demo
+from engine3d.golden.comparison import compare
+from engine3d.golden.difference_picture import difference_picture
 from engine3d.viewer.open_model import open_model
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.view_renderer import ViewRenderer
@@ -277,6 +279,21 @@ def impostors() -> np.ndarray:
     return sheet(tiles, 3)
 
 
+def golden() -> np.ndarray:
+    """A golden picture, one in which a ball has moved a little, and where they differ."""
+    tiles = []
+    for caption, x in (("golden", 2.3), ("drawn now", 2.32)):
+        scene = e3d.Scene(background=(196, 211, 222))
+        add_daylight(scene)
+        stand(scene, "teapot.obj", at=(-0.5, 0.0), height=2.2, turn=0.4)
+        ball = e3d.uv_sphere(0.6)
+        ball.materials = [e3d.Material(color=(196, 40, 40))]
+        scene.add(ball, translation=(x, 0.6, 1.2))
+        tiles.append((caption, draw(scene, look((2.0, 5.0, 14.0), (0.2, 1.0, 0.0)), (420, 300))))
+    drawn, now = tiles[0][1], tiles[1][1]
+    return sheet([*tiles, ("difference", difference_picture(drawn, compare(now, drawn)))], 3)
+
+
 PICTURES = {
     "models": models,
     "modes": modes,
@@ -286,6 +303,7 @@ PICTURES = {
     "viewer": viewer,
     "city": city,
     "impostors": impostors,
+    "golden": golden,
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.

@@ -11,6 +11,7 @@ from ..benchmarking.names import WORKLOADS
 from ..version import __version__
 from . import (
     ambient_options,
+    diff_options,
     environment_options,
     light_options,
     options,
@@ -33,9 +34,9 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     parser = make_parser()
     args, unknown = parser.parse_known_args(options.join_values(arguments))
     # Of positional arguments with options between them argparse takes only the first ones.
-    models = getattr(args, "models", None)
-    if models and not any(_is_option(argument) for argument in unknown):
-        models += unknown
+    files = getattr(args, "models", None) or getattr(args, "pictures", None)
+    if files and not any(_is_option(argument) for argument in unknown):
+        files += unknown
         unknown = []
     if unknown:
         program = " ".join(filter(None, ("engine3d", args.command)))
@@ -72,13 +73,14 @@ def make_parser() -> Parser:
     _add_edit(commands)
     _add_render(commands)
     _add_info(commands)
+    _add_diff(commands)
     _add_convert(commands)
     _add_city(commands)
     _add_learn(commands)
     _add_bench(commands)
     _add_completion(commands, parser)
     parser.commands = commands.choices
-    for name in ("run", "edit", "render", "info", "convert", "city"):
+    for name in ("run", "edit", "render", "info", "diff", "convert", "city"):
         options.add_quiet(commands.choices[name])
     return parser
 
@@ -152,6 +154,18 @@ def _add_info(commands) -> None:
     command.add_argument(
         "--json", action="store_true", help="print JSON: a list where there are several files"
     )
+
+
+def _add_diff(commands) -> None:
+    command = commands.add_parser(
+        "diff",
+        help="compare pictures, or folders of them",
+        description="Compare two pictures, or the pictures of two folders: what was drawn with "
+        "what it should be. Exit status 1 if one changed. Options are those of reg-cli.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_diff)
+    diff_options.add_diff(command)
 
 
 def _add_convert(commands) -> None:
@@ -306,7 +320,8 @@ def _add_completion(commands, parser: Parser) -> None:
 
 def _missing_command():
     raise UsageError(
-        "say which command: run, edit, render, info, convert, city, learn, bench or completion "
+        "say which command: run, edit, render, info, diff, convert, city, learn, bench or "
+        "completion "
         "(see engine3d --help)"
     )
 
@@ -333,6 +348,12 @@ def _load_info():
     from .info import info
 
     return info
+
+
+def _load_diff():
+    from .diff import diff
+
+    return diff
 
 
 def _load_convert():

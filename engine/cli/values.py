@@ -129,6 +129,13 @@ def count(text: str) -> int:
     return int(text)
 
 
+def whole(text: str) -> int:
+    """Parse a whole number, zero or more."""
+    if not re.fullmatch(r"\d{1,9}", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 0")
+    return int(text)
+
+
 def ui_scale(text: str) -> int:
     """Parse a factor on the size of texts."""
     if not re.fullmatch(r"\d", text) or not 1 <= int(text) <= MAX_UI_SCALE:

@@ -92,7 +92,7 @@ def read_image(source: Source) -> np.ndarray:
     from PIL import Image
 
     try:
-        with _quiet_pillow(), Image.open(io.BytesIO(source.data), formats=PILLOW_FORMATS) as image:
+        with quiet_pillow(), Image.open(io.BytesIO(source.data), formats=PILLOW_FORMATS) as image:
             check_image_size(*image.size, source.path, source.size)
             return rgba_pixels(image, source.path)
     except FileFormatError:
@@ -108,7 +108,7 @@ def read_image(source: Source) -> np.ndarray:
 
 
 @contextlib.contextmanager
-def _quiet_pillow():
+def quiet_pillow():
     """Silence warnings of what Pillow passes over, and of sizes that are not too large here."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -1,0 +1,6 @@
+"""Golden images: pictures that lie beside tests, compared by their hashes.
+
+`plugin` is what pytest loads: it brings the fixture ``golden``. ``engine3d diff`` compares pictures
+and folders of them with the same code. docs/golden.md is the guide. Nothing is imported here, nor
+by the plugin before a test asks for the fixture, so that other tests start as fast as without it.
+"""

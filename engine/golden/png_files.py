@@ -1,0 +1,105 @@
+"""PNG files chunk by chunk: written from arrays of 8 and 16 bits, taken apart, 16 bits read whole.
+
+In:  arrays, or the bytes of a file. Out: the bytes of a file, or its chunks. Pillow keeps only the
+     upper bytes of colours with 16 bits a channel, and writes none. Source: PNG specification,
+     third edition (W3C, 2025).
+"""
+
+from __future__ import annotations
+
+import io
+import struct
+import zlib
+from collections.abc import Iterable
+
+import numpy as np
+
+from .._native.images import encode_png
+
+SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_COLOR_TYPES = {1: 0, 2: 4, 3: 2, 4: 6}  # by the number of channels
+_CHANNELS = {kind: channels for channels, kind in _COLOR_TYPES.items()}
+_HEADER = struct.Struct(">IIBBBBB")
+_UP = 2  # a filter: each row less the one above
+
+
+class DamagedPng(ValueError):
+    """The bytes are no whole PNG file."""
+
+
+def join_chunks(chunks: Iterable[tuple[bytes, bytes]]) -> bytes:
+    """Return the file of (name, content) pairs."""
+    parts = [SIGNATURE]
+    for name, content in chunks:
+        sum_of_both = zlib.crc32(content, zlib.crc32(name))
+        parts += [struct.pack(">I", len(content)), name, content, struct.pack(">I", sum_of_both)]
+    return b"".join(parts)
+
+
+def split_chunks(file: bytes) -> list[tuple[bytes, bytes]]:
+    """Return the (name, content) pairs of a file, up to its end; their sums are checked.
+
+    Raises `DamagedPng`.
+    """
+    if not file.startswith(SIGNATURE):
+        raise DamagedPng("not a PNG file")
+    chunks, at = [], len(SIGNATURE)
+    while not chunks or chunks[-1][0] != b"IEND":
+        head = file[at : at + 8]
+        length = int.from_bytes(head[:4], "big")
+        end = at + 12 + length
+        if len(head) < 8 or end > len(file):
+            raise DamagedPng("the PNG file ends too early")
+        name, content = head[4:], file[at + 8 : end - 4]
+        if zlib.crc32(content, zlib.crc32(name)) != int.from_bytes(file[end - 4 : end], "big"):
+            raise DamagedPng("the PNG file is damaged")
+        chunks.append((name, content))
+        at = end
+    return chunks
+
+
+def encode(pixels: np.ndarray) -> bytes:
+    """Return the file of (H, W) or (H, W, 1 to 4) pixels, uint8 or uint16."""
+    if pixels.dtype == np.uint8 and pixels.shape[2:] == (4,):
+        return encode_png(pixels)
+    height, width = pixels.shape[:2]
+    channels = pixels.shape[2] if pixels.ndim == 3 else 1
+    bits = 8 * pixels.dtype.itemsize
+    rows = pixels.astype(pixels.dtype.newbyteorder(">")).reshape(height, -1).view(np.uint8)
+    lines = np.full((height, rows.shape[1] + 1), _UP, np.uint8)
+    lines[0, 1:] = rows[0]
+    np.subtract(rows[1:], rows[:-1], out=lines[1:, 1:])
+    header = _HEADER.pack(width, height, bits, _COLOR_TYPES[channels], 0, 0, 0)
+    body = zlib.compress(lines.tobytes(), 9)
+    return join_chunks([(b"IHDR", header), (b"IDAT", body), (b"IEND", b"")])
+
+
+def is_deep(file: bytes) -> bool:
+    """Return whether a file has 16 bits a channel, and more than grey ones."""
+    name_and_header = file[12 : 16 + _HEADER.size]
+    if not file.startswith(SIGNATURE) or len(name_and_header) < 4 + _HEADER.size:
+        return False
+    _, _, bits, color_type, *_ = _HEADER.unpack(name_and_header[4:])
+    return bits == 16 and _CHANNELS.get(color_type, 1) > 1
+
+
+def read_deep(file: bytes) -> np.ndarray:
+    """Return the (H, W, 2 to 4) uint16 pixels of a file of which `is_deep` is true.
+
+    Pillow unpacks the same data twice: once as the upper bytes, once as the lower ones.
+    """
+    channels = _CHANNELS[file[25]]
+    if channels == 2:  # four bytes a pixel, as RGBA of 8 bits has
+        return _unpacked(file, "RGBA", "RGBA").view(">u2").astype(np.uint16)
+    mode = "RGB" if channels == 3 else "RGBA"
+    upper, lower = (_unpacked(file, mode, f"{mode};16{order}") for order in "BL")
+    return upper.astype(np.uint16) << 8 | lower
+
+
+def _unpacked(file: bytes, mode: str, raw_mode: str) -> np.ndarray:
+    from PIL import Image
+
+    with Image.open(io.BytesIO(file), formats=("PNG",)) as image:
+        image._mode = mode
+        image.tile = [tile._replace(args=raw_mode) for tile in image.tile]
+        return np.array(image)

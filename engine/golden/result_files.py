@@ -1,0 +1,120 @@
+"""Results as JSON, with the lists that reg-cli writes, and as JUnit's XML."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+from xml.etree import ElementTree
+
+from ..errors import FileAccessError, FileFormatError, printable
+from ..files.atomic_write import atomic_write
+from .results import CHANGED, DELETED, NEW, PASSED, UNUSED, UPDATED, Result
+
+FAILURES = (CHANGED, NEW, DELETED)
+_LISTS = {
+    "failedItems": (CHANGED,),
+    "newItems": (NEW,),
+    "deletedItems": (DELETED, UNUSED),
+    "passedItems": (PASSED, UPDATED),
+}
+
+
+def write_json(path: str, results: list[Result], folders: dict[str, str] | None = None) -> None:
+    """Write lists of names as reg-cli does, and all that is known of each picture.
+
+    Parameters
+    ----------
+    path : str
+    results : list of Result
+    folders : dict, optional
+        ``actualDir``, ``expectedDir`` and ``diffDir``.
+
+    Raises
+    ------
+    FileAccessError
+    """
+    lists = {
+        key: _names(result for result in results if result.status in statuses)
+        for key, statuses in _LISTS.items()
+    }
+    document = {
+        **lists,
+        "expectedItems": _names(r for r in results if r.status != NEW),
+        "actualItems": _names(r for r in results if r.status not in (DELETED, UNUSED)),
+        "diffItems": _names(r for r in results if r.difference is not None),
+        **(folders or {}),
+        "pictures": [result.as_dict() for result in results],
+    }
+    with atomic_write(path) as file:
+        file.write(json.dumps(document, indent=1).encode("ascii") + b"\n")
+
+
+def _names(results) -> list[str]:
+    return sorted({result.name for result in results})
+
+
+def read_json(path: str) -> list[Result]:
+    """Return the results that `write_json` wrote, or that reg-cli did.
+
+    Raises `FileAccessError`, or `FileFormatError` where the file is no such list.
+    """
+    try:
+        with open(path, encoding="utf-8") as file:
+            document = json.load(file)
+    except OSError as error:
+        raise FileAccessError(f"cannot read: {error.strerror}", path) from error
+    except ValueError as error:
+        raise FileFormatError(f"no JSON: {error}", path) from error
+    try:
+        if "pictures" in document:
+            return [Result(**picture) for picture in document["pictures"]]
+        return list(_of_reg_cli(document))
+    except (TypeError, KeyError, AttributeError) as error:
+        raise FileFormatError("no results of pictures that were compared", path) from error
+
+
+def _of_reg_cli(document: dict[str, Any]):
+    for key, (status, *_) in _LISTS.items():
+        for name in document[key]:
+            name = name.lstrip("/")
+            paths = {
+                kind: f"{document[folder]}/{name}"
+                for kind, folder, listed in (
+                    ("actual", "actualDir", status != DELETED),
+                    ("expected", "expectedDir", status != NEW),
+                    ("difference", "diffDir", status == CHANGED),
+                )
+                if listed
+            }
+            yield Result(name, status, **paths)
+
+
+def write_junit(path: str, results: list[Result], failures: tuple[str, ...]) -> None:
+    """Write a test case for each picture; those whose status is a failure fail.
+
+    Raises `FileAccessError`.
+    """
+    failed = sum(result.status in failures for result in results)
+    counts = {"tests": str(len(results)), "failures": str(failed)}
+    suites = ElementTree.Element("testsuites", name="engine3d diff", **counts)
+    suite = ElementTree.SubElement(suites, "testsuite", name="pictures", **counts)
+    for result in results:
+        case = ElementTree.SubElement(
+            suite, "testcase", classname="pictures", name=_of_xml(result.name)
+        )
+        properties = ElementTree.SubElement(case, "properties")
+        for key in ("status", "different", "total", "largest", "expected", "actual", "difference"):
+            value = getattr(result, key)
+            if value is not None:
+                ElementTree.SubElement(properties, "property", name=key, value=_of_xml(str(value)))
+        if result.status in failures:
+            message = _of_xml(result.message)
+            ElementTree.SubElement(case, "failure", type=result.status, message=message)
+    text = ElementTree.tostring(suites, encoding="utf-8", xml_declaration=True)
+    with atomic_write(path) as file:
+        file.write(text + b"\n")
+
+
+def _of_xml(text: str) -> str:
+    """Return a text without what XML cannot hold."""
+    return printable(text).encode("utf-8", "backslashreplace").decode()

@@ -1,0 +1,65 @@
+"""What is known of a run of tests: a few lists, which cost nothing where no test has pictures."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pytest
+
+FOLDER = "golden"
+RESULTS = "engine3d_golden"  # what reports, and processes of pytest-xdist, carry results as
+
+
+def folder_of(module: Path) -> Path:
+    """Return the folder of the golden pictures of a test's module."""
+    return module.parent / FOLDER / module.stem
+
+
+def file_of(node: str) -> str:
+    return node.partition("::")[0]
+
+
+class Run:
+    """What is known of a run.
+
+    Attributes
+    ----------
+    results : list of dict
+        `Result.as_dict` of each picture.
+    collected, passed : dict of str to int
+        How many tests of a file will run, and how many have passed.
+    partial : set of str
+        Files of which some tests were left out, or failed in a fixture.
+    written : dict of str to str
+        The hashes of the golden files that this process has written, by path.
+    lines : list of str
+        What is said at the end.
+    """
+
+    def __init__(self) -> None:
+        self.results: list[dict] = []
+        self.collected: dict[str, int] = {}
+        self.passed: Counter[str] = Counter()
+        self.partial: set[str] = set()
+        self.written: dict[str, str] = {}
+        self.lines: list[str] = []
+
+    def take(self, report: pytest.TestReport) -> None:
+        """Take over the results of a test."""
+        self.results += getattr(report, RESULTS, ())
+        file = file_of(report.nodeid)
+        if report.when == "call":
+            self.passed[file] += report.passed
+        elif report.failed:
+            self.partial.add(file)
+
+    def has_golden_pictures(self, config: pytest.Config) -> bool:
+        """Return whether there is anything to do at the end."""
+        option = config.option
+        if self.results or option.golden_report or option.golden_json:
+            return True
+        folders = {(config.rootpath / file).parent / FOLDER for file in self.collected}
+        return any(folder.is_dir() for folder in folders)

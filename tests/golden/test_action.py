@@ -1,0 +1,88 @@
+"""The GitHub Action: its shell runs here, its description names what the scripts take."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from golden.samples import write_png
+from golden.test_plugin import DRAWN, HEAD
+
+ACTION = Path(__file__).resolve().parents[2] / ".github" / "actions" / "golden"
+
+
+@pytest.fixture
+def start(tmp_path):
+    """Runs the action's first step in a folder; returns (process, outputs, summary)."""
+    bash = shutil.which("bash") or pytest.skip("needs bash")
+
+    def start(arguments=""):
+        environment = {
+            **os.environ,
+            "GITHUB_ACTION_PATH": str(ACTION),
+            "GITHUB_OUTPUT": str(tmp_path / "outputs"),
+            "GITHUB_STEP_SUMMARY": str(tmp_path / "summary"),
+            "GOLDEN_ARGUMENTS": arguments,
+            "GOLDEN_FOLDER": "report folder",
+            "GOLDEN_PYTHON": sys.executable,
+        }
+        environment.pop("CI", None)
+        done = subprocess.run(
+            [bash, ACTION / "test.sh"],
+            cwd=tmp_path,
+            env=environment,
+            capture_output=True,
+            text=True,
+        )
+        outputs = (tmp_path / "outputs").read_text() if (tmp_path / "outputs").exists() else ""
+        return done, dict(line.split("=") for line in outputs.splitlines())
+
+    return start
+
+
+def test_a_difference_is_reported(start, tmp_path):
+    code = (
+        "def test_a(golden): golden(picture(3))\ndef test_b(golden): golden(picture(), 'x|<b>`')\n"
+    )
+    (tmp_path / "test_one.py").write_text(HEAD + code)
+    write_png(tmp_path / "golden" / "test_one" / "test_a.png", DRAWN)
+    done, outputs = start("-q -p no:cacheprovider\n-k 'test_a or test_b'")
+    assert done.returncode == 0, done.stderr
+    assert outputs == {"status": "1", "changed": "2"}
+    files = {path.name for path in (tmp_path / "report folder").iterdir()}
+    assert files == {"report.html", "golden.json", "junit.xml"}
+    lines = (tmp_path / "summary").read_text().splitlines()
+    assert lines[0] == "### Golden pictures: 1 changed, 1 new"
+    rows = [line for line in lines if line.startswith("| test_one/")]
+    message = "1 of 48 pixels differ by up to 3, within (3, 2) to (3, 2)"
+    assert f"| test_one/test_a | changed | {message} | test_one.py::test_a |" in rows
+    assert len(rows) == 2 and all(len(re.findall(r"\|", row)) == 5 for row in rows)
+    assert "<b>" not in "".join(rows) and "`" not in "".join(rows)
+
+
+def test_arguments_run_no_commands(start, tmp_path):
+    done, outputs = start("--version $(touch a) `touch b` ; touch c")
+    assert outputs["changed"] == "0" and outputs["status"] != ""
+    assert not {"a", "b", "c"} & {path.name for path in tmp_path.iterdir()}
+    done, outputs = start("'not closed")
+    assert done.returncode == 2 and "cannot read the arguments" in done.stderr
+
+
+def test_the_description_names_what_the_scripts_take():
+    text = (ACTION / "action.yml").read_text("utf-8")
+    inputs = set(re.findall(r"inputs\.(\w+)", text))
+    declared = text[text.index("inputs:") : text.index("outputs:")]
+    assert set(re.findall(r"^  (\w+):$", declared, re.M)) == inputs
+    variables = set(re.findall(r"(GOLDEN_\w+):", text)) - {"GOLDEN_STATUS"}
+    assert variables == set(re.findall(r"GOLDEN_\w+", (ACTION / "test.sh").read_text("utf-8")))
+    assert set(re.findall(r"outputs\.(\w+)", text)) == {"status", "changed"}
+
+
+def test_the_page_names_every_input():
+    page = (ACTION.parents[2] / "docs" / "golden.md").read_text("utf-8")
+    text = (ACTION / "action.yml").read_text("utf-8")
+    for name in {*re.findall(r"inputs\.(\w+)", text), "status", "changed"}:
+        assert f"`{name}`" in page

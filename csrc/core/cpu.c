@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "core/built_backends.h"
 #include "core/limits.h"
 #include "e3d.h"
 
@@ -22,12 +23,10 @@ int e3d_backend_available(e3d_backend backend)
     switch (backend) {
     case E3D_BACKEND_SCALAR:
     case E3D_BACKEND_PORTABLE: return 1;
-#ifdef E3D_HAVE_X86 /* __builtin_cpu_supports also asks whether the system saves the registers */
-#define HAS(instructions) __builtin_cpu_supports(instructions)
+#define HAS(instructions) __builtin_cpu_supports(instructions) /* also asks whether the system saves the registers */
 #define AVAILABLE(backend, name, has_all) \
     case backend: return (has_all) != 0;
-        E3D_EACH_X86_BACKEND(AVAILABLE)
-#endif
+        E3D_EACH_BUILT_BACKEND(AVAILABLE)
     default: return 0;
     }
 }

@@ -29,8 +29,8 @@ ISA_FLAGS = SETUP["isa_flags"](MACHINE)
 BACKENDS = ["portable", *ISA_FLAGS]
 LEVELS = ["-O0", "-O1", "-O2", "-O3"]
 BASELINE = ("portable", "-O3")
-# The name of an instruction set for __builtin_cpu_supports.
 LEANS_ON = {"avx512": ["avx512", "avx2"]}  # narrow pieces are rastered by the other table
+# What compilers call an instruction set.
 CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
 CPU_LACKS_IT = 3  # exit status of the timer
 TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}

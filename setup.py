@@ -69,10 +69,13 @@ COMMON_MODULE = f"{NATIVE}._common"
 TESTING_MODULE = f"{NATIVE}.kernels_testing"
 
 
-def isa_flags():
-    """The flags of each set of kernels for x86-64, from the core's own list of backends."""
+def isa_flags(machine):
+    """The flags of each set of SIMD kernels for `machine`, from the core's own list of backends.
+
+    machine: as in `MACHINE`.
+    """
     header = Path(__file__).with_name("csrc") / "include" / "e3d_backends.h"
-    _, _, rows = header.read_text("utf-8").partition("#define E3D_EACH_X86_BACKEND(X)")
+    _, _, rows = header.read_text("utf-8").partition(f"#define E3D_EACH_{machine}_BACKEND(X)")
     rows = rows.partition("\n\n")[0].split("X(E3D_BACKEND_")[1:]
     flags = {}
     for row in rows:
@@ -81,9 +84,15 @@ def isa_flags():
     return flags
 
 
+def machine_of(platform):
+    """X86 or AARCH64, as the core calls them, or an empty text: of a name of a platform."""
+    names = {"X86": r"x86_64|amd64", "AARCH64": r"aarch64(?!_be)|arm64"}
+    return next((name for name, pattern in names.items() if re.search(pattern, platform)), "")
+
+
 BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
-ISA_FLAGS = isa_flags()
-IS_X86_64 = sysconfig.get_platform().endswith(("x86_64", "amd64"))
+# What the built code runs on: of the rest, the kernels are portable only.
+MACHINE = machine_of(sysconfig.get_platform())
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
@@ -96,7 +105,7 @@ def common_flags():
     """The flags of every C file, the kernels too."""
     if BUILD not in BUILDS:
         raise SystemExit(f"ENGINE3D_BUILD={BUILD}: expected one of {', '.join(BUILDS)}")
-    baseline = ["-march=x86-64", "-mtune=generic"] if IS_X86_64 else []
+    baseline = ["-march=x86-64", "-mtune=generic"] if MACHINE == "X86" else []
     return [*baseline, *BUILDS[BUILD], *EXACT, *HYGIENE, *SANITIZERS.get(BUILD, [])]
 
 
@@ -113,7 +122,7 @@ def build_base():
 
 
 def static_libraries():
-    """The (name, build_info) pairs that `build_clib` compiles; the ISA files only on x86-64."""
+    """The (name, build_info) pairs that `build_clib` compiles; the ISA files of one machine."""
     sources = {
         "e3d_core": [
             "csrc/core/*.c",
@@ -135,9 +144,9 @@ def static_libraries():
         "e3d_writers": ["csrc/writers/*.c"],
     }
     kernel_flags = {"e3d_portable": []}
-    if IS_X86_64:
-        sources.update({f"e3d_{isa}": [f"csrc/kernels/isa_{isa}.c"] for isa in ISA_FLAGS})
-        kernel_flags.update({f"e3d_{isa}": flags for isa, flags in ISA_FLAGS.items()})
+    for isa, flags in isa_flags(MACHINE).items():
+        sources[f"e3d_{isa}"] = [f"csrc/kernels/isa_{isa}.c"]
+        kernel_flags[f"e3d_{isa}"] = flags
     libraries = []
     for name, patterns in sources.items():
         files = sorted(str(path) for pattern in patterns for path in Path().glob(pattern))
@@ -148,7 +157,7 @@ def static_libraries():
         build_info = {
             "sources": files,
             "include_dirs": INCLUDE_DIRS,
-            "macros": [("E3D_HAVE_X86", "1")] if IS_X86_64 else [],
+            "macros": [(f"E3D_HAVE_{MACHINE}", "1")] if MACHINE else [],
             "cflags": [*WARNINGS, *flags],
         }
         libraries.append((name, build_info))

@@ -34,7 +34,7 @@ def rules_for(compiler):
     rules = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")
     machine = subprocess.run([compiler, "-dumpmachine"], capture_output=True, text=True, check=True)
     # The functions of setup.py read this name from their own globals.
-    rules["static_libraries"].__globals__["IS_X86_64"] = machine.stdout.startswith("x86_64")
+    rules["static_libraries"].__globals__["MACHINE"] = rules["machine_of"](machine.stdout)
     return rules
 
 

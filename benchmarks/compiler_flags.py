@@ -24,12 +24,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SETUP = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")
-X86 = SETUP["IS_X86_64"]
-BACKENDS = ["portable", *(SETUP["ISA_FLAGS"] if X86 else {})]
+MACHINE = SETUP["MACHINE"]
+ISA_FLAGS = SETUP["isa_flags"](MACHINE)
+BACKENDS = ["portable", *ISA_FLAGS]
 LEVELS = ["-O0", "-O1", "-O2", "-O3"]
 BASELINE = ("portable", "-O3")
-# The name of an instruction set for __builtin_cpu_supports.
 LEANS_ON = {"avx512": ["avx512", "avx2"]}  # narrow pieces are rastered by the other table
+# What compilers call an instruction set.
 CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
 CPU_LACKS_IT = 3  # exit status of the timer
 TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}
@@ -67,7 +68,8 @@ def common_flags():
     """Of all that is compiled."""
     flags = [*SETUP["EXACT"], *SETUP["HYGIENE"], "-w", "-pthread"]
     flags += [f"-I{ROOT / path}" for path in SETUP["INCLUDE_DIRS"]]
-    return [*flags, "-march=x86-64", "-mtune=generic", "-DE3D_HAVE_X86=1"] if X86 else flags
+    flags += ["-march=x86-64", "-mtune=generic"] if MACHINE == "X86" else []
+    return [*flags, f"-DE3D_HAVE_{MACHINE}=1"] if MACHINE else flags
 
 
 def build_core(compiler, folder, pool):
@@ -85,7 +87,7 @@ def build_timers(compiler, backend, flags, core, folder):
     """Compile the kernels with `flags`, link them with each timer, return the programs' paths."""
     objects = []
     for name in LEANS_ON.get(backend, [backend]):
-        isa = SETUP["ISA_FLAGS"].get(name, [])
+        isa = ISA_FLAGS.get(name, [])
         source = ROOT / "csrc" / "kernels" / f"isa_{name}.c"
         objects.append(Path(folder) / f"{name}.o")
         command = [compiler, *common_flags(), *isa, *flags, "-c", source]

@@ -1,6 +1,6 @@
 /* Times the kernels of one instruction set; compiler_flags.py builds it once for each set of flags.
  *
- * In:  -DE3D_TABLE=the table of kernels, -DCPU_FEATURE=what __builtin_cpu_supports calls it (on x86-64).
+ * In:  -DE3D_TABLE=the table of kernels, -DCPU_FEATURE=what compilers call it (on x86-64).
  * Out: for each kernel a line "name elements seconds hash": the fastest of the repetitions, and a hash
  *      of the output (FNV-1a), which must be the same for every way to build. Exit status 3 where the
  *      CPU lacks the instructions.
@@ -12,6 +12,9 @@
 #include "driver/random.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
+#ifdef CPU_FEATURE
+#include "core/instructions.h"
+#endif
 
 enum { TEXTURE_SIDE = 256, TEXTURE_LEVELS = 3, COLORS = 4096, LIGHTS = 3 };
 
@@ -281,7 +284,7 @@ static void report(const workload *work)
 int main(void)
 {
 #ifdef CPU_FEATURE
-    if (!__builtin_cpu_supports(CPU_FEATURE))
+    if (!e3d_has_instructions(CPU_FEATURE))
         return 3;
 #endif
     random_stream r = {.state = 1};

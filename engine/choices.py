@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Union
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-Backend = Literal["auto", "scalar", "portable", "sse41", "avx2", "avx512"]
+Backend = Literal["auto", "scalar", "portable", "sse41", "avx2", "avx512", "neon"]
 ColorSpace = Literal["srgb", "linear"]
 Samples = Literal[1, 2, 4, 8, 16]
 Antialias = Literal["ssaa", "msaa"]

@@ -8,8 +8,12 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "core/built_backends.h"
 #include "core/limits.h"
 #include "e3d.h"
+#ifdef E3D_HAVE_X86
+#include "core/instructions.h"
+#endif
 
 const char *e3d_backend_name(e3d_backend backend)
 {
@@ -22,12 +26,10 @@ int e3d_backend_available(e3d_backend backend)
     switch (backend) {
     case E3D_BACKEND_SCALAR:
     case E3D_BACKEND_PORTABLE: return 1;
-#ifdef E3D_HAVE_X86 /* __builtin_cpu_supports also asks whether the system saves the registers */
-#define HAS(instructions) __builtin_cpu_supports(instructions)
+#define HAS(instructions) e3d_has_instructions(instructions)
 #define AVAILABLE(backend, name, has_all) \
     case backend: return (has_all) != 0;
-        E3D_EACH_X86_BACKEND(AVAILABLE)
-#endif
+        E3D_EACH_BUILT_BACKEND(AVAILABLE)
     default: return 0;
     }
 }

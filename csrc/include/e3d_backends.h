@@ -16,11 +16,15 @@ extern "C" {
     X(E3D_BACKEND_AVX512, avx512, \
       HAS("avx512f") && HAS("avx512cd") && HAS("avx512bw") && HAS("avx512dq") && HAS("avx512vl"))
 
+/* Those for AArch64, likewise: every such processor has NEON. */
+#define E3D_EACH_AARCH64_BACKEND(X) X(E3D_BACKEND_NEON, neon, 1)
+
 /* SCALAR is the reference: obvious loops, one thread. PORTABLE is the kernels, one lane wide, on any processor. */
 #define E3D_EACH_BACKEND(X) \
     X(E3D_BACKEND_SCALAR, scalar) \
     X(E3D_BACKEND_PORTABLE, portable) \
-    E3D_EACH_X86_BACKEND(X)
+    E3D_EACH_X86_BACKEND(X) \
+    E3D_EACH_AARCH64_BACKEND(X)
 
 typedef enum e3d_backend { E3D_EACH_BACKEND(E3D_ENUMERATOR) E3D_BACKEND_COUNT } e3d_backend;
 

@@ -1,4 +1,5 @@
 /* Which table of kernels serves which backend. */
+#include "core/built_backends.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 
@@ -8,11 +9,9 @@ const e3d_kernels *e3d_kernels_for(e3d_backend backend)
         return NULL;
     switch (backend) {
     case E3D_BACKEND_PORTABLE: return &e3d_kernels_portable;
-#ifdef E3D_HAVE_X86
 #define KERNELS(backend, name, ...) \
     case backend: return &e3d_kernels_##name;
-        E3D_EACH_X86_BACKEND(KERNELS)
-#endif
+        E3D_EACH_BUILT_BACKEND(KERNELS)
     default: return NULL;
     }
 }

@@ -6,6 +6,7 @@
 #ifndef E3D_KERNELS_H
 #define E3D_KERNELS_H
 
+#include "core/built_backends.h"
 #include "core/limits.h"
 #include "core/mesh.h"
 #include "core/sample_patterns.h"
@@ -194,9 +195,7 @@ typedef struct e3d_kernels {
 const e3d_kernels *e3d_kernels_for(e3d_backend backend);
 
 extern const e3d_kernels e3d_kernels_portable;
-#ifdef E3D_HAVE_X86
 #define E3D_DECLARE_KERNELS(backend, name, ...) extern const e3d_kernels e3d_kernels_##name;
-E3D_EACH_X86_BACKEND(E3D_DECLARE_KERNELS)
-#endif
+E3D_EACH_BUILT_BACKEND(E3D_DECLARE_KERNELS)
 
 #endif

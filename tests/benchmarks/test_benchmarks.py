@@ -68,7 +68,7 @@ def test_simd_vs_scalar(tmp_path, suffix):
 def test_compiler_flags():
     """Every instruction set has the bytes of plain C, which only fused operations change."""
     pytest.importorskip("setuptools")
-    vectors = [name for name in ("sse41", "avx2") if name in e3d.backends()]
+    vectors = [name for name in ("sse41", "avx2", "neon") if name in e3d.backends()]
     chosen = [word for name in ("portable", *vectors) for word in ("--backend", name)]
     rows = report("compiler_flags.py", *chosen, "--level", "O0", "--compiler", "cc")["rows"]
     fused = "... and fused a*b + c"

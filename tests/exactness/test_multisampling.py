@@ -22,7 +22,10 @@ PATTERNS = {
 }
 
 
-@pytest.fixture(params=[name for name in ("scalar", "avx2", "avx512") if name in e3d.backends()])
+BACKENDS = ("scalar", "avx2", "avx512", "neon")
+
+
+@pytest.fixture(params=[name for name in BACKENDS if name in e3d.backends()])
 def backend(request):
     return request.param
 

@@ -10,7 +10,7 @@ from engine3d import linalg
 from engine3d._native import rasterizer
 
 SIZE = (150, 93)
-BACKENDS = [("portable", 1), ("sse41", 2), ("avx2", 1), ("avx2", 3), ("avx512", 2)]
+BACKENDS = [("portable", 1), ("sse41", 2), ("avx2", 1), ("avx2", 3), ("avx512", 2), ("neon", 2)]
 POSE = linalg.look_at((2, 2, 3), (0, 0, 0))
 CAMERAS = {
     "perspective": e3d.PerspectiveCamera(1.2, znear=0.1, zfar=100),

@@ -101,11 +101,11 @@ static inline void visible_write(vmask inside, vf32 z, size_t at, const e3d_reco
     int32_t *kept = tile->id + at;
     vf32 old = rows_loadf(depth);
     vmask pass = v_mand(inside, v_lt(z, old));
-    uint32_t equal = v_bits(v_mand(inside, v_eq(z, old)));
+    vmask equal = v_mand(inside, v_eq(z, old));
     rows_storef(depth, v_self(pass, z, old));
     rows_storei(kept, v_seli(pass, v_seti(id), rows_loadi(kept)));
-    if (equal)
-        visible_ties(equal, z, depth, kept, r, id, table);
+    if (v_any(equal))
+        visible_ties(v_bits(equal), z, depth, kept, r, id, table);
 }
 
 /* ---- blocks ---- */

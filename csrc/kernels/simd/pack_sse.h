@@ -6,21 +6,12 @@
 #include <stdint.h>
 #include <string.h>
 
-#define PACK_LANE(n) 4 * n, 4 * n + 1, 4 * n + 2, 4 * n + 3
-#define PACK_ROW(a, b, c, d) {PACK_LANE(a), PACK_LANE(b), PACK_LANE(c), PACK_LANE(d)}
+#include "kernels/simd/pack_order.h"
 
 static inline __m128i pack_lanes(__m128i a, uint32_t bits)
 {
-    static const uint8_t order[16][16] = {
-        PACK_ROW(0, 0, 0, 0), PACK_ROW(0, 0, 0, 0), PACK_ROW(1, 0, 0, 0), PACK_ROW(0, 1, 0, 0),
-        PACK_ROW(2, 0, 0, 0), PACK_ROW(0, 2, 0, 0), PACK_ROW(1, 2, 0, 0), PACK_ROW(0, 1, 2, 0),
-        PACK_ROW(3, 0, 0, 0), PACK_ROW(0, 3, 0, 0), PACK_ROW(1, 3, 0, 0), PACK_ROW(0, 1, 3, 0),
-        PACK_ROW(2, 3, 0, 0), PACK_ROW(0, 2, 3, 0), PACK_ROW(1, 2, 3, 0), PACK_ROW(0, 1, 2, 3)};
-    return _mm_shuffle_epi8(a, _mm_loadu_si128((const __m128i *)order[bits]));
+    return _mm_shuffle_epi8(a, _mm_loadu_si128((const __m128i *)pack_order[bits]));
 }
-
-/* Counts the bits of a nibble: SSE4.1 has no popcnt. */
-static inline int pack_count(uint32_t bits) { return (int)(0x4332322132212110ull >> (4 * bits) & 7); }
 
 /* The lanes whose bits are set; returns how many. All sixteen bytes are written. */
 static inline int pack_four(void *out, __m128i a, uint32_t bits)

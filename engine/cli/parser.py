@@ -14,6 +14,7 @@ from . import (
     environment_options,
     light_options,
     options,
+    sheet_options,
     suggestions,
     tone_options,
     values,
@@ -72,13 +73,14 @@ def make_parser() -> Parser:
     _add_edit(commands)
     _add_render(commands)
     _add_info(commands)
+    _add_sheet(commands)
     _add_convert(commands)
     _add_city(commands)
     _add_learn(commands)
     _add_bench(commands)
     _add_completion(commands, parser)
     parser.commands = commands.choices
-    for name in ("run", "edit", "render", "info", "convert", "city"):
+    for name in ("run", "edit", "render", "info", "sheet", "convert", "city"):
         options.add_quiet(commands.choices[name])
     return parser
 
@@ -152,6 +154,18 @@ def _add_info(commands) -> None:
     command.add_argument(
         "--json", action="store_true", help="print JSON: a list where there are several files"
     )
+
+
+def _add_sheet(commands) -> None:
+    command = commands.add_parser(
+        "sheet",
+        help="draw a model from several sides, with dimensions and a report",
+        description="Draw models from several sides on one sheet (PNG), with dimensions, axes and "
+        "a scale, and report as JSON what shows where and how pixels and the world are related.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_sheet)
+    sheet_options.add(command)
 
 
 def _add_convert(commands) -> None:
@@ -306,8 +320,8 @@ def _add_completion(commands, parser: Parser) -> None:
 
 def _missing_command():
     raise UsageError(
-        "say which command: run, edit, render, info, convert, city, learn, bench or completion "
-        "(see engine3d --help)"
+        "say which command: run, edit, render, info, sheet, convert, city, learn, bench or "
+        "completion (see engine3d --help)"
     )
 
 
@@ -333,6 +347,12 @@ def _load_info():
     from .info import info
 
     return info
+
+
+def _load_sheet():
+    from .sheet import sheet
+
+    return sheet
 
 
 def _load_convert():

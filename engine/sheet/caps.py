@@ -1,8 +1,8 @@
 """The faces of a cut: the pixels of a section at which its plane goes through something.
 
 In: a panel whose camera's near plane cuts the scene. Out: which node each pixel goes through, and
-the areas. Where an outline does not close, as in open meshes, a pixel counts as cut where what is
-nearest turns its back.
+the areas. Of nodes whose outlines do not close, as in open meshes, a pixel counts as cut where what
+is nearest turns its back.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..rendering.frame import Frame
 from ..scene.cameras import Camera
 from ..scene.scene import Scene
 from ..scene.usage import uses_in
-from .cutting import Outline, Plane, area_of, cut_nodes, inside
+from .cutting import Outline, Plane, area_of, cut_nodes, inside, is_closed
 from .layout import Rectangle
 from .studio import Studio
 
@@ -71,30 +71,24 @@ def find_caps(
     wanted = set(studio.own_ids.tolist())
     nodes = [node for node in studio.scene.nodes if node.id in wanted]
     outlines = cut_nodes(nodes, plane)
+    closed = [is_closed(outline.segments) for outline in outlines]
     areas = [area_of(outline.segments, plane) for outline in outlines]
+    backs = None if all(closed) else _backs(studio, camera, pose, rectangle, shown)
     ids = np.full(shown.depth.shape, -1, np.int64)
-    backs = None
-    open_nodes = set()
     # What lies within something else is painted over it.
     for number in sorted(range(len(outlines)), key=lambda k: -areas[k]):
         outline = outlines[number]
-        ends = _on_panel(outline, camera, pose, rectangle)
-        mask, closed = inside(ends, rectangle.width, rectangle.height)
-        if not closed.all():
-            open_nodes.add(outline.node)
-            if backs is None:
-                backs = _backs(studio, camera, pose, rectangle, shown)
-            mask &= closed[:, np.newaxis]
-            mask |= backs & (shown.object_id == outline.node) & ~closed[:, np.newaxis]
+        if closed[number]:
+            ends = _on_panel(outline, camera, pose, rectangle)
+            mask = inside(ends, rectangle.width, rectangle.height)
+        else:
+            mask = backs & (shown.object_id == outline.node)
         ids[mask] = outline.node
-    counts = {o.node: int((ids == o.node).sum()) for o in outlines}
-    return Caps(
-        ids,
-        [
-            CutNode(o.node, counts[o.node], None if o.node in open_nodes else area)
-            for o, area in zip(outlines, areas, strict=True)
-        ],
-    )
+    nodes = [
+        CutNode(outline.node, int((ids == outline.node).sum()), area if is_whole else None)
+        for outline, area, is_whole in zip(outlines, areas, closed, strict=True)
+    ]
+    return Caps(ids, nodes)
 
 
 def _on_panel(

@@ -133,19 +133,23 @@ def area_of(segments: np.ndarray, plane: Plane) -> float:
     return abs(math.fsum(doubled.tolist())) * 0.5
 
 
-def inside(ends: np.ndarray, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return which pixels are inside of outlines, and in which rows these are closed.
+def is_closed(segments: np.ndarray) -> bool:
+    """Return whether as many segments begin as end at each point."""
+    begins, ends = (np.ascontiguousarray(segments[:, k]) + 0.0 for k in (0, 1))
+    return all(
+        np.array_equal(begins[np.lexsort(begins.T)][:, k], ends[np.lexsort(ends.T)][:, k])
+        for k in range(3)
+    )
+
+
+def inside(ends: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return which pixels are inside of closed outlines, (H, W) bool.
 
     Parameters
     ----------
     ends : (N, 2, 2) float64
         The segments' ends in pixels: x right, y down.
     width, height : int
-
-    Returns
-    -------
-    inside : (H, W) bool
-    closed : (H,) bool
     """
     turns = np.zeros((height, width + 1), np.int32)
     x, y = np.clip(ends, -1e9, 1e9)[..., 0], np.clip(ends, -1e9, 1e9)[..., 1]
@@ -162,5 +166,4 @@ def inside(ends: np.ndarray, width: int, height: int) -> tuple[np.ndarray, np.nd
     places = x[number, 0] + run * ((rows + 0.5 - y[number, 0]) / rise)
     columns = np.clip(np.ceil(places - 0.5), 0, width).astype(np.int64)
     np.add.at(turns, (rows, columns), np.where(down[number], 1, -1).astype(np.int32))
-    turns = np.cumsum(turns, axis=1)
-    return turns[:, :width] != 0, turns[:, width] == 0
+    return np.cumsum(turns, axis=1)[:, :width] != 0

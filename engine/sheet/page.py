@@ -56,7 +56,11 @@ def draw_pages(
     """Draw all models; see `engine3d.contact_sheet`."""
     if up is not None and up not in UP_DIRECTIONS:
         raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
-    width, height = check_size(size or (SIZE if len(models) == 1 else SIZE_OF_SEVERAL))
+    if unit is not None and not isinstance(unit, str):
+        raise InvalidArgumentError(f"unit must be a text, not {type(unit).__name__}")
+    if size is None:
+        size = SIZE if len(models) == 1 else SIZE_OF_SEVERAL
+    width, height = check_size(size)
     if height * len(models) > MOST_ROWS:
         raise InvalidArgumentError(
             f"size: {len(models)} parts of {height} rows are more than {MOST_ROWS} rows"

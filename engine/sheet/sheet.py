@@ -6,6 +6,7 @@ a pixel can be told, and where a point of the world is. Same input, same bytes.
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Iterable
 from typing import Any
@@ -88,11 +89,12 @@ class Sheet:
             ``name``, ``triangle``, ``instance``, ``material`` (its number in the mesh), ``depth``
             and ``position`` in the file's coordinates. None between the panels.
         """
+        x, y = operator.index(x), operator.index(y)
         for model, panels in enumerate(self._panels):
             for panel in panels:
                 left, top, width, height = panel.rectangle
                 if left <= x < left + width and top <= y < top + height:
-                    return _at(panel, model, int(x), int(y), self.report)
+                    return _at(panel, model, x, y, self.report)
         return None
 
     def project(self, view: str, points: ArrayLike, model: int = 0) -> NDArray[np.float64]:
@@ -127,8 +129,8 @@ class Sheet:
             return np.stack([x / w, y / w], axis=-1)
 
     def _panel(self, view: str, model: int) -> Panel:
-        if not 0 <= model < len(self._panels):
-            raise InvalidArgumentError(f"the sheet has no model {model!r}")
+        if not 0 <= operator.index(model) < len(self._panels):
+            raise InvalidArgumentError(f"the sheet has no model {model}")
         for panel in self._panels[model]:
             if panel.spec.name == view:
                 return panel

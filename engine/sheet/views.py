@@ -181,9 +181,8 @@ def check_views(views: str | Iterable[str], sections: str | Iterable[str]) -> li
 
     Raises `InvalidArgumentError` where there is none, or two have one name.
     """
-    given = [views] if isinstance(views, str) else views
-    specs = [spec for text in given for spec in parse_views(text)]
-    for text in [sections] if isinstance(sections, str) else sections:
+    specs = [spec for text in _texts(views, "views") for spec in parse_views(text)]
+    for text in _texts(sections, "sections"):
         section = parse_section(text)
         specs.append(ViewSpec(_section_name(section), sight=section.sight, section=section))
     names = [spec.name for spec in specs]
@@ -193,6 +192,15 @@ def check_views(views: str | Iterable[str], sections: str | Iterable[str]) -> li
     if not 1 <= len(specs) <= MOST_VIEWS:
         raise InvalidArgumentError(f"a sheet has 1 to {MOST_VIEWS} views, not {len(specs)}")
     return specs
+
+
+def _texts(given: str | Iterable[str], what: str) -> list[str]:
+    if isinstance(given, str):
+        return [given]
+    texts = list(given) if isinstance(given, Iterable) else [None]
+    if not all(isinstance(text, str) for text in texts):
+        raise InvalidArgumentError(f"{what} must be texts, not {given!r}")
+    return texts
 
 
 def _section_name(section: Section) -> str:

@@ -93,6 +93,7 @@ CHAPTERS = {
     ),
     "Windows": ("show", "Window"),
     "The canvas": ("Canvas",),
+    "Contact sheets": ("contact_sheet", "Sheet"),
     "Low-level rasterization": ("rasterize", "RasterizeResult"),
     "Errors": (
         "Engine3DError",

@@ -95,6 +95,8 @@ _PUBLIC = {
     "Renderer": "rendering.renderer",
     "render": "rendering.renderer",
     "Canvas": "canvas",
+    "Sheet": "sheet.sheet",
+    "contact_sheet": "sheet.sheet",
     "Window": "viewer.window",
     "show": "viewer.show",
     "RasterizeResult": "rendering.rasterization",

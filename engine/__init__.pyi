@@ -77,6 +77,8 @@ from .scene.nodes import Node as Node
 from .scene.orbiting import orbit as orbit
 from .scene.scene import Scene as Scene
 from .scene.selection import NodeSelection as NodeSelection
+from .sheet.sheet import Sheet as Sheet
+from .sheet.sheet import contact_sheet as contact_sheet
 from .spatial.colliders import BoxCollider as BoxCollider
 from .spatial.colliders import ColliderHit as ColliderHit
 from .spatial.colliders import MeshCollider as MeshCollider

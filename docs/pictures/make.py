@@ -250,6 +250,12 @@ def city() -> np.ndarray:
     return sheet(tiles, 2)
 
 
+def contact_sheet() -> np.ndarray:
+    """The sheet of docs/sheet.md."""
+    train = MODELS / "train.asc"
+    return e3d.contact_sheet(train, sections=("-y=50%", "x=62%"), size=(1500, 900)).picture.pixels
+
+
 def impostors() -> np.ndarray:
     """Teapots as meshes, as their impostors, and what the impostors look like from near."""
     mesh = load("teapot.obj")
@@ -304,10 +310,11 @@ PICTURES = {
     "city": city,
     "impostors": impostors,
     "golden": golden,
+    "sheet": contact_sheet,
     **{name: partial(gallery.draw, name) for name in gallery.programs()},
 }
 #: Those that are compressed, of which drawn.json has digests.
-SMALL = ("models", *gallery.programs())
+SMALL = ("models", "sheet", *gallery.programs())
 QUALITY = 82
 DIGESTS = FOLDER / "drawn.json"
 

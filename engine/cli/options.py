@@ -56,9 +56,10 @@ SIGNED_OPTIONS = frozenset(
         "--camera-index",
         "--animation-index",
         "--animation-time",
+        "--section",
     }
 )
-_SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]$|inf|nan)")
+_SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]($|=)|inf|nan)")
 
 
 def join_values(arguments: list[str]) -> list[str]:
@@ -163,6 +164,23 @@ def add_quiet(parser) -> None:
     parser.add_argument("--quiet", action="store_true", help="print errors only, no warnings")
 
 
+def add_drawing(group) -> None:
+    """Add what draws."""
+    group.add_argument(
+        "--backend",
+        choices=BACKENDS,
+        default="auto",
+        help="instruction set to draw with; auto is the fastest. All give the same picture",
+    )
+    group.add_argument(
+        "--threads",
+        type=values.thread_count,
+        default=0,
+        metavar="N",
+        help="number of threads; 0, the default, is one per available CPU",
+    )
+
+
 def add_picture(parser) -> None:
     """Add the picture's size and what draws it."""
     group = parser.add_argument_group("picture")
@@ -181,19 +199,7 @@ def add_picture(parser) -> None:
         "none of these. Other options have the last word",
     )
     antialiasing.add(group)
-    group.add_argument(
-        "--backend",
-        choices=BACKENDS,
-        default="auto",
-        help="instruction set to draw with; auto is the fastest. All give the same picture",
-    )
-    group.add_argument(
-        "--threads",
-        type=values.thread_count,
-        default=0,
-        metavar="N",
-        help="number of threads; 0, the default, is one per available CPU",
-    )
+    add_drawing(group)
     group.add_argument(
         "--background-color",
         type=values.color,
@@ -298,15 +304,20 @@ def add_appearance(parser) -> None:
     )
 
 
-def add_camera(parser) -> None:
-    """Add where to look from."""
-    group = parser.add_argument_group("camera")
+def add_up(group) -> None:
+    """Add what is up."""
     group.add_argument(
         "--up",
         type=values.up_direction,
         metavar="±X|±Y|±Z",
         help="the model's up direction; +Y by default, +Z for .asc and .stl",
     )
+
+
+def add_camera(parser) -> None:
+    """Add where to look from."""
+    group = parser.add_argument_group("camera")
+    add_up(group)
     group.add_argument(
         "--camera-index",
         type=values.index,

@@ -15,6 +15,7 @@ from . import (
     environment_options,
     light_options,
     options,
+    sheet_options,
     suggestions,
     tone_options,
     values,
@@ -74,13 +75,14 @@ def make_parser() -> Parser:
     _add_render(commands)
     _add_info(commands)
     _add_diff(commands)
+    _add_sheet(commands)
     _add_convert(commands)
     _add_city(commands)
     _add_learn(commands)
     _add_bench(commands)
     _add_completion(commands, parser)
     parser.commands = commands.choices
-    for name in ("run", "edit", "render", "info", "diff", "convert", "city"):
+    for name in ("run", "edit", "render", "info", "sheet", "diff", "convert", "city"):
         options.add_quiet(commands.choices[name])
     return parser
 
@@ -166,6 +168,18 @@ def _add_diff(commands) -> None:
     )
     command.set_defaults(load_command=_load_diff)
     diff_options.add_diff(command)
+
+
+def _add_sheet(commands) -> None:
+    command = commands.add_parser(
+        "sheet",
+        help="draw a model from several sides, with dimensions and a report",
+        description="Draw models from several sides on one sheet (PNG), with dimensions, axes and "
+        "a scale, and report as JSON what shows where and how pixels and the world are related.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_sheet)
+    sheet_options.add(command)
 
 
 def _add_convert(commands) -> None:
@@ -323,6 +337,8 @@ def _missing_command():
         "say which command: run, edit, render, info, diff, convert, city, learn, bench or "
         "completion "
         "(see engine3d --help)"
+        "say which command: run, edit, render, info, sheet, convert, city, learn, bench or "
+        "completion (see engine3d --help)"
     )
 
 
@@ -354,6 +370,12 @@ def _load_diff():
     from .diff import diff
 
     return diff
+
+
+def _load_sheet():
+    from .sheet import sheet
+
+    return sheet
 
 
 def _load_convert():

@@ -108,7 +108,7 @@ def _moved(part: np.ndarray, columns: int, rows: int) -> np.ndarray:
 
 def _spread(part: np.ndarray, reach: int) -> np.ndarray:
     """Return a picture spread about as by a normal distribution: by three means along each side."""
-    for _ in range(6 if reach else 0):
+    for _ in range(6 if reach and part.any() else 0):
         part = _means(part, reach).T
     return part
 

@@ -21,6 +21,8 @@ from .visibility import DRAWABLE, mesh_of
 
 #: Formats whose models, by custom, stand on the XY plane.
 Z_UP_FORMATS = ("asc", "stl")
+#: Units of length of those that have one.
+UNITS = {"glb": "m", "gltf": "m"}
 
 
 def open_model(
@@ -89,6 +91,8 @@ def open_model(
         # glTF says of each material which sides show; other files don't, or are often wrong.
         appearance={} if document.tree is not None else {"cull": "auto"},
         path=path,
+        format=document.format,
+        unit=UNITS.get(document.format),
         details=document_lines(document),
         warnings=list(scene.warnings),
     )

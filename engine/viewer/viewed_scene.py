@@ -72,6 +72,10 @@ class ViewedScene:
         Whether the background follows the viewer's theme.
     path : str or None
         The file it came from.
+    format : str or None
+        The file's.
+    unit : str or None
+        Of lengths, where the file's format says it.
     details : list of str
         What the file holds, line by line, for the metadata overlay.
     warnings : list of str
@@ -98,6 +102,8 @@ class ViewedScene:
     clearance: Callable[[np.ndarray], float] | None = None
     themed: bool = False
     path: str | None = None
+    format: str | None = None
+    unit: str | None = None
     details: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 

@@ -4,6 +4,7 @@ A row is a name, a function and its arguments by name. Functions make what they 
 call meets what an earlier one left behind.
 """
 
+import functools
 import math
 
 import numpy as np
@@ -23,6 +24,11 @@ def scene():
     scene.add(mesh())
     scene.add(e3d.InstancedMesh(mesh(), [(0, 0, 0, 1)]))
     return scene
+
+
+@functools.cache
+def sheet():
+    return e3d.contact_sheet(mesh(), size=(240, 240), views="iso", threads=1)
 
 
 def bendable(**arrays):
@@ -364,6 +370,25 @@ CALLS = {
     "frame_scene": (
         lambda **a: e3d.frame_scene(scene(), **a),
         {"aspect": 1.0, "margin": 1.1, "direction": (0, 0, 1), "yfov": 0.9, "up": (0, 1, 0)},
+    ),
+    "contact_sheet": (
+        lambda **a: e3d.contact_sheet(mesh(), **a),
+        {
+            "views": "front,iso",
+            "sections": ("x",),
+            "size": (300, 400),
+            "up": "+Z",
+            "unit": "mm",
+            "threads": 1,
+        },
+    ),
+    "Sheet.project": (
+        lambda **a: sheet().project("iso", **a),
+        {"points": (1.0, 2.0, 3.0), "model": 0},
+    ),
+    "Sheet.at": (
+        lambda **a: sheet().at(**a),
+        {"x": 120, "y": 120},
     ),
     "rasterize": (
         e3d.rasterize,

@@ -82,6 +82,7 @@ COPIED = {
     "Impostor": lambda: e3d.Impostor(painted(), views=2, texels=8),
     "DetailedInstances": lambda: e3d.DetailedInstances([(painted(), 0.0)], [(0, 0, 0, 1)]),
     "DetailedMeshes": lambda: e3d.DetailedMeshes([((painted(),), 0.0)]),
+    "Sheet": lambda: e3d.contact_sheet(painted(), size=(240, 240), views="iso", threads=1),
     "World": lambda: e3d.city(20_000, seed=1),
 }
 REFUSED = {

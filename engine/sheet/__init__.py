@@ -1,0 +1,5 @@
+"""Contact sheets: one picture of a model from several sides, and a report of what it shows.
+
+In: files, meshes or scenes. Out: a `Sheet`: pixels, and a dict that JSON takes. The same input
+gives the same bytes on every machine.
+"""

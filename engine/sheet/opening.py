@@ -1,0 +1,80 @@
+"""What a sheet shows, opened: files, meshes and scenes alike.
+
+In: what the caller gives. Out: a `SheetModel`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any, BinaryIO, NamedTuple, TypeAlias
+
+from ..errors import InvalidArgumentError, printable
+from ..geometry.mesh import Mesh
+from ..scene.scene import Scene
+from ..viewer.open_models import open_models
+from ..viewer.viewed_scene import ViewedScene
+
+SheetSource: TypeAlias = str | os.PathLike[str] | BinaryIO | Mesh | Scene
+
+
+class SheetModel(NamedTuple):
+    """Something to draw.
+
+    Attributes
+    ----------
+    viewed : ViewedScene
+    title : str
+        Fit for printing.
+    file : str or None
+        The path, as given.
+    """
+
+    viewed: ViewedScene
+    title: str
+    file: str | None
+
+
+def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -> list[SheetModel]:
+    """Return what one or several sources hold.
+
+    Parameters
+    ----------
+    sources : path, binary file object, Mesh, Scene, or an iterable of these
+    **options
+        As of `engine3d.viewer.open_model.open_model`, for files.
+
+    Raises
+    ------
+    InvalidArgumentError
+        There is none, or one is something else.
+    FileFormatError, FileAccessError
+    """
+    is_one = isinstance(sources, (str, os.PathLike, Mesh, Scene)) or hasattr(sources, "read")
+    if not is_one and not isinstance(sources, Iterable):
+        raise InvalidArgumentError(
+            f"models are paths, meshes or scenes, not {type(sources).__name__}"
+        )
+    given = [sources] if is_one else list(sources)
+    if not given:
+        raise InvalidArgumentError("a sheet needs a model")
+    return [_open(source, options) for source in given]
+
+
+def _open(source: Any, options: dict[str, Any]) -> SheetModel:
+    if isinstance(source, Scene):
+        viewed = ViewedScene(source, "scene", themed=True)
+        return SheetModel(viewed, "scene", None)
+    if isinstance(source, Mesh):
+        scene = Scene()
+        scene.add(source, name=source.name)
+        title = printable(source.name) or "mesh"
+        viewed = ViewedScene(scene, title, themed=True, appearance={"cull": "auto"})
+        return SheetModel(viewed, title, None)
+    if not isinstance(source, (str, os.PathLike)) and not hasattr(source, "read"):
+        raise InvalidArgumentError(
+            f"a model is a path, a Mesh or a Scene, not {type(source).__name__}"
+        )
+    viewed = open_models([source], **options)
+    file = None if hasattr(source, "read") else os.fsdecode(source)
+    return SheetModel(viewed, viewed.title, file)

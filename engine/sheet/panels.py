@@ -1,0 +1,197 @@
+"""One panel of a sheet: drawn, counted, and what is to be told of it.
+
+In: a view with its place on the sheet, a studio. Out: pixels on the sheet, and a `Panel` that keeps
+what the report and questions about pixels need.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..canvas import Canvas
+from ..rendering.frame import Frame
+from ..scene.cameras import Camera
+from ..scene.nodes import Node
+from .blank import SAME_COLOUR, Reason, contrast, why_blank
+from .caps import Caps, find_caps, paint_caps
+from .cutting import Plane
+from .hidden import AloneScene
+from .layout import Padding, Rectangle
+from .outlines import draw_outlines
+from .placing import Extent, Matrices, cut, find_matrices, place_camera
+from .studio import Studio
+from .views import ViewSpec
+from .visible import box_of, covered
+
+#: In place of the number of an instance: no other thing has that.
+_CUT = 0x7FFFFFFF
+
+
+@dataclass
+class Panel:
+    """A view on the sheet.
+
+    Attributes
+    ----------
+    spec : ViewSpec
+    rectangle : Rectangle
+    extent : Extent
+    camera, pose
+        In the scene.
+    scale : float or None
+        Pixels per world unit; None with perspective.
+    matrices : Matrices
+    frame : Frame
+        What was drawn.
+    shown : (H, W) ndarray of bool
+        Where it shows nodes of the scene's own.
+    caps : Caps or None
+        Where a section goes through something.
+    alone : dict
+        Pixels of nodes without the others, see `AloneScene`.
+    reason : Reason or None
+        Why nothing is seen.
+    contrast : int
+    """
+
+    spec: ViewSpec
+    rectangle: Rectangle
+    extent: Extent
+    camera: Camera
+    pose: np.ndarray
+    scale: float | None
+    matrices: Matrices
+    frame: Frame
+    shown: np.ndarray
+    caps: Caps | None = None
+    alone: dict[int, int | None] = field(default_factory=dict)
+    reason: Reason | None = None
+    contrast: int = 0
+
+    @property
+    def box(self) -> tuple[int, int, int, int] | None:
+        """The box of what shows, in the panel."""
+        return box_of(self.shown)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a view goes on the sheet, and how large it is drawn; see `Panel`."""
+
+    spec: ViewSpec
+    rectangle: Rectangle
+    extent: Extent
+    padding: Padding
+    scale: float
+
+
+def draw_panel(
+    studio: Studio,
+    place: Place,
+    canvas: Canvas,
+    alone: AloneScene,
+    cameras: list[Node],
+    origin: tuple[float, float, float],
+) -> Panel:
+    """Draw a panel on the sheet and return it.
+
+    Parameters
+    ----------
+    studio : Studio
+    place : Place
+    canvas : Canvas
+        Over the sheet.
+    alone : AloneScene
+    cameras : list of Node
+        Those of the file.
+    origin : (float, float, float)
+        Of the scene, in the file's coordinates.
+    """
+    spec, rectangle = place.spec, place.rectangle
+    camera, pose, scale = _camera(studio, place, cameras, origin)
+    frame = _draw(studio, spec, camera, pose, rectangle)
+    shown = covered(frame, studio.own_ids)
+    panel = Panel(
+        spec,
+        rectangle,
+        place.extent,
+        camera,
+        pose,
+        scale,
+        find_matrices(camera, pose, rectangle, origin),
+        frame,
+        shown,
+    )
+    if spec.kind == "section":
+        section = spec.section
+        plane = Plane(section.axis, float(pose[section.axis, 3]), section.from_above)
+        panel.caps = find_caps(studio, plane, camera, pose, rectangle, frame)
+    if spec.kind != "isometric":
+        _ink(panel, studio)
+    panel.contrast = _contrast(studio, panel)
+    if not shown.any():
+        panel.reason = why_blank(studio, camera, pose, rectangle)
+    elif panel.contrast <= SAME_COLOUR:
+        panel.reason = Reason("same_colour", "what shows has the colour of the ground")
+    options = studio.options(rectangle, both_sides=spec.kind == "section")
+    panel.alone = alone.count(camera, pose, rectangle, options)
+    x, y, width, height = rectangle
+    canvas.pixels[y : y + height, x : x + width] = frame.color
+    return panel
+
+
+def _camera(studio: Studio, place: Place, cameras: list[Node], origin):
+    spec = place.spec
+    if spec.camera is not None:
+        node = cameras[spec.camera]
+        return node.object, np.array(node.world_pose), None
+    camera, pose = place_camera(
+        place.extent, studio.sphere, place.rectangle, place.padding, place.scale
+    )
+    if spec.section is not None:
+        axis = spec.section.axis
+        low, high = (float(corner[axis]) for corner in studio.bounds)
+        coordinate = spec.section.coordinate(low + origin[axis], high + origin[axis])
+        camera, pose = cut(camera, pose, axis, coordinate - origin[axis])
+    return camera, pose, place.scale
+
+
+def _draw(studio: Studio, spec: ViewSpec, camera, pose, rectangle) -> Frame:
+    if spec.kind == "isometric":
+        azimuth = math.radians(spec.angles[0])
+        return studio.draw(camera, pose, rectangle, on_stage=True, azimuth=azimuth)
+    return studio.draw(camera, pose, rectangle, both_sides=spec.kind == "section")
+
+
+def _contrast(studio: Studio, panel: Panel) -> int:
+    ground = studio.paper.background
+    if panel.spec.kind == "isometric":
+        ground = studio.stage_theme.gradient.bottom
+    return contrast(panel.frame, panel.shown, ground)
+
+
+def _ink(panel: Panel, studio: Studio) -> None:
+    """Draw the lines of a drawing into a panel's colours, and the cut faces of a section."""
+    box = panel.box
+    if box is None:
+        return
+    # A pixel more on all sides: there the lines end.
+    left, top = max(box[0] - 1, 0), max(box[1] - 1, 0)
+    window = slice(top, box[1] + box[3] + 1), slice(left, box[0] + box[2] + 1)
+    frame = panel.frame
+    things = (frame.object_id[window].astype(np.int64) << 32) + frame.instance_id[window]
+    # Points and lines have no lines round them.
+    things = np.where(panel.shown[window] & (frame.triangle_id[window] >= 0), things, -1)
+    depth, normals = frame.depth[window], frame.world_normal[window]
+    if panel.caps is not None:
+        ids = panel.caps.ids[window]
+        is_cut = ids >= 0
+        paint_caps(frame.color[window], ids)
+        things = np.where(is_cut, (ids << 32) + _CUT, things)
+        depth = np.where(is_cut, np.float32(0), depth)
+        normals = np.where(is_cut[..., np.newaxis], np.float32(1), normals)
+    normals = None if studio.has_normal_maps else normals
+    draw_outlines(frame.color[window], things, depth, normals, panel.scale)

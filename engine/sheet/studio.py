@@ -1,0 +1,173 @@
+"""The light and the grounds of a sheet, in a scene for as long as it is drawn.
+
+In: what is shown. Out: panels as frames: drawings on paper, and pictures in the studio look. The
+scene is left as it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import linalg
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
+from ..rendering.frame import Frame
+from ..rendering.renderer import Renderer
+from ..scene.cameras import Camera
+from ..scene.usage import uses_in
+from ..viewer.appearance import count_points, point_size
+from ..viewer.lighting import Lighting
+from ..viewer.scene_bounds import sphere_of_box
+from ..viewer.stage import Stage, theme_for
+from ..viewer.surroundings import Surroundings
+from ..viewer.theme import LIGHT, Theme
+from ..viewer.viewed_scene import ViewedScene
+from ..viewer.viewpoint import UP_DIRECTIONS
+from .layout import Rectangle
+
+OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "triangle_id")
+_SMALL = (160, 120)
+_SAMPLES = 4
+#: How far ambient occlusion reaches, in radii of the model.
+_OCCLUSION = 0.2
+#: What is lower than this share of its size lies flat.
+_FLAT = 1e-3
+_KEPT = ("background", "ambient", "environment", "environment_intensity", "fog")
+
+
+class Studio:
+    """A scene with the light of a sheet; a context manager, which takes it away again.
+
+    Parameters
+    ----------
+    viewed : ViewedScene
+    up : str
+        A key of `UP_DIRECTIONS`.
+    drawing : Mapping
+        ``backend`` and ``threads`` of `Renderer`.
+
+    Attributes
+    ----------
+    own_ids : ndarray of int32
+        The ids of the nodes that are the scene's own.
+    bounds : (2, 3) ndarray of float64
+        Of the model.
+    sphere : Sphere
+        Round the model.
+    has_normal_maps : bool
+    paper, stage_theme : Theme
+        Grounds that the model stands out from: of drawings, whose lines help, and of pictures.
+    """
+
+    paper: Theme
+    stage_theme: Theme
+
+    def __init__(self, viewed: ViewedScene, up: str, drawing: Mapping[str, Any]) -> None:
+        self.scene = viewed.scene
+        self.up = UP_DIRECTIONS[up]
+        self.bounds = np.array(self.scene.bounds, np.float64)
+        self.sphere = sphere_of_box(self.bounds)
+        self.has_normal_maps = any(
+            isinstance(thing, Material) and thing.normal_texture is not None
+            for thing in uses_in([self.scene])
+        )
+        self.own_ids = np.array([node.id for node in self.scene.nodes], np.int64)
+        self._kept = {name: getattr(self.scene, name) for name in _KEPT}
+        size = self.bounds[1] - self.bounds[0]
+        # What lies flat on the ground has no shadow: the two would mix.
+        self._is_upright = float(linalg.dot(size, np.abs(self.up))) > _FLAT * float(size.max())
+        self._options = {"samples": _SAMPLES, "antialias": "msaa", **drawing}
+        self._drawing = dict(drawing)
+        self._cull = viewed.appearance.get("cull", "back")
+        self._points = count_points(self.scene)
+        self._has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
+        self._renderer: Renderer | None = None
+
+    def __enter__(self) -> Studio:
+        Surroundings().put(self.scene)
+        self.scene.fog = None
+        self._lighting = Lighting(self.scene, self.up)
+        self._lighting.choose("studio")
+        self._stage = Stage(self.scene, self.up, self.scene.environment is None)
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._stage.leave()
+        self._lighting.leave()
+        for name, value in self._kept.items():
+            setattr(self.scene, name, value)
+        if self._renderer is not None:
+            self._renderer.close()
+
+    def choose_theme(self, camera: Camera, pose: np.ndarray) -> None:
+        """Choose grounds that the model stands out from, as a camera sees it."""
+        self.scene.background = None
+        self._lighting.follow(pose)
+        with Renderer(*_SMALL, **self._drawing) as renderer:
+            color = renderer.render(self.scene, (camera, pose), cull=self._cull).color
+        self.stage_theme = theme_for(color)
+        self.paper = LIGHT if self._has_faces else self.stage_theme
+
+    def draw(
+        self,
+        camera: Camera,
+        pose: np.ndarray,
+        rectangle: Rectangle,
+        *,
+        on_stage: bool = False,
+        azimuth: float = 0.0,
+        both_sides: bool = False,
+    ) -> Frame:
+        """Draw a panel.
+
+        Parameters
+        ----------
+        camera, pose
+        rectangle : Rectangle
+            Its size counts.
+        on_stage : bool
+            Draw it in the studio look, on its shadow, rather than on paper.
+        azimuth : float
+            From where it is looked at then, in radians.
+        both_sides : bool
+            Whether all faces show both sides.
+        """
+        self._lighting.follow(pose)
+        options: dict[str, Any] = {"tone_mapping": "neutral"}
+        if both_sides:
+            options["cull"] = "none"
+        if on_stage:
+            if self._is_upright:
+                self._stage.lay_shadow(self.sphere, azimuth, 0.0)
+            options["ambient_occlusion"] = True
+            options["ambient_occlusion_radius"] = _OCCLUSION * self.sphere.radius
+        self._stage.show_shadow(on_stage)
+        ground = self.stage_theme.gradient if on_stage else self.paper.background
+        self.scene.background = ground
+        outputs = OUTPUTS if on_stage else (*OUTPUTS, "world_normal")
+        return self.render(camera, pose, rectangle, outputs=outputs, **options)
+
+    def options(self, rectangle: Rectangle, *, both_sides: bool) -> dict[str, Any]:
+        """Return what else draws the same pixels: ``cull``, ``backend`` and so on."""
+        cull, points = "none" if both_sides else self._cull, self._point_size(rectangle)
+        return {"cull": cull, "point_size": points, **self._drawing}
+
+    def _point_size(self, rectangle: Rectangle) -> float:
+        return point_size(self._points, (rectangle.width, rectangle.height))
+
+    def render(
+        self, camera: Camera, pose: np.ndarray, rectangle: Rectangle, **options: Any
+    ) -> Frame:
+        """Draw any outputs of a panel."""
+        size = rectangle.width, rectangle.height
+        if self._renderer is None:
+            self._renderer = Renderer(*size, **self._options)
+        elif size != (self._renderer.width, self._renderer.height):
+            self._renderer.resize(*size)
+        options = {"cull": self._cull, "point_size": self._point_size(rectangle), **options}
+        return self._renderer.render(
+            self.scene, (camera, pose), transparent_outputs=True, **options
+        )

@@ -85,7 +85,7 @@ def read_here(source: Source, split: bool) -> Document:
                 process=False,
             )
         scene = loaded if isinstance(loaded, trimesh.Scene) else trimesh.Scene(loaded)
-        parts = scene_parts(scene, warnings)
+        parts = scene_parts(scene, warnings, near=split)
     except InvalidArgumentError as error:
         raise FileFormatError(f"damaged: {error}", source.path) from error
     except (Engine3DError, MemoryError):

@@ -77,10 +77,18 @@ def open_model(
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
+    viewed = view_document(document, path, variant)
+    if animation is not None:
+        animation(viewed)
+    return viewed
+
+
+def view_document(document, path: str | None, variant: str | int | None = None) -> ViewedScene:
+    """Return what a file holds as a scene to look at; see `open_model`."""
     scene = scene_from_document(document, variant)
     if document.scene is None:
         scene.background = DARK.background
-    viewed = ViewedScene(
+    return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
         up="+Z" if document.format in Z_UP_FORMATS else "+Y",
@@ -92,9 +100,6 @@ def open_model(
         details=document_lines(document),
         warnings=list(scene.warnings),
     )
-    if animation is not None:
-        animation(viewed)
-    return viewed
 
 
 def _no_image(path: str) -> bool:

@@ -22,7 +22,7 @@ from ..choices import (
     Shading,
     Wireframe,
 )
-from . import ambient_options, antialiasing, values
+from . import ambient_options, antialiasing, backdrop_options, values
 from .environment_options import surroundings
 from .filter_options import add_line_shapes, add_texture_filters, filtering
 from .inputs import model_files
@@ -494,7 +494,9 @@ def settings(args: argparse.Namespace):
         look=args.look,
         appearance={name: value for name, value in appearance.items() if value is not None},
         up=args.up,
-        background=args.background_color,
+        background=backdrop_options.background(args),
+        fog=backdrop_options.fog(args),
+        fog_follows=args.fog_color is None,
         light_position=args.light_position,
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,

@@ -11,6 +11,7 @@ from ..benchmarking.names import WORKLOADS
 from ..version import __version__
 from . import (
     ambient_options,
+    backdrop_options,
     environment_options,
     light_options,
     options,
@@ -134,6 +135,7 @@ def _add_shared(command) -> None:
     light_options.add_light(command)
     ambient_options.add_ambient(command)
     environment_options.add_environment(command)
+    backdrop_options.add_backdrop(command)
     tone_options.add_tone(command)
     options.add_camera(command)
 

@@ -11,7 +11,15 @@ from pathlib import Path
 
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
-from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .appearance import (
+    CULLINGS,
+    CULLS,
+    HIDDEN_SURFACES,
+    MODES,
+    TONE_MAPPINGS,
+    WIREFRAMES,
+    following,
+)
 from .clips import play_clips
 from .debug_lines import DEBUG_DRAWINGS
 from .file_dialog import FolderPanel, RecentPanel
@@ -248,6 +256,13 @@ def toggle_occlusion(viewer, step: int) -> None:
     appearance = viewer.view_renderer.appearance
     appearance.ambient_occlusion = not appearance.ambient_occlusion
     viewer.say(f"ambient occlusion: {'on' if appearance.ambient_occlusion else 'off'}")
+
+
+def cycle_tone_mapping(viewer, step: int) -> None:
+    """Next way in which light becomes what a screen can show."""
+    appearance = viewer.view_renderer.appearance
+    appearance.tone_mapping = following(appearance.tone_mapping, TONE_MAPPINGS, step)
+    viewer.say(f"tone mapping: {appearance.tone_mapping}")
 
 
 def toggle_split(viewer, step: int) -> None:

@@ -28,6 +28,7 @@ SECTIONS = {
         Binding(("T",), "toggle_textures", "with or without textures"),
         Binding(("L",), "cycle_lights", "next lights (Shift: previous)"),
         Binding(("Ctrl+L",), "toggle_occlusion", "ambient occlusion"),
+        Binding(("Ctrl+T",), "cycle_tone_mapping", "next tone mapping (Shift: previous)"),
         Binding(("F",), "toggle_flat", "smooth or flat normals"),
         Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
         Binding(("Y",), "cycle_culling", "what is left out before drawing"),

@@ -6,6 +6,8 @@ drawn on it.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .. import linalg
@@ -15,7 +17,7 @@ from ..rendering.support_functions import support_of_scene
 from ..scene.cameras import PerspectiveCamera
 from ..scene.lights import DirectionalLight
 from ..spatial.rays import RayHit
-from .appearance import Appearance, count_points, point_size
+from .appearance import Appearance, count_points, point_size, warn_of_blended
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .grid_lines import grid
 from .lighting import OWN_LIGHTS, Lighting, OnlyLight, placed_light
@@ -33,6 +35,7 @@ from .selection import CLICK_OUTPUTS
 from .settings import Settings
 from .shadow_switch import ShadowSwitch
 from .stage import Stage, theme_for
+from .surroundings import fog_color
 from .theme import Theme
 from .untextured import Textures
 from .viewed_scene import ViewedScene
@@ -139,6 +142,7 @@ class ViewRenderer:
         if not keep_appearance:
             look = STUDIO if settings.look == "studio" and viewed.themed else {}
             self.appearance = Appearance(**(look | viewed.appearance | settings.appearance))
+            warn_of_blended(self.appearance, viewed.scene)
         self.bounds = viewed.bounds
         self._grid = None
         self._stand(self.turned_up or settings.up or viewed.up)
@@ -151,6 +155,7 @@ class ViewRenderer:
         elif viewed.themed:
             viewed.scene.background = self.theme.background
         settings.surroundings.put(viewed.scene)
+        self._lay_fog()
         self.lighting = self._light()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
@@ -272,6 +277,14 @@ class ViewRenderer:
         if self._shows_theme():
             background = theme.background if self._stage is None else theme.gradient
             self.viewed.scene.background = background
+            self._lay_fog()
+
+    def _lay_fog(self) -> None:
+        """Give the scene the fog that the user asked for."""
+        fog, scene = self.settings.fog, self.viewed.scene
+        if fog is not None:
+            color = fog_color(scene.background) if self.settings.fog_follows else None
+            scene.fog = fog if color is None else replace(fog, color=color)
 
     def show_grid(self, shown: bool) -> None:
         """Draw a grid under the scene, or not."""

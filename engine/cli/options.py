@@ -305,7 +305,8 @@ def add_camera(parser) -> None:
         "--up",
         type=values.up_direction,
         metavar="±X|±Y|±Z",
-        help="the model's up direction; +Y by default, +Z for .asc and .stl",
+        help="the model's up direction; +Y by default, +Z for CAD and printing formats "
+        "(.3mf, .asc, .iges, .step, .stl)",
     )
     group.add_argument(
         "--camera-index",

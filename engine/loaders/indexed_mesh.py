@@ -38,6 +38,8 @@ class IndexedGeometry:
     colors : (V, 4) uint8 or float32, or None
     corner_uvs : (T, 3, 2) float32 or None
         Take the place of ``uvs``.
+    corner_colors : (T, 3, 4) uint8 or None
+        Take the place of ``colors`` and ``face_colors``.
     face_colors : (T, 4) uint8 or float32, or None
         Count only without ``colors``.
     lines : (L, 2) int or None
@@ -56,6 +58,7 @@ class IndexedGeometry:
     tangents: np.ndarray | None = None
     colors: np.ndarray | None = None
     corner_uvs: np.ndarray | None = None
+    corner_colors: np.ndarray | None = None
     face_colors: np.ndarray | None = None
     lines: np.ndarray | None = None
     position_ids: np.ndarray | None = None
@@ -119,7 +122,9 @@ def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
     found = {}
     if geometry.corner_uvs is not None:
         found["uvs"] = geometry.corner_uvs.reshape(-1, 2)
-    if geometry.face_colors is not None and geometry.colors is None:
+    if geometry.corner_colors is not None:
+        found["colors"] = geometry.corner_colors.reshape(-1, 4)
+    elif geometry.face_colors is not None and geometry.colors is None:
         found["colors"] = np.repeat(geometry.face_colors, 3, axis=0)
     return found
 

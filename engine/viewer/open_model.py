@@ -20,7 +20,7 @@ from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
 #: Formats whose models, by custom, stand on the XY plane.
-Z_UP_FORMATS = ("asc", "stl")
+Z_UP_FORMATS = ("3mf", "asc", "iges", "step", "stl")
 
 
 def open_model(
@@ -143,6 +143,8 @@ def _warn(message: str) -> None:
 def document_lines(document) -> list[str]:
     """Return the format and the counts of a document, a line each."""
     lines = [f"{'format':<12}{document.format:>11}"]
+    if document.unit:
+        lines.append(f"{'unit':<12}{document.unit:>11}")
     for name, entries in document.counts.items():
         count = entries if isinstance(entries, int) else len(entries)
         if count:

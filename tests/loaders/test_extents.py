@@ -29,7 +29,9 @@ def written(path, positions):
     elif path.suffix == ".asc":
         lines = ['Named object: "Ball"', f"Tri-mesh, Vertices: {len(rows)} Faces: {len(faces)}"]
         lines += ["Vertex list:"]
-        lines += [f"Vertex {k}: X:{x!r} Y:{y!r} Z:{z!r}" for k, (x, y, z) in enumerate(positions.tolist())]
+        lines += [
+            f"Vertex {k}: X:{x!r} Y:{y!r} Z:{z!r}" for k, (x, y, z) in enumerate(positions.tolist())
+        ]
         lines += ["Face list:"]
         lines += [f"Face {k}: A:{a} B:{b} C:{c}" for k, (a, b, c) in enumerate(faces)]
     else:

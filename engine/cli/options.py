@@ -25,6 +25,7 @@ from ..choices import (
 from . import ambient_options, antialiasing, backdrop_options, values
 from .environment_options import surroundings
 from .filter_options import add_line_shapes, add_texture_filters, filtering
+from .input_options import add_inputs, check_inputs
 from .inputs import model_files
 from .light_options import SHADOWS
 from .loading_bar import LoadingBar
@@ -49,6 +50,7 @@ SIGNED_OPTIONS = frozenset(
         "--camera-position",
         "--camera-focal-point",
         "--camera-view-up",
+        "--camera-direction",
         "--camera-azimuth-angle",
         "--camera-elevation-angle",
         "--environment-rotation",
@@ -90,9 +92,10 @@ def add_viewed_scene(parser) -> None:
         "models",
         metavar="MODEL",
         nargs="*",
-        help="model files; - for standard input. Several are shown together, each where it places "
-        "itself",
+        help="model files, or folders of them; - for standard input. Several are shown together, "
+        "each where it places itself, or one by one: see --multi-file-mode",
     )
+    add_inputs(group)
     group.add_argument(
         "--side-by-side",
         action="store_true",
@@ -321,6 +324,12 @@ def add_camera(parser) -> None:
         "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="point to look at"
     )
     group.add_argument(
+        "--camera-direction",
+        type=values.direction,
+        metavar="X,Y,Z",
+        help="direction in which the camera looks; --camera-position has the last word",
+    )
+    group.add_argument(
         "--camera-view-up",
         type=values.direction,
         metavar="X,Y,Z",
@@ -425,7 +434,9 @@ def add_render(parser) -> None:
         "-o",
         "--output",
         metavar="FILE",
-        help=".png, .jpg, .tga, .webp; - writes PNG to standard output",
+        help=".png, .jpg, .tga, .webp; - writes PNG to standard output. {model}, {model.ext}, "
+        "{model_ext}, {date}, {n} (the first number that is free; {n:3} has three digits), {app} "
+        "and {version} are filled in; {{ is a brace",
     )
     group.add_argument(
         "--turntable",
@@ -443,6 +454,9 @@ def add_render(parser) -> None:
     )
     group.add_argument(
         "--no-background", action="store_true", help="leave the background transparent"
+    )
+    group.add_argument(
+        "--watch", action="store_true", help="draw again when a model's file changes, until Ctrl+C"
     )
     group.add_argument(
         "--reference",
@@ -540,6 +554,8 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
         if args.camera_position == args.camera_focal_point:
             raise UsageError("--camera-position and --camera-focal-point are the same")
         view.look_from(place(args.camera_position), focal_point or view_renderer.bounds.center)
+    elif args.camera_direction is not None:
+        view.look_from(view.target - args.camera_direction, view.target)
     view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
     view.elevation += math.radians(args.camera_elevation_angle or 0.0)
     if args.camera_position is None:
@@ -593,6 +609,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         return viewed
     from ..viewer.open_models import open_models
 
+    check_inputs(args)
     with LoadingBar() as progress:
         return open_models(model_files(args.models), **opening(args), progress=progress)
 
@@ -602,6 +619,7 @@ def opening(args: argparse.Namespace) -> dict:
     creases = {} if args.crease_angle is None else {"crease_angle": args.crease_angle}
     return {
         **creases,
+        "format": args.force_reader,
         "side_by_side": args.side_by_side,
         "up": args.up,
         "texture": args.texture,

@@ -6,12 +6,14 @@ A command's module is imported only when it runs, so that ``--help`` is quick.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 
 from ..benchmarking.names import WORKLOADS
 from ..version import __version__
 from . import (
     ambient_options,
     backdrop_options,
+    config,
     environment_options,
     light_options,
     options,
@@ -31,7 +33,21 @@ def parse(arguments: list[str]) -> argparse.Namespace:
 
     Raises `UsageError`, or `SystemExit` after argparse has printed its line.
     """
-    parser = make_parser()
+    args = _parsed(arguments, make_parser())
+    if "define" not in args:
+        return args
+
+    def configured(models: Sequence[str]) -> argparse.Namespace:
+        parser = make_parser()
+        is_changed = config.set_defaults(parser.commands, args, models)
+        found = _parsed(arguments, parser) if is_changed else args
+        found.configured = configured
+        return found
+
+    return configured(args.models)
+
+
+def _parsed(arguments: list[str], parser: Parser) -> argparse.Namespace:
     args, unknown = parser.parse_known_args(options.join_values(arguments))
     # Of positional arguments with options between them argparse takes only the first ones.
     models = getattr(args, "models", None)
@@ -130,6 +146,7 @@ def _add_render(commands) -> None:
 
 
 def _add_shared(command) -> None:
+    config.add_config(command)
     options.add_picture(command)
     options.add_appearance(command)
     light_options.add_light(command)

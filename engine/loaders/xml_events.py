@@ -76,8 +76,8 @@ def read_xml(
     except expat.ExpatError as error:
         message = f"no well-formed XML: {expat.ErrorString(error.code)}"
         raise _located(message, path, part, error.lineno) from error
-    except (LookupError, ValueError) as error:  # of encodings that are not known
-        raise _located(f"no readable XML: {error}", path, part, 1) from error
+    except (LookupError, ValueError) as error:
+        raise _located("no readable XML: its encoding is not known", path, part, 1) from error
 
 
 def _located(message: str, path: str, part: str, line: int) -> FileFormatError:

@@ -33,6 +33,7 @@ def open_model(
     variant=None,
     animation=None,
     crease_angle=CREASE_ANGLE,
+    format=None,
 ) -> ViewedScene:
     """Load a file to look at.
 
@@ -49,7 +50,7 @@ def open_model(
     companion : callable, optional
         As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
 
-    crease_angle : float, optional
+    crease_angle, format
         As in `engine3d.load_mesh`.
     variant : str or int, optional
         As in `engine3d.load_scene`.
@@ -72,7 +73,11 @@ def open_model(
     if is_dressed:
         companion = _no_image
     document = load_document(
-        path, progress=progress, companion=companion, crease_angle=crease_angle
+        path,
+        format=format,
+        progress=progress,
+        companion=companion,
+        crease_angle=crease_angle,
     )
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:

@@ -30,6 +30,7 @@ from .inputs import model_files
 from .light_options import SHADOWS
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
+from .scalar_options import coloring
 from .usage import UsageError
 
 #: How models are shown; the first is the default.
@@ -55,6 +56,7 @@ SIGNED_OPTIONS = frozenset(
         "--camera-elevation-angle",
         "--environment-rotation",
         "--lod-bias",
+        "--range",
         "--camera-index",
         "--animation-index",
         "--animation-time",
@@ -525,6 +527,8 @@ def settings(args: argparse.Namespace):
         far=args.far,
         grid=args.grid,
         axes=args.axis,
+        axes_grid=args.axes_grid,
+        bar=args.bar,
         metadata=args.metadata,
         ui_scale=args.ui_scale,
     )
@@ -620,6 +624,7 @@ def opening(args: argparse.Namespace) -> dict:
     return {
         **creases,
         "format": args.force_reader,
+        "scalars": coloring(args),
         "side_by_side": args.side_by_side,
         "up": args.up,
         "texture": args.texture,

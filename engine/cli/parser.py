@@ -17,6 +17,7 @@ from . import (
     environment_options,
     light_options,
     options,
+    scalar_options,
     suggestions,
     tone_options,
     values,
@@ -154,6 +155,7 @@ def _add_shared(command) -> None:
     environment_options.add_environment(command)
     backdrop_options.add_backdrop(command)
     tone_options.add_tone(command)
+    scalar_options.add_scalars(command)
     options.add_camera(command)
 
 

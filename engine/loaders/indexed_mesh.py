@@ -7,7 +7,7 @@ their corners differ; triangles keep their order. Vertices that nothing uses are
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -46,6 +46,8 @@ class IndexedGeometry:
     position_ids : (V,) number or None
         Vertices with the same number are one point of the surface.
     edge_visible : (T, 3) bool or None
+    scalars : dict of str to (V,) float
+        Numbers of the vertices, by name.
     crease_angle : float
         Radians, of normals that are not given.
     """
@@ -63,6 +65,7 @@ class IndexedGeometry:
     lines: np.ndarray | None = None
     position_ids: np.ndarray | None = None
     edge_visible: np.ndarray | None = None
+    scalars: dict[str, np.ndarray] = field(default_factory=dict)
     crease_angle: float = CREASE_ANGLE
 
 
@@ -71,12 +74,14 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
     corners, count = geometry.corners, len(geometry.positions)
     lines = np.zeros((0, 2), np.int32) if geometry.lines is None else geometry.lines
     if not len(corners) and not len(lines):
-        return Mesh(
+        cloud = Mesh(
             geometry.positions,
             points=np.arange(count),
             name=name,
             **_chosen(geometry, _ALL),
         )
+        cloud._scalars = geometry.scalars
+        return cloud
     of_corner = _corner_attributes(geometry)
     faces, vertices, first_corner = _split(corners, of_corner, count)
     vertex_of, vertices, added = _vertices_for(lines.ravel(), vertices, count)
@@ -94,6 +99,7 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         name=name,
         **attributes,
     )
+    mesh._scalars = {name: _rows(row, vertices) for name, row in geometry.scalars.items()}
     if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)
     return mesh

@@ -333,6 +333,12 @@ def toggle_axes(viewer, step: int) -> None:
     viewer.view_renderer.settings.axes = not viewer.view_renderer.settings.axes
 
 
+def toggle_axes_grid(viewer, step: int) -> None:
+    """A grid around the scene with numbers, or none."""
+    settings = viewer.view_renderer.settings
+    settings.axes_grid = not settings.axes_grid
+
+
 def cycle_statistics(viewer, step: int) -> None:
     """Next of: no statistics, a line of them, all."""
     viewer.statistics = following(viewer.statistics, STATISTICS, step)

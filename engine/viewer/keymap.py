@@ -61,6 +61,7 @@ SECTIONS = {
         Binding(("I",), "toggle_metadata", "what the file holds"),
         Binding(("G",), "toggle_grid", "grid"),
         Binding(("X",), "toggle_axes", "axes"),
+        Binding(("Shift+X",), "toggle_axes_grid", "grid with numbers"),
         Binding(("S",), "toggle_split", "nine outputs side by side"),
         Binding(("D",), "cycle_debug", "boxes, tree of boxes, frustum"),
         Binding(("O",), "cycle_lists", "objects, materials: hide, show"),

@@ -34,6 +34,7 @@ def open_model(
     animation=None,
     crease_angle=CREASE_ANGLE,
     format=None,
+    scalars=None,
 ) -> ViewedScene:
     """Load a file to look at.
 
@@ -52,6 +53,8 @@ def open_model(
 
     crease_angle, format
         As in `engine3d.load_mesh`.
+    scalars : ScalarColoring, optional
+        Colours the meshes by a number of their vertices, whatever the file says.
     variant : str or int, optional
         As in `engine3d.load_scene`.
     animation : callable, optional
@@ -78,11 +81,17 @@ def open_model(
         progress=progress,
         companion=companion,
         crease_angle=crease_angle,
+        scalars=scalars is not None,
     )
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
+    bar = None if scalars is None else scalars.dress(document, usual_up(document))
     viewed = view_document(document, path, variant)
+    if bar is not None:
+        viewed.bar = bar
+        # Tone mapping would change the colours that the bar shows.
+        viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}
     if animation is not None:
         animation(viewed)
     return viewed
@@ -96,7 +105,7 @@ def view_document(document, path: str | None, variant: str | int | None = None) 
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
-        up="+Z" if document.format in Z_UP_FORMATS else "+Y",
+        up=usual_up(document),
         update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
         # glTF says of each material which sides show; other files don't, or are often wrong.
@@ -104,7 +113,13 @@ def view_document(document, path: str | None, variant: str | int | None = None) 
         path=path,
         details=document_lines(document),
         warnings=list(scene.warnings),
+        unit=document.unit,
     )
+
+
+def usual_up(document) -> str:
+    """Return the direction that is up, by custom, in files of a document's format."""
+    return "+Z" if document.format in Z_UP_FORMATS else "+Y"
 
 
 def _no_image(path: str) -> bool:

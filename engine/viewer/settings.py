@@ -58,7 +58,7 @@ class Settings:
         Names of the materials that one walks on; None is all.
     slope : float or None
         The steepest ground that one walks on, in radians.
-    grid, axes, metadata : bool
+    grid, axes, metadata, axes_grid, bar : bool
         What to draw besides the scene.
     ui_scale : int or None
         Factor on the size of texts; None chooses by the screen and the picture.
@@ -89,5 +89,7 @@ class Settings:
     grid: bool = False
     axes: bool = False
     metadata: bool = False
+    axes_grid: bool = False
+    bar: bool = False
     ui_scale: int | None = None
     theme: Theme = DARK
